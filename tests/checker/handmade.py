@@ -38,6 +38,12 @@ def plant(A: Any, *ports: tuple[Any, Any], time: str = "continuous", **graph: An
     return {"time": time, "A": A, "channels": channels, **graph}
 
 
+def ranged(A: Any, *ports: Any, time: str = "continuous", **ranges: Any) -> Document:
+    """A plant with parameters, by their ranges."""
+    known = {name: {"range": list(ends)} for name, ends in ranges.items()}
+    return {**plant(A, *ports, time=time), "parameters": known}
+
+
 def certificate(
     kind: str, system: Document, claim: Document, witness: Document, *subject: Document
 ) -> Document:

@@ -6,15 +6,9 @@ from typing import Any
 
 from tests.checker.box_maker import control_witness, fixed_witness, in_cells
 from tests.checker.box_plants import DUAL, gains
-from tests.checker.handmade import Document, plant
+from tests.checker.handmade import Document, ranged
 
 FIXED, CONTROLLABLE = "parametric_box_fixed", "parametric_box_controllable"
-
-
-def ranged(A: Any, *ports: Any, time: str = "continuous", **ranges: Any) -> Document:
-    """A plant with parameters, by their ranges."""
-    known = {name: {"range": list(ends)} for name, ends in ranges.items()}
-    return {**plant(A, *ports, time=time), "parameters": known}
 
 
 def fixed(system: Document, cuts: Any, given: Any, *steps: Document, bound: Any = None) -> Document:

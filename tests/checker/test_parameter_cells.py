@@ -14,7 +14,7 @@ from mcexact.checker.parameter_cells import box_of_cell, cells_of
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.checker.reading import Refused
 from tests.checker.box_maker import fractions
-from tests.checker.parameter_plants import ranged
+from tests.checker.handmade import ranged
 
 PAIR = ranged([["a*b"]], ([[1]], [[1]]), a=(0, 4), b=(-1, 1))
 
@@ -48,6 +48,14 @@ def test_an_entry_is_its_value_its_slopes_and_what_is_left() -> None:
     assert [fractions(each.C[0]) for each in box.tied] == [[[Fraction(1, 2)]], [[Fraction(-1, 4)]]]
     assert fractions(box.radii.C[0]) == [[(Fraction(1, 8) + Fraction(1, 4)) / Fraction(3, 2)]]
     assert [fractions(each.B[0]) for each in (box.radii, *box.tied)] == [[[0]]] * 3
+
+
+def test_an_entry_around_0_is_as_it_is() -> None:
+    plant = read_parametric(ranged([["a*b^2 - a"]], ([[1]], [[1]]), a=(-1, 1), b=(-2, 2)))
+    box = box_of_cell(plant, cells_of([None], "cuts", plant)[0])
+    assert fractions(box.A) == [[0]]
+    assert [fractions(each.A) for each in box.tied] == [[[-1]], [[0]]]
+    assert fractions(box.radii.A) == [[4]]
 
 
 def test_without_ties_the_radii_are_those_of_all_directions_together() -> None:

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from tests.checker.handmade import Document, certificate, changed, checked, matrix, without
-from tests.checker.parameter_plants import ALL, CONTROLLABLE, CONTROLLED, OBSERVED, ranged
+from tests.checker.handmade import Document, certificate, changed, checked, matrix, ranged, without
+from tests.checker.parameter_plants import ALL, CONTROLLABLE, CONTROLLED, OBSERVED
 from tests.checker.tables import accepts, rejects
 
 OF_THIS_KIND = [(name, each) for name, each in ALL.items() if each["kind"] == CONTROLLABLE]

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from tests.checker.box_plants import gains
-from tests.checker.handmade import changed, checked, without
+from tests.checker.handmade import changed, checked, ranged, without
 from tests.checker.parameter_plants import (
     ALL,
     CURVED,
@@ -20,7 +20,6 @@ from tests.checker.parameter_plants import (
     STABILIZABLE,
     TIED,
     fixed,
-    ranged,
 )
 from tests.checker.tables import accepts, rejects
 

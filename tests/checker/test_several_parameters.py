@@ -9,7 +9,7 @@ import pytest
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.checker.reading import Limits, Refused
 from mcexact.model.parametric_file import read_parametric_document
-from tests.checker.parameter_plants import PRODUCT, SQUARE, ranged
+from tests.checker.handmade import ranged
 
 TEXTS: dict[str, Any] = {
     "b*a": "a*b",
@@ -25,6 +25,7 @@ TEXTS: dict[str, Any] = {
     "3/2 - b": "-b + 3/2",
     "a - (b - 1)": "a - b + 1",
     "-(a - 1/2)": "-a + 1/2",
+    "a/2 - b/3": "1/2*a - 1/3*b",
     "0.25": "1/4",
     "4": 4,
     "a^1000": "a^1000",
@@ -69,8 +70,17 @@ def test_a_sum_in_a_denominator_of_several_parameters_is_not_known(text: str) ->
 
 
 def test_a_file_with_several_parameters_has_the_digest_of_the_package() -> None:
-    pair = ranged([["a*b"]], ([[1]], [[1]]), a=(0, 4), b=(-1, 1))
-    for system in (PRODUCT, SQUARE, pair):
+    for system in (
+        ranged([["a*b"]], ([[1]], [[1]]), a=(0, 4), b=(-1, 1)),
+        ranged(
+            [["a*b", "1/16*a"], ["1/16*a", "-a*b"]],
+            ([["a"], [0]], [[1, 0]]),
+            ([[0], [1]], [[0, "(1)/(b)"]]),
+            time="discrete",
+            a=("19/20", "21/20"),
+            b=("39/40", "41/40"),
+        ),
+    ):
         document = {"format": "mcexact-system/1", **system}
         package = read_parametric_document(document).document()
         assert read_parametric(document, Limits()).document == package

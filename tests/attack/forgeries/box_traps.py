@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from tests.checker.box_maker import stable
 from tests.checker.box_plants import GAIN_RADII, LOOP_STABLE, STABLE, gains, uncertain
-from tests.checker.handmade import certificate, changed, plant
-from tests.checker.parameter_plants import fixed, ranged
+from tests.checker.handmade import certificate, changed, plant, ranged
+from tests.checker.parameter_plants import fixed
 
 from ..draws.plants import Document
 
