@@ -75,8 +75,8 @@ def _form(
     N, D = (_shifted(p, center) for p in entry)
     units = [tuple(int(i == k) for i in range(len(center))) for k in range(len(center))]
     zero = (0,) * len(center)
-    sizes = {e: abs(c) * prod(map(pow, widths, e)) for e, c in D.items() if e != zero}
-    least = abs(D.get(zero, Fraction(0))) - sum(sizes.values())
+    moved = sum(abs(c) * prod(map(pow, widths, e)) for e, c in D.items() if e != zero)
+    least = abs(D[zero]) - moved
     require(least > 0, "undefined", where, "a denominator may be 0 in the range")
     value = N.get(zero, Fraction(0)) / D[zero]
     slopes = [(N.get(u, Fraction(0)) - value * D.get(u, Fraction(0))) / D[zero] for u in units]
