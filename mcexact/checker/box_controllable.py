@@ -29,7 +29,7 @@ def check(claim: Json, witness: Json, box: Box) -> None:
     certain = [Matrix.zeros(box.n, box.n)]
     radii, *tied = (replace(each, B=[inputs(each, channels)], C=certain) for each in every[1:])
     B, C = [inputs(box, channels)], [Matrix.unit_rows(box.n, 0, box.n)]
-    measured = replace(box, B=B, C=C, radii=radii, tied=tuple(tied))
+    measured = replace(box, names=[""], B=B, C=C, radii=radii, tied=tuple(tied))
     discs = discs_of_gains(exterior, "witness.exterior", measured)
     found = []
     for k, entry in enumerate(items(frames, "witness.frames")):

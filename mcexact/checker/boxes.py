@@ -90,12 +90,17 @@ def _radii(steps: Json, plant: System) -> System:
     D = replace(plant, A=A, B=ports[: plant.m], C=ports[plant.m :])
     if not steps:
         return D
-    low = _sizes(plant)
-    high = _combined(low, D, 1)
+    low, high = ends(plant, D)
     for step in steps:
         sizes = [_of_sizes(step)]
         low, high = (_sizes(read_subject(sizes, each)) for each in (low, high))
     return _combined(high, low, -1)
+
+
+def ends(system: System, radii: System) -> tuple[System, System]:
+    """The absolute values of all entries, and the largest that are within the radii."""
+    low = _sizes(system)
+    return low, _combined(low, radii, 1)
 
 
 def _of_sizes(step: Json) -> Json:

@@ -5,10 +5,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from . import budget
-from .arithmetic import Matrix, beside, stack
-from .boxes import Box, absolute
+from .arithmetic import Matrix
+from .boxes import Box, absolute, ends
 from .complex_matrices import complex_matrix, extractions, magnitude
-from .reading import Json, decimal, fields, items, malformed, matrices, require
+from .evidence import closed_loop, read_gains
+from .reading import Json, decimal, fields, items, malformed, require
 from .root_discs import Disc
 
 
@@ -35,16 +36,9 @@ def with_gains(value: Json, place: str, box: Box) -> tuple[Matrix, Matrix]:
 
     Theorem ``boxes.gains_within``.
     """
-    n, radii = box.n, box.radii
-    F = matrices(value, place, [(B.ncols, C.nrows) for B, C in zip(box.B, box.C, strict=True)])
-
-    def after(gains: list[Matrix], outputs: list[Matrix]) -> Matrix:
-        return stack([F_i @ C_i for F_i, C_i in zip(gains, outputs, strict=True)], n)
-
-    B, moved, sizes = beside(box.B, n), beside(radii.B, n), [absolute(F_i) for F_i in F]
-    D = (absolute(B) + moved) @ after(sizes, radii.C)
-    E = moved @ after(sizes, [absolute(C_i) for C_i in box.C])
-    return box.A + B @ after(F, box.C), radii.A + D + E
+    F = read_gains(value, place, box)
+    low, high = (closed_loop(each, list(map(absolute, F))) for each in ends(box, box.radii))
+    return closed_loop(box, F), high - low
 
 
 def exterior_discs(

@@ -19,21 +19,20 @@ def all_modes(found: Premise) -> bool:
 
 
 NOTHING = "boxes.regular_not_fixed"
-CONTROLLER = "is stabilized by some decentralized controller of its own"
+OWN = "is stabilized by some decentralized controller of its own"
 
 
 def of_plants(stem: str, kinds: str, each: str) -> None:
-    """Enter four rules about all plants within radii, or within ranges."""
+    """Enter four rules about all plants within radii or ranges, and what follows of each."""
     modes, control = Role((f"{kinds}_fixed",)), f"{kinds}_controllable"
     restate(f"{stem}-nothing-fixed", modes, lambda c: c["bound"] is None, NOTHING)
-    told = followed(f"{each} {CONTROLLER}")
-    restate(f"{stem}-stabilizable", modes, lambda c: True, WANG_DAVISON, told)
+    restate(f"{stem}-stabilizable", modes, lambda c: True, WANG_DAVISON, followed(each))
     restate(f"{stem}-controllable", Role((control,)), all_modes, HAUTUS)
     restate(f"{stem}-observable", Role((control,), DUAL), all_modes, HAUTUS)
 
 
-of_plants("members", "box", "each of them")
-of_plants("parametric-ranges", "parametric_box", "each of these plants")
+of_plants("members", "box", f"each of them {OWN}")
+of_plants("parametric-ranges", "parametric_box", f"each of these plants {OWN}")
 HOLDS = "some decentralized controller of its own holds all outputs at any set-points"
 restate(
     "members-setpoints",
