@@ -189,3 +189,17 @@ def test_factors_that_failed_are_tried_again_by_a_search_that_learned() -> None:
     asked.clear()
     _largest(replace(search, likely=lambda: 0.2), 100, 1e6)
     assert asked[:2] == [0.194, 0.97]
+
+
+def test_a_factor_that_is_as_small_as_rounding_is_reported_as_0() -> None:
+    """All that is proved near a plant that fails by a hair would be the plant itself."""
+    asked: list[Fraction] = []
+
+    def proof(growth: Fraction) -> Any:
+        asked.append(growth)
+        return growth
+
+    search = Search(lambda: 1e-13, proof, lambda _: None, lambda _: None, list, lambda: 0.0)
+    assert _largest(search, 100, 1e6) == (0, None) and not asked
+    nothing = replace(search, capacity=lambda: 1.0, proof=lambda growth: asked.append(growth))
+    assert _largest(nothing, 100, 1e6) == (0, None) and min(asked) > Fraction(1, 10**13)
