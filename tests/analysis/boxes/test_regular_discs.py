@@ -48,6 +48,20 @@ def test_a_positive_vector_shows_a_small_spectral_radius() -> None:
     assert weights(small * 1.2) is None and weights(small + np.inf) is None
     assert perron(small)[0] == pytest.approx(0.9**0.5)
     assert perron(np.zeros((2, 2)))[0] == 0
+    assert 0 <= perron(np.array([[0.0, 1.0], [0.0, 0.0]]))[0] < 1e-3
+
+
+@pytest.mark.parametrize("spread", [0, 3, 6])
+def test_the_spectral_radius_is_that_of_badly_scaled_matrices_as_well(spread: int) -> None:
+    """Row sums are then many powers of ten above the spectral radius."""
+    rng = np.random.default_rng(spread)
+    for size in range(2, 14):
+        scale = 10.0 ** rng.uniform(-spread, spread, size)
+        plain = rng.uniform(0.1, 1, (size, size))
+        value, right, left = perron(scale[:, None] * plain / scale[None, :])
+        assert value == pytest.approx(np.abs(np.linalg.eigvals(plain)).max(), rel=1e-4)
+        assert plain @ (right / scale) == pytest.approx(value * right / scale, rel=1e-2)
+        assert (left * scale) @ plain == pytest.approx(value * left * scale, rel=1e-2)
 
 
 def test_a_disc_passes_where_no_member_is_singular_and_fails_elsewhere() -> None:
