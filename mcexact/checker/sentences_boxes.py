@@ -66,12 +66,13 @@ def of_plant(plant: System) -> list[Ratio]:
 
 
 def of_gains(loops: Premise) -> list[Ratio]:
-    """The radii of the gains of a loop beside the gains."""
+    """The radii of the gains of a loop beside the gains; set-points are in no loop."""
     found = list[Ratio]()
     pairs = zip(controller([loops])[1], loops["gain_radii"]["agents"], strict=True)
     for agent, radii in ((agent[label], radii[label]) for agent, radii in pairs for label in MAPS):
-        known = signals(radii)
-        for signal, rows in signals(agent).items():
+        known, used = signals(radii), signals(agent)
+        used.pop(("reference", ""), None)
+        for signal, rows in used.items():
             gains = [x for row in rows for x in row]
             spread = [x for row in known.get(signal, []) for x in row] or [Fraction(0)] * len(gains)
             found += [pair for pair in zip(spread, gains, strict=True) if pair[1]]

@@ -46,6 +46,15 @@ def test_gains_that_are_0_stay_so(tmp_path: Path) -> None:
     assert "in the plant by more than 0 and none in the controller by more than 1/100" in said
 
 
+def test_set_points_are_in_no_loop_and_need_no_radii(tmp_path: Path) -> None:
+    values, radii = proportional(-1), proportional("1/100")
+    values["agents"][0]["input"]["reference"] = [[1]]
+    step = {"construction": "closed_loop", "controller": values}
+    loop = stable(plant([[-1]], ([[2]], [["1/2"]])), WAYS, step, growth=[1], gain_radii=radii)
+    said = judged(tmp_path, "members-in-region-part", [loop]).statement
+    assert "in the plant by more than 0 and none in the controller by more than 1/100" in said
+
+
 def test_a_plant_of_zeros_has_no_entry_that_changes() -> None:
     assert least(of_plant(read_plant(plant([[0]], ([[0]], [[0]]))))) == 0
 
