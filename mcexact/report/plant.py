@@ -118,6 +118,8 @@ def radii_in_words(system: MultiChannelSystem) -> str:
     '2 entries are uncertain, by at most 0.1 %'
     >>> radii_in_words(Box.absolute(plant, A=[[1]], C=[[["1/3"]]]).system)
     '2 entries are uncertain, some of which are 0, by at most 1'
+    >>> radii_in_words(Box.absolute(plant, C=[[[1]]]).system)
+    'one entry is uncertain, which is 0, by at most 1'
     """
     radii = system.uncertainty
     if radii is None or radii.is_zero():
@@ -132,7 +134,8 @@ def radii_in_words(system: MultiChannelSystem) -> str:
         largest = _short(max(100 * radius / value for radius, value in pairs)) + " %"
         return f"{radii.explain()}, by at most {largest}"
     largest = _short(max(radius for radius, _ in pairs))
-    return f"{radii.explain()}, some of which are 0, by at most {largest}"
+    which = "which is 0" if len(pairs) == 1 else "some of which are 0"
+    return f"{radii.explain()}, {which}, by at most {largest}"
 
 
 def _first(number: int) -> int:
