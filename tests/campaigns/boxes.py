@@ -290,6 +290,9 @@ def is_proved(
         answer = QUESTIONS[name].proved(drawn, box)
     except LimitReached:
         return False
+    except Exception as error:  # a plant without a proof is refused in no other way
+        wrong.append(f"{name}, {growth}: {error!r}")
+        return False
     verdict = check(answer, box)
     if verdict.verdict != "VALID":
         wrong.append(f"{name}, {growth}: {verdict.line()}")

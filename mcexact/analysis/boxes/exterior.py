@@ -128,7 +128,8 @@ def coordinates(
         for weight in _weights(spread, np.abs(centers)):
             radii = (spread @ weight) / weight
             turned: tuple[Any, Any] = Y / weight[:, None], T * weight[None, :]
-            found.append(Coordinates(*turned, centers, radii, size))
+            if np.all(np.isfinite(turned[0])):
+                found.append(Coordinates(*turned, centers, radii, size))
     return sorted(found, key=lambda each: float(each.radii.sum()))
 
 
@@ -137,10 +138,10 @@ def _weights(spread: Floats, sizes: Floats) -> Iterator[Floats]:
     n = len(spread)
     yield np.ones(n)
     yield np.maximum(perron(spread, _SQUARINGS)[1], 1e-12)
-    own = np.diag(spread)
+    own, largest = np.diag(spread), float(sizes.max(initial=0.0)) or float(spread.max(initial=0.0))
     for part in _PARTS:
         # Where a solution is positive, each radius is below the disc's own part and this target.
-        target = part * np.maximum(sizes, 1e-6 * sizes.max(initial=1e-290))
+        target = part * np.maximum(sizes, 1e-6 * max(largest, 1e-290))
         try:
             w = np.linalg.solve(np.diag(target) - (spread - np.diag(own)), target)
         except np.linalg.LinAlgError:

@@ -45,6 +45,17 @@ def test_a_chain_of_integrators_has_small_discs() -> None:
     assert found is not None and max(float(disc.radius) for disc in found.discs) < 1e-2
 
 
+def test_modes_that_are_all_0_at_the_values_have_discs() -> None:
+    """Nothing but the radii says how large the discs may be."""
+    plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [0]]], [[[0, 0], [0, 0]]], time="discrete")
+    D = [["1/256", "1/64"], [0, "1/1024"]]
+    box = Box.absolute(plant, A=D)
+    found = exterior(
+        FloatBox.of(box.system, box.radii), plant.A, box.radii.A, np.random.default_rng(0)
+    )
+    assert found is not None and max(float(disc.radius) for disc in found.discs) < 1e-2
+
+
 def test_what_couples_blocks_in_one_direction_does_not_make_their_discs_larger() -> None:
     """The slow mode is known to a thousandth, however strongly a fast one drives it."""
     A = [[-1, 0], [100, "-1/100000"]]
