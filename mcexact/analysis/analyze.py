@@ -148,7 +148,7 @@ class Analysis(Asking):
         open_ = {*self.left_out, *self.open()} - answers.keys()
         given = Given(self.system, {"information": self.information})
         said = with_own(ANALYSIS, answers).sentences(answers, given, open_)
-        return Account(answers, given, said, self.plant.subject)
+        return Account(answers, given, said, self.plant.subject, sorted(open_))
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data with an entry for each answer, keyed by the name of its question."""

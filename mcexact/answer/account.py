@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from typing import Any
 
 from mcexact.answer import codec
+from mcexact.answer.members import leading
 from mcexact.answer.sentence import MANIFEST, Given, Sentences, manifest
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical
+from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 from mcexact.shown import Shown
 
@@ -34,12 +36,15 @@ class Account(Shown):
         The sentences that follow by the rules, each with its place and premises.
     subject : sequence of mapping
         The constructions that lead from the user's plant to the plant of this account.
+    open : collection of str
+        The questions that were asked and have no answer.
     """
 
     answers: Mapping[str, Any]
     given: Given
     sentences: Sentences
     subject: Sequence[Mapping[str, Any]] = ()
+    open: Collection[str] = ()
 
     def __repr__(self) -> str:
         return f"Account({len(self.answers)} answers, {len(self.sentences)} sentences)"
@@ -116,18 +121,28 @@ class Account(Shown):
             },
         }
 
+    @cached_property
+    def leading(self) -> tuple[str, ...]:
+        """What is said first of every plant within the radii, if there are such plants."""
+        system = self.given.system
+        if not isinstance(system, MultiChannelSystem):
+            return ()
+        return leading(system, self.answers, self.open)
+
     def explain(self) -> str:
         """Say in plain words what was found, one sentence a line."""
-        return "\n".join(each.line for each in self.sentences.at(*_PLAIN))
+        return "\n".join([*self.leading, *(each.line for each in self.sentences.at(*_PLAIN))])
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the sentences of the answer, and the labels and texts of the table."""
+        yield from (("", each) for each in self.leading)
         yield from (("", str(each)) for each in self.sentences.at(*_ANSWER))
         yield from ((each.cells[0], str(each)) for each in self.sentences.at("table"))
 
     def _html(self) -> str:
         """Return the sentences and the table in HTML, each entry with its reason."""
-        said = "".join(
+        said = "".join(f"<li>{escape(each)}</li>" for each in self.leading)
+        said += "".join(
             f'<li title="{escape(_reason(each))}">{escape(each)}</li>'
             for each in self.sentences.at(*_ANSWER)
         )

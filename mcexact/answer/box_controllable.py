@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.answer.evidence import ComplexMatrix, Cover, ExteriorDiscs
+from mcexact.answer.formats import allowed
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.template import Sentence, Template
@@ -51,7 +53,7 @@ class BoxControllability(Answer):
     """
 
     channels: tuple[str, ...] = claim()
-    bound: Fraction | None = claim("uncontrollable modes only in the region of")
+    bound: Fraction | None = claim("modes of members that these do not control")
     exterior: tuple[ExteriorDiscs, ...] = witness()
     frames: tuple[RightInverseFrame, ...] = witness()
     cover: Cover = witness()
@@ -60,6 +62,11 @@ class BoxControllability(Answer):
     def region(self) -> StabilityRegion | None:
         """The region in which members may have uncontrollable modes, if any."""
         return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield what notebooks show."""
+        yield "channels", ", ".join(self.channels)
+        yield "modes of members that these do not control", allowed(self.region)
 
 
 _HAUTUS = "joint_controllability.controllable_hautus"

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.answer.evidence import ComplexMatrix, Cover, ExteriorDiscs
+from mcexact.answer.formats import allowed
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.answer.sentence import Claim, Rulebook
 from mcexact.answer.template import Sentence, Template
@@ -73,7 +75,7 @@ class BoxFixedModes(Answer):
         those that meet none of some others.
     """
 
-    bound: Fraction | None = claim("fixed modes only in the region of")
+    bound: Fraction | None = claim("fixed modes of every member")
     exterior: tuple[ExteriorDiscs, ...] = witness()
     gains: tuple[PencilGains, ...] = witness()
     frames: tuple[PencilFrame, ...] = witness()
@@ -83,6 +85,10 @@ class BoxFixedModes(Answer):
     def region(self) -> StabilityRegion | None:
         """The region in which members may have fixed modes, if any."""
         return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield what notebooks show."""
+        yield "fixed modes of every member", allowed(self.region)
 
 
 NOTHING_FIXED = Template(

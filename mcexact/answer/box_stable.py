@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
@@ -34,8 +35,8 @@ class BoxStability(Answer):
         About the pencil of the loop in x, the controller's states, all y_i and all u_i.
     """
 
-    bound: Fraction | None = claim()
-    gain_radii: dict[str, Any] | None = claim()
+    bound: Fraction | None = claim("every eigenvalue of every member")
+    gain_radii: dict[str, Any] | None = claim("gains")
     nominal: PolynomialMethod | LyapunovMethod = witness()
     points: tuple[Fraction, ...] = witness()
     growth: tuple[int, ...] | None = witness()
@@ -46,3 +47,8 @@ class BoxStability(Answer):
     def region(self) -> StabilityRegion:
         """The region in which all eigenvalues lie."""
         return StabilityRegion.of(self.about.time, bound=self.bound)
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield what notebooks show."""
+        yield "every eigenvalue of every member", str(self.region)
+        yield "gains", "certain" if self.gain_radii is None else "within radii of their own"

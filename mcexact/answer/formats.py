@@ -21,6 +21,17 @@ def modes(p: Polynomial, limit: int = 30) -> str:
     return f"the {p.degree} roots of {polynomial(p, limit)}"
 
 
+def allowed(region: object | None) -> str:
+    """Where modes may be that members of a box have, such as fixed ones; None for nowhere.
+
+    Examples
+    --------
+    >>> allowed(None), allowed("Re λ < 0")
+    ('none', 'only with Re λ < 0')
+    """
+    return "none" if region is None else f"only with {region}"
+
+
 def count(size: int, noun: str) -> str:
     """Format a number with its noun, such as 2 nodes.
 

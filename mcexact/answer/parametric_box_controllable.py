@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.answer.box_controllable import RightInverseFrame
 from mcexact.answer.evidence import Cover, ExteriorDiscs
+from mcexact.answer.formats import allowed
 from mcexact.answer.parametric_box_fixed import Cuts
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.exact.location import StabilityRegion
@@ -50,7 +53,7 @@ class ParametricBoxControllability(Answer):
 
     about: ParametricSystem  # type: ignore[assignment]
     channels: tuple[str, ...] = claim()
-    bound: Fraction | None = claim("uncontrollable modes only in the region of")
+    bound: Fraction | None = claim("modes at any values that these do not control")
     cuts: Cuts = witness()
     parts: tuple[ControlOfCell, ...] = witness()
 
@@ -58,3 +61,8 @@ class ParametricBoxControllability(Answer):
     def region(self) -> StabilityRegion | None:
         """The region in which plants may have uncontrollable modes, if any."""
         return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield what notebooks show."""
+        yield "channels", ", ".join(self.channels)
+        yield "modes at any values that these do not control", allowed(self.region)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.answer.box_fixed import PencilFrame, PencilGains
 from mcexact.answer.evidence import Cover, ExteriorDiscs
+from mcexact.answer.formats import allowed
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
@@ -50,7 +53,7 @@ class ParametricBoxFixedModes(Answer):
     """
 
     about: ParametricSystem  # type: ignore[assignment]
-    bound: Fraction | None = claim("fixed modes only in the region of")
+    bound: Fraction | None = claim("fixed modes at all values")
     cuts: Cuts = witness()
     parts: tuple[FixedModesOfCell, ...] = witness()
 
@@ -58,3 +61,7 @@ class ParametricBoxFixedModes(Answer):
     def region(self) -> StabilityRegion | None:
         """The region in which plants may have fixed modes, if any."""
         return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield what notebooks show."""
+        yield "fixed modes at all values", allowed(self.region)

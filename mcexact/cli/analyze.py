@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from mcexact.analysis.questions import QUESTIONS, asked_by
 from mcexact.cli import options
@@ -127,6 +128,9 @@ def command(
 
     if largest_uncertainty and uncertainty is not None:
         raise click.UsageError("--largest-uncertainty searches the part: leave out --uncertainty")
+    typed = click.get_current_context().get_parameter_source("effort")
+    if typed is ParameterSource.COMMANDLINE and not largest_uncertainty:
+        raise click.UsageError("--effort is for --largest-uncertainty: add this, or leave it out")
     run = Run(given)
     require_page(html, run.certificates, file)
     require_apart(html, run.certificates)
@@ -222,7 +226,8 @@ def _answer(
         more = (*uncertainty.tables(largest), *effort_tables(found.effort()))
         page = replace(
             page,
-            answer=(*uncertainty.leading(account), *page.answer),
+            answer=(*uncertainty.leading(account, largest), *page.answer),
+            pictures=(*uncertainty.pictures(largest), *page.pictures),
             tables=(
                 *page.tables,
                 *(replace(each, title=each.title.capitalize()) for each in more),
@@ -230,7 +235,7 @@ def _answer(
         )
     return told(account, system_by_digest and system is given) | {
         "json": found.to_dict() | uncertainty.view(largest),
-        "words": uncertainty.lead(account) + in_lines(account.sentences, _LINES_OF_WORDS),
+        "words": uncertainty.lead(account, largest) + in_lines(account.sentences, _LINES_OF_WORDS),
         "tables": (
             *uncertainty.tables(largest),
             *tables(account.sentences, most_modes=_MODES),

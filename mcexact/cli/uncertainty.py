@@ -15,15 +15,8 @@ if TYPE_CHECKING:
     from mcexact.exact.location import StabilityRegion
     from mcexact.model.controller import Controller
     from mcexact.model.system import MultiChannelSystem
+    from mcexact.report.picture import EmbeddedPicture
     from mcexact.report.text import Table
-
-_ALL = (
-    "box_fixed_modes",
-    "box_stabilizability",
-    "box_controllability",
-    "box_observability",
-    "box_setpoints",
-)
 
 
 def of(
@@ -49,37 +42,20 @@ def of(
     return (system if part is None else Box.relative(system, part).system), None
 
 
-def leading(account: Account) -> tuple[str, ...]:
-    """How large the radii are, and the sentences about every plant within them."""
-    from mcexact.report.plant import radii_in_words
-
-    known = [name for name in _ALL if name in account.answers]
-    if "box_fixed_modes" in known and "box_stabilizability" in known:
-        # A plant without fixed modes is stabilizable.
-        known.remove("box_stabilizability")
-    said = [account.answers[name].explain() for name in known]
-    if account.given.system.uncertainty is not None and (left := _open(account.answers)):
-        said.append(f"within the radii: open, as no proof was found: {', '.join(left)}")
-    radii = f"radii: {radii_in_words(account.given.system)}"
-    return (radii, *said, "At the nominal values:") if said else ()
+def leading(account: Account, found: LargestUncertainty | None) -> tuple[str, ...]:
+    """What is said first of every plant within the radii, and that these are the ones found."""
+    if found is None or found.proof is None:
+        return account.leading
+    unit = "" if found.relative else " of the file"
+    first = f"largest radii that were found with a proof: {found.proved_part}{unit}"
+    return (first, *account.leading)
 
 
-def _open(answers: Mapping[str, Any]) -> list[str]:
-    """The questions about every plant within the radii that have no answer."""
-    without = [name for name in _ALL if name not in answers]
-    if "box_stabilizability" in without and "box_fixed_modes" in answers:
-        without.remove("box_stabilizability")
-    if "setpoint" in answers and not answers["setpoint"].solvable:
-        # The nominal plant fails, of which its own sentence tells.
-        without.remove("box_setpoints")
-    return [name.removeprefix("box_").replace("_", " ") for name in without]
-
-
-def lead(account: Account) -> str:
+def lead(account: Account, found: LargestUncertainty | None) -> str:
     """The same as lines of text."""
     from mcexact.report.text import WIDTH, wrapped
 
-    *said, last = leading(account) or ("",)
+    *said, last = leading(account, found) or ("",)
     lines = [line for each in said for line in wrapped(each, WIDTH)]
     return "\n".join([*lines, "", last, ""]) if last else ""
 
@@ -87,6 +63,15 @@ def lead(account: Account) -> str:
 def view(found: LargestUncertainty | None) -> dict[str, Any]:
     """The search as a part of the JSON of an answer."""
     return {} if found is None else {"largest_uncertainty": found.to_dict()}
+
+
+def pictures(found: LargestUncertainty | None) -> tuple[EmbeddedPicture, ...]:
+    """The search as a picture for a page."""
+    from mcexact.report.picture import Picture
+
+    if found is None:
+        return ()
+    return (Picture(found.plot(), "Largest uncertainty", f"{found.explain()}.").embedded(),)
 
 
 def tables(found: LargestUncertainty | None) -> tuple[Table, ...]:
@@ -146,7 +131,7 @@ def loops(
     """
     from mcexact.analysis.boxes.box_stable import box_stability
     from mcexact.errors import LimitReached
-    from mcexact.report.plant import radii_in_words
+    from mcexact.model.box import radii_in_words
 
     if system.uncertainty is None and gains is None:
         return Loops()
@@ -188,5 +173,5 @@ def digits_of(
         else f"{count(known.unsafe, 'digit')}, rounded up or down so that the loop fails"
     )
     view = {"safe_digits": {"safe": known.safe, "too_few": known.unsafe}}
-    rows = ("digits of the gains that are safe", safe), ("too few", few)
+    rows = ("digits of the gains that are safe", safe), ("digits that are too few", few)
     return Loops(rows, None, view)

@@ -7,7 +7,7 @@ from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_FLOOR, Decimal, loc
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from mcexact.exact.rational import rational_text
+from mcexact.exact.rational import decimal_or_quotient, rational_text
 
 if TYPE_CHECKING:
     from mcexact.exact.polynomial import Polynomial
@@ -46,6 +46,18 @@ def rounded(x: Fraction) -> str:
     """
     with localcontext(prec=6, Emax=MAX_EMAX, Emin=MIN_EMIN):
         return f"{(Decimal(x.numerator) / Decimal(x.denominator)).normalize():g}"
+
+
+def approximated(x: Fraction) -> str:
+    """Format a rational number: exactly if that is very short, otherwise rounded, after a sign.
+
+    Examples
+    --------
+    >>> approximated(Fraction(1, 8)), approximated(Fraction(10**9, 7))
+    ('0.125', '≈1.42857e+8')
+    """
+    exact = str(decimal_or_quotient(x))
+    return exact if len(exact) <= 9 else f"≈{rounded(x)}"
 
 
 def three_digits(x: Fraction, *, up: bool = False) -> str:

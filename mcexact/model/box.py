@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix, from_cells
+from mcexact.exact.shortened import approximated
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.uncertainty import Radii, typed_radii
 from mcexact.shown import Shown
@@ -54,7 +55,7 @@ class Box(Shown):
     >>> plant = MultiChannelSystem([["0.5"]], [[["2.0"]]], [[[1]]])
     >>> box = Box.relative(plant, "1/100")
     >>> box
-    Box(n=1, m=1, continuous time: 3 entries are uncertain)
+    Box(n=1, m=1, continuous time: 3 entries are uncertain, by at most 1 %)
     >>> box.radii.B[0].rows()
     ((Fraction(1, 50),),)
     >>> box.contains(plant), box.contains(MultiChannelSystem([["0.6"]], [[["2.0"]]], [[[1]]]))
@@ -234,12 +235,42 @@ class Box(Shown):
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the nominal plant and the radii."""
+        yield "uncertainty", radii_in_words(self.system)
         yield "nominal plant", self.nominal
         yield "radii", self.radii
 
     def __repr__(self) -> str:
-        told = self.radii.explain()
+        told = radii_in_words(self.system)
         return f"Box(n={self.n}, m={self.m}, {self.system.time} time: {told})"
+
+
+def radii_in_words(system: MultiChannelSystem) -> str:
+    """How many entries of a system are uncertain, and how large a part of them the radii are.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[4]], [[[1]]], [[[0]]])
+    >>> radii_in_words(Box.relative(plant, "1/1000").system)
+    '2 entries are uncertain, by at most 0.1 %'
+    >>> radii_in_words(Box.absolute(plant, A=[[1]], C=[[["1/3"]]]).system)
+    '2 entries are uncertain, some of which are 0, by at most 1'
+    >>> radii_in_words(Box.absolute(plant, C=[[[1]]]).system)
+    'one entry is uncertain, which is 0, by at most 1'
+    """
+    radii = system.uncertainty
+    if radii is None or radii.is_zero():
+        return "no entry is uncertain"
+    pairs = [
+        (Fraction(r, R.denominator), abs(M[i, j]))
+        for M, (_, R) in zip(_matrices(system), radii.matrices(), strict=True)
+        for i, j, r in R.nonzero()
+    ]
+    if all(value for _, value in pairs):
+        largest = approximated(max(100 * radius / value for radius, value in pairs)) + " %"
+        return f"{radii.explain()}, by at most {largest}"
+    largest = approximated(max(radius for radius, _ in pairs))
+    which = "which is 0" if len(pairs) == 1 else "some of which are 0"
+    return f"{radii.explain()}, {which}, by at most {largest}"
 
 
 def _matrices(plant: MultiChannelSystem) -> tuple[Matrix, ...]:

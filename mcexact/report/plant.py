@@ -10,9 +10,9 @@ from typing import Any
 from mcexact.answer.formats import count
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import decimal_or_quotient
 from mcexact.exact.rational_function import RationalFunction
-from mcexact.exact.shortened import rounded
+from mcexact.exact.shortened import approximated
+from mcexact.model.box import radii_in_words
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
@@ -21,7 +21,6 @@ from mcexact.report.mathml import matrix
 LARGEST, CUT = 12, 8
 """Up to how many rows and columns a matrix is shown whole, and how many are shown of a larger one;
 the same for channels."""
-_LONGEST = 9
 _SINGLE = re.compile(r"\((\w+(?:\^\d+)?)\)")
 """A number, a parameter or its power in parentheses, which it does not need."""
 
@@ -60,7 +59,7 @@ def shown_plant(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]
     corners = [(name, _corner(M)) for name, M in drawn]
     entries = [x for _, M in corners for row in M.tolist() for x in row]
     entries += [M[i, j] for M in listed.values() for i, j, _ in M.nonzero()]
-    if not all(map(_is_short, entries)):
+    if any(map(_is_rounded, entries)):
         notes.append("Numbers with ≈ are rounded; the system file has them exactly.")
     return {
         "rows": _facts(system),
@@ -107,37 +106,6 @@ def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, st
     return tuple(rows)
 
 
-def radii_in_words(system: MultiChannelSystem) -> str:
-    """How many entries of a system are uncertain, and how large a part of them the radii are.
-
-    Examples
-    --------
-    >>> from mcexact import Box
-    >>> plant = MultiChannelSystem([[4]], [[[1]]], [[[0]]])
-    >>> radii_in_words(Box.relative(plant, "1/1000").system)
-    '2 entries are uncertain, by at most 0.1 %'
-    >>> radii_in_words(Box.absolute(plant, A=[[1]], C=[[["1/3"]]]).system)
-    '2 entries are uncertain, some of which are 0, by at most 1'
-    >>> radii_in_words(Box.absolute(plant, C=[[[1]]]).system)
-    'one entry is uncertain, which is 0, by at most 1'
-    """
-    radii = system.uncertainty
-    if radii is None or radii.is_zero():
-        return "no entry is uncertain"
-    values = (system.A, *system.B, *system.C)
-    pairs = [
-        (Fraction(r, R.denominator), abs(M[i, j]))
-        for M, (_, R) in zip(values, radii.matrices(), strict=True)
-        for i, j, r in R.nonzero()
-    ]
-    if all(value for _, value in pairs):
-        largest = _short(max(100 * radius / value for radius, value in pairs)) + " %"
-        return f"{radii.explain()}, by at most {largest}"
-    largest = _short(max(radius for radius, _ in pairs))
-    which = "which is 0" if len(pairs) == 1 else "some of which are 0"
-    return f"{radii.explain()}, {which}, by at most {largest}"
-
-
 def _first(number: int) -> int:
     """How many of a number of things are shown."""
     return number if number <= LARGEST else CUT
@@ -158,12 +126,10 @@ def _texts(corner: Any, whole: Any) -> list[list[str]]:
     return texts
 
 
-def _is_short(x: Fraction | RationalFunction) -> bool:
-    return isinstance(x, RationalFunction) or len(str(decimal_or_quotient(x))) <= _LONGEST
-
-
 def _short(x: Fraction | RationalFunction) -> str:
     """A number exactly if that is short, otherwise rounded; a function as its text."""
-    if isinstance(x, RationalFunction):
-        return _SINGLE.sub(r"\1", str(x))
-    return str(decimal_or_quotient(x)) if _is_short(x) else f"≈{rounded(x)}"
+    return _SINGLE.sub(r"\1", str(x)) if isinstance(x, RationalFunction) else approximated(x)
+
+
+def _is_rounded(x: Fraction | RationalFunction) -> bool:
+    return isinstance(x, Fraction) and approximated(x).startswith("≈")

@@ -77,6 +77,8 @@ def test_the_page_names_what_is_open_and_the_largest_uncertainty(tmp_path: Path)
     assert call("analyze", plant, *search, "--html", str(page))[0] == 0
     said = page.read_text("utf-8")
     assert "Largest uncertainty" in said and "the mode that is fixed there" in said
+    assert 'alt="no fixed mode: for every plant within' in said
+    assert "largest radii that were found with a proof" in said
 
 
 def test_analyze_reads_the_uncertainty_of_the_file(tmp_path: Path) -> None:
@@ -119,6 +121,8 @@ def test_analyze_searches_the_largest_uncertainty(plant: str) -> None:
     assert not faults("analyze", found) and "box_fixed_modes" in found
     status, _, err = call("analyze", plant, "--largest-uncertainty", "--uncertainty", "1%")
     assert status == 2 and "leave out --uncertainty" in err
+    status, _, err = call("analyze", plant, "--effort", "1")
+    assert status == 2 and "--effort is for --largest-uncertainty" in err
 
 
 def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> None:

@@ -66,14 +66,22 @@ class LargestUncertainty(Shown):
 
     def explain(self) -> str:
         """Say in plain words up to where the property is proved, and where it fails."""
-        unit = " of each entry" if self.relative else " times the radii"
-        proved = f"{self.wanted}: for every plant within {_number(self.lower, self.relative)}{unit}"
+        proved = f"{self.wanted}: for every plant within {self.proved_part}"
         if not self.lower:
             proved = f"{self.wanted}: not proved for any box"
         if self.upper is None:
             return f"{proved}; no plant that fails was found"
         near = _number(self.upper, self.relative, up=True)
-        return f"{proved}; not for a plant within {near}{unit}"
+        return f"{proved}; not for a plant within {near}{self._unit}"
+
+    @property
+    def proved_part(self) -> str:
+        """The largest radii with a proof in words: a percentage of the entries, or a multiple."""
+        return f"{_number(self.lower, self.relative)}{self._unit}"
+
+    @property
+    def _unit(self) -> str:
+        return " of each entry" if self.relative else " times the radii"
 
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield labels and texts: the property, and up to where it is proved and where it fails."""

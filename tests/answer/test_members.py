@@ -1,0 +1,63 @@
+"""What is said first of a plant with radii, in Python and in notebooks."""
+
+from __future__ import annotations
+
+from mcexact import (
+    Box,
+    MultiChannelSystem,
+    analyze,
+    box_controllability,
+    box_fixed_modes,
+    box_stability,
+    box_stabilizability,
+    certify_controller,
+    local_controllers,
+)
+from mcexact.answer.members import leading
+
+PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+NEAR, FAR = (Box.relative(PLANT, part).system for part in ("1/100", "9/10"))
+FIRST = (
+    "radii: 6 entries are uncertain, by at most 1 %",
+    "within the radii: no plant has a fixed mode",
+    "within the radii: every plant is controllable by all channels together",
+    "within the radii: every plant is observable by all channels together",
+    "within the radii: for every plant some decentralized linear time-invariant controller of its "
+    "own holds all outputs at any set-points",
+    "At the nominal values:",
+)
+
+
+def test_what_holds_for_every_plant_comes_first() -> None:
+    found = analyze(NEAR)
+    assert found.account.leading == FIRST
+    assert found.explain().startswith("\n".join(FIRST) + "\n")
+    shown = found._repr_html_()
+    assert shown.index(FIRST[1]) < shown.index(FIRST[-1]) < shown.index("No mode is fixed")
+    assert analyze(PLANT).account.leading == ()
+
+
+def test_questions_without_a_proof_are_open_if_they_were_asked() -> None:
+    whole = "open, as no proof was found: fixed modes, stabilizability, controllability, observ"
+    assert whole in analyze(FAR).account.leading[1]
+    asked = analyze(FAR, ["fixed_spectrum", "box_observability"]).account.leading
+    assert asked[1] == "within the radii: open, as no proof was found: observability"
+    assert leading(FAR, {}, ()) == ()
+    gain = local_controllers(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), [[[-3]]])
+    box = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/10").system
+    assert "open" not in certify_controller(box, gain).explain()
+
+
+def test_answers_about_boxes_say_in_notebooks_what_is_proved() -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    box = Box.relative(plant, "1/10").system
+    gain = local_controllers(plant, [[[-3]]])
+    for found, told in (
+        (box_fixed_modes(NEAR), "<th>fixed modes of every member</th><td>none</td>"),
+        (box_stabilizability(NEAR), "<td>only with Re λ &lt; 0</td>"),
+        (box_controllability(NEAR), "that these do not control</th><td>none</td>"),
+        (box_stability(box, gain), "<td>Re λ &lt; 0</td></tr><tr><th>gains</th><td>certain</td>"),
+        (box_stability(box, gain, gains="1/100"), "<td>within radii of their own</td>"),
+        (Box(box), "3 entries are uncertain, by at most 10 %"),
+    ):
+        assert told in found._repr_html_()
