@@ -57,6 +57,7 @@ test_what_proves_less_is_refused = rejects(
         ("a cell is cut twice", HALVES, (CUTS, [0, 0, None, None, None]), "MALFORMED"),
         ("another parameter is cut", QUARTERS, (CUTS, [0, 1, None, None, None]), "INVALID"),
         ("an unknown parameter is cut", HALVES, (CUTS, [1, None, None]), "MALFORMED"),
+        ("a parameter far beyond is cut", HALVES, (CUTS, [7, None, None]), "MALFORMED"),
         ("a negative parameter is cut", HALVES, (CUTS, [-1, None, None]), "MALFORMED"),
         ("a boolean is cut", HALVES, (CUTS, [False, None, None]), "MALFORMED"),
         ("a part is missing", HALVES, ("witness.parts", PARTS[:1]), "MALFORMED"),
