@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import click
@@ -167,6 +168,7 @@ def _certified(
             loop, found.region, certified=found.stable, weights=weighed, notes=notes
         )
     loops = uncertainty.loops(system, controller, found, gains)
+    assessment = replace(assessment, within_radii=loops.within_radii)
     account = account_of_verdict(
         found, largest=wanted["largest"], every_loop=loops.proof, gains=gains
     )

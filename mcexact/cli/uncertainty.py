@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.picture import EmbeddedPicture
     from mcexact.report.text import Table
+    from mcexact.synthesis.assessment import WithinRadii
 
 
 def of(
@@ -95,11 +97,14 @@ class Loops:
     proof : BoxStability or None
     view : mapping
         Plain data.
+    within_radii : str or None
+        Whether all loops within the radii are stable; None if there are no radii.
     """
 
     rows: tuple[tuple[str, str], ...] = ()
     proof: BoxStability | None = None
     view: Mapping[str, Any] = field(default_factory=dict)
+    within_radii: WithinRadii | None = None
 
     def tables(self) -> tuple[Table, ...]:
         """The table, if there is something to say."""
@@ -120,6 +125,8 @@ def loops(
 ) -> Loops:
     """Whether every loop within the radii of plant and gains is in the region of a verdict.
 
+    Where it is not proved, mere stability is tried, and then a plant whose loop fails is searched.
+
     Parameters
     ----------
     system : MultiChannelSystem
@@ -129,25 +136,50 @@ def loops(
     gains : Fraction or None
         The radii of the gains, as a part of their moduli.
     """
-    from mcexact.analysis.boxes.box_stable import box_stability
-    from mcexact.errors import LimitReached
+    from mcexact.exact.rational import written
     from mcexact.model.box import radii_in_words
+    from mcexact.model.loop import closed_loop
+    from mcexact.synthesis.every_loop import failing_plant, failing_row, known_within
 
     if system.uncertainty is None and gains is None:
         return Loops()
     said = [] if system.uncertainty is None else [("plant", radii_in_words(system))]
     said += [] if gains is None else [("gains", f"within {float(100 * gains):g} %")]
-    proof, region = None, _of_boxes(found)
+    proof, failing, region = None, None, _of_boxes(found)
+    unproved = [region]
     if found.stable:
+        proof, region, unproved = _proof(system, controller, region, gains)
+    if unproved:
+        neither = "".join(f", and neither is {each}" for each in unproved[1:])
+        said.append(("eigenvalues of every loop", f"{unproved[0]} is not proved{neither}"))
+    view: dict[str, Any] = {"certified": proof is not None, "region": str(region)}
+    if proof is None and found.stable and system.uncertainty is not None:
+        failing = failing_plant(closed_loop(system, controller))
+    if failing is not None:
+        said.append(failing_row(failing, relative=False))
+        view |= {"fails_within": written(failing.distance), "failing": failing.plant.to_dict()}
+    return Loops(tuple(said), proof, {"every_loop": view}, known_within(proof, failing))
+
+
+def _proof(
+    system: MultiChannelSystem,
+    controller: Controller,
+    asked: StabilityRegion,
+    gains: Fraction | None,
+) -> tuple[BoxStability | None, StabilityRegion, list[StabilityRegion]]:
+    """A proof for the region that is asked for, or else for stability, and what is not proved."""
+    from mcexact.analysis.boxes.box_stable import box_stability
+    from mcexact.errors import LimitReached
+    from mcexact.exact.location import StabilityRegion
+
+    unproved = list[StabilityRegion]()
+    for region in dict.fromkeys((asked, StabilityRegion(asked.time))):
         given: dict[str, Any] = {region.word: region.bound}
-        try:
+        with suppress(LimitReached):
             proof = box_stability(system, controller, gains=gains, **given)
-        except LimitReached:
-            proof = None
-    if proof is None:
-        said.append(("eigenvalues of every loop", f"{region} is not proved"))
-    view = {"every_loop": {"certified": proof is not None, "region": str(region)}}
-    return Loops(tuple(said), proof, view)
+            return proof, region, unproved
+        unproved.append(region)
+    return None, asked, unproved
 
 
 def _of_boxes(found: StabilityVerdict) -> StabilityRegion:

@@ -23,11 +23,14 @@ from mcexact.synthesis.optimum.loop_figures import (
 from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape
 
 Install = Literal["yes", "with care", "no"]
+WithinRadii = Literal["proved", "open", "refuted"]
 
 BASIS = "computed in floating point, not certified"
 _COMPUTED = " (computed)"
 _NO_MARGIN, _PEAK, _TIMES_THE_PEAK, _TIMES_THE_COST = 0.05, 100.0, 5.0, 10.0
 _STEP_PEAK, _DIGITS, _TIMES_THE_GAIN = 2.0, 4, 10.0
+_REFUTED = "within the given uncertainty there is a plant whose loop is not stable"
+_OPEN = "stability is not proved for everything within the given uncertainty"
 
 
 @dataclass(frozen=True)
@@ -71,6 +74,9 @@ class Assessment(Shown):
         Of the plant without a controller; None with integrators, which are not stable alone.
     shape : Shape
         The limits on the eigenvalues that were aimed at.
+    within_radii : str or None
+        Whether stability is proved or refuted for all plants and gains within the radii that were
+        given; None if none were.
     """
 
     orders: Mapping[str, int]
@@ -84,6 +90,7 @@ class Assessment(Shown):
     notes: tuple[str, ...] = ()
     shape: Shape = NO_LIMITS
     uncontrolled: Figures | None = None
+    within_radii: WithinRadii | None = None
 
     def __repr__(self) -> str:
         return fitting(f"Assessment({self.verdict})")
@@ -124,7 +131,8 @@ class Assessment(Shown):
         """One line that says whether to install the controller, and why."""
         told = {"yes": "Worth installing", "with care": "Install with care", "no": "Do not install"}
         reason = (self.warnings or (self._strengths(),))[0]
-        marked = not self.certified or reason.endswith(_COMPUTED)
+        exact = not self.certified or reason in (_REFUTED, _OPEN)
+        marked = exact or reason.endswith(_COMPUTED)
         return f"{told[self.install]}: {reason}{'' if marked else _COMPUTED}"
 
     @property
@@ -148,6 +156,8 @@ class Assessment(Shown):
         seen = self.figures
         if not self.certified:
             return [f"the loop does not satisfy {self.region}"]
+        if self.within_radii == "refuted":
+            return [_REFUTED]
         if not seen.margin > 0:
             return ["in double precision the computed loop is not even stable"]
         if seen.margin < _NO_MARGIN:
@@ -161,6 +171,8 @@ class Assessment(Shown):
         seen, central, told = self.figures, self.central, list[str]()
         if not seen.margin > 0:
             return []
+        if self.certified and self.within_radii == "open":
+            told.append(_OPEN)
         if _NO_MARGIN <= seen.margin < MARGIN:
             told.append(f"fragile, the margin at the plant's inputs is {shown(seen.margin)}")
         if not self.shape.met(seen.damping, seen.fastest):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mcexact.analysis.boxes.box_stable import StabilitySearch, gain_radii
 from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
@@ -20,6 +20,9 @@ from mcexact.exact.shortened import percent, three_digits
 from mcexact.model.box import Box
 from mcexact.model.loop import ClosedLoop
 from mcexact.shown import Shown
+
+if TYPE_CHECKING:
+    from mcexact.synthesis.assessment import WithinRadii
 
 SIX_DIGITS = Fraction(1, 100_000)
 """By so large a part rounding to six significant digits, up or down, changes a number at most."""
@@ -60,6 +63,11 @@ class EveryLoop(Shown):
         """The part of the modulus of each entry of the plant that its radius is in the proof."""
         return None if self.proof is None else Box(self.proof.about.plant).part
 
+    @property
+    def within_radii(self) -> WithinRadii:
+        """Whether every loop within the radii of the plant is stable, where it has some."""
+        return known_within(self.proof, self.failing)
+
     def rows(self, relative: bool) -> Iterator[tuple[str, str]]:
         """Yield labels and texts: why there is no proof, and where a plant fails.
 
@@ -71,9 +79,7 @@ class EveryLoop(Shown):
         if self.proof is None:
             yield "eigenvalues of every loop", self.reason
         if self.failing is not None:
-            distance = self.failing.distance
-            near = f"{three_digits(distance, up=True)} times the radii"
-            yield "a loop fails", f"within {percent(distance, up=True) if relative else near}"
+            yield failing_row(self.failing, relative)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the proof, and the plant that fails."""
@@ -140,6 +146,38 @@ def every_loop(loop: ClosedLoop, region: StabilityRegion) -> EveryLoop:
         return _searched(loop, region, size)
     except LimitReached as reached:
         return EveryLoop(whole, None, None, None, f"not tried: {reached.message}")
+
+
+def known_within(proof: BoxStability | None, failing: FailingPlant | None) -> WithinRadii:
+    """Whether all loops within radii are stable, by a proof or a plant whose loop fails."""
+    if proof is not None:
+        return "proved"
+    return "open" if failing is None or failing.distance > 1 else "refuted"
+
+
+def failing_row(failing: FailingPlant, relative: bool) -> tuple[str, str]:
+    """A label and how near a plant is whose loop fails: as a part of its entries, or in radii."""
+    distance = failing.distance
+    near = f"{three_digits(distance, up=True)} times the radii"
+    near = f"{percent(distance, up=True)} of each entry" if relative else near
+    return "a loop fails", f"for a plant within {near}"
+
+
+def failing_plant(loop: ClosedLoop) -> FailingPlant | None:
+    """Search a plant whose loop is not stable, near in the radii of the plant of a loop.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        Of a plant with radii.
+
+    Returns
+    -------
+    FailingPlant or None
+        None if none was found, which proves nothing.
+    """
+    with one_thread():
+        return _failing(StabilitySearch(loop, StabilityRegion(loop.given.time)))
 
 
 def _searched(loop: ClosedLoop, region: StabilityRegion, size: int) -> EveryLoop:

@@ -133,10 +133,24 @@ def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> N
     assert "(3 digits, however rounded)" in said
     status, out, _ = call("certify", plant, gains, "--uncertainty", "300%")
     assert status == 0 and "Re λ < 0 is not proved" in out
+    assert "Do not install: within the given uncertainty there is a plant whose loop" in out
+    assert "a loop fails" in out and "times the radii" in out
     status, out, _ = call("certify", plant, gains, "--uncertainty", "300%", "--json")
     found = json.loads(out)
     assert status == 0 and found["certified"] and not found["every_loop"]["certified"]
-    assert not faults("certify", found)
+    assert 0 < Fraction(found["every_loop"]["fails_within"]) < 1
+    assert found["assessment"]["install"] == "no" and not faults("certify", found)
+
+
+def test_where_a_rate_is_not_proved_for_every_loop_stability_is(plant: str, gains: str) -> None:
+    # The nominal loop has the eigenvalue -1.16, which a hundredth may move beyond this rate.
+    asked = ("--rate", "1.155", "--uncertainty", "1%")
+    status, out, _ = call("certify", plant, gains, *asked)
+    said = " ".join(out.split())
+    assert status == 0 and "Re λ < -231/200 is not proved" in said and "neither" not in said
+    assert "Re λ < 0 for every plant within 1 % of each entry" in said
+    status, out, _ = call("certify", plant, gains, "--rate", "10", "--uncertainty", "1%")
+    assert status == 1 and "Re λ < -10 is not proved" in out and "neither" not in out
 
 
 def test_limits_on_damping_and_modulus_are_not_claimed_of_every_loop(

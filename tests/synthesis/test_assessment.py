@@ -328,3 +328,16 @@ def test_an_observer_tells_what_it_is_for_and_what_tries_lower_orders() -> None:
     assert any("`--order low` tries controllers of low order" in each for each in told.notes)
     searched = assess(design_extended(plant, rate=1))
     assert not any("tries controllers" in each for each in searched.notes)
+
+
+def test_a_plant_within_the_given_radii_that_fails_forbids_the_controller() -> None:
+    found = assessed_loop(loop_of("-3"), StabilityRegion("continuous"), certified=True)
+    assert found.install == "yes"
+    assert replace(found, within_radii="proved").verdict == found.verdict
+    refuted, left = (replace(found, within_radii=each) for each in ("refuted", "open"))
+    assert refuted.install == "no" and "a plant whose loop is not stable" in refuted.verdict
+    assert left.install == "with care" and "is not proved" in left.verdict
+    # Both are exact: nothing is computed in floating point.
+    assert "(computed)" not in refuted.verdict + left.verdict
+    unstable = assessed_loop(loop_of("-1/2"), StabilityRegion("continuous"), certified=False)
+    assert replace(unstable, within_radii="open").warnings == unstable.warnings

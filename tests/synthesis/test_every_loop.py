@@ -28,7 +28,7 @@ def test_the_box_is_proved_and_a_plant_outside_of_it_fails() -> None:
     assert check(found.proof, Box.relative(PLANT, found.part).system).valid
     assert found.gains == SIX_DIGITS and found.proof.gain_radii is not None
     assert not certify_controller(found.failing.plant, loop().controller).stable
-    assert dict(found.rows(True)) == {"a loop fails": "within 33.4 %"}
+    assert dict(found.rows(True)) == {"a loop fails": "for a plant within 33.4 % of each entry"}
     view = found.to_dict()
     assert view["certified"] and view["reason"] is None and view["gains"] == "1/100000"
     assert "every loop" in found._repr_html_() and repr(found) == "EveryLoop(proved: Re λ < 0)"
@@ -43,7 +43,7 @@ def test_the_radii_of_a_plant_are_the_box_and_its_rate_comes_first() -> None:
     found = every_loop(loop(given), StabilityRegion("continuous", Fraction(9, 5)))
     assert str(found.region) == "Re λ < 0" and found.proof is not None
     assert found.failing is not None and dict(found.rows(False)) == {
-        "a loop fails": "within 4 times the radii"
+        "a loop fails": "for a plant within 4 times the radii"
     }
 
 
