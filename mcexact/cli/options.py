@@ -30,14 +30,18 @@ def rational(text: str) -> Fraction:
 
 
 def part(text: str) -> Fraction:
-    """Parse a part of something, as a number from 0 on or as a percentage.
+    """Parse a part of something, as a number from 0 to 1 or as a percentage, which may be larger.
 
     Examples
     --------
-    >>> part("0.1%"), part("1/50")
-    (Fraction(1, 1000), Fraction(1, 50))
+    >>> part("0.1%"), part("1/50"), part("200%")
+    (Fraction(1, 1000), Fraction(1, 50), Fraction(2, 1))
     """
     found = rational(text.removesuffix("%").rstrip())
+    if found > 1 and not text.endswith("%"):
+        raise click.BadParameter(
+            f"found '{text}', more than the whole: write {text}% for {text} percent"
+        )
     if found < 0:
         raise click.BadParameter(
             f"expected a part from 0 on, such as 0.1% or 1/1000, found '{text}'"

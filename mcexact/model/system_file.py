@@ -89,9 +89,9 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
     document = expect_format(parsed, FORMAT)
     if "parameters" in document:
         raise InputError(
-            "found a system with parameters: give them values by --at NAME=1/2, or write another "
-            "file by `mcexact convert FILE --at NAME=1/2 -o OTHER`; in Python "
-            "load_parametric_system reads it, and .at({…}) takes values"
+            "found a system with parameters, which need values here: `mcexact convert FILE "
+            "--at NAME=1/2 -o OTHER` writes the system with them, with one --at for each; in "
+            "Python load_parametric_system reads it, and .at({…}) takes values"
         )
     expect_object(document, None, _REQUIRED, _OPTIONAL)
     A, names, B, C = unread_plant(document, partial(numbers, limits=limits))
