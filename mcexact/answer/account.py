@@ -127,7 +127,7 @@ class Account(Shown):
         system = self.given.system
         if not isinstance(system, MultiChannelSystem):
             return ()
-        return leading(system, self.answers, self.open)
+        return leading(system.plant, self.answers, self.open)
 
     def explain(self) -> str:
         """Say in plain words what was found, one sentence a line."""

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from mcexact.model.properties import PROPERTIES
+
 if TYPE_CHECKING:
     from mcexact.analysis.boxes.two_sided import LargestUncertainty
     from mcexact.answer.account import Account
@@ -46,6 +48,13 @@ def of(
 
 def leading(account: Account, found: LargestUncertainty | None) -> tuple[str, ...]:
     """What is said first of every plant within the radii, and that these are the ones found."""
+    if found is None and {*account.open} & PROPERTIES.keys():
+        *said, last = account.leading
+        return (
+            *said,
+            "--largest-uncertainty searches radii with a proof, and a plant that fails",
+            last,
+        )
     if found is None or found.proof is None:
         return account.leading
     unit = "" if found.relative else " of the file"

@@ -35,6 +35,8 @@ def test_what_holds_for_every_plant_comes_first() -> None:
     shown = found._repr_html_()
     assert shown.index(FIRST[1]) < shown.index(FIRST[-1]) < shown.index("No mode is fixed")
     assert analyze(PLANT).account.leading == ()
+    agents = NEAR.with_neighbors({"1": []})
+    assert analyze(agents, information="outputs").account.leading == FIRST
 
 
 def test_questions_without_a_proof_are_open_if_they_were_asked() -> None:

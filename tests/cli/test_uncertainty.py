@@ -261,6 +261,7 @@ def test_what_is_open_within_the_radii_is_said_first(plant: str) -> None:
         "within the radii: open, as no proof was found: fixed modes, stabilizability, "
         "controllability, observability" in " ".join(first.split())
     )
+    assert "--largest-uncertainty searches radii with a proof, and a plant that fails" in first
 
 
 def test_a_sampled_plant_has_no_radii_and_says_so(tmp_path: Path) -> None:
