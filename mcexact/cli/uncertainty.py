@@ -119,7 +119,8 @@ class Loops:
         """The table, if there is something to say."""
         from mcexact.report.text import Table
 
-        return (Table("every loop in the box", (), self.rows),) if self.rows else ()
+        title = "rounded gains" if self.within_radii is None else "every loop in the box"
+        return (Table(title, (), self.rows),) if self.rows else ()
 
     def with_digits(self, other: Loops) -> Loops:
         """The same with rows and data about digits."""

@@ -15,7 +15,7 @@ from mcexact.exact.floats import finite
 from mcexact.exact.location import StabilityRegion
 from mcexact.shown import Shown, fitting
 from mcexact.synthesis.optimum.aims import MARGIN
-from mcexact.synthesis.optimum.diagnosis import Diagnosis
+from mcexact.synthesis.optimum.diagnosis import TIMES_THE_COST, Diagnosis
 from mcexact.synthesis.optimum.figures import Figures
 from mcexact.synthesis.optimum.loop_figures import (
     MOST_DIGITS,
@@ -236,8 +236,19 @@ class Assessment(Shown):
             ("cost relative to that controller", self._relative()),
             *self._digits(),
             ("numbers sent" + " at each step" * self.region.discrete, network),
-            (f"sensible {word}", self.diagnosis.sensible_bound),
+            (f"sensible {word}", self._sensible()),
         ]  # fmt: skip
+
+    def _sensible(self) -> str:
+        """The sensible rate, and what it is."""
+        told = self.diagnosis.sensible_bound
+        if self.diagnosis.sensible is None:
+            return told
+        pace = "least" if self.region.discrete else "largest"
+        return (
+            f"{told} (the {pace} with which one controller for all agents has a margin of {MARGIN} "
+            f"and at most {TIMES_THE_COST:g} times the least cost)"
+        )
 
     def _stepped(self) -> list[tuple[str, str]]:
         if self.step_peak is None:
@@ -263,6 +274,7 @@ class Assessment(Shown):
         if not self.certified:
             return []
         told = f"more than {MOST_DIGITS}" if self.digits is None else str(self.digits)
+        told += ", where each number is rounded to the nearest"
         return [("digits that suffice", told)]
 
     def to_dict(self) -> dict[str, Any]:

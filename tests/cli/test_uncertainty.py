@@ -237,6 +237,8 @@ def test_certify_says_how_many_digits_are_safe(plant: str, gains: str) -> None:
     assert not faults("certify", found)
     status, out, _ = call("certify", plant, gains, "--round-gains", "3")
     assert "1 digit, however rounded" in out
+    # No radii are given, so that there is no box.
+    assert "rounded gains" in out and "every loop in the box" not in out
 
 
 def test_a_part_is_a_number_or_a_percentage() -> None:

@@ -341,3 +341,13 @@ def test_a_plant_within_the_given_radii_that_fails_forbids_the_controller() -> N
     assert "(computed)" not in refuted.verdict + left.verdict
     unstable = assessed_loop(loop_of("-1/2"), StabilityRegion("continuous"), certified=False)
     assert replace(unstable, within_radii="open").warnings == unstable.warnings
+
+
+def test_figures_say_what_they_are() -> None:
+    rows = dict(assessed_loop(loop_of("-3"), StabilityRegion("continuous"), certified=True).rows())
+    assert rows["digits that suffice"].endswith(", where each number is rounded to the nearest")
+    assert (
+        "(the largest with which one controller for all agents has a margin of 0.3 and at most "
+        in (rows["sensible rate"])
+    )
+    assert rows["sensible rate"].endswith("10 times the least cost)")
