@@ -12,13 +12,14 @@ Forged = Document | None
 
 
 def radii_grown(rng: random.Random, document: Document) -> Forged:
-    """Every radius is many times as large."""
+    """Every radius, or those of A, of all B or of all C, are many times as large."""
     doubts = document["system"].get("uncertainty")
     if doubts is None:
         return None
     factor = rng.choice((2, 10, 40))
     parts = doubts["absolute"]
-    for key, part in parts.items():
+    for key in rng.choice(([*parts], [rng.choice([*parts])])):
+        part = parts[key]
         for M in [part] if key == "A" else part.values():
             for entry in M["entries"]:
                 entry[2] = number(factor * Fraction(entry[2]))

@@ -7,7 +7,7 @@ exactly, each like any other system.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -62,15 +62,19 @@ def member(plant: System, parts: Shares) -> System:
 def members(document: Mapping[str, Any], gain_radii: Any = None) -> Iterator[System]:
     """The subjects of some members."""
     plant, steps = read_plant(document["system"]), listed(document["subject"])
-    last = gain_radii is not None
-    named = [step.get("construction") for step in steps[-1:]]
-    demand(not last or named == ["closed_loop"], "expected a closed loop")
     for parts in shares():
-        system = built(member(plant, parts), steps[: len(steps) - last])
-        if last:
-            controller = moved_controller(system, steps[-1]["controller"], gain_radii, parts)
-            system = built(system, [{**steps[-1], "controller": controller}])
-        yield system
+        yield with_gains(member(plant, parts), steps, gain_radii, parts)
+
+
+def with_gains(plant: System, steps: Sequence[Any], radii: Any, parts: Shares) -> System:
+    """The subject of a plant, with gains of its controller within their radii, if there are any."""
+    if radii is None:
+        return built(plant, steps)
+    named = [step.get("construction") for step in steps[-1:]]
+    demand(named == ["closed_loop"], "expected a closed loop")
+    system = built(plant, steps[:-1])
+    controller = moved_controller(system, steps[-1]["controller"], radii, parts)
+    return built(system, [{**steps[-1], "controller": controller}])
 
 
 def moved_controller(system: System, controller: Any, radii: Any, parts: Shares) -> Any:

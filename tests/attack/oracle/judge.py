@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from . import boxes, fixed, loops, parametric, parametric_rank, ranges, sharing, structure
+from . import fixed, loops, parametric, parametric_rank, ranges, segments, sharing, structure
 from .constructions import is_ranged, subject_of
 from .one_parameter import ParametricPlant
 from .reading import Unspecified, demand, record
@@ -14,9 +14,9 @@ TRUE, FALSE, UNDECIDED = "true", "false", "undecided"
 
 KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
     "assignability": structure.assignability,
-    "box_controllable": boxes.controllable,
-    "box_fixed": boxes.fixed,
-    "box_stable": boxes.stable,
+    "box_controllable": segments.controllable,
+    "box_fixed": segments.fixed,
+    "box_stable": segments.stable,
     "closed_loop_spectrum": loops.closed_loop_spectrum,
     "common_dimension": sharing.common_dimension,
     "communication": sharing.communication,

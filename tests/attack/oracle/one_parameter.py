@@ -194,3 +194,12 @@ def real_roots_within(p: fmpq_poly, ends: tuple[Any, Any], sign: Sign) -> list[A
     if high is not None:
         found = [root for root in found if sign(acb(high).real - root) >= 0]
     return found
+
+
+def interpolated(points: Sequence[fmpq], values: Sequence[fmpq]) -> fmpq_poly:
+    """The polynomial with these values (Newton)."""
+    found, through = fmpq_poly([]), fmpq_poly([1])
+    for t, value in zip(points, values, strict=True):
+        found = found + through * ((value - found(t)) / through(t))
+        through = through * fmpq_poly([-t, 1])
+    return found
