@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from mcexact.answer.wording.design import EVERY_LOOP, EVERY_LOOP_PART
+
 if TYPE_CHECKING:
     from mcexact.answer.account import Account
     from mcexact.model.loop import ClosedLoop
     from mcexact.report.text import Table
     from mcexact.synthesis.assessment import Assessment
+
+
+ALL_LOOPS = (EVERY_LOOP, EVERY_LOOP_PART)
 
 
 def assessed(
@@ -18,8 +23,12 @@ def assessed(
     tables: tuple[Table, ...],
     with_page: bool,
 ) -> dict[str, Any]:
-    """Return the lines before the tables, the first of which is the verdict, and the page."""
-    said = [found.verdict, *(f"warning: {each}" for each in found.warnings[1:])]
+    """Return the lines before the tables, the first of which is the verdict, and the page.
+
+    What is certified of all loops near this one follows the verdict.
+    """
+    said = [found.verdict, *(each.line for each in account.sentences if each.template in ALL_LOOPS)]
+    said += [f"warning: {each}" for each in found.warnings[1:]]
     said += [f"note: {each}" for each in found.notes]
     page = None
     if with_page:

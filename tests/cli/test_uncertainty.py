@@ -130,6 +130,8 @@ def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> N
     assert status == 0 and "made for another plant" not in err
     said = " ".join(out.split())
     assert "Re λ < 0 for every plant within 1 % of each entry, with all gains within 1 % of" in said
+    told = "every loop near this one: Re λ < 0 for every plant within 1 % of each entry"
+    assert out.splitlines()[1].startswith(told)
     assert "(3 digits, however rounded)" in said
     status, out, _ = call("certify", plant, gains, "--uncertainty", "300%")
     assert status == 0 and "Re λ < 0 is not proved" in out
