@@ -32,7 +32,7 @@ Point = tuple[Fraction, Fraction]
 
 _MARGIN = 2**20
 """A disc is used only if each sum is below w_i by this part of it, whoever rounds the moduli."""
-_WEIGHT_BITS = 16
+_WEIGHT_BITS, _LARGEST_WEIGHT = 16, 2.0**900
 _STEP = 2.0**-26
 _RECENT = 12
 
@@ -212,10 +212,14 @@ class Frames:
 
 
 def whole_weights(w: Floats) -> tuple[int, ...]:
-    """Round weights above 0 to integers, to 16 bits each."""
+    """Round weights above 0 to integers, to 16 bits each, the largest ones down.
+
+    Weights are only proposed; sums of them are to remain within the range of floats.
+    """
     import numpy as np
 
-    mantissa, exponent = np.frexp(w / w.min())
+    with np.errstate(over="ignore"):
+        mantissa, exponent = np.frexp(np.minimum(w / w.min(), _LARGEST_WEIGHT))
     found = []
     for m, e in zip(mantissa, exponent, strict=True):
         found.append(int(np.ceil(np.ldexp(m, _WEIGHT_BITS))) << max(int(e), 0))

@@ -200,3 +200,11 @@ def test_radii_of_a_loop_are_a_matter_of_its_stability() -> None:
     loop = closed_loop(plant, local_controllers(plant, [[[-3]]])).system
     with pytest.raises(UsageError, match="radii of a closed loop are a matter of box_stability"):
         box_fixed_modes(loop)
+
+
+def test_a_mode_that_radii_alone_move_is_left_open() -> None:
+    """Inputs and outputs by which gains move it are 0 at the values: weights were too large."""
+    plant = MultiChannelSystem([["1/2"]], [[[0]], [[0]]], [[[0]], [[-1]]], time="discrete")
+    box = Box.absolute(plant, [[1]], [[[0]], [["1/2"]]], [[["1/2"]], [[2]]])
+    with pytest.raises(LimitReached, match="no proof was found"):
+        box_fixed_modes(box.system, bound=1, starts=1)

@@ -31,6 +31,12 @@ def test_weights_are_positive_integers_in_proportion(given_weights: list[float])
     assert ratios.max() <= ratios.min() * (1 + 1e-3)
 
 
+@pytest.mark.parametrize("largest", [1e20, 1e300])
+def test_weights_are_within_the_range_of_floats(largest: float) -> None:
+    small, large = whole_weights(np.array([1e-300, largest]))
+    assert 0 < small < large and np.isfinite(float(large) ** 1.1)
+
+
 @given(st.lists(st.floats(-1e6, 1e6), min_size=4, max_size=4), st.floats(1e-6, 1e3))
 def test_rounding_moves_entries_by_less_than_their_unit(parts: list[float], unit: float) -> None:
     V = np.array(parts).reshape(2, 2) * (1 + 2j)
