@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from math import log10
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -185,9 +184,7 @@ def _designed(
         }
     _require_readable(found, Limits(**limits))
     around = found.every_loop() if with_box and found.stable else None
-    account, assessment = found.account_with(around), assess(found, aims)
-    if around is not None and system.uncertainty is not None:
-        assessment = replace(assessment, within_radii=around.within_radii)
+    account, assessment = found.account_with(around), assess(found, aims, around)
     figures = measured(
         found.measures(), assessment.rows(), account.sentences, found.region.discrete
     )

@@ -92,7 +92,9 @@ class EveryLoop(Shown):
         return f"every loop: {self.reason}" if self.proof is None else self.proof.explain()
 
     def __repr__(self) -> str:
-        return f"EveryLoop({'not proved' if self.proof is None else 'proved'}: {self.region})"
+        known = "not proved" if self.proof is None else "proved"
+        box = "" if self.part is None else f" within {percent(self.part)} of each entry"
+        return f"EveryLoop({known}: {self.region}{box})"
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from mcexact.model.loop import ClosedLoop
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.synthesis.assessment import Assessment, Link, shown
 from mcexact.synthesis.design import Design
+from mcexact.synthesis.every_loop import EveryLoop
 from mcexact.synthesis.integrated_plant import integrated_plant
 from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.optimum.aims import MARGIN, Aims
@@ -33,7 +35,9 @@ from mcexact.synthesis.optimum.weights import Weights
 _HARDLY, _NEARLY = 1.02, 0.9
 
 
-def assess(design: Design, aims: Aims | None = None) -> Assessment:
+def assess(
+    design: Design, aims: Aims | None = None, every_loop: EveryLoop | None = None
+) -> Assessment:
     """Compute the figures that say whether to install the controller of a design.
 
     Parameters
@@ -41,6 +45,9 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
     design : Design
     aims : Aims, optional
         Those of the design, for its weights.
+    every_loop : EveryLoop, optional
+        What is known of all loops within the radii of the plant, if it has some: nobody who knows
+        the data to these should install a controller that fails within them.
 
     Returns
     -------
@@ -79,7 +86,7 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
             f"{design.order} states together: where this is not wanted, {other} tries controllers "
             "of low order over the same links"
         )
-    return assessed_loop(
+    found = assessed_loop(
         design.loop.closed,
         design.region,
         certified=design.stable,
@@ -88,6 +95,9 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
         diagnosis=parts.get("diagnosis"),
         shape=(aims or Aims()).shape,
     )
+    if design.loop.closed.given.uncertainty is None:
+        return found
+    return replace(found, within_radii="open" if every_loop is None else every_loop.within_radii)
 
 
 def assessed_loop(

@@ -12,6 +12,7 @@ import pytest
 
 from mcexact.errors import InputError
 from mcexact.exact.location import StabilityRegion
+from mcexact.model.box import Box
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
@@ -339,6 +340,10 @@ def test_a_plant_within_the_given_radii_that_fails_forbids_the_controller() -> N
     assert left.install == "with care" and "is not proved" in left.verdict
     # Both are exact: nothing is computed in floating point.
     assert "(computed)" not in refuted.verdict + left.verdict
+    # What is known of all loops is asked of a design; without it nothing is proved of them.
+    near = design_decentralized(Box.absolute(ONE, A=[["1/4"]]).system, rate="1/2")
+    assert assess(near).install == "with care"
+    assert assess(near, every_loop=near.every_loop()).install == "yes"
     unstable = assessed_loop(loop_of("-1/2"), StabilityRegion("continuous"), certified=False)
     assert replace(unstable, within_radii="open").warnings == unstable.warnings
 
