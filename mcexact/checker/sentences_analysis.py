@@ -8,6 +8,7 @@ from .location import in_stability_region
 from .reading import polynomial
 from .sentence import DUAL, PLANT, SYSTEM, Holds, Premise, Role, either, restate, rule
 from .statement import PENCIL, channel_set, described, edge_set, polynomial_text
+from .system import System
 
 WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
 FIXED_DYNAMIC = "evidence.shrunk_subspace_fixed_dynamic"
@@ -44,11 +45,18 @@ def controls(found: Premise) -> bool:
 # What is given, and titles that claim nothing.
 
 
+def plain(known: list[Premise]) -> System:
+    """The system that the sentences are about, which has no parameters."""
+    meant: System = known[0].meant
+    known[0].expect(isinstance(meant, System), "the plant has parameters")
+    return meant
+
+
 @rule("heading page-heading information controllability-indices-left-out")
 @rule("observability-indices-left-out")
 def _given(known: list[Premise]) -> str:
     """The sizes of what the manifest is about, and the names of its channels."""
-    plant = known[0].meant
+    plant = plain(known)
     p, q = sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)
     ports = f"{p} inputs and {q} outputs in all"
     return f"For {described(plant)}: {ports}"
@@ -65,7 +73,7 @@ def _nothing(known: list[Premise]) -> str:
 def _inactive(known: list[Premise]) -> str:
     """The channels that no edge of the transfer graph can touch."""
     seen = [premise for premise in known if premise.kind == "transfer_graph"]
-    system = seen[0].system if seen else known[0].meant
+    system = seen[0].system if seen else plain(known)
     ports = enumerate(zip(system.B, system.C, strict=True))
     idle = [system.names[i] for i, (B, C) in ports if B.is_zero() or C.is_zero()]
     known[0].expect(bool(idle), "no channel is without inputs or outputs that act")
@@ -75,7 +83,7 @@ def _inactive(known: list[Premise]) -> str:
 @rule("picture-neighbor-graph picture-heard")
 def _neighbors(known: list[Premise]) -> str:
     """Who receives messages from whom."""
-    plant = known[0].meant
+    plant = plain(known)
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
     sets, names = enumerate(plant.neighbors or []), plant.names
     told = edge_set((names[j], names[i]) for i, N_i in sets for j in N_i if i != j)

@@ -242,6 +242,23 @@ def test_a_plant_without_a_parameter_has_none_to_speak_of(tmp_path: Path) -> Non
     assert second.verdict == "IMPLIED"
 
 
+OF_PLAIN_PLANTS = ("heading", "inactive-channels", "picture-neighbor-graph")
+
+
+@pytest.mark.parametrize("parameters", [["t"], ["t", "u"]])
+def test_what_is_said_of_a_plant_is_not_said_of_one_with_parameters(
+    parameters: list[str], tmp_path: Path
+) -> None:
+    plant = ParametricSystem(
+        [["t"]], [[[1]]], [[[1]]], parameters=parameters, assume=dict.fromkeys(parameters, (1, 2))
+    )
+    text = analyze(plant, ["box_fixed_modes"]).account.certificates["box_fixed_modes.json"]
+    known = {"box_fixed_modes": json.loads(text)}
+    listed = [sentence(key) for key in OF_PLAIN_PLANTS]
+    for verdict in said(write(tmp_path, known, manifest(known, listed))):
+        assert (verdict.verdict, verdict.message) == ("INVALID", "the plant has parameters")
+
+
 def test_every_rule_has_a_sentence() -> None:
     assert {key for key in RULES if key.startswith("parametric-")} == {t.key for t in TEMPLATES}
 
