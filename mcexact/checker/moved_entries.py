@@ -66,8 +66,8 @@ def subject_of(steps: Json, plant: System | FunctionSystem, kind: str) -> System
     """The plant, or what constructions make from it, for a kind of claims."""
     parametric = isinstance(plant, FunctionSystem)
     if parametric != kind.startswith("parametric_"):
-        about = "without" if parametric else "with"
-        malformed("system", f"the kind {kind} is about plants {about} parameters")
+        message = "plants without parameters" if parametric else "plants with parameters"
+        malformed("system", f"the kind {kind} is about {message}")
     if isinstance(plant, FunctionSystem):
         return moved(steps, plant if kind in OF_SEVERAL else one_parameter(plant))
     return system_of(steps, plant, kind)
