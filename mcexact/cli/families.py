@@ -87,7 +87,8 @@ def families(function: F) -> F:
             type=parts,
             metavar="PARTS",
             help="Ask about each FILE with all entries that are not 0 known to these parts of "
-            "their values: 0.1%,0.3%,1%. For the questions about every plant within the radii.",
+            "their values: 0.1%,0.3%,1%. For the questions about every plant within the radii; "
+            "where no proof is found, a plant that fails is searched.",
         ),
         click.option(
             "--grid",
