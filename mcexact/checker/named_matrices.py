@@ -106,7 +106,7 @@ def named_text(value: Json, system: ParametricSystem) -> str:
         companion = f"the companion matrix K of {polynomial_text(value['polynomial'])}"
         return f"{blocks} with {everyone}, {companion} and the Kronecker product kron"
     if value["name"] == "controllability":
-        blocks = f"the first {value['blocks']} blocks of [B, A B, A^2 B, ...]"
+        blocks = f"the matrix of the first {value['blocks']} of the blocks B, A B, A^2 B, ..."
         inputs = f"the inputs of the channels {channel_set(value['channels'])}"
         return f"{blocks} with the matrix A and the matrix B of {inputs}"
     factors = f"the column of all entries of the first {system.n} of C B, C A B, C A^2 B, ..."

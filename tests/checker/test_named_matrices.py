@@ -155,8 +155,8 @@ def test_matrices_have_words() -> None:
         "channels, the companion matrix K of x^2 + 4 and the Kronecker product kron"
     )
     assert said(controllability(["1", "3"], 2)) == (
-        "the first 2 blocks of [B, A B, A^2 B, ...] with the matrix A and the matrix B of the "
-        'inputs of the channels {"1", "3"}'
+        "the matrix of the first 2 of the blocks B, A B, A^2 B, ... with the matrix A and the "
+        'matrix B of the inputs of the channels {"1", "3"}'
     )
     assert said({"name": "transfer", "from": "1", "to": "2"}) == (
         "the column of all entries of the first 2 of C B, C A B, C A^2 B, ... with the matrix A, "

@@ -207,10 +207,8 @@ def rank_sentence(claim: Any, plant: ParametricPlant) -> str:
         named += f"all channels, the companion matrix K of {p} and the Kronecker product kron"
     elif matrix["name"] == "controllability":
         inputs = f"the matrix B of the inputs of the channels {channels(matrix['channels'])}"
-        named = (
-            f"the first {matrix['blocks']} blocks of [B, A B, A^2 B, ...] with the matrix A and "
-        )
-        named += inputs
+        named = f"the matrix of the first {matrix['blocks']} of the blocks B, A B, A^2 B, ... with "
+        named += f"the matrix A and {inputs}"
     else:
         named = f"the column of all entries of the first {plant.n} of C B, C A B, C A^2 B, ... with"
         named += f" the matrix A, the matrix B of the inputs of channel {name(matrix['from'])} and "
