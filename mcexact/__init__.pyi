@@ -13,6 +13,8 @@ from .analysis.boxes.largest_box import largest_uncertainty as largest_uncertain
 from .analysis.boxes.largest_loop_box import (
     largest_loop_uncertainty as largest_loop_uncertainty,
 )
+from .analysis.boxes.largest_loop_ranges import LargestRanges as LargestRanges
+from .analysis.boxes.largest_loop_ranges import largest_loop_ranges as largest_loop_ranges
 from .analysis.boxes.two_sided import LargestUncertainty as LargestUncertainty
 from .analysis.engine.parametric_sharing import ParametricSharing as ParametricSharing
 from .analysis.engine.parametric_sharing import (
@@ -86,6 +88,7 @@ from .answer.parametric_box_controllable import (
     ParametricBoxControllability as ParametricBoxControllability,
 )
 from .answer.parametric_box_fixed import ParametricBoxFixedModes as ParametricBoxFixedModes
+from .answer.parametric_box_stable import ParametricBoxStability as ParametricBoxStability
 from .answer.parametric_fixed_spectrum import ExceptionalValue as ExceptionalValue
 from .answer.parametric_fixed_spectrum import ParametricFixedSpectrum as ParametricFixedSpectrum
 from .answer.parametric_rank import LowerRank as LowerRank

@@ -147,19 +147,12 @@ exact: start.
 Qed.
 End Members.
 
+(* Any set of members that contains with each of them the line to it from the center. *)
 Section Stable.
-Variables (R : rcfType) (n k : nat) (Z D : 'M[R]_(n + k)).
+Variables (R : rcfType) (n k : nat) (Z : 'M[R]_(n + k)) (member : 'M[R]_(n + k) -> Prop).
 Notation C := [numClosedFieldType of complex R].
 Notation inC := [rmorphism of real_complex R].
 Notation up M := (map_mx inC M).
-
-Definition member (Z' : 'M[R]_(n + k)) := forall i j, `|Z' i j - Z i j| <= D i j.
-
-Lemma members_convex Z' t : member Z' -> 0 <= t <= 1 -> member (along Z Z' t).
-Proof.
-move=> mem /andP[t0 t1] i j; rewrite /along !mxE addrAC subrr add0r normrM (ger0_norm t0).
-by rewrite (le_trans (ler_wpmul2r _ t1))// mul1r.
-Qed.
 
 Hypothesis finite : forall Z', member Z' -> drsubmx Z' \in unitmx.
 Notation regular lambda := (forall Z', member Z' -> lambda *: block_mx 1%:M 0 0 0 - up Z' \in unitmx).
@@ -176,8 +169,7 @@ move=> reg mem; rewrite loop_up// -loop_eigenvalue ?reg//.
 by rewrite -map_drsubmx map_unitmx finite.
 Qed.
 
-Lemma center_member Z' : member Z' -> member Z.
-Proof. by move=> mem i j; rewrite subrr normr0 (le_trans _ (mem i j)). Qed.
+Hypothesis connected : forall Z' t, member Z' -> 0 <= t <= 1 -> member (along Z Z' t).
 
 Lemma moved_eigenvalue (M : 'M[R]_n) (a c : R) lambda : c != 0 ->
   eigenvalue (up (c *: (M + a%:M))) (inC c * (lambda + inC a)) = eigenvalue (up M) lambda.
@@ -200,7 +192,7 @@ Theorem members_continuous (b : R) :
   forall Z', member Z' -> forall lambda, eigenvalue (up (loop_of Z')) lambda -> 'Re lambda < - inC b.
 Proof.
 move=> start reg Z' mem lambda ev.
-have line t : 0 <= t <= 1 -> member (along Z Z' t) by exact: members_convex.
+have line t : 0 <= t <= 1 -> member (along Z Z' t) by exact: connected.
 have one : (1 : R) != 0 by exact: oner_neq0.
 have half (y : C) : ('Re y < - inC b) = ('Re (inC 1 * (y + inC b)) < 0).
   by rewrite rmorph1 mul1r raddfD /= (Creal_ReP _ (inC_real b)) -ltr_subr_addr sub0r.
@@ -228,7 +220,7 @@ Theorem members_discrete (r : R) : 0 < r ->
   forall Z', member Z' -> forall lambda, eigenvalue (up (loop_of Z')) lambda -> `|lambda| < inC r.
 Proof.
 move=> r0 start reg Z' mem lambda ev.
-have line t : 0 <= t <= 1 -> member (along Z Z' t) by exact: members_convex.
+have line t : 0 <= t <= 1 -> member (along Z Z' t) by exact: connected.
 have nz : r^-1 != 0 by rewrite invr_eq0 gt_eqF.
 have cr : 0 < inC r :> C by rewrite -(rmorph0 inC) inC_lt.
 have ncr : inC r != 0 :> C by rewrite gt_eqF.
@@ -251,8 +243,8 @@ rewrite disc; apply: (@on_line R n k Z Z' (fun z => `|z| < 1) (fun z => `|z| = 1
 by rewrite moved_eigenvalue// e1.
 Qed.
 
-(* The kind: every disc of the segments is regular, and so is every point of the border beyond the last one. *)
-Theorem box_stable_continuous (b : R) (ps : seq C) : path <%R 0 ps ->
+(* Every disc of the segments is regular, and so is every point of the border beyond the last one. *)
+Lemma segments_continuous (b : R) (ps : seq C) : path <%R 0 ps ->
   (forall lambda, eigenvalue (up (loop_of Z)) lambda -> 'Re lambda < - inC b) ->
   segments (fun lambda => regular lambda) (inC b) 0 ps ->
   forall Z', member Z' -> forall lambda, eigenvalue (up (loop_of Z')) lambda -> 'Re lambda < - inC b.
@@ -261,8 +253,8 @@ move=> rise start on; apply: members_continuous start _ => lambda re im.
 exact: (upper_line (inC_real b) rise on re im).
 Qed.
 
-(* The kind in discrete time: every disc of the arcs is regular. *)
-Theorem box_stable_discrete (r : R) (ps : seq C) : 0 < r -> path <%R 0 ps ->
+(* In discrete time every disc of the arcs is regular. *)
+Lemma arcs_discrete (r : R) (ps : seq C) : 0 < r -> path <%R 0 ps ->
   (forall lambda, eigenvalue (up (loop_of Z)) lambda -> `|lambda| < inC r) ->
   arcs (fun lambda => regular lambda) (inC r) 0 ps ->
   forall Z', member Z' -> forall lambda, eigenvalue (up (loop_of Z')) lambda -> `|lambda| < inC r.
@@ -272,3 +264,60 @@ apply: members_discrete r0 start _ => lambda edge im.
 exact: (upper_half cr rise on edge im).
 Qed.
 End Stable.
+
+(* The kinds: entries within their radii, and entries that also move along given matrices, with real factors of at most 1. *)
+Section Kinds.
+Variables (R : rcfType) (n k : nat) (Z D : 'M[R]_(n + k)) (K : nat) (S : 'I_K -> 'M[R]_(n + k)).
+Notation C := [numClosedFieldType of complex R].
+Notation inC := [rmorphism of real_complex R].
+Notation up M := (map_mx inC M).
+Notation regular within lambda :=
+  (forall Z', within Z' -> lambda *: block_mx 1%:M 0 0 0 - up Z' \in unitmx).
+Notation inside_line b Z' := (forall lambda : C, eigenvalue (up (loop_of Z')) lambda -> 'Re lambda < - inC b).
+Notation inside_circle r Z' := (forall lambda : C, eigenvalue (up (loop_of Z')) lambda -> `|lambda| < inC r).
+
+Definition member (Z' : 'M[R]_(n + k)) := forall i j, `|Z' i j - Z i j| <= D i j.
+Definition tied_member (Z' : 'M[R]_(n + k)) := exists2 p : 'I_K -> R,
+  forall l, `|p l| <= 1 & forall i j, `|(Z' - (Z + \sum_l p l *: S l)) i j| <= D i j.
+
+Lemma shrunk (x d t : R) : 0 <= t <= 1 -> `|x| <= d -> `|t * x| <= d.
+Proof.
+move=> /andP[t0 t1] xd; rewrite normrM (ger0_norm t0) (le_trans (ler_wpmul2r _ t1))//.
+by rewrite mul1r.
+Qed.
+
+Lemma members_convex Z' t : member Z' -> 0 <= t <= 1 -> member (along Z Z' t).
+Proof. by move=> mem t01 i j; rewrite /along !mxE addrAC subrr add0r shrunk. Qed.
+
+Lemma tied_convex Z' t : tied_member Z' -> 0 <= t <= 1 -> tied_member (along Z Z' t).
+Proof.
+move=> [p p1 mem] t01; exists (fun l => t * p l) => [l|i j]; first exact: shrunk.
+have -> : \sum_l (t * p l) *: S l = t *: \sum_l p l *: S l.
+  by rewrite scaler_sumr; apply: eq_bigr => l _; rewrite scalerA.
+have -> : along Z Z' t - (Z + t *: \sum_l p l *: S l) = t *: (Z' - (Z + \sum_l p l *: S l)).
+  by rewrite /along [Z + t *: (Z' - Z)]addrC addrKA -scalerBr opprD addrA.
+by rewrite mxE shrunk.
+Qed.
+
+(* box_stable *)
+Theorem box_stable_continuous (finite : forall Z', member Z' -> drsubmx Z' \in unitmx) (b : R) (ps : seq C) :
+  path <%R 0 ps -> inside_line b Z -> segments (fun lambda => regular member lambda) (inC b) 0 ps ->
+  forall Z', member Z' -> inside_line b Z'.
+Proof. by move=> rise start; apply: (segments_continuous finite members_convex rise start). Qed.
+
+Theorem box_stable_discrete (finite : forall Z', member Z' -> drsubmx Z' \in unitmx) (r : R) (ps : seq C) :
+  0 < r -> path <%R 0 ps -> inside_circle r Z -> arcs (fun lambda => regular member lambda) (inC r) 0 ps ->
+  forall Z', member Z' -> inside_circle r Z'.
+Proof. by move=> r0 rise start; apply: (arcs_discrete finite members_convex r0 rise start). Qed.
+
+(* parametric_box_stable *)
+Theorem tied_stable_continuous (finite : forall Z', tied_member Z' -> drsubmx Z' \in unitmx) (b : R) (ps : seq C) :
+  path <%R 0 ps -> inside_line b Z -> segments (fun lambda => regular tied_member lambda) (inC b) 0 ps ->
+  forall Z', tied_member Z' -> inside_line b Z'.
+Proof. by move=> rise start; apply: (segments_continuous finite tied_convex rise start). Qed.
+
+Theorem tied_stable_discrete (finite : forall Z', tied_member Z' -> drsubmx Z' \in unitmx) (r : R) (ps : seq C) :
+  0 < r -> path <%R 0 ps -> inside_circle r Z -> arcs (fun lambda => regular tied_member lambda) (inC r) 0 ps ->
+  forall Z', tied_member Z' -> inside_circle r Z'.
+Proof. by move=> r0 rise start; apply: (arcs_discrete finite tied_convex r0 rise start). Qed.
+End Kinds.

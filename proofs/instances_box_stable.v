@@ -76,12 +76,9 @@ have : half <= quarter.
 by rewrite leNgt q.
 Qed.
 
-Definition inst_box_stable_continuous : forall Z', member (center (-1)) radii Z' -> forall lambda,
-  eigenvalue (map_mx inC (loop_of Z')) lambda -> 'Re lambda < - inC 0.
+Lemma on_border : segments (fun lambda : C => forall Z', member (center (-1)) radii Z' ->
+  lambda *: block_mx 1%:M 0 0 0 - map_mx inC Z' \in unitmx) (inC 0) 0 [:: 2%:R^-1].
 Proof.
-apply: (@box_stable_continuous R 1 1 (center (-1)) radii (@finite (-1)) 0 [:: 2%:R^-1]).
-- by rewrite /= invr_gt0 ltr0n.
-- by move=> lambda /start ->; rewrite (Creal_ReP _ (inC_real _)) -rmorphN inC_lt oppr0 ltrN10.
 split=> lambda.
   move=> near; apply: regular; apply: off_left; rewrite rmorph0 !oppr0 !add0r addr0 in near.
   have [h _] := leif_normC_Re_Creal (lambda - 'i * (2%:R^-1 / 2%:R)).
@@ -91,24 +88,79 @@ split=> lambda.
 by move=> re _; apply: regular; apply: off_axis.
 Qed.
 
+Lemma inside (lambda : C) : eigenvalue (map_mx inC (loop_of (center (-1)))) lambda -> 'Re lambda < - inC 0.
+Proof. by move=> /start ->; rewrite (Creal_ReP _ (inC_real _)) -rmorphN inC_lt oppr0 ltrN10. Qed.
+
+Lemma rising : path.path <%R 0 [:: 2%:R^-1 : C].
+Proof. by rewrite /= invr_gt0 ltr0n. Qed.
+
+Definition inst_box_stable_continuous := box_stable_continuous (@finite (-1)) rising inside on_border.
+
+(* The same where a is p/4 with |p| <= 1 from -1, up to 1/4. *)
+Definition slope (_ : 'I_1) : 'M[R]_(1 + 1) := block_mx quarter%:M 0 0 0.
+Lemma tied_near a Z' : tied_member (center a) (slope 0) slope Z' -> member (center a) radii Z'.
+Proof.
+move=> [p p1 mem] i j; apply: (@le_trans _ _ (slope 0 i j + `|slope 0 i j|)).
+  have -> : Z' i j - center a i j = (Z' - (center a + \sum_l p l *: slope l)) i j + p 0 * slope 0 i j.
+    by rewrite big_ord1; move: (center a) (slope 0) => c s; rewrite !mxE opprD addrA subrK.
+  rewrite (le_trans (ler_norm_add _ _))// ler_add// normrM.
+  by rewrite (le_trans (ler_wpmul2r (normr_ge0 _) (p1 0)))// mul1r.
+have e : quarter + `|quarter| = half.
+  have -> : quarter = half / 2%:R by rewrite -invfM -natrM.
+  by rewrite ger0_norm ?divr_ge0 ?invr_ge0 ?ler0n// -splitr.
+case: (split_ordP i) => k ->; case: (split_ordP j) => l ->; rewrite ?ord1 /slope /radii.
+- by rewrite !block_mxEul !mxE eqxx e.
+- by rewrite !block_mxEur !mxE normr0 addr0.
+- by rewrite !block_mxEdl !mxE normr0 addr0.
+by rewrite !block_mxEdr !mxE normr0 addr0.
+Qed.
+
+Definition inst_tied_stable_continuous : forall Z', tied_member (center (-1)) (slope 0) slope Z' -> forall lambda,
+  eigenvalue (map_mx inC (loop_of Z')) lambda -> 'Re lambda < - inC 0.
+Proof.
+have u Z' : tied_member (center (-1)) (slope 0) slope Z' -> drsubmx Z' \in unitmx by move/tied_near/finite.
+apply: (tied_stable_continuous u rising inside); have [first last] := on_border.
+by split=> lambda => [near|re far] Z' /tied_near; [apply: first near Z'|apply: last re far Z'].
+Qed.
+
 (* No states: nothing to be stable, on arcs that are not trivial. *)
 Definition nothing : 'M[R]_(0 + 1) := block_mx 0 0 0 (-1)%:M.
-Definition inst_box_stable_discrete : forall Z', member nothing 0 Z' -> forall lambda,
+Lemma same Z' : member nothing 0 Z' -> Z' = nothing.
+Proof. by move=> mem; apply/matrixP => i j; apply/eqP; rewrite -subr_eq0 -normr_le0 (le_trans (mem i j))// mxE. Qed.
+
+Lemma computed Z' : member nothing 0 Z' -> drsubmx Z' \in unitmx.
+Proof. by move/same ->; rewrite block_mxKdr unitmxE det_scalar1 unitrN1. Qed.
+
+Lemma out (N : 'M[C]_0) lambda : eigenvalue N lambda -> `|lambda| < inC 1.
+Proof. by rewrite /eigenvalue => /eqP; case; apply/matrixP => i; case: i. Qed.
+
+Lemma around : arcs (fun lambda : C => forall Z', member nothing 0 Z' ->
+  lambda *: block_mx 1%:M 0 0 0 - map_mx inC Z' \in unitmx) (inC 1) 0 [:: 1; 2%:R].
+Proof.
+have reg (lambda : C) Z' : member nothing 0 Z' -> lambda *: block_mx 1%:M 0 0 0 - map_mx inC Z' \in unitmx.
+  move=> mem; rewrite loop_eigenvalue -?map_drsubmx ?map_unitmx ?computed//.
+  by rewrite /eigenvalue negbK; apply/eqP/matrixP => i; case: i.
+by split=> [z _ Z'|]; [exact: reg | split=> z _ Z'; exact: reg].
+Qed.
+
+Lemma growing : path.path <%R 0 [:: 1; 2%:R : C].
+Proof. by rewrite /= ltr01 ltr1n. Qed.
+
+Definition inst_box_stable_discrete := box_stable_discrete computed ltr01 growing (@out _) around.
+
+Lemma tied_nothing Z' : tied_member nothing 0 (fun _ : 'I_1 => 0) Z' -> member nothing 0 Z'.
+Proof.
+move=> [p _ mem] i j; have := mem i j; rewrite big_ord1 scaler0 addr0.
+by move: nothing => c; rewrite [X in `|X| <= _ -> _]mxE [(- c) i j]mxE.
+Qed.
+
+Definition inst_tied_stable_discrete : forall Z', tied_member nothing 0 (fun _ : 'I_1 => 0) Z' -> forall lambda,
   eigenvalue (map_mx inC (loop_of Z')) lambda -> `|lambda| < inC 1.
 Proof.
-have same Z' : member nothing 0 Z' -> Z' = nothing.
-  by move=> mem; apply/matrixP => i j; apply/eqP; rewrite -subr_eq0 -normr_le0 (le_trans (mem i j))// mxE.
-have u Z' : member nothing 0 Z' -> drsubmx Z' \in unitmx.
-  by move/same ->; rewrite block_mxKdr unitmxE det_scalar1 unitrN1.
-have reg (lambda : C) Z' : member nothing 0 Z' -> lambda *: block_mx 1%:M 0 0 0 - map_mx inC Z' \in unitmx.
-  move=> mem; rewrite loop_eigenvalue -?map_drsubmx ?map_unitmx ?u//.
-  by rewrite /eigenvalue negbK; apply/eqP/matrixP => i; case: i.
-have out (N : 'M[C]_0) lambda : eigenvalue N lambda -> `|lambda| < inC 1.
-  by rewrite /eigenvalue => /eqP; case; apply/matrixP => i; case: i.
-apply: (@box_stable_discrete R 0 1 nothing 0 u 1 [:: 1; 2%:R] ltr01) => [|lambda|].
-- by rewrite /= ltr01 ltr1n.
-- exact: out.
-by split=> [z _ Z'|]; [exact: reg | split=> z _ Z'; exact: reg].
+have u Z' : tied_member nothing 0 (fun _ : 'I_1 => 0) Z' -> drsubmx Z' \in unitmx by move/tied_nothing/computed.
+apply: (tied_stable_discrete u ltr01 growing (@out _)); have [first [second last]] := around.
+split=> [z near Z' /tied_nothing|]; first by apply: first near Z'.
+by split=> z near Z' /tied_nothing; [apply: second near Z'|apply: last near Z'].
 Qed.
 
 (* x + 1 at every t: no root meets the axis. *)

@@ -24,6 +24,7 @@ from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
 from mcexact.derived.merged import merged
 from mcexact.derived.moved_entries import moved
+from mcexact.derived.parametric_loop import looped
 from mcexact.derived.restricted import restricted
 from mcexact.errors import InputError, place_of
 from mcexact.exact.matrix import Matrix
@@ -88,7 +89,9 @@ def answer_of(
 def constructed(system: Any, subject: Sequence[Mapping[str, Any]]) -> Any:
     """Apply constructions, given as plain data of a certificate, to a plant."""
     if isinstance(system, ParametricSystem):
-        return moved(system, lambda plain: constructed(plain, subject)) if subject else system
+        loop = [each["construction"] for each in subject[-1:]] == ["closed_loop"]
+        apply = looped if loop else moved
+        return apply(system, lambda plain: constructed(plain, subject)) if subject else system
     for construction in subject:
         system = _CONSTRUCTIONS[construction["construction"]](system, construction)
     return system

@@ -9,11 +9,13 @@ from .boxes import ALL, Box, absolute
 from .complex_matrices import magnitude
 from .controller import read_controller
 from .loop_pencil import loop_pencil
+from .parametric_system import FunctionSystem
 from .reading import Json, fields, integer, items, malformed, rational, require
 from .region import inside, read_bound
 from .regular_discs import Pencil, left_inverse, read_weights
 from .root_discs import Disc
 from .statement import canonical_json, with_digest
+from .system import System
 
 
 def check(claim: Json, witness: Json, box: Box) -> None:
@@ -86,7 +88,8 @@ def _require_growth(value: Json, pencil: Pencil, R: Fraction) -> None:
 
     Theorem ``boxes.growth``.
     """
-    n, place, most = pencil.dynamic, "witness.growth", absolute(pencil.Z) + pencil.D
+    n, place = pencil.dynamic, "witness.growth"
+    most = sum(map(absolute, pencil.tied), absolute(pencil.Z) + pencil.D)
     longest = 4 * (most.limbs + budget.limbs_of([R]))
     budget.spend(budget.fractions(2 * most.nrows * most.nrows, longest))
     sizes = [Fraction(row[0]) for row in read_weights(value, place, n).rows]
@@ -100,10 +103,15 @@ def _require_growth(value: Json, pencil: Pencil, R: Fraction) -> None:
 
 def statement(claim: Json, box: Box) -> str:
     """Where all eigenvalues of all members lie."""
+    return lie_inside(claim, box, ALL)
+
+
+def lie_inside(claim: Json, box: System | FunctionSystem, members: str) -> str:
+    """Where all eigenvalues of these members lie."""
     limit, radii = claim["bound"], claim["gain_radii"]
     bound = int(box.time == "discrete") if limit is None else limit
     gains = ""
     if radii is not None:
         given = canonical_json(read_controller(radii, "claim.gain_radii"))
         gains = f", and for all gains of the controller within the radii with {with_digest(given)}"
-    return f"{ALL}{gains}, every eigenvalue of A has {inside(bound, box)}"
+    return f"{members}{gains}, every eigenvalue of A has {inside(bound, box)}"

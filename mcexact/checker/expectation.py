@@ -112,15 +112,17 @@ class Expectation:
         self._require_system(value, "")
         return self.plant
 
-    def require_plant(self, found: str, values: str) -> None:
+    def require_plant(self, found: str, values: str, ranged: bool = False) -> None:
         """Stop unless the certificate is about the plant, or about a box around it.
 
         ``found`` is the digest of the certificate's plant, ``values`` that of it without radii,
-        which is the one that controllers are made for.
+        which is the one that controllers are made for; of a plant whose parameters are ``ranged``
+        they are made for some values.
         """
         self._require_system(found, values)
         message = f"about the system of digest {values}, the controller is for {self.made_for}"
-        require(self.made_for in ("", values), "controller", "system", message)
+        fits = ranged or self.made_for in ("", values)
+        require(fits, "controller", "system", message)
 
     def _require_system(self, found: str, values: str) -> None:
         message = f"about another system, of digest {found}, not {self.system}"

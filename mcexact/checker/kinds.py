@@ -24,8 +24,9 @@ STEMS = (
     "common_dimension", "communication", "complementary_subsystem", "completeness",
     "controllability", "controllability_indices", "deficiency", "distributed_observer",
     "exceptional_gains", "fixed_spectrum", "neighbor_graph", "parametric_box_controllable",
-    "parametric_box_fixed", "parametric_fixed_spectrum", "parametric_rank", "pencil_rank",
-    "setpoint", "shared_dimensions", "single_channel_gains", "stability", "transfer_graph",
+    "parametric_box_fixed", "parametric_box_stable", "parametric_fixed_spectrum",
+    "parametric_rank", "pencil_rank", "setpoint", "shared_dimensions", "single_channel_gains",
+    "stability", "transfer_graph",
 )
 # fmt: on
 
@@ -124,9 +125,10 @@ def check_document(
                 given = wanted.named(given)
                 budget.grant(wanted.size)
             plant = plant_of(given)
-            budget.times = MORE if isinstance(plant, FunctionSystem) else budget.times
+            ranged = isinstance(plant, FunctionSystem)
+            budget.times = MORE if ranged else budget.times
             known = digest(plant)
-            wanted.require_plant(known, digest_of_values(plant, known))
+            wanted.require_plant(known, digest_of_values(plant, known), ranged)
             budget.builds = True
             system = subject_of(steps, replace(plant, words=f"the plant {known}"), kind)
             budget.builds = False

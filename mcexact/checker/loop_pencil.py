@@ -35,11 +35,10 @@ def loop_pencil(box: Box, gain_radii: Json) -> Pencil:
     agents = read_controller(box.programs, "subject", plant)["agents"]
     programs = programs_of(plant, agents, "subject")
     order = signals_of(plant, agents, programs)
-    moved: list[list[Terms]] = [[[] for _ in MAPS] for _ in agents]
-    if gain_radii is not None:
-        moved = _read_radii(gain_radii, plant, agents)
+    still: list[list[Terms]] = [[[] for _ in MAPS] for _ in agents]
+    moved = still if gain_radii is None else _read_radii(gain_radii, plant, agents)
     Z, D = _pencil(plant, order, programs, 1), _pencil(radii, order, moved, 0)
-    return Pencil(Z, D, box.n)
+    return Pencil(Z, D, box.n, [_pencil(each, order, still, 0) for each in plant.tied])
 
 
 def _read_radii(value: Json, plant: System, agents: list[Json]) -> list[list[Terms]]:

@@ -1,8 +1,11 @@
 """Constructions that only put entries elsewhere, applied to plants with a parameter."""
 
+from dataclasses import replace
+
 from . import budget
 from .arithmetic import Matrix
-from .boxes import system_of
+from .boxes import LOOP, system_of
+from .function_loops import FunctionLoop
 from .parametric_system import FunctionSystem, Table, one_parameter
 from .reading import Json, incomplete, items, malformed
 from .subject import CONSTRUCTIONS, read_subject
@@ -54,7 +57,33 @@ def moved(steps: Json, plant: FunctionSystem) -> FunctionSystem:
     made = read_subject(steps, start)
     pairs = [M for pair in zip(made.B, made.C, strict=True) for M in pair]
     tables = [entries(M) for M in (made.A, *pairs)]
-    return plant.remade(tables, names=made.names, words=made.words)
+    return plant.remade(tables, names=made.names, neighbors=made.neighbors, words=made.words)
+
+
+def looped(steps: Json, plant: FunctionSystem) -> FunctionSystem:
+    """The same, where a closed loop may be the last construction.
+
+    Its matrix depends on the values; its words, its controller and its states do not.
+    """
+    *before, last = items(steps, "subject") or [None]
+    if not isinstance(last, dict) or last.get("construction") != LOOP:
+        return moved(steps, plant)
+    inside = moved(before, plant)
+    A, *ports = (Matrix.zeros(len(rows), ncols) for rows, ncols in inside.tables)
+    still = System(inside.time, inside.names, A, ports[0::2], ports[1::2], inside.neighbors)
+    loop = read_subject([last], replace(still, words=inside.words))
+    return FunctionLoop(
+        time=inside.time,
+        names=[],
+        ranges=inside.ranges,
+        tables=inside.tables,
+        document=inside.document,
+        words=loop.words,
+        controller=loop.controller,
+        inside=inside,
+        programs=last["controller"],
+        states=loop.n,
+    )
 
 
 def constructed(steps: Json, plant: System | FunctionSystem) -> System | FunctionSystem:
@@ -69,5 +98,7 @@ def subject_of(steps: Json, plant: System | FunctionSystem, kind: str) -> System
         message = "plants without parameters" if parametric else "plants with parameters"
         malformed("system", f"the kind {kind} is about {message}")
     if isinstance(plant, FunctionSystem):
+        if kind == "parametric_box_stable":
+            return looped(steps, plant)
         return moved(steps, plant if kind in OF_SEVERAL else one_parameter(plant))
     return system_of(steps, plant, kind)

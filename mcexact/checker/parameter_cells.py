@@ -58,7 +58,8 @@ def box_of_cell(plant: FunctionSystem, cell: Cell) -> Box:
 
     def system(part: int) -> System:
         A, *ports = (each[part] for each in layers)
-        return System(plant.time, plant.names, A, ports[0::2], ports[1::2], words=plant.words)
+        heard, words = plant.neighbors, plant.words
+        return System(plant.time, plant.names, A, ports[0::2], ports[1::2], heard, words=words)
 
     middle, rest, *slopes = map(system, range(len(cell) + 2))
     return Box(**vars(middle), radii=rest, tied=tuple(slopes))

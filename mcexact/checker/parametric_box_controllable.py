@@ -1,9 +1,10 @@
 """Kind ``parametric_box_controllable``: channels control at all values; ``proofs/boxes.md``."""
 
 from . import box_controllable
-from .parameter_cells import box_of_cell, cells_of, ranges_text
+from .function_loops import boxes_of_cells
+from .parameter_cells import ranges_text
 from .parametric_system import FunctionSystem
-from .reading import Json, fields, items
+from .reading import Json
 
 
 def check(claim: Json, witness: Json, plant: FunctionSystem) -> None:
@@ -11,10 +12,8 @@ def check(claim: Json, witness: Json, plant: FunctionSystem) -> None:
 
     Theorem ``joint_controllability.controllable_hautus``.
     """
-    cuts, parts = fields(witness, "witness", "cuts", "parts")
-    cells = cells_of(cuts, "witness.cuts", plant)
-    for cell, part in zip(cells, items(parts, "witness.parts", len(cells)), strict=True):
-        box_controllable.check(claim, part, box_of_cell(plant, cell))
+    for box, part in boxes_of_cells(witness, plant):
+        box_controllable.check(claim, part, box)
 
 
 def statement(claim: Json, plant: FunctionSystem) -> str:

@@ -1,9 +1,10 @@
 """Kind ``parametric_box_fixed``: no mode is fixed at any value; ``proofs/boxes.md``."""
 
 from . import box_fixed
-from .parameter_cells import box_of_cell, cells_of, ranges_text
+from .function_loops import boxes_of_cells
+from .parameter_cells import ranges_text
 from .parametric_system import FunctionSystem
-from .reading import Json, fields, items
+from .reading import Json
 from .region import no_fixed_mode
 
 
@@ -12,10 +13,8 @@ def check(claim: Json, witness: Json, plant: FunctionSystem) -> None:
 
     Theorem ``boxes.regular_not_fixed``.
     """
-    cuts, parts = fields(witness, "witness", "cuts", "parts")
-    cells = cells_of(cuts, "witness.cuts", plant)
-    for cell, part in zip(cells, items(parts, "witness.parts", len(cells)), strict=True):
-        box_fixed.check(claim, part, box_of_cell(plant, cell))
+    for box, part in boxes_of_cells(witness, plant):
+        box_fixed.check(claim, part, box)
 
 
 def statement(claim: Json, plant: FunctionSystem) -> str:

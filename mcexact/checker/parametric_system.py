@@ -41,6 +41,7 @@ class FunctionSystem:
     ranges: dict[str, Range]
     tables: list[Table]
     document: Json
+    neighbors: list[list[int]] | None = None
     words: str = "the plant"
     controller: str = ""
 

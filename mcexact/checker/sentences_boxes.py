@@ -91,3 +91,4 @@ def within(loops: Premise) -> str:
 
 restate("members-in-region", LOOPS, lambda c: True)
 restate("members-in-region-part", LOOPS, lambda c: True, words=within)
+restate("parametric-ranges-in-region", Role(("parametric_box_stable",), CLOSED), lambda c: True)

@@ -66,11 +66,6 @@ def read_parametric_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> Pa
     document = expect_format(parsed, FORMAT)
     if "parameters" not in document:
         raise InputError("found a system without parameters, which load_system reads")
-    if "uncertainty" in document:
-        message = (
-            "a system with parameters has no radii: what is uncertain are ranges of parameters"
-        )
-        raise InputError(message, where="uncertainty")
     expect_object(document, None, _REQUIRED, _OPTIONAL)
     ranges = {}
     if not isinstance(document["parameters"], dict) or not document["parameters"]:
@@ -100,8 +95,6 @@ def _range(value: Any, where: str, limits: Limits) -> tuple[Fraction | None, Fra
     if len(ends) != 2:
         raise InputError(f"expected two ends, found {len(ends)}", where=where)
     low, high = (None if end is None else read_number(end, where, limits) for end in ends)
-    if low is not None and high is not None and low > high:
-        raise InputError(f"expected the smaller end first, found {low} and {high}", where=where)
     return low, high
 
 

@@ -221,7 +221,7 @@ def canonical_text(system: MultiChannelSystem | ParametricSystem) -> str:
     Keys are sorted; matrices are rows of reduced rationals, or list their entries if they are
     large and sparse; name and source are left out.
     """
-    if isinstance(system, ParametricSystem):
+    if isinstance(system.plant, ParametricSystem):
         return canonical(system.plant.document())
     plant = system.plant
     known: str | None = plant.__dict__.get("_canonical_text")

@@ -271,13 +271,11 @@ def _radii(
         )
     if "relative" in given:
         part = read_number(given["relative"], f"{where}.relative", limits)
-        _require_nonnegative(part, f"{where}.relative")
-        return Radii.relative(A, B, C, part)
+        with InputError.inside(where):
+            return Radii.relative(A, B, C, part)
     if "digits" in given:
-        said = expect_string(given["digits"], f"{where}.digits")
-        if said != AS_TYPED:
-            told = f'expected "{AS_TYPED}", found {quoted(said)}'
-            raise InputError(told, where=f"{where}.digits")
+        if expect_string(given["digits"], f"{where}.digits") != AS_TYPED:
+            raise InputError(f'expected "{AS_TYPED}"', where=f"{where}.digits")
         channels = list(zip(document["channels"], B, C, strict=True))
         return Radii(
             typed_radii(document["A"], "A"),

@@ -37,6 +37,10 @@ _SYSTEM_IN_SHORT = record(
 )
 
 
+_RANGES = table(record({}, {"range": rows(some(NUMBER), minItems=2, maxItems=2)}, closed=True))
+"""Parameters with their ranges."""
+
+
 def _account(required: Schema, optional: Schema | None = None) -> Schema:
     """The JSON of a command whose answers have certificates."""
     known = named("mcexact-analysis/1") | {"system": _SYSTEM_IN_SHORT} | SENTENCES
@@ -136,6 +140,31 @@ def certify() -> Schema:
     )
 
 
+def certify_parameters() -> Schema:
+    """The JSON of `mcexact certify` about a system with parameters."""
+    largest = record(
+        {
+            "property": TEXT,
+            "lower": NUMBER,
+            "ranges": some(_RANGES),
+            "upper": some(NUMBER),
+            "failing": some(table(NUMBER)),
+        },
+        says="a part of the ranges that is proved, and values at which the loop fails",
+    )
+    return _account(
+        {
+            "certified": YES,
+            "refuted": YES,
+            "region": TEXT,
+            "bound": some(TEXT),
+            "parameters": _RANGES,
+            "largest_ranges": largest,
+            "warnings": rows(TEXT),
+        }
+    )
+
+
 _QUESTION = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, {"reason": TEXT})
 
 
@@ -161,12 +190,11 @@ def analyze_parameters() -> Schema:
     """Answers about a system with parameters, for all values."""
     row = record({"where": TEXT, "what": TEXT, "because": TEXT}, closed=True)
     answer = record({"rows": rows(row), "certificates": rows(TEXT)})
-    ends = rows(some(NUMBER), minItems=2, maxItems=2)
     return record(
         named("mcexact-parametric-analysis/1")
         | {
             "system": _SYSTEM_IN_SHORT,
-            "parameters": table(record({}, {"range": ends}, closed=True)),
+            "parameters": _RANGES,
             "questions": rows(_QUESTION),
             "table": rows(rows(TEXT)) | {"description": "labels, and what holds"},
             **SENTENCES,

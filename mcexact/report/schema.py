@@ -36,6 +36,10 @@ DOCUMENTS = {
     "allocate": (commands.allocate, "mcexact allocate --json"),
     "design": (commands.design, "mcexact design … --json, also where no controller exists"),
     "certify": (commands.certify, "mcexact certify --json"),
+    "certify-parameters": (
+        commands.certify_parameters,
+        "mcexact certify --json about a system with parameters",
+    ),
     "simulate": (commands.simulate, "mcexact simulate --json"),
     "check": (commands.check, "mcexact check --json"),
     "crosscheck": (commands.crosscheck, "mcexact crosscheck --json"),

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from mcexact.analysis.boxes.box_stable import StabilitySearch, gain_radii
+from mcexact.analysis.boxes.box_stable import StabilitySearch
 from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
+from mcexact.analysis.boxes.gain_radii import gain_radii
 from mcexact.analysis.boxes.largest_loop_box import failing_loop, refuted_loop
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.two_sided import short

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from mcexact.analysis.boxes.box_stable import box_stability, digit_radii
+from mcexact.analysis.boxes.box_stable import box_stability
+from mcexact.analysis.boxes.gain_radii import digit_radii
 from mcexact.answer.box_stable import BoxStability
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.errors import LimitReached

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from scipy.linalg import eig
 
-from mcexact.analysis.boxes.box_stable import rounded_ends, with_gains
 from mcexact.analysis.boxes.float_pencils import Floats
+from mcexact.analysis.boxes.gain_radii import rounded_ends, with_gains
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.exact.floats import matrix_to_float

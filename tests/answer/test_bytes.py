@@ -23,7 +23,7 @@ from tests.kernels import usable_kernels
 IN_FLOATING_POINT = {f"design-{design}-float" for design in DESIGNS}
 IN_FLOATING_POINT |= {"certify-lyapunov", "certify-instability"}
 ABOUT_BOXES = {"box_fixed", "box_controllable", "box_stable"}
-ABOUT_BOXES |= {"parametric_box_fixed", "parametric_box_controllable"}
+ABOUT_BOXES |= {"parametric_box_fixed", "parametric_box_controllable", "parametric_box_stable"}
 
 Written = dict[str, dict[Path, bytes]]
 

@@ -97,6 +97,11 @@ def write_all(folder: Path) -> None:
     )
     save_certificate(box_fixed_modes(ranged), place / "parametric_box_fixed.json")
     save_certificate(box_controllability(ranged), place / "parametric_box_controllable.json")
+    spring = ParametricSystem(
+        [["k"]], [[["k"]]], [[[1]]], parameters=["k"], assume={"k": ("1/2", 2)}
+    )
+    kept_in_range = box_stability(spring, local_controllers(unstable, [[[-3]]]))
+    save_certificate(kept_in_range, place / "parametric_box_stable.json")
 
 
 def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:

@@ -88,7 +88,7 @@ HARMLESS: dict[str, str] = {
     "expectation.py: _claiming: not isinstance(claim, dict)": USERS,
     "expectation.py: named: not DIGEST.fullmatch(value)": USERS,
     "expectation.py: _require_system: self.system in ('', found, values)": USERS,
-    "expectation.py: require_plant: self.made_for in ('', values)": USERS,
+    "expectation.py: require_plant: ranged or self.made_for in ('', values)": USERS,
     "expectation.py: require_subject: bool(found)": USERS,
     "expectation.py: require_subject: found == self.controller": USERS,
     "expectation.py: require_subject: same(steps, expected)": USERS,

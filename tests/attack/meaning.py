@@ -17,6 +17,9 @@ from .oracle.systems import read_plant
 SETS = ("factors", "roots", "added")
 """Lists whose order says nothing."""
 
+NULL_IS_STABLE = ("stability", "box_stable", "parametric_box_stable")
+"""Kinds whose bound null stands for 0 in continuous and for 1 in discrete time."""
+
 DECIMALS = ("re", "im", "radius", "lower", "upper")
 
 
@@ -24,7 +27,7 @@ def meaning(document: Mapping[str, Any]) -> str:
     """One text for each meaning of a readable document."""
     steps = [_step(document, k) for k in range(len(document["subject"]))]
     claim = dict(document["claim"])
-    if document["kind"] in ("stability", "box_stable") and claim["bound"] is None:
+    if document["kind"] in NULL_IS_STABLE and claim["bound"] is None:
         claim["bound"] = int(document["system"]["time"] == "discrete")  # what null stands for
     if claim.get("gain_radii") is not None:
         inner = subject_of(document, len(steps) - 1)

@@ -58,8 +58,14 @@ def _is_number(value: Any) -> bool:
 
 
 def other_number(rng: random.Random, value: Any, modulus: Any = None) -> Any:
-    """Another number of the same form: one more or less, 0, the negative, a congruent one."""
+    """Another number of the same form: one more or less, 0, the negative, a congruent one.
+
+    In an expression with parameters one number becomes another.
+    """
     if isinstance(value, str):
+        if "*" in value or " " in value:
+            one = rng.choice(list(re.finditer("[0-9]+", value)))
+            return f"{value[: one.start()]}{rng.randrange(12)}{value[one.end() :]}"
         if "/" in value:
             p, _, q = value.partition("/")
             return rng.choice([f"{int(p) + int(q)}/{q}", int(p), f"{-int(p)}/{q}", 0])

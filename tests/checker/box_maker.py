@@ -18,9 +18,10 @@ from mcexact.checker.box_stable import segments_of
 from mcexact.checker.boxes import Box, absolute, system_of
 from mcexact.checker.covers import ROOT_2, Cell
 from mcexact.checker.evidence import inputs
+from mcexact.checker.function_loops import members_of_cell
 from mcexact.checker.loop_pencil import loop_pencil
 from mcexact.checker.moved_entries import subject_of as read_subject
-from mcexact.checker.parameter_cells import box_of_cell, cells_of
+from mcexact.checker.parameter_cells import cells_of
 from mcexact.checker.parametric_system import plant_of
 from mcexact.checker.regular_discs import Pencil, Regular, left_inverse, right_inverse
 from mcexact.checker.system import read_plant
@@ -296,7 +297,7 @@ def in_cells(
 ) -> Document:
     """A certificate about all values of parameters, with the evidence about each cell."""
     subject: Any = read_subject(list(steps), plant_of(plant), kind)
-    parts = [made(box_of_cell(subject, cell)) for cell in cells_of(cuts, "cuts", subject)]
+    parts = [made(members_of_cell(subject, cell)) for cell in cells_of(cuts, "cuts", subject)]
     return certificate(kind, plant, claim, {"cuts": cuts, "parts": parts}, *steps)
 
 
@@ -308,19 +309,26 @@ def stable(
     gain_radii: Any = None,
     growth: list[int] | None = None,
 ) -> Document:
-    """A certificate that every member is stable, with a frame for each segment."""
+    """A certificate that every member is stable."""
     box = subject_of(plant, "box_stable", steps)
+    witness = stable_witness(box, points, bound, gain_radii, growth)
+    claim = {"bound": bound, "gain_radii": gain_radii}
+    return certificate("box_stable", plant, claim, witness, *steps)
+
+
+def stable_witness(
+    box: Box, points: list[Any], bound: Any, gain_radii: Any, growth: list[int] | None
+) -> Document:
+    """The evidence about one box, with a frame for each segment."""
     pencil = loop_pencil(box, gain_radii)
     limit = Fraction(box.time == "discrete") if bound is None else Fraction(bound)
     frames = []
     for re, im, _ in segments_of(box.time, limit, [Fraction(point) for point in points]):
         frames.append({"V": inverse_at(pencil, re, im), "w": [1] * pencil.Z.nrows})
-    witness = {
+    return {
         "nominal": {"method": "polynomial"},
         "points": points,
         "growth": growth,
         "segments": list(range(len(frames))),
         "frames": frames,
     }
-    claim = {"bound": bound, "gain_radii": gain_radii}
-    return certificate("box_stable", plant, claim, witness, *steps)

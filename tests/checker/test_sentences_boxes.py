@@ -11,6 +11,7 @@ from mcexact.checker.system import read_plant
 from tests.checker.box_maker import stable
 from tests.checker.box_plants import LOOP_STABLE, PART_CERTAIN, PART_STABLE, WAYS, proportional
 from tests.checker.handmade import checked, plant
+from tests.checker.parameter_plants import LOOP_DAMPED, LOOP_SAMPLED, TIED, TURNED
 from tests.checker.recorded import compare, keys
 from tests.checker.test_sentences_design import judged
 
@@ -57,6 +58,17 @@ def test_set_points_are_in_no_loop_and_need_no_radii(tmp_path: Path) -> None:
 
 def test_a_plant_of_zeros_has_no_entry_that_changes() -> None:
     assert least(of_plant(read_plant(plant([[0]], ([[0]], [[0]]))))) == 0
+
+
+def test_a_loop_is_in_its_region_at_all_values(tmp_path: Path) -> None:
+    rule = "parametric-ranges-in-region"
+    said = judged(tmp_path, rule, [LOOP_DAMPED])
+    name, _, claim = checked(LOOP_DAMPED).statement.partition(" (")
+    assert said.verdict == "IMPLIED"
+    assert said.statement == f"{name}: {claim.partition('): ')[2]} from premise_0.json"
+    for other in (TURNED, TIED, LOOP_STABLE, LOOP_SAMPLED):
+        assert judged(tmp_path, rule, [other]).verdict == "INVALID"
+    assert judged(tmp_path, "members-in-region", [LOOP_DAMPED]).verdict == "INVALID"
 
 
 @pytest.mark.parametrize("key", keys("boxes"))

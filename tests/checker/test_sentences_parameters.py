@@ -16,6 +16,7 @@ from mcexact.answer.parametric_account import ParametricAccount
 from mcexact.answer.rules import PARAMETERS
 from mcexact.answer.template import templates
 from mcexact.answer.wording import parameters as say
+from mcexact.answer.wording.design import EVERY_VALUE
 from mcexact.checker import check_document
 from mcexact.checker.sentence import RULES
 from tests.checker.manifests import Document, manifest, said, sentence, write
@@ -260,7 +261,8 @@ def test_what_is_said_of_a_plant_is_not_said_of_one_with_parameters(
 
 
 def test_every_rule_has_a_sentence() -> None:
-    assert {key for key in RULES if key.startswith("parametric-")} == {t.key for t in TEMPLATES}
+    said = {template.key for template in (*TEMPLATES, EVERY_VALUE)}
+    assert {key for key in RULES if key.startswith("parametric-")} == said
 
 
 def test_what_holds_within_ranges_of_several_parameters_has_a_manifest(tmp_path: Path) -> None:

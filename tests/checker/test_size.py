@@ -39,7 +39,7 @@ PARAMETERS = {"expressions", "parametric_system", "several_parameters"}
 """What the rules about plants with a parameter rest on: their entries and their reader."""
 RULES = sorted({path.stem for path in FILES} - FRONT - SHARED - SENTENCES - PARAMETERS - BOXES)
 """One rule a file: a kind, a construction, or a piece of evidence that several kinds use."""
-MOST = 6408
+MOST = 6476
 """The lines of code of the checker, of all files of its folder, as :func:`lines_of_code` counts.
 
 It is what was reached: it falls with the checker, and who raises it says what that buys."""
@@ -87,9 +87,9 @@ def test_plants_with_parameters_take_at_most_420_lines() -> None:
     assert sum(read.values()) <= 420, read
 
 
-def test_the_sentences_take_at_most_929_lines() -> None:
+def test_the_sentences_take_at_most_930_lines() -> None:
     about = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(SENTENCES)}
-    assert sum(about.values()) <= 929, about
+    assert sum(about.values()) <= 930, about
 
 
 def test_no_rule_about_a_certificate_rests_on_the_sentences() -> None:

@@ -90,6 +90,7 @@ UNUSED: dict[str, tuple[str, Any, set[str]]] = {
     "common_dimension": ("feasible", False, {"dimension"}),
     "communication": ("feasible", False, {"added", "cost"}),
     "communication by outputs": ("share", "outputs", {"dimensions"}),
+    "parametric_box_stable": ("gain_radii", None, {"gain_radii"}),
     "setpoint": ("solvable", True, {"invariant_zero"}),
     "shared_dimensions": ("feasible", False, {"dimensions", "cost"}),
     "single_channel_gains": ("exists", False, {"cyclic", "indices"}),

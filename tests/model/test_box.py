@@ -142,11 +142,11 @@ def test_what_is_written_is_read_back(drawn: testing.Drawn, part: Fraction) -> N
 REFUSED: dict[str, str] = {
     '{}': "uncertainty: expected one of 'relative', 'digits' and 'absolute', found 0",
     '{"relative": 1, "digits": "as typed"}': "uncertainty: .* found 2",
-    '{"relative": -1}': "uncertainty.relative: expected a radius that is at least 0, found -1",
+    '{"relative": -1}': "uncertainty: relative: expected a radius that is at least 0, found -1",
     '{"relative": true}': "uncertainty.relative: expected a number, found true",
     '{"relative": "x"}': "uncertainty.relative: expected an integer, a decimal",
     '{"relativ": 1}': r"uncertainty: unknown key 'relativ' \(did you mean 'relative'",
-    '{"digits": "typed"}': "uncertainty.digits: expected \"as typed\", found 'typed'",
+    '{"digits": "typed"}': 'uncertainty.digits: expected "as typed"',
     '{"digits": 3}': "uncertainty.digits: expected a string, found a number",
     '3': 'uncertainty: expected an object such as {"relative": "1/100"}, found a number',
     '{"absolute": []}': "uncertainty.absolute: expected a JSON object, found a list",

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mcexact import MultiChannelSystem, check, local_controllers
-from mcexact.analysis.boxes.box_stable import with_gains
+from mcexact.analysis.boxes.gain_radii import with_gains
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix

@@ -9,6 +9,8 @@
 `cover`                   the tree of squares that covers these discs
 `box_fixed`               whether a member has a fixed mode
 `parameter_cells`         boxes around the plants at all values of parameters in a cell
-`parametric_box`          the ranges of parameters, cut until each cell is proved
+`cut_ranges`              the ranges of parameters, cut until each cell is proved
+`parametric_box`          the questions about fixed modes and control for all values in ranges
+`parametric_box_stable`   one loop for all values in ranges
 ========================  =============================================================
 """

@@ -7,115 +7,37 @@ along the whole border of the region.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from math import lcm
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
 from mcexact.analysis.boxes.float_pencils import Pencil, perron
 from mcexact.analysis.boxes.float_range import require_float_range
+from mcexact.analysis.boxes.gain_radii import gain_radii, radii_of_gains
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.regular_discs import Frames, Point, modulus_above, whole_weights
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.box_stable import BoxStability
 from mcexact.answer.evidence import InverseFrame
+from mcexact.answer.parametric_box_stable import ParametricBoxStability, StabilityOfCell
 from mcexact.answer.stability import LyapunovMethod, PolynomialMethod
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import as_fraction
 from mcexact.model.box import Box
-from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop, LoopPencil, closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import moduli
+from mcexact.model.uncertainty import Radii, moduli
 
 _MOST_SEGMENTS = 4000
 _SHORTEST = Fraction(1, 10**12)
 """The part of the whole border below which a segment is not cut again."""
-
-
-def with_gains(controller: Controller, of: Callable[[Matrix], Matrix]) -> Controller:
-    """The controller with a function of each matrix of gains in its place, without set-points."""
-
-    def made(each: LinearMap) -> LinearMap:
-        return LinearMap(
-            {j: of(M) for j, M in each.outputs.items()},
-            {j: of(M) for j, M in each.shared.items()},
-            None if each.private is None else of(each.private),
-        ).without_zeros()
-
-    def program(agent: AgentProgram) -> AgentProgram:
-        first, second, third = map(made, agent.maps())
-        return replace(agent, shared_update=first, private_update=second, input=third)
-
-    return replace(controller, agents=tuple(map(program, controller.agents)))
-
-
-def gain_radii(controller: Controller, part: Any) -> Controller:
-    """The radii of all entries of a controller that are a part of their moduli, as a controller.
-
-    Examples
-    --------
-    >>> from mcexact.model.local_controllers import local_controllers
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> [agent] = gain_radii(local_controllers(plant, [[[-3]]]), "1/100").agents
-    >>> agent.input.outputs[0][0, 0]
-    Fraction(3, 100)
-    """
-    factor = as_fraction(part, where="gains")
-    return with_gains(controller, lambda M: moduli(M) * factor)
-
-
-def digit_radii(controller: Controller, digits: int) -> Controller:
-    """The radii by which rounding to significant digits, up or down, moves entries at most.
-
-    Examples
-    --------
-    >>> from mcexact.model.local_controllers import local_controllers
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> [agent] = digit_radii(local_controllers(plant, [[["-31.4"]]]), 2).agents
-    >>> agent.input.outputs[0][0, 0]
-    Fraction(3, 5)
-    """
-
-    def moved(x: Fraction) -> Fraction:
-        low, high = rounded_ends(x, digits)
-        return max(x - low, high - x)
-
-    def radii(M: Matrix) -> Matrix:
-        entries = ((i, j, moved(Fraction(x, M.denominator))) for i, j, x in M.nonzero())
-        return Matrix.from_entries(M.shape, entries)
-
-    return with_gains(controller, radii)
-
-
-def rounded_ends(x: Fraction, digits: int) -> tuple[Fraction, Fraction]:
-    """The numbers with so many significant digits next to one that is not 0, below and above.
-
-    Examples
-    --------
-    >>> rounded_ends(Fraction(-314, 10), 2), rounded_ends(Fraction(5), 1)
-    ((Fraction(-32, 1), Fraction(-31, 1)), (Fraction(5, 1), Fraction(5, 1)))
-    """
-    unit = _unit(abs(x), digits)
-    low = x // unit * unit
-    return low, low if low == x else low + unit
-
-
-def _unit(x: Fraction, digits: int) -> Fraction:
-    """One unit of a significant digit of a number above 0."""
-    bits = x.numerator.bit_length() - x.denominator.bit_length()
-    e = int(bits * 0.30103)
-    while Fraction(10) ** e > x:
-        e -= 1
-    while Fraction(10) ** (e + 1) <= x:
-        e += 1
-    return Fraction(10) ** (e - digits + 1)
 
 
 @dataclass
@@ -131,26 +53,31 @@ class StabilitySearch:
         The radii of the gains, as a controller; None if they are certain.
     most : int
         The parts of the border that are tried at most.
+    spread : Radii, optional
+        The radii of the plant, by default those of its box.
+    tied : tuple of MultiChannelSystem
+        What may be added to the plant, each with a factor from −1 to 1.
     """
 
     loop: ClosedLoop
     region: StabilityRegion
     radii: Controller | None = None
     most: int = _MOST_SEGMENTS
+    spread: Radii | None = None
+    tied: tuple[MultiChannelSystem, ...] = ()
 
     def __post_init__(self) -> None:
         from scipy.linalg import matrix_balance
 
-        box = Box(self.loop.given)
         signals = LoopPencil(self.loop.given, self.loop.controller, self.loop.graph)
-        spread = box.radii
+        spread = self.spread or Box(self.loop.given).radii
         plant = MultiChannelSystem(spread.A, spread.B, spread.C, time=self.loop.given.time)
-        gains = self.radii or gain_radii(self.loop.controller, 0)
-        D = signals.with_entries(plant, gains, 0)
-        Z0 = signals.matrix
-        require_float_range([Z0], [D])
+        certain = gain_radii(self.loop.controller, 0)
+        Z0, D = signals.matrix, signals.with_entries(plant, self.radii or certain, 0)
+        tied = tuple(signals.with_entries(each, certain, 0) for each in self.tied)
+        require_float_range([Z0], [D, *tied])
         _, (s, _) = matrix_balance(matrix_to_float(Z0), permute=False, separate=True)
-        self.pencil = Pencil(Z0, D, signals.states, s)
+        self.pencil = Pencil(Z0, D, signals.states, s, tied)
 
     def margins(self) -> list[tuple[float, complex]]:
         """About how far the radii can grow at points of the border, the least first.
@@ -176,6 +103,15 @@ class StabilitySearch:
         return sorted(margins, key=lambda each: each[0])
 
     def border(self, growth: Fraction) -> BoxStability | None:
+        """The answer for radii that are multiplied by a factor; None if no proof is found."""
+        found = self.evidence(growth)
+        if found is None:
+            return None
+        radii = None if self.radii is None else _scaled(self.radii, growth).document()
+        parts = (getattr(found, each.name) for each in fields(found))
+        return BoxStability(self._about(growth), self.region.bound, radii, *parts)
+
+    def evidence(self, growth: Fraction) -> StabilityOfCell | None:
         """Evidence for radii that are multiplied by a factor; None if there is none."""
         nominal = certify_stability(self.loop.system, self.region)
         if not nominal.stable:
@@ -205,10 +141,7 @@ class StabilitySearch:
             return None
         ends = [b for _, b, _ in found]
         points = ends if far is not None else [_tangent(b) for b in ends[:-1]]
-        return BoxStability(
-            self._about(growth),
-            self.region.bound,
-            None if self.radii is None else _scaled(self.radii, growth).document(),
+        return StabilityOfCell(
             evidence,
             tuple(points),
             None if far is None else far[1],
@@ -280,7 +213,8 @@ def _tangent(a: Fraction) -> Fraction:
 def _growth(pencil: Pencil, growth: Fraction) -> tuple[Fraction, tuple[int, ...]] | None:
     """A number R, and weights of the states by which no member has an eigenvalue of modulus ≥ R."""
     Z0, D, _ = pencil.balanced
-    top, N = np.abs(Z0) + float(growth) * D, pencil.n
+    moved = D + sum(map(np.abs, pencil.balanced_ties))
+    top, N = np.abs(Z0) + float(growth) * moved, pencil.n
     X = np.vstack([np.eye(N), np.zeros((len(top) - N, N))])
     for i in range(N, len(top)):
         X[i] = top[i, :i] @ X[:i]
@@ -293,8 +227,8 @@ def _growth(pencil: Pencil, growth: Fraction) -> tuple[Fraction, tuple[int, ...]
 
 
 def _least_radius(pencil: Pencil, growth: Fraction, g: tuple[int, ...]) -> Fraction:
-    """An integer R above Σ_j (|Z0| + D)_ij g_j / g_i for every dynamic row i."""
-    most = moduli(pencil.Z0) + pencil.D * growth
+    """An integer R above Σ_j (|Z0| + D)_ij g_j / g_i for every dynamic row i, D with the ties."""
+    most = moduli(pencil.Z0) + sum(map(moduli, pencil.tied), pencil.D) * growth
     rows, d = most.numerators, most.denominator
     sizes = [Fraction(x) for x in g]
     for row in rows[pencil.n :]:
@@ -307,21 +241,43 @@ def _least_radius(pencil: Pencil, growth: Fraction, g: tuple[int, ...]) -> Fract
     return Fraction(int(max(ratios)) + 1)
 
 
+@overload
 def box_stability(
     system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = ...,
+    *,
+    rate: Any = ...,
+    radius: Any = ...,
+    gains: Any = ...,
+) -> BoxStability: ...
+@overload
+def box_stability(
+    system: ParametricSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = ...,
+    *,
+    rate: Any = ...,
+    radius: Any = ...,
+    gains: Any = ...,
+) -> ParametricBoxStability: ...
+def box_stability(
+    system: MultiChannelSystem | ParametricSystem,
     controller: Controller,
     graph: NeighborGraph | None = None,
     *,
     rate: Any = None,
     radius: Any = None,
     gains: Any = None,
-) -> BoxStability:
+) -> BoxStability | ParametricBoxStability:
     """Prove that one controller keeps every plant in a box stable, or fast enough.
 
     Parameters
     ----------
-    system : MultiChannelSystem
-        A plant with radii, such as ``Box.relative(plant, "1/100").system``.
+    system : MultiChannelSystem or ParametricSystem
+        A plant with radii, such as ``Box.relative(plant, "1/100").system``; or one with parameters,
+        each with a range of two ends: then the loop is proved for all values within the ranges
+        (`ParametricBoxStability`).
     controller : Controller
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
@@ -336,7 +292,8 @@ def box_stability(
     InputError
         If a radius of a gain is negative.
     LimitReached
-        If no proof was found, which proves nothing.
+        If no proof was found, which proves nothing; if the loop is unstable at some values of
+        parameters, the message names them.
 
     Examples
     --------
@@ -350,16 +307,15 @@ def box_stability(
         ...
     mcexact.errors.LimitReached: no proof was found that every loop in the box has Re λ < 0
     """
+    if isinstance(system, ParametricSystem):
+        from mcexact.analysis.boxes.parametric_box_stable import parametric_box_stability
+
+        return parametric_box_stability(
+            system, controller, graph, rate=rate, radius=radius, gains=gains
+        )
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, Controller, "controller")
-    region = StabilityRegion.of(system.time, rate, radius)
-    radii = (
-        gains if gains is None or isinstance(gains, Controller) else gain_radii(controller, gains)
-    )
-    if radii is not None:
-        entries = (x for M in radii.matrices() for _, _, x in M.nonzero())
-        if any(x < 0 for x in entries):
-            raise InputError("expected radii that are at least 0", where="gains")
+    region, radii = StabilityRegion.of(system.time, rate, radius), radii_of_gains(controller, gains)
     with one_thread():
         search = StabilitySearch(closed_loop(system, controller, graph), region, radii)
         found = search.border(Fraction(1))

@@ -6,8 +6,9 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.boxes.box_stable import StabilitySearch, gain_radii
+from mcexact.analysis.boxes.box_stable import StabilitySearch
 from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
+from mcexact.analysis.boxes.gain_radii import gain_radii
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.rank_drops import Freedom, Uncertain
 from mcexact.analysis.boxes.two_sided import LargestUncertainty, Search, two_sided

@@ -185,7 +185,7 @@ def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> Lar
     require_seconds(effort, "effort")
     near, refutation = nearest(search, min(1 + int(_TRIES * effort), _MOST_TRIES))
     beyond = 1e6 if near is None else to_float(near.distance)
-    lower, proof = _largest(search, _SQUARES * effort, beyond)
+    lower, proof = largest_factor(search, _SQUARES * effort, beyond)
     return LargestUncertainty(
         wanted,
         relative,
@@ -209,7 +209,7 @@ def nearest(search: Search, tries: int) -> tuple[FailingPlant | None, Answer | N
     return None, None
 
 
-def _largest(search: Search, work: float, beyond: float) -> tuple[Fraction, Answer | None]:
+def largest_factor(search: Search, work: float, beyond: float) -> tuple[Fraction, Answer | None]:
     """Bisect for the largest factor of the radii with a proof; beyond some factor there is none."""
     most = min(search.capacity(), beyond) if beyond > 0 else 0.0
     low, best = Fraction(0), None

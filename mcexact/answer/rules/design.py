@@ -30,12 +30,14 @@ def about(loop: Claim, region: StabilityRegion) -> bool:
 EVERY_LOOP = Rulebook()
 
 
-@EVERY_LOOP.rule("table", say.EVERY_LOOP, say.EVERY_LOOP_PART)
+@EVERY_LOOP.rule("table", say.EVERY_LOOP, say.EVERY_LOOP_PART, say.EVERY_VALUE)
 def _every_loop(box_stability: Claim, given: Given) -> Said:
-    """Where the eigenvalues of all loops are, with the radii as they were asked for."""
+    """Where the eigenvalues of all loops are, with radii or parameters as they were asked for."""
     region = StabilityRegion.of(given.time, bound=box_stability.bound)
     gains = None if box_stability.gain_radii is None else given.part_of_gains
-    if given.part_of_plant is None:
+    if given.has("parameters"):
+        yield say.EVERY_VALUE(region=region, parameters=given.parameters, gains=gains)
+    elif given.part_of_plant is None:
         yield say.EVERY_LOOP(region=region, gains=gains)
     else:
         yield say.EVERY_LOOP_PART(region=region, part=given.part_of_plant, gains=gains)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from mcexact.answer.exceptional_hypersurfaces import Hypersurface, Hypersurfaces, mode_in_x
+from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces, mode_in_x
 from mcexact.answer.rules.parameters import (
     Said,
     Values,
@@ -24,7 +24,6 @@ from mcexact.answer.rules.parameters import (
 from mcexact.answer.sentence import Given
 from mcexact.answer.template import Sentence
 from mcexact.answer.wording.parameters import MODES
-from mcexact.model.parametric import ParametricSystem
 
 
 def sentences_of_several(answers: Mapping[str, Any], given: Given) -> Iterator[Sentence]:
@@ -70,17 +69,7 @@ def _every(given: Given) -> str:
 
 
 def _values(answer: Hypersurfaces[Any], given: Given) -> Values:
-    return Values(_every(given), tuple(_where(each, answer.about) for each in answer.hypersurfaces))
-
-
-def _where(found: Hypersurface, plant: ParametricSystem) -> str:
-    """A condition, and whether it is that a parameter has a value outside of its range."""
-    if found.value is None:
-        return str(found)
-    name, value = found.value
-    low, high = plant.ranges[plant.parameters.index(name)]
-    inside = (low is None or low <= value) and (high is None or value <= high)
-    return str(found) if inside else f"{found} (outside of its range)"
+    return Values(_every(given), tuple(map(str, answer.hypersurfaces)))
 
 
 def _columns(found: Any, given: Given) -> list[Any]:

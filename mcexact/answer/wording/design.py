@@ -67,5 +67,10 @@ EVERY_LOOP_PART = Template(
     "{region:region} for every plant within {part:percent} of each entry{gains:gains}",
     label="every loop near this one",
 )
+EVERY_VALUE = Template(
+    "parametric-ranges-in-region",
+    "{region:region} for every {parameters:words}{gains:gains}",
+    label="every loop in the ranges",
+)
 LARGEST = Template("certify-largest", "{bound:number}", label="largest rate found")
 LEAST = Template("certify-least", "{bound:number}", label="least radius found")

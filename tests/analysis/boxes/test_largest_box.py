@@ -25,7 +25,7 @@ from mcexact import (
 from mcexact.analysis.boxes.failing_plants import failing_plant, severed_plants, tried_sets
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.rank_drops import rational_point
-from mcexact.analysis.boxes.two_sided import Search, _largest
+from mcexact.analysis.boxes.two_sided import Search, largest_factor
 from mcexact.answer.box_fixed import BoxFixedModes
 from mcexact.errors import UsageError
 
@@ -182,12 +182,12 @@ def test_factors_that_failed_are_tried_again_by_a_search_that_learned() -> None:
     search = Search(
         lambda: 1.0, proof, lambda _: None, lambda _: None, list, lambda: float(len(asked))
     )
-    assert 0.45 < _largest(search, 100, 1e6)[0] < 0.5
+    assert 0.45 < largest_factor(search, 100, 1e6)[0] < 0.5
     learned = len(asked)
     asked.clear()
-    assert 0.75 < _largest(replace(search, rounds=2), 100, 1e6)[0] < 0.8
+    assert 0.75 < largest_factor(replace(search, rounds=2), 100, 1e6)[0] < 0.8
     asked.clear()
-    _largest(replace(search, likely=lambda: 0.2), 100, 1e6)
+    largest_factor(replace(search, likely=lambda: 0.2), 100, 1e6)
     assert asked[:2] == [0.194, 0.97]
 
 
@@ -200,6 +200,6 @@ def test_a_factor_that_is_as_small_as_rounding_is_reported_as_0() -> None:
         return growth
 
     search = Search(lambda: 1e-13, proof, lambda _: None, lambda _: None, list, lambda: 0.0)
-    assert _largest(search, 100, 1e6) == (0, None) and not asked
+    assert largest_factor(search, 100, 1e6) == (0, None) and not asked
     nothing = replace(search, capacity=lambda: 1.0, proof=lambda growth: asked.append(growth))
-    assert _largest(nothing, 100, 1e6) == (0, None) and min(asked) > Fraction(1, 10**13)
+    assert largest_factor(nothing, 100, 1e6) == (0, None) and min(asked) > Fraction(1, 10**13)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import random
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
 from mcexact.checker.boxes import Box
+from mcexact.checker.parametric_system import plant_of_file
+from mcexact.checker.reading import Limits
 from tests.checker.box_maker import (
     control_witness,
     controllable,
@@ -18,6 +21,7 @@ from tests.checker.box_maker import (
 )
 from tests.checker.box_plants import LOOP, gains, programs, radii_of_first
 from tests.checker.handmade import matrix, plant
+from tests.checker.parameter_plants import stable as stable_in_ranges
 
 from .plants import Document, number, table
 
@@ -82,6 +86,10 @@ def drawn_gains(rng: random.Random, draw: Callable[[], Any]) -> tuple[Any, ...]:
     return tuple(found)
 
 
+ENTRIES = {"a": ("a", "b - 1", "a*b", "b - 2"), "t": ("t", "-t + 1", "t^2 - 2", "-t")}
+"""Entries of plants with one parameter, or with two, by the first one."""
+
+
 def dense(M: Any) -> list[list[Any]]:
     """The rows of a matrix, which plants with parameters have always."""
     if isinstance(M, list):
@@ -125,7 +133,7 @@ def with_parameters(rng: random.Random) -> tuple[Document, list[int | None]]:
     """A plant with one or two parameters, and cells."""
     names = rng.choice((("t",), ("t",), ("a", "b")))
     values = {"a": ("3/4", "5/4"), "b": ("1/2", 1), "t": ("3/4", 1)}
-    some = {"a": ("a", "b - 1", "a*b", "b - 2"), "t": ("t", "-t + 1", "t^2 - 2", "-t")}[names[0]]
+    some = ENTRIES[names[0]]
     found = drawn_box(rng, (-1, 1, 2, Fraction(1, 2)), rng.choice(("continuous", "discrete")))
     found = in_ranges(found, **{name: values[name] for name in names})
     for _ in range(rng.choice((1, 2, 3))):
@@ -139,6 +147,8 @@ def with_parameters(rng: random.Random) -> tuple[Document, list[int | None]]:
 
 def drawn_in_ranges(rng: random.Random, kind: str) -> Document | None:
     """A true certificate about all values of one or two parameters, or None."""
+    if kind == "parametric_box_stable":
+        return drawn_stable_in_ranges(rng)
     found, cuts = rng.choice((beside_failure, with_parameters, with_parameters))(rng)
     claim, made, steps = proof_in_cells(rng, kind, found["time"])
     try:
@@ -158,6 +168,35 @@ def proof_in_cells(
     claim = {"channels": ["1", "2"], "bound": None}
     steps = (DUAL,) if rng.random() < 0.5 else ()
     return claim, lambda box: control_witness(box, ["1", "2"], None), steps
+
+
+def drawn_stable_in_ranges(rng: random.Random) -> Document:
+    """About a stable plant some of whose entries have a parameter, or about a loop with it."""
+    found, cuts = with_parameters(rng)
+    some = ENTRIES[min(found["parameters"])]
+    discrete = found["time"] == "discrete"
+    rows = [["1/4", "0"], ["0", "-1/4"]] if discrete else [["-4", "0"], ["0", "-3"]]
+    for _ in range(rng.choice((1, 2, 3))):
+        i, j = rng.randrange(2), rng.randrange(2)
+        rows[i][j] = f"{rows[i][j].split(' ')[0]} {rng.choice('+-')} 1/8*({rng.choice(some)})"
+    found["A"] = rows
+    found = canonical_plant(found)
+    if discrete:
+        points: list[Any] = ["1/8", "1/4", "1/2", "3/4", 1, "4/3", 2, 4, 8]
+        return stable_in_ranges(found, cuts, points)
+    points = ["1/4", "1/2", "3/4", 1, "3/2", 2, 3, 4, 5, 6, 8]
+    if rng.random() < 0.5:
+        return stable_in_ranges(found, cuts, points, growth=[1, 1])
+    radii = programs("continuous", radii_of_first("1/50", "1/100"), {"input": {}})["controller"]
+    given = rng.choice((None, radii))
+    return stable_in_ranges(found, cuts, points, LOOP, growth=[2, 2, 2], gain_radii=given)
+
+
+def canonical_plant(found: Document) -> Document:
+    """The plant of a file, as certificates have it."""
+    text = json.dumps({"format": "mcexact-system/1", **found})
+    plant: Document = plant_of_file(text.encode(), Limits())
+    return plant
 
 
 def drawn_stable(rng: random.Random, time: str) -> Document:

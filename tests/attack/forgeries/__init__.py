@@ -45,6 +45,7 @@ FORGERS = {
     "fixed_spectrum": modes.SPECTRUM,
     "parametric_box_controllable": ranges.RANGED,
     "parametric_box_fixed": ranges.RANGED,
+    "parametric_box_stable": ranges.STABLE,
     "parametric_fixed_spectrum": (*parametric.PARAMETRIC, parametric_traps.trap_about_modes),
     "parametric_rank": (*parametric_rank.RANKS, parametric_traps.trap_about_ranks),
     "pencil_rank": modes.PENCIL,

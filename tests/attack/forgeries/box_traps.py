@@ -6,6 +6,7 @@ from tests.checker.box_maker import stable
 from tests.checker.box_plants import GAIN_RADII, LOOP_STABLE, STABLE, gains, uncertain
 from tests.checker.handmade import certificate, changed, plant, ranged
 from tests.checker.parameter_plants import fixed
+from tests.checker.parameter_plants import stable as stable_in_ranges
 
 from ..draws.plants import Document
 
@@ -21,6 +22,11 @@ TURNED = ranged([[1]], ([["t^2 - 1/2"]], [[1]]), t=(0, "1/2"))
 """The mode 1 is fixed at the square root of 1/2, between 1/2 and 1."""
 RECIPROCAL = ranged([[1]], ([["(t - 3)/(t)"]], [[1]]), t=(1, 1))
 """The mode 1 is fixed at t = 3."""
+
+SPIRAL = ranged([["t - 1", -8], [8, "t - 1"]], ([[1], [0]], [[1, 0]]), t=(-2, 2))
+"""Eigenvalues t − 1 ± 8i."""
+CALM = ranged([["1/4*t - 2"]], ([[1]], [[1]]), t=(-1, 1))
+"""An eigenvalue that stays near −2."""
 
 
 def exact(rows: list[list[int]]) -> Document:
@@ -65,5 +71,12 @@ TRAPS: dict[str, Document] = {
     ),
     "a denominator that is 0 in the range": changed(
         fixed(RECIPROCAL, [None], [gains((4, 1))]), ("system.parameters.t.range", [-1, 3])
+    ),
+    "an eigenvalue that crosses at a value of a parameter": changed(
+        stable_in_ranges(CALM, [None], ["1/2", 1, 2, 4, 8], growth=[1]),
+        ("system.A.0.0", "4*t - 2"),
+    ),
+    "eigenvalues that cross beyond the last point at a value": stable_in_ranges(
+        SPIRAL, [None], ["1/2"], growth=[1, 1]
     ),
 }

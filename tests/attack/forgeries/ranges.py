@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import random
+from collections.abc import Callable
 from fractions import Fraction
 
 from mcexact.checker.boxes import Box
@@ -11,8 +12,10 @@ from tests.checker.box_maker import in_cells
 
 from ..draws.boxes import beside_failure, proof_in_cells, vanishing
 from ..draws.plants import Document, number
+from . import boxes
 
 Forged = Document | None
+Forger = Callable[[random.Random, Document], Forged]
 QUARTERS = (0, 0, None, None, 0, None, None)
 """The cuts of a cell into four."""
 
@@ -94,4 +97,61 @@ def failing_once(rng: random.Random, document: Document) -> Forged:
     return in_cells(system, kind, claim, cuts, made_or_taken, *steps)
 
 
-RANGED = (failing_once, range_grown, entry_steeper, cells_left_out, cell_weakened, bound_moved)
+def entry_crossing(rng: random.Random, document: Document) -> Forged:
+    """A state decays at the middle of a range, and grows at one of its ends."""
+    name = rng.choice(sorted(document["system"]["parameters"]))
+    low, high = map(Fraction, document["system"]["parameters"][name]["range"])
+    A = document["system"]["A"]
+    k = rng.randrange(len(A))
+    decay, steep = rng.choice((1, 2)), rng.choice((-40, 12, 40))
+    last = -decay - steep * (low + high) / 2
+    A[k][k] = (
+        f"{steep}*{name} {'-' if last < 0 else '+'} {abs(last)}" if last else f"{steep}*{name}"
+    )
+    return document
+
+
+def growing_once(rng: random.Random, document: Document) -> Forged:
+    """A state decays but at one value, near which it may grow a little."""
+    name = rng.choice(sorted(document["system"]["parameters"]))
+    low, high = map(Fraction, document["system"]["parameters"][name]["range"])
+    where = low + (high - low) * Fraction(rng.randint(1, 99), 100)
+    steep, most = rng.choice((1, 4, 40)), rng.choice((0, Fraction(1, 10**6)))
+    last = most - steep * where**2
+    A = document["system"]["A"]
+    k = rng.randrange(len(A))
+    square = f"-{steep}*{name}^2" if steep > 1 else f"-{name}^2"
+    A[k] = [0] * len(A)
+    A[k][k] = f"{square} + {2 * steep * where}*{name} {'-' if last < 0 else '+'} {abs(last)}"
+    return document
+
+
+def of_a_part(forger: Forger) -> Forger:
+    """A forgery of the evidence about one cell, as of a box."""
+
+    def forged(rng: random.Random, document: Document) -> Forged:
+        part = rng.choice(document["witness"]["parts"])
+        return document if forger(rng, {**document, "witness": part}) else None
+
+    return forged
+
+
+ANY = (range_grown, entry_steeper, cells_left_out, bound_moved)
+RANGED = (failing_once, *ANY, cell_weakened)
+STABLE = (
+    *ANY,
+    entry_crossing,
+    growing_once,
+    boxes.gain_radii_grown,
+    *map(
+        of_a_part,
+        (
+            boxes.matrix_cleared,
+            boxes.weights_changed,
+            boxes.weights_scaled,
+            boxes.leaves_exchanged,
+            boxes.border_cut_off,
+            boxes.gap_between_points,
+        ),
+    ),
+)

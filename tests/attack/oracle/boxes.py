@@ -115,11 +115,12 @@ def written(M: fmpq_mat) -> Any:
     return [[int(v.p) if v.q == 1 else str(v) for v in row] for row in M.tolist()]
 
 
-def members_in_ranges(document: Mapping[str, Any]) -> Iterator[System]:
+def members_in_ranges(document: Mapping[str, Any], gain_radii: Any = None) -> Iterator[System]:
     """The subjects at some values within the ranges of parameters."""
     plant, steps = read_several(document["system"]), listed(document["subject"])
     for values in plant.points():
-        yield built(plant.at(values), steps)
+        for parts in [*shares()][: 1 if gain_radii is None else None]:
+            yield with_gains(plant.at(values), steps, gain_radii, parts)
 
 
 def fixed(claim: Any, document: Mapping[str, Any], system: System) -> bool:
@@ -165,9 +166,16 @@ def _all_controlled(claim: Any, systems: Iterator[System], system: System) -> bo
 
 def stable(claim: Any, document: Mapping[str, Any], system: System) -> bool:
     """Every eigenvalue of every member lies in the region."""
-    found = record(claim, "bound", "gain_radii")
-    bound = bound_of(found["bound"], system.time)
-    return all(
-        inside(each.A.charpoly(), system.time, bound)
-        for each in members(document, found["gain_radii"])
-    )
+    radii = record(claim, "bound", "gain_radii")["gain_radii"]
+    return _all_inside(claim, members(document, radii), system.time)
+
+
+def stable_in_ranges(claim: Any, document: Mapping[str, Any], system: System) -> bool:
+    """At all values every eigenvalue lies in the region."""
+    radii = record(claim, "bound", "gain_radii")["gain_radii"]
+    return _all_inside(claim, members_in_ranges(document, radii), system.time)
+
+
+def _all_inside(claim: Any, systems: Iterator[System], time: str) -> bool:
+    bound = bound_of(claim["bound"], time)
+    return all(inside(each.A.charpoly(), time, bound) for each in systems)

@@ -28,10 +28,13 @@ def subject_of(document: Mapping[str, Any], most: int | None = None) -> Any:
     """
     if is_ranged(document):
         several = read_several(document["system"])
-        steps = listed(document["subject"])[:most]
-        for step in steps:
+        whole = listed(document["subject"])
+        for k, step in enumerate(whole):
             demand(isinstance(step, Mapping), "expected a construction")
-            demand(step.get("construction") in MOVING, "expected one that moves entries")
+            last = document["kind"] == "parametric_box_stable" and k == len(whole) - 1
+            known = step.get("construction") in (*MOVING, *["closed_loop"] * last)
+            demand(known, "expected one that moves entries, or at last a closed loop")
+        steps = whole[:most]
         return built(several.at(next(several.points())), steps)
     if isinstance(document["system"], Mapping) and "parameters" in document["system"]:
         plant = read_parametric(document["system"])

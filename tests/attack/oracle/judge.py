@@ -31,6 +31,7 @@ KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
     "neighbor_graph": structure.neighbor_graph,
     "parametric_box_controllable": ranges.controllable_in_ranges,
     "parametric_box_fixed": ranges.fixed_in_ranges,
+    "parametric_box_stable": ranges.stable_in_ranges,
     "parametric_fixed_spectrum": parametric.spectrum,
     "parametric_rank": parametric_rank.rank,
     "pencil_rank": fixed.rank_of_pencil,

@@ -9,7 +9,8 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import reduce
+from functools import partial, reduce
+from itertools import repeat
 from typing import Any
 
 from flint import acb, acb_poly, fmpq, fmpq_poly
@@ -22,9 +23,12 @@ from .one_parameter import (
     RING,
     SEED,
     ParametricPlant,
+    characteristic,
     common_roots,
     drawn_polynomials,
+    in_lowest_terms,
     in_t,
+    interpolated,
     line_through,
     meets,
     real_roots_within,
@@ -33,7 +37,7 @@ from .one_parameter import (
 )
 from .reading import listed, positions, record
 from .roots import decided, inside
-from .several_parameters import read_several
+from .several_parameters import SeveralParameters, read_several
 from .systems import System
 
 InX = list[fmpq_poly]
@@ -62,6 +66,57 @@ def controllable_in_ranges(claim: Any, document: Mapping[str, Any], system: Syst
         return False
     T = positions(record(claim, "channels", "bound")["channels"], system.names)
     return all(none_fixed(driven(line, T), claim["bound"]) for line in lines(document))
+
+
+def stable_in_ranges(claim: Any, document: Mapping[str, Any], system: System) -> bool:
+    """At no values has the loop an eigenvalue outside of the region, with some gains as well."""
+    if not boxes.stable_in_ranges(claim, document, system):
+        return False
+    plant, steps, radii = read_several(document["system"]), document["subject"], claim["gain_radii"]
+    bound = bound_of(claim["bound"], system.time)
+    for k, others in plant.lines():
+        line = line_through(plant, k, others)
+        if any(meets(delta, line.range) for delta in line.denominators):
+            return False
+        for share in (0,) if radii is None else (0, 1, -1):
+            made = partial(with_share, fmpq(share), steps, radii)
+            loop = loop_along(plant, k, others, line, made)
+            if not stays_inside(characteristic(loop, []), loop, bound):
+                return False
+    return True
+
+
+def with_share(share: fmpq, steps: Sequence[Any], radii: Any, at: System) -> System:
+    """The loop of a plant with all gains moved by the same part of their radii."""
+    return boxes.with_gains(at, steps, radii, repeat(share))
+
+
+def loop_along(
+    plant: SeveralParameters,
+    k: int,
+    others: tuple[fmpq, ...],
+    line: ParametricPlant,
+    made: Callable[[System], System],
+) -> ParametricPlant:
+    """The matrix of a loop as a function of one parameter, from its values.
+
+    It is a sum of products of at most one entry of A, or of one of B and one of C.
+    """
+    delta, tops = reduce(lambda p, q: p * q, line.denominators), line.tables
+    degree = max((top.degree() for rows, _, _ in tops for row in rows for top, _ in row), default=0)
+    points = [fmpq(t) for t in range(10**4) if delta(fmpq(t)) != 0][
+        : 2 * max(degree, 0) + delta.degree() + 1
+    ]
+    loops = [made(plant.at((*others[:k], t, *others[k:]))).A for t in points]
+    N = loops[0].nrows()
+    rows = []
+    for i in range(N):
+        row = []
+        for j in range(N):
+            values = [delta(t) * M[i, j] for t, M in zip(points, loops, strict=True)]
+            row.append(in_lowest_terms(interpolated(points, values), delta))
+        rows.append(row)
+    return replace(line, names=(), tables=((rows, N, N),))
 
 
 def driven(plant: ParametricPlant, T: Sequence[int]) -> ParametricPlant:

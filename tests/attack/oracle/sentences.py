@@ -265,13 +265,13 @@ def _box_controllable(claim: Any, system: System, members: str = MEMBERS) -> str
     return f"{members}, the channels {named} together control every mode{beyond}"
 
 
-def _box_stable(claim: Any, system: System) -> str:
+def _box_stable(claim: Any, system: System, members: str = MEMBERS) -> str:
     gains, radii = "", claim["gain_radii"]
     if radii is not None:
         within = "for all gains of the controller within the radii with"
         gains = f", and {within} {digested(radii)}"
     region = _region(claim["bound"], system.time)
-    return f"{MEMBERS}{gains}, every eigenvalue of A has {region}"
+    return f"{members}{gains}, every eigenvalue of A has {region}"
 
 
 def _transfer_graph(claim: Any, system: System) -> str:
@@ -310,6 +310,7 @@ SENTENCES: dict[str, Any] = {
     "parametric_box_fixed": lambda claim, system, values: (
         f"{values}, there is {_freedom(claim['bound'], system.time)}"
     ),
+    "parametric_box_stable": _box_stable,
     "parametric_fixed_spectrum": parametric_sentence,
     "parametric_rank": rank_sentence,
     "pencil_rank": _pencil_rank,
