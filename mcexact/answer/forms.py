@@ -121,6 +121,19 @@ def _scope(counted: tuple[str, Fraction | None, bool]) -> str:
     return f"{which} is fixed" + (" and the whole spectrum can be assigned" if free else "")
 
 
+def _sides(sides: tuple[Sequence[str], Sequence[str]]) -> str:
+    """Write which channels do not control some modes, and which others do not observe them."""
+    verbs = [verb for verb, names in zip(("control", "observe"), sides, strict=True) if names]
+    if len(verbs) == 1:
+        return f"all channels together do not {verbs[0]}"
+    do = _agreeing("does", "do")
+    told = [
+        f"{channels(names)} {do(names)} not {verb}"
+        for names, verb in zip(sides, verbs, strict=True)
+    ]
+    return " and ".join(told)
+
+
 def _carried(sent: tuple[str, Sequence[int] | None]) -> str:
     """Write which signals a link carries, with the dimensions of shared states."""
     share, sizes = sent
@@ -223,6 +236,7 @@ FORMS: dict[str, Write] = {
     "instant": choice(none="", delays=", if messages took no time"),
     "slow": _agreeing("it is not fast enough", "not all of them are fast enough"),
     "do": _agreeing("does", "do"),
+    "sides": _sides,
     "roots": _roots,
     "blocks": _blocks,
     "components": _components,

@@ -11,6 +11,7 @@ import click
 from mcexact.cli import aiming, options
 
 if TYPE_CHECKING:
+    from mcexact.answer.protocol import Answer
     from mcexact.exact.rational import Limits
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.text import Table
@@ -121,7 +122,18 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         click.echo(f"mcexact: {done['impossible']}", err=True)
     checked.require_complete()
     if not possible:
-        raise Impossible(done["impossible"])
+        raise Impossible(f"{done['impossible']}{done['advice']}")
+
+
+def _advice(name: str, file: str, proof: Answer, system: MultiChannelSystem) -> str:
+    """What to ask where agents that share nothing have no controller, and all together may."""
+    from mcexact.answer.fixed_spectrum import FixedSpectrum
+
+    if name != "decentralized" or not isinstance(proof, FixedSpectrum):
+        return ""
+    if all(len(factor.channels) in (0, system.m) for factor in proof.factors):
+        return ""
+    return f"; `mcexact allocate {file} --links` says whether links between agents change this"
 
 
 def _designed(
@@ -180,6 +192,7 @@ def _designed(
         account = Account({proof.kind: proof}, Given(system), said)
         return told(account, system_by_digest) | {
             "impossible": str(refused),
+            "advice": _advice(name, plant[0], proof, system),
             "json": account.as_json(design=name, possible=False, reason=reason),
         }
     _require_readable(found, Limits(**limits))

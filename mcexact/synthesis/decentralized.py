@@ -84,7 +84,7 @@ def design_decentralized(
     Traceback (most recent call last):
         ...
     mcexact.errors.Impossible: no linear time-invariant decentralized control moves the mode 1, \
-fixed by s = {1}, and it is not fast enough
+which channel 2 does not control and channel 1 does not observe, and it is not fast enough
     """
     InputError.require(system, MultiChannelSystem, "system")
     given = system, agent, spectrum, rate, radius, arithmetic, progress

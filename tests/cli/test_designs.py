@@ -112,6 +112,20 @@ def test_the_theorem_is_asked_for_by_no_effort(plant: str) -> None:
     assert "the largest gain" in told["assessment"]["verdict"]
 
 
+def test_a_refusal_names_the_channels_and_the_command_that_goes_on(tmp_path: Path) -> None:
+    done = run("design", "decentralized", "gallery:liu2020-3ch-no-communication")
+    assert done.status == 1
+    why = "which channel 1 does not control and channels 2 and 3 do not observe"
+    assert why in done.messages[-1] and "`mcexact allocate gallery:" in done.messages[-1]
+    path = tmp_path / "unseen.json"
+    for row, told in (([[[1], [1]]], "observe"), ([[[0], [0]]], "control")):
+        C = [[[0, 0]]] if told == "observe" else [[[1, 1]]]
+        save_system(MultiChannelSystem([[1, 0], [0, 2]], row, C), path)
+        [line] = run("design", "decentralized", str(path)).messages
+        # No link helps where all channels together do not move the mode.
+        assert f"all channels together do not {told}" in line and "allocate" not in line
+
+
 def test_what_is_out_of_reach_ends_with_the_diagnosis(tmp_path: Path) -> None:
     path = tmp_path / "plant.json"
     save_system(MultiChannelSystem([[1, 0], [0, -1]], [[[1], ["1e-7"]]], [[[1, 1]]]), path)

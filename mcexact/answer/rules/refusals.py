@@ -68,7 +68,9 @@ def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
     for factor in fixed_spectrum.factors:
         p = factor.polynomial
         if not given.region.contains_roots_of(p):
-            yield given.told(p=p, s=factor.channels, sizes=sizes, region=given.region)
+            others = [name for name in given.names if name not in factor.channels]
+            sides = others, factor.channels
+            yield given.told(p=p, sides=sides, sizes=sizes, region=given.region)
             return
 
 

@@ -46,7 +46,7 @@ ERRORS_FIXED = Template(
     "error system for these F_i, {p:escape} {region:region}",
     "evidence.shrunk_subspace_fixed_dynamic",
 )
-_FIXED_MODES = " control moves {p:modes}, fixed by s = {s:set}, and {p:slow}"
+_FIXED_MODES = " control moves {p:modes}, which {sides:sides}, and {p:slow}"
 FIXED = Template(
     "refused-fixed",
     "no linear time-invariant decentralized" + _FIXED_MODES,
