@@ -63,7 +63,8 @@ def one_message(error: BaseException) -> str:
 
 def _option(question: re.Match[str]) -> str:
     """The option that asks a question."""
-    return f"--{QUESTIONS[question[1]].option}"
+    option = QUESTIONS[question[1]].option
+    return f"--{option}" if option else f"--also {question[1]}"
 
 
 def _described(error: BaseException) -> str:

@@ -123,6 +123,8 @@ def test_analyze_searches_the_largest_uncertainty(plant: str) -> None:
     assert status == 2 and "leave out --uncertainty" in err
     status, _, err = call("analyze", plant, "--effort", "1")
     assert status == 2 and "--effort is for --largest-uncertainty" in err
+    status, _, err = call("analyze", plant, "--also", "box_setpoints")
+    assert status == 2 and "--also box_setpoints is about every plant within the radii" in err
 
 
 def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> None:
