@@ -31,7 +31,8 @@ def changes(name: str, what: str) -> Callable[[options.F], options.F]:
 @click.option(
     "--initial",
     metavar="NUMBERS",
-    help="Initial state of the plant, such as 1,0,-1/2; all ones by default. Agents start at 0.",
+    help="Initial state of the plant, such as 1,0,-1/2, or one number for all states, such as 0; "
+    "all ones by default. Agents start at 0.",
 )
 @click.option(
     "--horizon",
@@ -165,6 +166,8 @@ def _simulated(
     system = system_in(*plant, limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
+    if wanted["initial"] is not None and len(wanted["initial"]) == 1:
+        wanted = wanted | {"initial": wanted["initial"] * system.n}
     done = simulated_loop(system, controller, **wanted)
     report = SimulationReport(done, fractions)
     account = Account({}, Given(system), Sentences([]))
