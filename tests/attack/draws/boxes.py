@@ -172,6 +172,8 @@ def proof_in_cells(
 
 def drawn_stable_in_ranges(rng: random.Random) -> Document:
     """About a stable plant some of whose entries have a parameter, or about a loop with it."""
+    if rng.random() < 0.3:
+        return beside_crossing(rng)
     found, cuts = with_parameters(rng)
     some = ENTRIES[min(found["parameters"])]
     discrete = found["time"] == "discrete"
@@ -190,6 +192,28 @@ def drawn_stable_in_ranges(rng: random.Random) -> Document:
     radii = programs("continuous", radii_of_first("1/50", "1/100"), {"input": {}})["controller"]
     given = rng.choice((None, radii))
     return stable_in_ranges(found, cuts, points, LOOP, growth=[2, 2, 2], gain_radii=given)
+
+
+def beside_crossing(rng: random.Random, crosses: Fraction | None = None) -> Document:
+    """About a plant one of whose eigenvalues is at the border for one value of its parameter.
+
+    By default the value is beyond the last one; otherwise the evidence is wrong where it is.  Cells
+    and segments are the smaller the nearer they are to it.
+    """
+    time, times = rng.choice(("continuous", "discrete")), rng.choice((1, 2, 4, 8))
+    power = rng.choice((1, 2))
+    value = 1 + Fraction(power, 4 * 2**times) if crosses is None else crosses
+    border = value - (time == "discrete")
+    coupled = number(rng.choice(SMALL))
+    A = table([["0", 0], [coupled, number(Fraction(-1, 4))]], 2)
+    found = plant(A, ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]]), time=time)
+    found = in_ranges(found, t=("3/4", 1))
+    found["A"][0][0] = vanishing("t", border, power)
+    near = [number(Fraction(1, 2**k)) for k in range(times + 5, -1, -1)]
+    points, growth = (
+        ([*near, "3/2", 2], [1, 1]) if time == "continuous" else ([*near, 2, 4, 8], None)
+    )
+    return stable_in_ranges(found, [*[0, None] * times, None], points, growth=growth)
 
 
 def canonical_plant(found: Document) -> Document:

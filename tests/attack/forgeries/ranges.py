@@ -10,7 +10,7 @@ from fractions import Fraction
 from mcexact.checker.boxes import Box
 from tests.checker.box_maker import in_cells
 
-from ..draws.boxes import beside_failure, proof_in_cells, vanishing
+from ..draws.boxes import beside_crossing, beside_failure, proof_in_cells, vanishing
 from ..draws.plants import Document, number
 from . import boxes
 
@@ -126,6 +126,12 @@ def growing_once(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def crossing_once(rng: random.Random, document: Document) -> Forged:
+    """An eigenvalue reaches the border at one value, or by a millionth not."""
+    last = rng.choice((Fraction(1), Fraction(rng.randint(75, 100), 100)))
+    return beside_crossing(rng, last + rng.choice((-1, 0, 0, 1)) * Fraction(1, 10**6))
+
+
 def of_a_part(forger: Forger) -> Forger:
     """A forgery of the evidence about one cell, as of a box."""
 
@@ -141,6 +147,7 @@ RANGED = (failing_once, *ANY, cell_weakened)
 STABLE = (
     *ANY,
     entry_crossing,
+    crossing_once,
     growing_once,
     boxes.gain_radii_grown,
     *map(
