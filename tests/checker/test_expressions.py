@@ -79,6 +79,8 @@ TEXTS: dict[Any, Any] = {
     "٣*t": None,
     "(" * 49 + "t" + ")" * 49: "t",
     "(" * 50 + "t" + ")" * 50: None,
+    "(t) - (t) + " + "(" * 49 + "t" + ")" * 49: "t",
+    "(t) - (t) + " + "(" * 50 + "t" + ")" * 50: None,
     "t" + " " * LONGEST: None,
     None: None,
     True: None,

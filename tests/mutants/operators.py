@@ -52,8 +52,9 @@ COSTS = {"longest", "turn", "turns", "units"}
 TOLD = {"message"}
 """The name that only messages for a human have."""
 
-GUARDS = {"frozen", "strict"}
-"""The arguments by which the checker watches over itself; no document makes a difference."""
+GUARDS = {"abstractmethod", "frozen", "strict"}
+"""The arguments, and the decorator, by which the checker watches over itself; no document makes a
+difference."""
 
 SQUARE = {
     "absence", "characteristic_polynomial", "closed_loop_spectrum", "exceptional_gains",
@@ -198,6 +199,8 @@ def outside(source: str) -> list[Span]:
             parts = [node.annotation]
         elif isinstance(node, ast.FunctionDef):
             parts = [node if node.name in ESTIMATES else node.returns]
+            guards = [d for d in node.decorator_list if getattr(d, "id", "") in GUARDS]
+            spans += [((each.lineno, 0), (each.lineno + 1, 0)) for each in guards]
         elif isinstance(node, ast.Expr | ast.Assign | ast.AugAssign):
             right = node.value if isinstance(node, ast.Assign) else None
             values = right.elts if isinstance(right, ast.Tuple) else [node]
