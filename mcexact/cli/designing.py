@@ -44,7 +44,8 @@ def design_options(
             default=True,
             show_default=True,
             help="Search a part by which all entries of the plant may differ while every loop is "
-            "stable, or prove it for the uncertainty of FILE; large loops are left out.",
+            "stable, or prove it for the uncertainty of FILE, with the work of --effort or of five "
+            "seconds; loops with more than 160 states, inputs and outputs are left out.",
         ),
         options.controller_output,
         options.page("figures of the loop and all certificates"),
@@ -196,7 +197,9 @@ def _designed(
             "json": account.as_json(design=name, possible=False, reason=reason),
         }
     _require_readable(found, Limits(**limits))
-    around = found.every_loop() if with_box and found.stable else None
+    around = None
+    if with_box and found.stable:
+        around = found.every_loop(**({"effort": aims.effort} if aims.effort else {}))
     account, assessment = found.account_with(around), assess(found, aims, around)
     figures = measured(
         found.measures(), assessment.rows(), account.sentences, found.region.discrete

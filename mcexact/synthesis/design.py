@@ -109,8 +109,13 @@ class Design(ShownByAccount):
         """The certificates, with the sentences that follow from them."""
         return self.account_with(None)
 
-    def every_loop(self) -> EveryLoop:
+    def every_loop(self, effort: float = 5.0) -> EveryLoop:
         """Search a proof for all loops in a box around the plant, and a plant whose loop fails.
+
+        Parameters
+        ----------
+        effort : float
+            About the seconds that the search of a proof may take.
 
         Returns
         -------
@@ -120,7 +125,7 @@ class Design(ShownByAccount):
         """
         from mcexact.synthesis.every_loop import every_loop
 
-        return every_loop(self.loop.closed, self.region)
+        return every_loop(self.loop.closed, self.region, effort)
 
     def account_with(self, around: EveryLoop | None) -> Account:
         """The same certificates, and the one about all loops in a box, if there is one."""

@@ -14,6 +14,7 @@ from mcexact.analysis.boxes.largest_loop_box import failing_loop, refuted_loop
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.two_sided import short
 from mcexact.answer.box_stable import BoxStability
+from mcexact.arguments import require_seconds
 from mcexact.errors import LimitReached
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import written
@@ -27,12 +28,17 @@ if TYPE_CHECKING:
 
 SIX_DIGITS = Fraction(1, 100_000)
 """By so large a part rounding to six significant digits, up or down, changes a number at most."""
-_PARTS = (0.9, 0.6, 0.3, 0.1)
-"""Parts of what seems to be the largest box that are tried."""
+_PARTS, _SURE = (0.9, 0.6, 0.3, 0.1), (0.3, 0.1)
+"""Parts of what seems to be the largest box that are tried, and those that are with little work."""
 _POINTS = 2
 _MOST_SIGNALS, _MOST_SEGMENTS, _USUAL = 160, 600, 30
-"""Loops with more states, outputs and inputs are left out; one of the usual number of them is tried
-with so many parts of the border, larger ones with fewer."""
+"""Loops with more states, outputs and inputs are left out; for each box at most so many parts of
+the border are tried."""
+_PER_SECOND = 170
+"""How many parts of the border of a loop with the usual number of signals are tried in a second."""
+_LITTLE = 300
+"""With fewer parts of the border than these, only the boxes that likely have a proof are tried."""
+_ASK = "; `mcexact certify --uncertainty 0.1%` asks about one box with more work"
 
 
 @dataclass(frozen=True, repr=False)
@@ -111,7 +117,43 @@ class EveryLoop(Shown):
         }
 
 
-def every_loop(loop: ClosedLoop, region: StabilityRegion) -> EveryLoop:
+@dataclass
+class _Work:
+    """How many parts of the border may still be tried, of each box and of all.
+
+    Attributes
+    ----------
+    each, left : int
+    parts : tuple of float
+        The parts of what seems to be the largest box that are tried.
+    """
+
+    each: int
+    left: int
+    parts: tuple[float, ...]
+
+    @classmethod
+    def of(cls, effort: float, size: int) -> _Work:
+        """So many seconds of work about a loop with so many signals."""
+        total = int(min(effort * _PER_SECOND * (_USUAL / max(size, 1)) ** 2, 1e6))
+        if total < _LITTLE:
+            return cls(2 * total // 3, total, _SURE)
+        return cls(min(total // 3, _MOST_SEGMENTS), total, _PARTS)
+
+    def proof(
+        self, loop: ClosedLoop, region: StabilityRegion, gains: Fraction | None
+    ) -> BoxStability | None:
+        """A proof for the box of the plant, if it is found soon."""
+        if self.left < self.each or not self.each:
+            return None
+        radii = None if gains is None else gain_radii(loop.controller, gains)
+        search = StabilitySearch(loop, region, radii, self.each)
+        found = search.border(Fraction(1))
+        self.left -= search.tested
+        return found
+
+
+def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -> EveryLoop:
     """Search a proof for all loops in a box around one loop, and a plant whose loop fails.
 
     Parameters
@@ -122,6 +164,8 @@ def every_loop(loop: ClosedLoop, region: StabilityRegion) -> EveryLoop:
         stable.
     region : StabilityRegion
         Where the eigenvalues of the loop are.
+    effort : float
+        About the seconds that the search of a proof may take; its work is counted and not timed.
 
     Notes
     -----
@@ -141,12 +185,15 @@ def every_loop(loop: ClosedLoop, region: StabilityRegion) -> EveryLoop:
     whole = StabilityRegion(loop.given.time)
     if loop.given.subject:
         return EveryLoop(whole, None, None, None, "not tried, as the system is a derived one")
+    require_seconds(effort, "effort")
     ports = sum(loop.given.p(i) + loop.given.q(i) for i in range(loop.given.m))
     size = loop.matrix.nrows + ports
     if size > _MOST_SIGNALS:
-        return EveryLoop(whole, None, None, None, f"not tried, as the loop has {size} signals")
+        return EveryLoop(
+            whole, None, None, None, f"not tried, as the loop has {size} signals{_ASK}"
+        )
     try:
-        return _searched(loop, region, size)
+        return _searched(loop, region, _Work.of(effort, size))
     except LimitReached as reached:
         return EveryLoop(whole, None, None, None, f"not tried: {reached.message}")
 
@@ -183,7 +230,7 @@ def failing_plant(loop: ClosedLoop) -> FailingPlant | None:
         return _failing(StabilitySearch(loop, StabilityRegion(loop.given.time)))
 
 
-def _searched(loop: ClosedLoop, region: StabilityRegion, size: int) -> EveryLoop:
+def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLoop:
     """The same for a loop of a plant that is not too large."""
     whole, own = StabilityRegion(loop.given.time), loop.given.uncertainty is not None
     unit = loop.given if own else Box.relative(loop.given, 1).system
@@ -192,33 +239,26 @@ def _searched(loop: ClosedLoop, region: StabilityRegion, size: int) -> EveryLoop
         failing = _failing(search)
         if own:
             boxes = [(loop, each) for each in (StabilityRegion(whole.time, region.bound), whole)]
+            tried = [(*each, gains) for each in boxes for gains in (SIX_DIGITS, None)]
         else:
-            boxes = [(each, whole) for each in _smaller(search)]
-        for about, wanted in dict.fromkeys(boxes):
-            for gains in (SIX_DIGITS, None):
-                proof = _proof(about, wanted, gains, size)
-                if proof is not None:
-                    return EveryLoop(wanted, proof, gains, failing)
+            # A smaller box in which gains may be rounded is worth more than a larger one.
+            smaller = [*_smaller(search, work.parts)]
+            tried = [(each, whole, gains) for gains in (SIX_DIGITS, None) for each in smaller]
+        for about, wanted, gains in dict.fromkeys(tried):
+            proof = work.proof(about, wanted, gains)
+            if proof is not None:
+                return EveryLoop(wanted, proof, gains, failing)
     box = "every plant within the radii" if own else "any box"
-    return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
+    return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}{_ASK}")
 
 
-def _smaller(search: StabilitySearch) -> Iterator[ClosedLoop]:
+def _smaller(search: StabilitySearch, parts: tuple[float, ...]) -> Iterator[ClosedLoop]:
     """The loop with radii that are smaller and smaller parts of the entries."""
     largest = min((each for each, _ in search.margins()), default=0.0)
-    for times in _PARTS:
+    for times in parts:
         part = short(times * min(largest, 1e6))
         if part:
             yield replace(search.loop, given=Box(search.loop.given).scaled(part).system)
-
-
-def _proof(
-    loop: ClosedLoop, region: StabilityRegion, gains: Fraction | None, size: int
-) -> BoxStability | None:
-    """A proof for the box of the plant, if it is found soon."""
-    most = int(_MOST_SEGMENTS * min(1.0, (_USUAL / size) ** 2))
-    radii = None if gains is None else gain_radii(loop.controller, gains)
-    return StabilitySearch(loop, region, radii, most).border(Fraction(1))
 
 
 def _failing(search: StabilitySearch) -> FailingPlant | None:

@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact import Box, MultiChannelSystem, certify_controller, check, local_controllers
+from mcexact.errors import UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.synthesis.decentralized import design_decentralized
@@ -71,7 +72,19 @@ def test_large_loops_are_left_out() -> None:
     ones = [[1] for _ in range(n)]
     plant = MultiChannelSystem(rows, [ones], [rows])
     found = every_loop(closed_loop(plant, local_controllers(plant, [[[0] * n]])), WHOLE)
-    assert found.proof is None and found.reason == "not tried, as the loop has 163 signals"
+    told = "not tried, as the loop has 163 signals; `mcexact certify --uncertainty 0.1%` asks"
+    assert found.proof is None and found.reason.startswith(told)
+
+
+def test_little_work_proves_a_smaller_box_and_no_work_none() -> None:
+    large, small = every_loop(loop(), WHOLE), every_loop(loop(), WHOLE, effort=0.004)
+    assert large.part is not None and small.part is not None and small.part < large.part
+    assert small.failing is not None and small.gains == SIX_DIGITS
+    none = every_loop(loop(), WHOLE, effort=0)
+    assert none.proof is None and none.failing is not None
+    assert "asks about one box with more work" in none.reason
+    with pytest.raises(UsageError):
+        every_loop(loop(), WHOLE, effort=-1)
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])

@@ -52,11 +52,13 @@ class StabilitySearch:
     radii : Controller or None
         The radii of the gains, as a controller; None if they are certain.
     most : int
-        The parts of the border that are tried at most.
+        The parts of the border that are tried at most for one factor.
     spread : Radii, optional
         The radii of the plant, by default those of its box.
     tied : tuple of MultiChannelSystem
         What may be added to the plant, each with a factor from −1 to 1.
+    tested : int
+        How many were tried so far.
     """
 
     loop: ClosedLoop
@@ -65,6 +67,7 @@ class StabilitySearch:
     most: int = _MOST_SEGMENTS
     spread: Radii | None = None
     tied: tuple[MultiChannelSystem, ...] = ()
+    tested: int = 0
 
     def __post_init__(self) -> None:
         from scipy.linalg import matrix_balance
@@ -128,6 +131,7 @@ class StabilitySearch:
             segment, last = _interval(self.region.edge), far[0]
 
         def test(a: Fraction, b: Fraction) -> int | None:
+            self.tested += 1
             c, rho = segment(a, b)
             k = frames.one_for(c, rho)
             if k is not None:

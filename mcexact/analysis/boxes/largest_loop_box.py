@@ -94,7 +94,9 @@ def largest_loop_uncertainty(
 
 def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> StabilityVerdict | None:
     """The exact answer that the loop of a plant has an eigenvalue outside; None if it has none."""
-    found = certify_stability(replace(search.loop, given=plant).system, search.region)
+    loop = replace(search.loop, given=plant).system
+    # With an eigenvalue on the border only the polynomial decides.
+    found = certify_stability(loop, search.region, method="polynomial")
     return None if found.stable else found
 
 
