@@ -69,12 +69,14 @@ class LargestRanges(Shown):
             yield "proved for all values", "of no part of the ranges"
         else:
             ranges = ", ".join(self.proof.about.plant.parameters_in_words)
-            yield "proved for all values", f"{ranges} ({percent(self.lower)} of the ranges)"
+            part = f"{percent(self.lower)} of the ranges around their middle"
+            yield "proved for all values", f"{ranges} ({part})"
         if self.failing is None:
             yield "fails", "at no values that were found"
         else:
             at = values_in_words(tuple(self.failing), tuple(self.failing.values()))
-            yield "fails", f"at {at} ({percent(self.upper or Fraction(0), up=True)} of the ranges)"
+            near = f"within {percent(self.upper or Fraction(0), up=True)} of the ranges"
+            yield "fails", f"at {at}, {near if self.upper else 'the middle of the ranges'}"
 
     def explain(self) -> str:
         """Say in plain words where the property is proved, and where it fails."""

@@ -185,6 +185,7 @@ def test_ranges_that_are_proved_whole_or_not_at_all_are_told_so() -> None:
     assert none.lower == 0 and none.upper == 0 and none.proof is None
     assert none.to_dict()["ranges"] is None
     assert dict(none.rows())["proved for all values"] == "of no part of the ranges"
+    assert dict(none.rows())["fails"] == "at k = 1/2, the middle of the ranges"
 
 
 def test_values_at_which_an_entry_is_undefined_fail_nothing() -> None:
