@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import click
-from click.core import ParameterSource
 
 from mcexact.analysis.questions import QUESTIONS, asked_by
 from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
 from mcexact.cli.parameters import at_values
+from mcexact.model.properties import PROPERTIES, Property, question_about
 
 _LINES_OF_WORDS = 5
 _MODES = 6
@@ -65,19 +65,16 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     "systems. May be repeated.",
 )
 @options.uncertainty
-@click.option(
-    "--largest-uncertainty",
-    is_flag=True,
-    help="Search the largest part by which entries may differ such that no plant has a fixed mode, "
-    "and a plant near it that has one.",
+@options.largest_uncertainty(
+    "Search the largest part by which entries may differ such that every plant has a property, by "
+    "default no fixed mode, and a plant near it that lacks it."
 )
 @click.option(
-    "--effort",
-    type=options.seconds,
-    default=10.0,
+    "--property",
+    type=click.Choice([each.replace(" ", "-") for each in PROPERTIES.values()]),
+    default="no-fixed-mode",
     show_default=True,
-    metavar="SECONDS",
-    help="With --largest-uncertainty: about how long to search; the work is counted and not timed.",
+    help="With --largest-uncertainty: what every plant is to have, or to be.",
 )
 @at_values(
     "give a parameter a value",
@@ -101,9 +98,6 @@ def command(
     subset: str | None,
     channel: str | None,
     named: tuple[str, ...],
-    uncertainty: Fraction | None,
-    largest_uncertainty: bool,
-    effort: float,
     at: tuple[tuple[str, Fraction], ...],
     asserted: str | None,
     html: Path | None,
@@ -126,11 +120,8 @@ def command(
     from mcexact.cli.running import Run
     from mcexact.model.atomic import write_text
 
-    if largest_uncertainty and uncertainty is not None:
-        raise click.UsageError("--largest-uncertainty searches the part: leave out --uncertainty")
-    typed = click.get_current_context().get_parameter_source("effort")
-    if typed is ParameterSource.COMMANDLINE and not largest_uncertainty:
-        raise click.UsageError("--effort is for --largest-uncertainty: add this, or leave it out")
+    effort = options.effort_of_search(given, "property")
+    wanted = given.pop("property").replace("-", " ")
     run = Run(given)
     require_page(html, run.certificates, file)
     require_apart(html, run.certificates)
@@ -143,7 +134,7 @@ def command(
         also,
         {"information": information, "subset": _named(subset), "channel": channel},
         named,
-        (uncertainty, effort if largest_uncertainty else None),
+        (given.pop("uncertainty"), effort, wanted),
         dict(at),
         html is not None,
         latex,
@@ -188,7 +179,7 @@ def _answer(
     also: list[str],
     question: dict[str, Any],
     named: tuple[str, ...],
-    uncertain: tuple[Fraction | None, float | None],
+    uncertain: tuple[Fraction | None, float | None, Property],
     at: dict[str, Fraction],
     with_page: bool,
     with_latex: bool,
@@ -208,7 +199,7 @@ def _answer(
 
     given = plant_in(*plant, limits, at)
     if isinstance(given, ParametricSystem):
-        refused = question["information"] != "own" or question["subset"] or any(uncertain)
+        refused = question["information"] != "own" or question["subset"] or any(uncertain[:2])
         asked, channel = [*asked_by(*also), *named], question["channel"]
         return for_all_values(
             given, asked, channel, bool(refused), with_page, with_latex, system_by_digest
@@ -216,7 +207,7 @@ def _answer(
     system, largest = uncertainty.of(given, *uncertain)
     found = analyze(system, also=[*asked_by(*also), *named], **question)
     if largest is not None and largest.proof is not None:
-        found.know("box_fixed_modes", largest.proof)
+        found.know(question_about(uncertain[2]), largest.proof)
     account = found.account
     page = None
     if with_page:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.wording.design import EVERY_LOOP, EVERY_LOOP_PART
@@ -9,6 +10,7 @@ from mcexact.answer.wording.design import EVERY_LOOP, EVERY_LOOP_PART
 if TYPE_CHECKING:
     from mcexact.answer.account import Account
     from mcexact.model.loop import ClosedLoop
+    from mcexact.report.picture import EmbeddedPicture
     from mcexact.report.text import Table
     from mcexact.synthesis.assessment import Assessment
 
@@ -22,10 +24,12 @@ def assessed(
     loop: ClosedLoop,
     tables: tuple[Table, ...],
     with_page: bool,
+    pictures: tuple[EmbeddedPicture, ...] = (),
 ) -> dict[str, Any]:
     """Return the lines before the tables, the first of which is the verdict, and the page.
 
-    What is certified of all loops near this one follows the verdict.
+    What is certified of all loops near this one follows the verdict; ``pictures`` come first on the
+    page.
     """
     said = [found.verdict, *(each.line for each in account.sentences if each.template in ALL_LOOPS)]
     said += [f"warning: {each}" for each in found.warnings[1:]]
@@ -37,4 +41,5 @@ def assessed(
 
         curves = curves_of(loop, found.region)
         page = loop_page(account, found.install, said, tables, curves, loop.controller)
+        page = replace(page, pictures=(*pictures, *page.pictures))
     return {"said": said, "tables": tables, "page": page}

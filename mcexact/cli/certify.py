@@ -48,6 +48,10 @@ rounded_output = click.option(
     "how many digits are safe, whichever way they are rounded.",
 )
 @options.uncertainty
+@options.largest_uncertainty(
+    "Search the largest part by which entries of the plant may differ such that every loop meets "
+    "the rate or radius, or else is stable, and a plant near it whose loop does not."
+)
 @at_values(
     "give a parameter a value",
     "May be repeated; where parameters are left, the answer is about all values in their ranges.",
@@ -91,7 +95,7 @@ def command(file: str, controller: str, **given: Any) -> int:
     from mcexact.model.atomic import write_text
 
     run, weights, html = Run(given), given.pop("weights"), given.pop("html")
-    output = given.pop("output")
+    output, given["effort"] = given.pop("output"), options.effort_of_search(given)
     if output is not None and given["round_gains"] is None:
         raise click.UsageError("-o writes the rounded controller: give --round-gains, too")
     require_other(output, file, controller, weights)
@@ -146,6 +150,7 @@ def _certified(
     from mcexact.cli.files import plant_in
     from mcexact.cli.running import told
     from mcexact.errors import InputError
+    from mcexact.exact.location import StabilityRegion
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import controller_text, read_controller
     from mcexact.model.loop import closed_loop
@@ -161,22 +166,24 @@ def _certified(
     from mcexact.synthesis.loop_assessment import assessed_loop
     from mcexact.synthesis.optimum.loop_figures import rounded_controller
 
-    gains, at = wanted.pop("gains"), dict(wanted.pop("at"))
+    gains, effort, at = wanted.pop("gains"), wanted.pop("effort"), dict(wanted.pop("at"))
     typed_plant = plant_in(*plant, limits, at)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
     if isinstance(typed_plant, ParametricSystem):
-        given = wanted | {"weights": weights}
+        given = wanted | {"weights": weights, "effort": effort}
         return loops_in_ranges.certified(
             typed_plant, controller, gains, given, with_page, system_by_digest
         )
-    part = wanted.pop("uncertainty")
-    system, _ = uncertainty.of(typed_plant, part, None)
+    system, largest = uncertainty.of(typed_plant, wanted.pop("uncertainty"))
     with InputError.inside(program[0]):
         digits, notes, typed = wanted.pop("round_gains"), tuple[str, ...](), controller
         if digits is not None:
             controller = rounded_controller(controller, digits)
             notes = (f"the verdict is about the controller rounded to {count(digits, 'digit')}",)
+        if effort is not None:
+            asked = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
+            system, largest = uncertainty.of_loop(system, controller, asked, effort)
         found = certify_controller(system, controller, **wanted)
     outside = enclosed_outside(found)
     if outside is not None:
@@ -196,11 +203,12 @@ def _certified(
     if digits is not None:
         loops = loops.with_digits(uncertainty.digits_of(system, typed, found, digits))
     figures = Table(BASIS, (), tuple(assessment.rows()))
-    shown = (*loops.tables(), *tables(account.sentences), figures)
+    shown = (*uncertainty.tables(largest), *loops.tables(), *tables(account.sentences), figures)
+    drawn = uncertainty.pictures(largest) if with_page else ()
     bound = None if found.bound is None else str(found.bound)
     return (
-        told(account, system_by_digest and part is None)
-        | assessed(account, assessment, loop, shown, with_page)
+        told(account, system_by_digest and system is typed_plant)
+        | assessed(account, assessment, loop, shown, with_page, drawn)
         | {
             "json": account.as_json(
                 certified=found.stable,
@@ -214,6 +222,7 @@ def _certified(
                 rounded_to_digits=digits,
                 eigenvalue_outside=None if outside is None else outside.to_dict(),
                 **loops.view,
+                **uncertainty.view(largest),
                 assessment=assessment.to_dict(),
             ),
             "controller": controller_text(controller),

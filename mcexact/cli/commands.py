@@ -36,8 +36,8 @@ LAST = "Limits and help"
 GROUPS = {
     "Asked of the loop": (
         "rate", "radius", "damping", "largest_modulus", "spectrum", "largest", "round_gains",
-        "uncertainty", "gains", "method", "dimensions", "share", "network", "free_assignability",
-        "order", "agent", "arithmetic",
+        "uncertainty", "largest_uncertainty", "gains", "method", "dimensions", "share", "network",
+        "free_assignability", "order", "agent", "arithmetic",
     ),
     "Weights and limits of the search": (
         "weights", "margin", "largest_gain", "largest_order", "most_digits", "effort", "seeds",

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import click
+from click.core import ParameterSource
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -84,6 +85,46 @@ uncertainty = click.option(
     help="Also decide about every plant whose entries differ by at most this part of their moduli, "
     "such as 0.1% or 1/1000. It replaces the uncertainty that the file gives.",
 )
+
+
+def largest_uncertainty(searched: str) -> Callable[[F], F]:
+    """Return the options for a search of the largest radii, with what is searched in words."""
+    named = "largest_uncertainty"
+    largest = click.option("--largest-uncertainty", named, is_flag=True, help=searched)
+    effort = click.option(
+        "--effort",
+        type=seconds,
+        default=10.0,
+        show_default=True,
+        metavar="SECONDS",
+        help="With --largest-uncertainty: about how long to search; the work is counted and not "
+        "timed.",
+    )
+    return lambda function: largest(effort(function))
+
+
+def effort_of_search(given: dict[str, Any], *others: str) -> float | None:
+    """Take the options of a search of the largest radii: its effort; None if it is not asked for.
+
+    Parameters
+    ----------
+    given : dict
+        All options of the command by name.
+    others : str
+        Options that are for the search alone, too.
+    """
+    context, largest = click.get_current_context(), given.pop("largest_uncertainty")
+    if largest and given["uncertainty"] is not None:
+        raise click.UsageError("--largest-uncertainty searches the part: leave out --uncertainty")
+    for name in ("effort", *others):
+        typed = context.get_parameter_source(name) is ParameterSource.COMMANDLINE
+        if typed and not largest:
+            raise click.UsageError(
+                f"--{name} is for --largest-uncertainty: add this, or leave it out"
+            )
+    effort = float(given.pop("effort"))
+    return effort if largest else None
+
 
 arithmetic = click.option(
     "--arithmetic",

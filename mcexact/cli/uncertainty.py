@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from mcexact.model.properties import PROPERTIES
+from mcexact.model.properties import PROPERTIES, Property
 
 if TYPE_CHECKING:
     from mcexact.analysis.boxes.two_sided import LargestUncertainty
@@ -24,7 +24,10 @@ if TYPE_CHECKING:
 
 
 def of(
-    system: MultiChannelSystem, part: Fraction | None, effort: float | None
+    system: MultiChannelSystem,
+    part: Fraction | None,
+    effort: float | None = None,
+    wanted: Property = "no fixed mode",
 ) -> tuple[MultiChannelSystem, LargestUncertainty | None]:
     """The system with the radii that are asked for, and the search for the largest ones.
 
@@ -35,15 +38,33 @@ def of(
         The part of the moduli of entries that the radii are.
     effort : float or None
         The seconds for the search; None if it is not asked for.
+    wanted : str
+        What every plant is to have, or to be.
     """
     from mcexact.model.box import Box
 
     if effort is not None:
         from mcexact.analysis.boxes.largest_box import largest_uncertainty
 
-        found = largest_uncertainty(system, effort=effort)
-        return (system if found.proof is None else found.proof.about.plant), found
+        found = largest_uncertainty(system, wanted, effort=effort)
+        return _within(system, found), found
     return (system if part is None else Box.relative(system, part).system), None
+
+
+def of_loop(
+    system: MultiChannelSystem, controller: Controller, region: StabilityRegion, effort: float
+) -> tuple[MultiChannelSystem, LargestUncertainty]:
+    """The system with the largest radii within which every loop is in a region, and the search."""
+    from mcexact.analysis.boxes.largest_loop_box import largest_loop_uncertainty
+
+    given: dict[str, Any] = {region.word: region.bound}
+    found = largest_loop_uncertainty(system, controller, effort=effort, **given)
+    return _within(system, found), found
+
+
+def _within(system: MultiChannelSystem, found: LargestUncertainty) -> MultiChannelSystem:
+    """The system with the radii that were found with a proof, if any were."""
+    return system if found.proof is None else found.proof.about.plant
 
 
 def leading(account: Account, found: LargestUncertainty | None) -> tuple[str, ...]:

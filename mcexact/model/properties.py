@@ -13,3 +13,14 @@ PROPERTIES: dict[str, Property] = {
     "box_observability": "observable",
 }
 """What every plant within the radii is, or has, where these questions are answered by yes."""
+
+
+def question_about(wanted: Property) -> str:
+    """The question whether every plant within the radii has a property.
+
+    Examples
+    --------
+    >>> question_about("stabilizable")
+    'box_stabilizability'
+    """
+    return next(question for question, each in PROPERTIES.items() if each == wanted)

@@ -117,6 +117,18 @@ def design() -> Schema:
     }
 
 
+_LARGEST = record(
+    {
+        "property": TEXT,
+        "relative": YES,
+        "lower": NUMBER,
+        "upper": some(TEXT),
+        "failing": some({"type": "object"}),
+        "channels": some(rows(TEXT)),
+    }
+)
+
+
 def certify() -> Schema:
     """The JSON of `mcexact certify`."""
     return _account(
@@ -135,6 +147,7 @@ def certify() -> Schema:
         },
         {
             "every_loop": EVERY_LOOP,
+            "largest_uncertainty": _LARGEST,
             "safe_digits": record({"safe": some(WHOLE), "too_few": some(WHOLE)}),
         },
     )
@@ -170,19 +183,9 @@ _QUESTION = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, 
 
 def analyze() -> Schema:
     """The JSON of `mcexact analyze`."""
-    largest = record(
-        {
-            "property": TEXT,
-            "relative": YES,
-            "lower": NUMBER,
-            "upper": some(TEXT),
-            "failing": some({"type": "object"}),
-            "channels": some(rows(TEXT)),
-        }
-    )
     return _account(
         {"information": {"enum": ["own", "outputs"]}, "questions": rows(_QUESTION)},
-        {"largest_uncertainty": largest},
+        {"largest_uncertainty": _LARGEST},
     )
 
 

@@ -127,6 +127,39 @@ def test_analyze_searches_the_largest_uncertainty(plant: str) -> None:
     assert status == 2 and "--also box_setpoints is about every plant within the radii" in err
 
 
+@pytest.mark.parametrize(
+    ("wanted", "question"),
+    [("stabilizable", "box_stabilizability"), ("observable", "box_observability")],
+)
+def test_analyze_searches_the_largest_uncertainty_of_a_property(
+    plant: str, wanted: str, question: str
+) -> None:
+    search = ("--largest-uncertainty", "--effort", "1", "--property", wanted)
+    status, out, _ = call("analyze", plant, *search, "--json")
+    found = json.loads(out)
+    assert status == 0 and found["largest_uncertainty"]["property"] == wanted
+    assert not faults("analyze", found) and question in found
+    status, _, err = call("analyze", plant, "--property", wanted)
+    assert status == 2 and "--property is for --largest-uncertainty" in err
+
+
+def test_certify_searches_the_largest_uncertainty(plant: str, gains: str, tmp_path: Path) -> None:
+    search = ("certify", plant, gains, "--largest-uncertainty", "--effort", "1")
+    status, out, _ = call(*search, "--json", "--html", str(tmp_path / "page.html"))
+    found = json.loads(out)
+    largest = found["largest_uncertainty"]
+    assert status == 0 and not faults("certify", found)
+    assert 0 < Fraction(largest["lower"]) < Fraction(largest["upper"])
+    assert found["every_loop"]["certified"]
+    assert "Largest uncertainty" in (tmp_path / "page.html").read_text("utf-8")
+    status, out, _ = call(*search, "--rate", "1/1000")
+    assert status == 0 and "every eigenvalue satisfies Re λ < -1/1000" in out
+    status, _, err = call(*search, "--uncertainty", "1%")
+    assert status == 2 and "leave out --uncertainty" in err
+    status, out, _ = call(*search, "--rate", "1000000")
+    assert status == 1 and "no box" in out
+
+
 def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> None:
     status, out, err = call("certify", plant, gains, "--uncertainty", "1%", "--gains", "1%")
     assert status == 0 and "made for another plant" not in err
