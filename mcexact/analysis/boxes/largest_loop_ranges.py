@@ -30,8 +30,9 @@ from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import Shown
 
-_CELLS, _DIRECTIONS = 20, 6
-"""For a second of effort: how many cells are tested, and how many directions are tried."""
+_SEGMENTS, _DIRECTIONS, _MOST = 200, 6, 200
+"""For a second of effort: how many parts of the border are tested, and how many directions are
+tried; and the parts that are tried at most in a cell."""
 _MOST_CORNERS, _GRID, _HALVINGS, _DIGITS = 16, 8, 12, 10**4
 
 
@@ -146,10 +147,10 @@ def largest_loop_ranges(
     InputError.require(system, ParametricSystem, "system")
     require_seconds(effort, "effort")
     region = StabilityRegion.of(system.time, rate, radius)
-    search = LoopSearch(system, controller, graph, region, gains)
+    search = LoopSearch(system, controller, graph, region, gains, _MOST)
     with one_thread():
         failing = _Directions(search, whole_cell(system)).nearest(2 + int(_DIRECTIONS * effort))
-        lower, proof = _largest_part(search, _CELLS * effort, failing)
+        lower, proof = _largest_part(search, _SEGMENTS * effort, failing)
     wanted = f"every eigenvalue satisfies {region}"
     if failing is None:
         return LargestRanges(wanted, lower, proof, None, None, None)
@@ -171,6 +172,7 @@ def _largest_part(
         except LimitReached:
             return None
 
+    search.limit = search.tested + work
     whole = proof(Fraction(1)) if failing is None else None
     if whole is not None:
         return Fraction(1), whole
@@ -179,6 +181,7 @@ def _largest_part(
     wanted = Search(
         lambda: 1.0, proof, lambda _: None, lambda _: None, lambda: (), lambda: search.tested
     )
+    search.limit = search.tested + work
     lower, found = largest_factor(wanted, work, beyond)
     return lower, found if isinstance(found, ParametricBoxStability) else None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -85,8 +86,12 @@ class LoopSearch:
     region : StabilityRegion
     gains : rational or Controller, optional
         As for `box_stability`.
+    most : int
+        The parts of the border that are tried at most in a cell.
+    limit : float
+        How many parts of the border may be tested; then no cell is proved any more.
     tested : int
-        How many cells were tested so far.
+        About how many were tested so far.
     """
 
     system: ParametricSystem
@@ -94,6 +99,8 @@ class LoopSearch:
     graph: NeighborGraph | None
     region: StabilityRegion
     gains: Any = None
+    most: int = _MOST_SEGMENTS
+    limit: float = math.inf
     tested: int = 0
 
     def __post_init__(self) -> None:
@@ -131,9 +138,12 @@ class LoopSearch:
 
     def _of_cell(self, box: CellBox) -> StabilityOfCell | None:
         """The evidence about a box around the plants of a cell."""
-        self.tested += 1
+        if self.tested > self.limit:
+            return None
         loop = self.loop(box.system)
-        search = StabilitySearch(loop, self.region, self.radii, _MOST_SEGMENTS, box.radii, box.tied)
+        search = StabilitySearch(loop, self.region, self.radii, self.most, box.radii, box.tied)
         # Where floating point sees that the radii are too large, nothing is tested.
         least = min((each for each, _ in search.margins()), default=0.0)
-        return search.evidence(Fraction(1)) if least > 1 else None
+        found = search.evidence(Fraction(1)) if least > 1 else None
+        self.tested += 1 if least <= 1 else self.most if found is None else len(found.segments)
+        return found

@@ -26,8 +26,10 @@ from mcexact import (
 )
 from mcexact.analysis.boxes.largest_loop_ranges import LargestRanges
 from mcexact.analysis.boxes.parameter_cells import box_of_cell, whole_cell
+from mcexact.analysis.boxes.parametric_box_stable import LoopSearch
 from mcexact.answer.parametric_box_stable import ParametricBoxStability
 from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.exact.location import StabilityRegion
 from mcexact.model.controller import AgentProgram, LinearMap
 from mcexact.model.uncertainty import moduli
 
@@ -233,3 +235,13 @@ def test_a_box_and_ranges_of_independent_entries_are_proved_alike() -> None:
     assert check(box_stability(near, controller)).verdict == "VALID"
     proof = box_stability(plant, controller)
     assert check(proof).verdict == "VALID" and proof.cuts == (None,)
+
+
+def test_work_is_counted_and_ends_at_its_limit() -> None:
+    plant = joined(k=("1/4", "3/4"))
+    region = StabilityRegion("continuous")
+    search = LoopSearch(plant, gains(plant, -3, -3), None, region)
+    assert search.proof(plant).parts and search.tested > 1
+    search.limit = 0
+    with pytest.raises(LimitReached, match="no proof was found near"):
+        search.proof(plant)
