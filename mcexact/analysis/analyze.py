@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, overload
 
 from mcexact.analysis.asking import Asking
+from mcexact.analysis.boxes.largest_box import failing_member
 from mcexact.analysis.parametric_analysis import ParametricAnalysis
 from mcexact.analysis.questions import Question
 from mcexact.answer.account import Account
@@ -18,8 +19,12 @@ from mcexact.arguments import one_of, several
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import written
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.properties import PROPERTIES
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.graphs import structure
+
+_MOST_STATES = 60
+"""Plants within the radii that fail are searched for at most so many states: that takes seconds."""
 
 
 class Analysis(Asking):
@@ -68,6 +73,7 @@ class Analysis(Asking):
             self._require(
                 "neighbors", "the information 'outputs' is about messages between neighbors"
             )
+        self._refuted: dict[str, Answer | None] = {}
         self._ask(questions)
 
     def _too_long(self, question: Question) -> str:
@@ -148,7 +154,21 @@ class Analysis(Asking):
         open_ = {*self.left_out, *self.open()} - answers.keys()
         given = Given(self.system, {"information": self.information})
         said = with_own(ANALYSIS, answers).sentences(answers, given, open_)
-        return Account(answers, given, said, self.plant.subject, sorted(open_))
+        return Account(answers, given, said, self.plant.subject, sorted(open_), self.failing())
+
+    def failing(self) -> dict[str, Answer]:
+        """Return exact answers about plants within the radii that lack what no proof was found for.
+
+        Such a plant is searched for each question of `PROPERTIES` that was asked and is open, if
+        the system has at most 60 states.  What is not found proves nothing.
+        """
+        system, asked = self.system, PROPERTIES.keys() & self.open().keys()
+        if system.subject or system.n > _MOST_STATES:
+            return {}
+        for name in asked - self._refuted.keys():
+            self._refuted[name] = failing_member(system, PROPERTIES[name])
+        found = {name: self._refuted[name] for name in sorted(asked)}
+        return {name: answer for name, answer in found.items() if answer is not None}
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data with an entry for each answer, keyed by the name of its question."""
@@ -156,8 +176,10 @@ class Analysis(Asking):
         for name, reached in self.open().items():
             bounds = {"lower": _written(reached.lower), "upper": _written(reached.upper)}
             open_[name] = {"decided": False, "computed_not_certified": bounds}
-        told = [each.view() for each in self.effort()]
-        return self.account.as_json(information=self.information, questions=told, **open_)
+        told, account = [each.view() for each in self.effort()], self.account
+        failing = {name: each.about.plant.to_dict() for name, each in account.failing.items()}
+        known = {"failing_within_radii": failing} if failing else {}
+        return account.as_json(information=self.information, questions=told, **known, **open_)
 
     def to_rows(self) -> list[dict[str, Any]]:
         """Decide all questions asked, and return a flat row for each answer."""

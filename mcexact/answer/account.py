@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from typing import Any
@@ -38,6 +38,8 @@ class Account(Shown):
         The constructions that lead from the user's plant to the plant of this account.
     open : collection of str
         The questions that were asked and have no answer.
+    failing : mapping
+        For some of these the exact answer about a plant within the radii that lacks what was asked.
     """
 
     answers: Mapping[str, Any]
@@ -45,6 +47,7 @@ class Account(Shown):
     sentences: Sentences
     subject: Sequence[Mapping[str, Any]] = ()
     open: Collection[str] = ()
+    failing: Mapping[str, Any] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"Account({len(self.answers)} answers, {len(self.sentences)} sentences)"
@@ -127,7 +130,7 @@ class Account(Shown):
         system = self.given.system
         if not isinstance(system, MultiChannelSystem):
             return ()
-        return leading(system.plant, self.answers, self.open)
+        return leading(system.plant, self.answers, self.open, self.failing)
 
     def explain(self) -> str:
         """Say in plain words what was found, one sentence a line."""

@@ -17,8 +17,20 @@ QUESTIONS = (
 )
 
 
+FAILS = {
+    "box_fixed_modes": "some plant has a fixed mode",
+    "box_stabilizability": "some plant is not stabilizable by any such controller",
+    "box_controllability": "some plant is not controllable by all channels together",
+    "box_observability": "some plant is not observable by all channels together",
+}
+"""What is said where a plant within the radii is known that lacks what was asked."""
+
+
 def leading(
-    system: MultiChannelSystem, answers: Mapping[str, Any], open_: Collection[str]
+    system: MultiChannelSystem,
+    answers: Mapping[str, Any],
+    open_: Collection[str],
+    failing: Collection[str] = (),
 ) -> tuple[str, ...]:
     """How large the radii are, and the sentences about every plant within them.
 
@@ -29,6 +41,8 @@ def leading(
         The answers about it by name.
     open_ : collection of str
         The questions that were asked and have no answer.
+    failing : collection of str
+        Those of them for which a plant within the radii is known that lacks what was asked.
 
     Returns
     -------
@@ -41,7 +55,8 @@ def leading(
         # A plant without fixed modes is stabilizable.
         known.remove("box_stabilizability")
     said = [answers[name].explain() for name in known]
-    if left := _left(answers, open_):
+    said += [f"within the radii: {FAILS[name]}" for name in FAILS if name in failing]
+    if left := _left(answers, {*open_} - {*failing}):
         said.append(f"within the radii: open, as no proof was found: {', '.join(left)}")
     return (f"radii: {radii_in_words(system)}", *said, "At the nominal values:") if said else ()
 

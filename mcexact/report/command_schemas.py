@@ -185,7 +185,7 @@ def analyze() -> Schema:
     """The JSON of `mcexact analyze`."""
     return _account(
         {"information": {"enum": ["own", "outputs"]}, "questions": rows(_QUESTION)},
-        {"largest_uncertainty": _LARGEST},
+        {"largest_uncertainty": _LARGEST, "failing_within_radii": table({"type": "object"})},
     )
 
 

@@ -11,12 +11,16 @@ from mcexact import (
     box_stability,
     box_stabilizability,
     certify_controller,
+    fixed_spectrum,
     local_controllers,
 )
 from mcexact.answer.members import leading
+from mcexact.derived.augmented_outputs import augmented_outputs
 
 PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
 NEAR, FAR = (Box.relative(PLANT, part).system for part in ("1/100", "9/10"))
+OPEN = Box.relative(PLANT, "33/100").system
+"""No plant fails, as all do from 1/3 on; but these radii are too large for a proof."""
 FIRST = (
     "radii: 6 entries are uncertain, by at most 1 %",
     "within the radii: no plant has a fixed mode",
@@ -40,14 +44,30 @@ def test_what_holds_for_every_plant_comes_first() -> None:
 
 
 def test_questions_without_a_proof_are_open_if_they_were_asked() -> None:
-    whole = "open, as no proof was found: fixed modes, stabilizability, controllability, observ"
-    assert whole in analyze(FAR).account.leading[1]
-    asked = analyze(FAR, ["fixed_spectrum", "box_observability"]).account.leading
-    assert asked[1] == "within the radii: open, as no proof was found: observability"
+    asked = analyze(OPEN, ["fixed_spectrum", "box_fixed_modes"]).account.leading
+    assert asked[1] == "within the radii: open, as no proof was found: fixed modes"
+    assert "open, as no proof was found: fixed modes" in analyze(OPEN).account.leading[-2]
     assert leading(FAR, {}, ()) == ()
     gain = local_controllers(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), [[[-3]]])
     box = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/10").system
     assert "open" not in certify_controller(box, gain).explain()
+
+
+def test_a_plant_within_the_radii_that_fails_is_told_in_place_of_an_open_question() -> None:
+    found = analyze(FAR)
+    failing = found.failing()
+    assert all(Box(FAR).contains(each.about.plant) for each in failing.values())
+    assert not fixed_spectrum(failing["box_fixed_modes"].about.plant).empty
+    told = found.account.leading[1:]
+    assert told[0] == "within the radii: some plant has a fixed mode"
+    assert told[3] == "within the radii: some plant is not observable by all channels together"
+    assert told[4] == "within the radii: open, as no proof was found: setpoints"
+    assert {*found.to_dict()["failing_within_radii"]} == {*failing}
+    one = analyze(FAR, ["box_observability"])
+    assert [*one.failing()] == ["box_observability"]
+    assert not analyze(NEAR).failing() and "failing_within_radii" not in analyze(NEAR).to_dict()
+    whole = augmented_outputs(FAR.with_neighbors({"1": []}))
+    assert not analyze(whole).failing()
 
 
 def test_answers_about_boxes_say_in_notebooks_what_is_proved() -> None:
