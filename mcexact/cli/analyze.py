@@ -121,6 +121,11 @@ def command(
     from mcexact.model.atomic import write_text
 
     effort = options.effort_of_search(given, "property")
+    if effort is not None and information != "own":
+        raise click.UsageError(
+            "--largest-uncertainty is about agents that feed back their own outputs: leave out "
+            "--information"
+        )
     wanted = given.pop("property").replace("-", " ")
     run = Run(given)
     require_page(html, run.certificates, file)

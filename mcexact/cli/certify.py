@@ -50,7 +50,7 @@ rounded_output = click.option(
 @options.uncertainty
 @options.largest_uncertainty(
     "Search the largest part by which entries of the plant may differ such that every loop meets "
-    "the rate or radius, or else is stable, and a plant near it whose loop does not."
+    "the rate or radius, or is stable if none is given, and a plant near it whose loop fails to."
 )
 @at_values(
     "give a parameter a value",

@@ -69,7 +69,8 @@ def _within(system: MultiChannelSystem, found: LargestUncertainty) -> MultiChann
 
 def leading(account: Account, found: LargestUncertainty | None) -> tuple[str, ...]:
     """What is said first of every plant within the radii, and that these are the ones found."""
-    if found is None and {*account.open} & PROPERTIES.keys():
+    own = account.given.asked.get("information", "own") == "own"
+    if found is None and own and {*account.open} & PROPERTIES.keys():
         *said, last = account.leading
         return (
             *said,

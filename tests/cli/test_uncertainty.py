@@ -8,8 +8,16 @@ from pathlib import Path
 
 import pytest
 
-from mcexact import Box, MultiChannelSystem, local_controllers, save_controller, save_system
+from mcexact import (
+    Box,
+    MultiChannelSystem,
+    fixed_spectrum,
+    local_controllers,
+    save_controller,
+    save_system,
+)
 from mcexact.cli.options import part
+from mcexact.model.system_file import read_system
 from tests.cli.calling import call
 from tests.report.schemas import faults
 
@@ -141,6 +149,8 @@ def test_analyze_searches_the_largest_uncertainty_of_a_property(
     assert not faults("analyze", found) and question in found
     status, _, err = call("analyze", plant, "--property", wanted)
     assert status == 2 and "--property is for --largest-uncertainty" in err
+    status, _, err = call("analyze", plant, *search, "--information", "outputs")
+    assert status == 2 and "feed back their own outputs" in err
 
 
 def test_certify_searches_the_largest_uncertainty(plant: str, gains: str, tmp_path: Path) -> None:
@@ -157,7 +167,7 @@ def test_certify_searches_the_largest_uncertainty(plant: str, gains: str, tmp_pa
     status, _, err = call(*search, "--uncertainty", "1%")
     assert status == 2 and "leave out --uncertainty" in err
     status, out, _ = call(*search, "--rate", "1000000")
-    assert status == 1 and "no box" in out
+    assert status == 1 and "no box" in out and "a plant fails within    0 %" in out
 
 
 def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> None:
@@ -301,6 +311,36 @@ def test_what_is_open_within_the_radii_is_said_first(plant: str) -> None:
     assert "within the radii: some plant is not controllable by all channels together" in said
     assert "within the radii: open, as no proof was found: setpoints" in said
     assert "--largest-uncertainty searches radii with a proof, and a plant that fails" in first
+
+
+def test_no_search_about_own_outputs_is_advised_where_agents_feed_back_those_of_neighbors(
+    tmp_path: Path,
+) -> None:
+    graph = {"a": ["a", "b"], "b": ["b"]}
+    heard = MultiChannelSystem(PLANT.A, PLANT.B, PLANT.C, names=["a", "b"], neighbors=graph)
+    save_system(Box.relative(heard, 2).system, tmp_path / "heard.json")
+    status, out, _ = call("analyze", str(tmp_path / "heard.json"), "--information", "outputs")
+    assert status == 0 and "open, as no proof was found: fixed modes" in out
+    assert "--largest-uncertainty" not in out
+
+
+def test_a_plant_that_fails_has_a_certificate(plant: str, tmp_path: Path) -> None:
+    proofs, page = tmp_path / "proofs", tmp_path / "page.html"
+    status, _, said = call(
+        *("analyze", plant, "--uncertainty", "200%", "--certificates", str(proofs)),
+        *("--html", str(page)),
+    )
+    assert status == 0, said
+    refuted = proofs / "box_fixed_modes_refuted.json"
+    status, out, _ = call("check", str(refuted))
+    assert status == 0 and out.startswith("VALID")
+    certificate = json.loads(refuted.read_text("utf-8"))
+    member = read_system(json.dumps({**certificate["system"], "format": "mcexact-system/1"}))
+    assert Box.relative(PLANT, 2).contains(member)
+    assert not fixed_spectrum(member).empty
+    assert refuted.name in page.read_text("utf-8")
+    status, out, _ = call("check", "--manifest", str(proofs), "--system", plant)
+    assert status == 0 and "0 not" in out
 
 
 def test_a_sampled_plant_has_no_radii_and_says_so(tmp_path: Path) -> None:

@@ -55,8 +55,8 @@ def largest_loop_uncertainty(
     Returns
     -------
     LargestUncertainty
-        The plant that fails has an eigenvalue on the border of the region, with the gains as they
-        are.
+        The loop of the plant that fails, with the gains as they are, has an eigenvalue on the
+        border of the region; or outside, if the plant itself fails.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def largest_loop_uncertainty(
 
     with one_thread():
         search = StabilitySearch(loop, region, gain_radii(controller, 1) if gains else None)
-        tested = [0]
+        tested, itself = [0], FailingPlant(Box(unit).nominal, Fraction(0), complex("nan"), ())
 
         def proof(growth: Fraction) -> Answer | None:
             found = search.border(growth)
@@ -86,7 +86,7 @@ def largest_loop_uncertainty(
             proof,
             lambda plant: refuted_loop(search, plant),
             lambda tries: failing_loop(search, tries),
-            lambda: severed_plants(unit, Box(unit).radii),
+            lambda: (itself, *severed_plants(unit, Box(unit).radii)),
             lambda: tested[0],
         )
         return two_sided(made, f"every eigenvalue satisfies {region}", relative, effort)

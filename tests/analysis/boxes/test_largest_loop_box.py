@@ -48,6 +48,7 @@ def test_loops_in_discrete_time_have_ends_on_the_circle() -> None:
 def test_an_unstable_loop_has_no_box(rate: str | None) -> None:
     found = largest_loop_uncertainty(PLANT, local_controllers(PLANT, [[[-1]]]), rate=rate, effort=1)
     assert found.lower == 0 and found.proof is None
+    assert found.upper == 0 and found.failing == PLANT and found.refutation is not None
 
 
 def test_a_plant_that_stands_still_is_not_stable_under_any_gains() -> None:
