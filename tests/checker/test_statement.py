@@ -38,6 +38,7 @@ from tests.checker.handmade import (
     plant,
 )
 from tests.checker.manifests import places, replaced
+from tests.checker.parameter_plants import ALL as ABOUT_RANGES
 from tests.checker.test_closed_loop_spectrum import LOOP
 from tests.checker.test_subject import BUILDS, drawn_plant
 
@@ -47,7 +48,8 @@ DUAL = {"construction": "dual"}
 
 def drawn(kind: str, count: int) -> Iterator[Document]:
     """Certificates of a kind, drawn and written by hand."""
-    yield from (document for document in VALID.values() if document["kind"] == kind)
+    by_hand = (*VALID.values(), *ABOUT_RANGES.values())
+    yield from (document for document in by_hand if document["kind"] == kind)
     yield from (some_certificate(random.Random(seed), kind) for seed in range(count))
 
 

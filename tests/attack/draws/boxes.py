@@ -183,15 +183,16 @@ def drawn_stable_in_ranges(rng: random.Random) -> Document:
         rows[i][j] = f"{rows[i][j].split(' ')[0]} {rng.choice('+-')} 1/8*({rng.choice(some)})"
     found["A"] = rows
     found = canonical_plant(found)
+    bound = rng.choice((None, "15/16" if discrete else "1/16"))
     if discrete:
         points: list[Any] = ["1/8", "1/4", "1/2", "3/4", 1, "4/3", 2, 4, 8]
-        return stable_in_ranges(found, cuts, points)
+        return stable_in_ranges(found, cuts, points, bound=bound)
     points = ["1/4", "1/2", "3/4", 1, "3/2", 2, 3, 4, 5, 6, 8]
     if rng.random() < 0.5:
-        return stable_in_ranges(found, cuts, points, growth=[1, 1])
+        return stable_in_ranges(found, cuts, points, growth=[1, 1], bound=bound)
     radii = programs("continuous", radii_of_first("1/50", "1/100"), {"input": {}})["controller"]
-    given = rng.choice((None, radii))
-    return stable_in_ranges(found, cuts, points, LOOP, growth=[2, 2, 2], gain_radii=given)
+    known = {"gain_radii": rng.choice((None, radii)), "bound": bound}
+    return stable_in_ranges(found, cuts, points, LOOP, growth=[2, 2, 2], **known)
 
 
 def beside_crossing(rng: random.Random, crosses: Fraction | None = None) -> Document:
