@@ -96,6 +96,10 @@ def command(file: str, controller: str, **given: Any) -> int:
 
     run, weights, html = Run(given), given.pop("weights"), given.pop("html")
     output, given["effort"] = given.pop("output"), options.effort_of_search(given)
+    if given["effort"] is not None and given["gains"] is not None:
+        raise click.UsageError(
+            "--largest-uncertainty takes the gains as they are: leave out --gains"
+        )
     if output is not None and given["round_gains"] is None:
         raise click.UsageError("-o writes the rounded controller: give --round-gains, too")
     require_other(output, file, controller, weights)
@@ -195,7 +199,7 @@ def _certified(
         assessment = assessed_loop(
             loop, found.region, certified=found.stable, weights=weighed, notes=notes
         )
-    loops = uncertainty.loops(system, controller, found, gains)
+    loops = uncertainty.loops(system, controller, found, gains, largest)
     assessment = replace(assessment, within_radii=loops.within_radii)
     account = account_of_verdict(
         found, largest=wanted["largest"], every_loop=loops.proof, gains=gains

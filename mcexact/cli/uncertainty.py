@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from mcexact.analysis.boxes.two_sided import LargestUncertainty
     from mcexact.answer.account import Account
     from mcexact.answer.box_stable import BoxStability
+    from mcexact.answer.protocol import Answer
     from mcexact.answer.stability import StabilityVerdict
     from mcexact.exact.location import StabilityRegion
     from mcexact.model.controller import Controller
@@ -129,7 +130,7 @@ class Loops:
     view : mapping
         Plain data.
     within_radii : str or None
-        Whether all loops within the radii are stable; None if there are no radii.
+        Whether all loops within the given radii are stable; None if none are given.
     """
 
     rows: tuple[tuple[str, str], ...] = ()
@@ -141,7 +142,7 @@ class Loops:
         """The table, if there is something to say."""
         from mcexact.report.text import Table
 
-        title = "rounded gains" if self.within_radii is None else "every loop in the box"
+        title = "every loop in the box" if "every_loop" in self.view else "rounded gains"
         return (Table(title, (), self.rows),) if self.rows else ()
 
     def with_digits(self, other: Loops) -> Loops:
@@ -154,6 +155,7 @@ def loops(
     controller: Controller,
     found: StabilityVerdict,
     gains: Fraction | None,
+    largest: LargestUncertainty | None = None,
 ) -> Loops:
     """Whether every loop within the radii of plant and gains is in the region of a verdict.
 
@@ -167,6 +169,8 @@ def loops(
         About the nominal loop.
     gains : Fraction or None
         The radii of the gains, as a part of their moduli.
+    largest : LargestUncertainty or None
+        The search that found the radii of the system.
     """
     from mcexact.exact.rational import written
     from mcexact.model.box import radii_in_words
@@ -180,7 +184,8 @@ def loops(
     proof, failing, region = None, None, _of_boxes(found)
     unproved = [region]
     if found.stable:
-        proof, region, unproved = _proof(system, controller, region, gains)
+        known = None if largest is None else largest.proof
+        proof, region, unproved = _proof(system, controller, region, gains, known)
     if unproved:
         neither = "".join(f", and neither is {each}" for each in unproved[1:])
         said.append(("eigenvalues of every loop", f"{unproved[0]} is not proved{neither}"))
@@ -190,7 +195,23 @@ def loops(
     if failing is not None:
         said.append(failing_row(failing, relative=False))
         view |= {"fails_within": written(failing.distance), "failing": failing.plant.to_dict()}
-    return Loops(tuple(said), proof, {"every_loop": view}, known_within(proof, failing))
+    within: WithinRadii | None = known_within(proof, failing)
+    if largest is not None and largest.proof is not None:
+        within = _within_given(largest)
+    return Loops(tuple(said), proof, {"every_loop": view}, within)
+
+
+def _within_given(largest: LargestUncertainty) -> WithinRadii | None:
+    """Whether all loops are stable within the radii from which a search began with some proof."""
+    from mcexact.answer.box_stable import BoxStability
+
+    if largest.relative:
+        return None
+    if largest.lower >= 1:
+        return "proved"
+    # A plant that misses a rate or radius may be stable.
+    fails = isinstance(largest.proof, BoxStability) and largest.proof.bound is None
+    return "refuted" if fails and largest.upper is not None and largest.upper <= 1 else "open"
 
 
 def _proof(
@@ -198,14 +219,21 @@ def _proof(
     controller: Controller,
     asked: StabilityRegion,
     gains: Fraction | None,
+    known: Answer | None,
 ) -> tuple[BoxStability | None, StabilityRegion, list[StabilityRegion]]:
-    """A proof for the region that is asked for, or else for stability, and what is not proved."""
+    """A proof for the region that is asked for, or else for stability, and what is not proved.
+
+    What is ``known`` is not proved again.
+    """
     from mcexact.analysis.boxes.box_stable import box_stability
+    from mcexact.answer.box_stable import BoxStability
     from mcexact.errors import LimitReached
     from mcexact.exact.location import StabilityRegion
 
     unproved = list[StabilityRegion]()
     for region in dict.fromkeys((asked, StabilityRegion(asked.time))):
+        if isinstance(known, BoxStability) and known.region == region:
+            return known, region, unproved
         given: dict[str, Any] = {region.word: region.bound}
         with suppress(LimitReached):
             proof = box_stability(system, controller, gains=gains, **given)

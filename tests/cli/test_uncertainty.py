@@ -170,6 +170,33 @@ def test_certify_searches_the_largest_uncertainty(plant: str, gains: str, tmp_pa
     assert status == 1 and "no box" in out and "a plant fails within    0 %" in out
 
 
+def test_the_largest_radii_do_not_hide_that_the_loop_fails_within_those_of_the_file(
+    gains: str, tmp_path: Path
+) -> None:
+    file = str(tmp_path / "uncertain.json")
+    search = ("certify", file, gains, "--largest-uncertainty", "--effort", "1")
+    for radius, told in (("3", "Do not install: within the given"), ("0.001", "Worth installing")):
+        save_system(Box.relative(PLANT, radius).system, file)
+        status, out, _ = call(*search)
+        assert status == 0 and "every loop near this one" in out and told in out
+    status, out, _ = call(*search, "--rate", "1/1000", "--json")
+    assert json.loads(out)["every_loop"]["region"] == "Re λ < -1/1000"
+
+
+def test_what_the_largest_radii_prove_is_certified_and_is_about_the_gains_as_they_are(
+    plant: str, gains: str, tmp_path: Path
+) -> None:
+    search = ("certify", plant, gains, "--largest-uncertainty", "--effort", "1")
+    status, out, _ = call(*search, "--certificates", str(tmp_path / "proofs"), "--json")
+    assert status == 0
+    largest, proof = json.loads(out)["largest_uncertainty"], tmp_path / "proofs/box_stability.json"
+    system = json.loads(proof.read_text("utf-8"))["system"]
+    proved = read_system(json.dumps({**system, "format": "mcexact-system/1"}))
+    assert Box(proved) == Box.relative(PLANT, largest["lower"])
+    status, _, err = call(*search, "--gains", "1%")
+    assert status == 2 and "leave out --gains" in err
+
+
 def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> None:
     status, out, err = call("certify", plant, gains, "--uncertainty", "1%", "--gains", "1%")
     assert status == 0 and "made for another plant" not in err
