@@ -38,6 +38,8 @@ class Rechecked:
         """Return a line of text that gives the number of VALID certificates."""
         from mcexact.answer.formats import count
 
+        if not self.verdicts:
+            return "no certificate, as nothing was decided exactly\n"
         number = count(len(self.verdicts), "certificate")
         return f"{number} re-checked by the independent checker: VALID\n"
 

@@ -39,6 +39,7 @@ _PER_SECOND = 170
 _LITTLE = 300
 """With fewer parts of the border than these, only the boxes that likely have a proof are tried."""
 _ASK = "; `mcexact certify --uncertainty 0.1%` asks about one box with more work"
+_ASK_OWN = "; `mcexact certify` asks about them with more work"
 
 
 @dataclass(frozen=True, repr=False)
@@ -248,8 +249,8 @@ def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLo
             proof = work.proof(about, wanted, gains)
             if proof is not None:
                 return EveryLoop(wanted, proof, gains, failing)
-    box = "every plant within the radii" if own else "any box"
-    return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}{_ASK}")
+    box = f"every plant within the radii{_ASK_OWN}" if own else f"any box{_ASK}"
+    return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
 
 
 def _smaller(search: StabilitySearch, parts: tuple[float, ...]) -> Iterator[ClosedLoop]:

@@ -101,6 +101,7 @@ def test_what_is_neither_proved_nor_refuted_is_open(tmp_path: Path) -> None:
     status, out, _ = call("certify", *files)
     assert status == 4 and "open, as no proof and no value that fails was found" in out
     assert "at no values that were found" in out
+    assert "no certificate" in out and "VALID" not in out
 
 
 def test_the_json_of_a_proof_is_as_its_schema_says(gains: str, tmp_path: Path) -> None:

@@ -54,6 +54,7 @@ def test_a_box_that_is_too_large_is_not_proved() -> None:
     found = every_loop(loop(Box.absolute(PLANT, A=[[3]]).system), WHOLE)
     assert found.proof is None and found.failing is not None and found.failing.distance < 1
     assert "Re λ < 0 is not proved for every plant within the radii" in found.explain()
+    assert "`mcexact certify` asks about them with more work" in found.reason
     assert dict(found.rows(False))["eigenvalues of every loop"] == found.reason
     assert repr(found) == "EveryLoop(not proved: Re λ < 0)"
     assert found.to_dict()["part"] is None and "not proved" in found._repr_html_()
