@@ -14,6 +14,7 @@ import pytest
 
 from mcexact.analysis.accounts import account_of_dimensions, account_of_links
 from mcexact.analysis.analyze import analyze
+from mcexact.analysis.boxes.box_setpoints import box_setpoints
 from mcexact.analysis.fixed_modes.assignability import assignability
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.questions import asked_by
@@ -30,6 +31,7 @@ from mcexact.checker.sentences_design import DIMENSIONS
 from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
+from mcexact.model.box import Box
 from mcexact.model.canonical import canonical, plain
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -116,7 +118,8 @@ ELSEWHERE = (*OF_DESIGNS, "parametric-")
 """How the rules begin that other files hold against certificates: of designs, of parameters."""
 ALWAYS = {
     *("spectrum-moved", "spectrum-moved-between", "picture-transfer-graph", "complete"),
-    *("pencil-row", "subsystem-normal-rank", "subsystem-remnant", "members-stabilizable"),
+    *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),
+    *("members-stabilizable", "members-setpoints"),
     *("allocate-proof", "allocate-cost-proof", "allocate-links-proof"),
 }
 """What holds of every certificate of its kind: the words say what it is that holds."""
@@ -142,6 +145,8 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
     evidence += [{"a": changed(CUT, ("claim.property", "both"))}]
     evidence += [{"a": document(least)} for least in infeasible()]
     evidence += [{"a": each} for each in OF_ONE_PLANT]
+    near = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/100").system
+    evidence += [{"a": document(box_setpoints(near))}]
     dual = changed(CUT, ("claim.property", "observable"), ("witness.side", "observable"))
     implied, denied = (dict[str, set[Any]]((key, set()) for key in RULES) for _ in range(2))
     for number, documents in enumerate([*evidence, {"a": dual}]):

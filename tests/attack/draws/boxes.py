@@ -117,8 +117,9 @@ def beside_failure(rng: random.Random) -> tuple[Document, list[int | None]]:
     ports: list[Any] = [([[beyond], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]])]
     for channel, (B, C) in zip(found["channels"], ports, strict=True):
         channel["B"], channel["C"] = B, C
+    found = in_ranges(found, t=("3/4", 1))
     found["A"][0][1] = 0
-    return in_ranges(found, t=("3/4", 1)), [*[0, None] * times, None]
+    return found, [*[0, None] * times, None]
 
 
 def in_ranges(found: Document, **ranges: tuple[Any, Any]) -> Document:
