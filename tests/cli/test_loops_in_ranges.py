@@ -101,7 +101,9 @@ def test_what_is_neither_proved_nor_refuted_is_open(tmp_path: Path) -> None:
     status, out, _ = call("certify", *files)
     assert status == 4 and "open, as no proof and no value that fails was found" in out
     assert "at no values that were found" in out
-    assert "no certificate" in out and "VALID" not in out
+    # A part of the ranges can be proved all the same, which has a certificate.
+    nothing = "of no part of the ranges" in " ".join(out.split())
+    assert ("no certificate" in out) is nothing and ("VALID" in out) is not nothing
 
 
 def test_the_json_of_a_proof_is_as_its_schema_says(gains: str, tmp_path: Path) -> None:

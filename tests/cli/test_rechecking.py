@@ -12,6 +12,7 @@ from mcexact.checker import Verdict, manifest
 from mcexact.checker.sentence import RULES
 from mcexact.cli import main, output
 from mcexact.cli.deadline import Deadline
+from mcexact.cli.rechecking import Rechecked
 from mcexact.model import gallery
 
 FOLDER = Path(gallery.__file__).parent
@@ -108,3 +109,7 @@ def test_what_the_time_limit_leaves_open_is_status_4_and_keeps_the_answer(
     assert status == 4
     assert "No mode is fixed" in out and "re-checked by" not in out
     assert "the answers are not re-checked" in err
+
+
+def test_nothing_is_called_valid_where_there_is_no_certificate() -> None:
+    assert Rechecked({}, (), None).line() == "no certificate, as nothing was decided exactly\n"
