@@ -182,3 +182,14 @@ def weakened_checker() -> ModuleType:
     if PACKAGE not in sys.modules:
         sys.meta_path.insert(0, _Finder())
     return importlib.import_module(f"{PACKAGE}.kinds")
+
+
+def require_one_gate(document: Any) -> None:
+    """Assert that a document is refused by one condition alone: without this one it is VALID."""
+    check = weakened_checker().check_document
+    GATES.open = None
+    assert check(document).verdict in ("INVALID", "MALFORMED")
+    GATES.open = GATES.last
+    found = check(document)
+    GATES.open = None
+    assert found.verdict == "VALID", found.line()

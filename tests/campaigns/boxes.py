@@ -7,7 +7,6 @@ the file (by default ``build/boxes.jsonl``) are not examined again.
 
 from __future__ import annotations
 
-import json
 import random
 import sys
 from collections import Counter
@@ -35,6 +34,7 @@ from mcexact import (
 from mcexact.errors import LimitReached
 from tests.attack.oracle.one_parameter import ParametricPlant, characteristic
 from tests.attack.oracle.ranges import driven, none_fixed, stays_inside
+from tests.campaigns.resumed import main
 from tests.oracle import enumeration
 from tests.oracle.draws import exact, sparse_system
 from tests.oracle.enumeration import PlainSystem, Rows, X
@@ -328,33 +328,5 @@ def contradictions(name: str, drawn: Drawn, growth: Fraction, seen: Counter[str]
     return wrong
 
 
-def main(count: int, first: int, path: Path) -> int:
-    """Examine the drawn systems that are not in the file yet; print what was found in all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    done: dict[int, Any] = {}
-    if path.exists():
-        rows = map(json.loads, path.read_text(encoding="utf-8").splitlines())
-        done = {row["number"]: row for row in rows}
-    numbers = range(first, first + count)
-    with path.open("a", encoding="utf-8") as file:
-        for number in numbers:
-            if number not in done:
-                wrong, seen = examined(number)
-                done[number] = {"number": number, "wrong": wrong, "seen": seen}
-                print(json.dumps(done[number]), file=file, flush=True)
-    total: Counter[str] = Counter()
-    for number in numbers:
-        total.update(done[number]["seen"])
-        total["contradictions"] += len(done[number]["wrong"])
-        for what in done[number]["wrong"]:
-            print(f"system {number}: {what}")
-    print(", ".join(f"{value} {key}" for key, value in total.items()))
-    return int(total["contradictions"] > 0)
-
-
 if __name__ == "__main__":
-    count, first, chosen_file, *_ = [
-        *sys.argv[1:],
-        *["3000", "0", str(FILE)][len(sys.argv) - 1 :],
-    ]
-    sys.exit(main(int(count), int(first), Path(chosen_file)))
+    sys.exit(main(sys.argv[1:], 3000, FILE, examined, "contradictions"))

@@ -7,9 +7,7 @@ an interruption the same command goes on.
 
 from __future__ import annotations
 
-import collections
 import itertools
-import json
 import random
 import sys
 from fractions import Fraction
@@ -34,6 +32,7 @@ from mcexact import (
 from mcexact.analysis.engine.parametric_structure import parametric_completeness
 from mcexact.derived.extended import Share
 from mcexact.errors import InputError
+from tests.campaigns.resumed import Examined, main
 from tests.oracle import enumeration
 from tests.oracle.parametric import (
     claimed_radical,
@@ -174,30 +173,11 @@ def _wrongly_lost(
     return wrong
 
 
-def main(count: int, first: int, path: Path) -> int:
-    """Examine the drawn systems that are not in the file yet; print what was found in all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    numbers = range(first, first + count)
-    done: dict[int, Any] = {}
-    if path.exists():
-        rows = map(json.loads, path.read_text(encoding="utf-8").splitlines())
-        done = {row["number"]: row for row in rows}
-    with path.open("a", encoding="utf-8") as file:
-        for number in numbers:
-            if number not in done:
-                (wrong, seen), (more, also) = examined(number), companions(number)
-                done[number] = {"number": number, "wrong": wrong + more, "seen": seen | also}
-                print(json.dumps(done[number]), file=file, flush=True)
-    total: collections.Counter[str] = collections.Counter()
-    for number in numbers:
-        total.update(done[number]["seen"])
-        total["disagreements"] += len(done[number]["wrong"])
-        for what in done[number]["wrong"]:
-            print(f"system {number}: {what}")
-    print(", ".join(f"{value} {key}" for key, value in total.items()))
-    return int(total["disagreements"] > 0)
+def with_companions(number: int) -> Examined:
+    """The same for the fixed modes of one drawn system, and for all else that is decided."""
+    (wrong, seen), (more, also) = examined(number), companions(number)
+    return wrong + more, seen | also
 
 
 if __name__ == "__main__":
-    count, first, chosen, *_ = [*sys.argv[1:], *["1000", "0", str(FILE)][len(sys.argv) - 1 :]]
-    sys.exit(main(int(count), int(first), Path(chosen)))
+    sys.exit(main(sys.argv[1:], 1000, FILE, with_companions, "disagreements"))
