@@ -4,7 +4,6 @@ import ast
 import sys
 from collections.abc import Iterator
 from functools import cache
-from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -159,49 +158,6 @@ def test_no_stage_walks_through_the_subsets_of_the_channels() -> None:
                 assert not ast.unparse(node.args[-1]).startswith(("2 **", "1 <<")), place
 
 
-def test_every_module_is_short_enough_to_have_one_topic() -> None:
-    for path in MODULES:
-        statements = sum(isinstance(node, ast.stmt) for node in nodes_of(path))
-        assert statements <= 400, f"{path} hides two topics: {statements} statements"
-
-
 def test_nothing_is_validated_by_a_statement_that_an_option_deletes() -> None:
     for path in MODULES:
         assert not [n.lineno for n in nodes_of(path) if isinstance(n, ast.Assert)], path
-
-
-ROOMS = {
-    "analysis": {"engine", "structure", "fixed_modes", "sharing", "stability"},
-    "synthesis": {"methods", "observer", "network", "optimum"},
-}
-"""The rooms of a stage; what lies beside them puts their parts together."""
-FOR_ALL_ROOMS = {"analysis": set[str](), "synthesis": {"request", "gate", "design"}}
-"""What lies beside the rooms and every room may use: what is asked, and the way to certify it."""
-MOST_BETWEEN_ROOMS = 18
-
-
-def imports_between_rooms(stage: str) -> list[tuple[str, str, str]]:
-    """Statements in one room that import from another: the two rooms, and the place."""
-    found = []
-    for room in sorted(ROOMS[stage]):
-        for path in sorted((PACKAGE / stage / room).rglob("*.py")):
-            places = {
-                (name.split(".")[2], line)
-                for name, _, line in imports_of(path)
-                if name.startswith(f"mcexact.{stage}.")
-            }
-            found += [
-                (room, other, f"{path.relative_to(PACKAGE)}:{line}")
-                for other, line in sorted(places)
-                if other not in {room, *FOR_ALL_ROOMS[stage]}
-            ]
-    return found
-
-
-@pytest.mark.parametrize("stage", ROOMS)
-def test_rooms_import_little_from_each_other_and_never_in_a_circle(stage: str) -> None:
-    between = imports_between_rooms(stage)
-    assert {other for _, other, _ in between} <= ROOMS[stage], between
-    assert len(between) <= MOST_BETWEEN_ROOMS, between
-    uses = {room: {other for one, other, _ in between if one == room} for room in ROOMS[stage]}
-    list(TopologicalSorter(uses).static_order())

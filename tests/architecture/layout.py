@@ -1,0 +1,332 @@
+"""The plan of the modules, ``layout.toml``, held against the package.
+
+    python -m tests.architecture.layout
+
+A module is what one person changes at once: a topic with 80 to 1,000 lines of code.  The plan lists
+every module once, with its purpose.  While a folder is being put together, ``from`` names the files
+that are to become a module; they are judged as if they were one already.  What is judged: that the
+plan and the package agree, the sizes, that imports make no circle (those inside functions and those
+of types count), that folders import only folders before them in ``order``, and what the command
+line loads when it starts.  Prints the figures, then what is wrong.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import sys
+import tokenize
+import tomllib
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import networkx as nx
+
+ROOT = Path(__file__).parents[2]
+PACKAGE = "mcexact"
+PLAN = Path(__file__).with_name("layout.toml")
+LEAST, MOST = 80, 1000
+"""The lines of code of a module."""
+TOP, INSIDE, TYPES = "top", "inside", "types"
+"""Where an import stands: in the module, in a function, or for the type checker alone."""
+HEAVY = {
+    "control",
+    "flint",
+    "hypothesis",
+    "jinja2",
+    "matplotlib",
+    "networkx",
+    "numpy",
+    "scipy",
+    "sympy",
+}
+"""Libraries that no program loads only to say what it is able to do."""
+STARTS = (f"{PACKAGE}.cli", f"{PACKAGE}.testing.plugin")
+"""What is loaded before anything is asked; its modules, too."""
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+BLANK = {
+    tokenize.COMMENT,
+    tokenize.NL,
+    tokenize.NEWLINE,
+    tokenize.INDENT,
+    tokenize.DEDENT,
+    tokenize.ENDMARKER,
+}
+
+
+@dataclass(frozen=True)
+class Import:
+    """A name that a module takes from another; ``name`` is None if it takes the module itself."""
+
+    importer: str
+    home: str
+    name: str | None
+    local: str
+    where: str
+
+
+def docstring_lines(tree: ast.Module) -> set[int]:
+    """The lines on which the docstrings of a module stand."""
+    first = [n.body[0] for n in ast.walk(tree) if isinstance(n, DOCUMENTED) and n.body]
+    return {
+        line
+        for node in first
+        if isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+        for line in range(node.lineno, (node.end_lineno or 0) + 1)
+    }
+
+
+def code_lines(text: str, tree: ast.Module) -> int:
+    """How many lines of a module are neither blank nor comment nor docstring."""
+    lines: set[int] = set()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type not in BLANK:
+            lines.update(range(token.start[0], token.end[0] + 1))
+    return len(lines - docstring_lines(tree))
+
+
+def statements_by_place(node: ast.AST, where: str = TOP) -> Iterator[tuple[ast.stmt, str]]:
+    """The import statements below a node, each with where it stands."""
+    for child in ast.iter_child_nodes(node):
+        now = where
+        if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
+            now = TYPES if child in node.body else where
+        if isinstance(child, (ast.FunctionDef, ast.AsyncFunctionDef)) and where == TOP:
+            now = INSIDE
+        if isinstance(child, (ast.Import, ast.ImportFrom)):
+            yield child, now
+        else:
+            yield from statements_by_place(child, now)
+
+
+@dataclass(frozen=True)
+class Module:
+    """A file of the package."""
+
+    name: str
+    path: Path
+
+    @cached_property
+    def text(self) -> str:
+        return self.path.read_text(encoding="utf-8")
+
+    @cached_property
+    def tree(self) -> ast.Module:
+        return ast.parse(self.text)
+
+    @cached_property
+    def size(self) -> int:
+        return code_lines(self.text, self.tree)
+
+    @property
+    def is_package(self) -> bool:
+        return self.path.stem == "__init__"
+
+    def taken(self) -> Iterator[tuple[str, str | None, str, str]]:
+        """All that it imports: the module, the name in it, the local name, and where."""
+        package = self.name if self.is_package else self.name.rpartition(".")[0]
+        for node, where in statements_by_place(self.tree):
+            if isinstance(node, ast.Import):
+                for alias in node.names:
+                    yield alias.name, None, alias.asname or alias.name, where
+            elif isinstance(node, ast.ImportFrom):
+                upper = package.split(".")
+                upper = upper[: len(upper) - node.level + 1] if node.level else []
+                home = ".".join([*upper, *([node.module] if node.module else [])])
+                for alias in node.names:
+                    yield home, alias.name, alias.asname or alias.name, where
+
+
+class Package:
+    """All files of the package, with their imports."""
+
+    def __init__(self, root: Path = ROOT) -> None:
+        self.modules: dict[str, Module] = {}
+        for path in sorted((root / PACKAGE).rglob("*.py")):
+            name = ".".join(path.relative_to(root).with_suffix("").parts)
+            name = name.removesuffix(".__init__")
+            self.modules[name] = Module(name, path)
+        self.outside: dict[str, set[str]] = defaultdict(set)  # libraries, at the top
+        self.imports = [each for module in self.modules.values() for each in self._imports(module)]
+        self._handed_on = {
+            (each.importer, each.local): (each.home, each.name)
+            for each in self.imports
+            if self.modules[each.importer].is_package and each.where != INSIDE
+        }
+
+    def _imports(self, module: Module) -> Iterator[Import]:
+        for home, name, local, where in module.taken():
+            if f"{home}.{name}" in self.modules and not self._defines(home, name):
+                yield Import(module.name, f"{home}.{name}", None, local, where)
+            elif home in self.modules:
+                yield Import(module.name, home, name, local, where)
+            elif where == TOP:
+                self.outside[module.name].add(home.split(".")[0])
+
+    def _defines(self, home: str, name: str | None) -> bool:
+        """Whether a package hands on a name that one of its modules has, too."""
+        return any(
+            local == name and f"{source}.{found}" not in self.modules
+            for source, found, local, where in self.modules[home].taken()
+            if where == TOP
+        )
+
+    def origin(self, each: Import) -> str:
+        """The module that defines what is imported, perhaps through packages that hand it on."""
+        home, name = each.home, each.name
+        while name is not None and (home, name) in self._handed_on:
+            home, name = self._handed_on[home, name]
+        return home
+
+
+class Layout:
+    """The modules of the plan."""
+
+    def __init__(self, package: Package, path: Path = PLAN) -> None:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        self.package = package
+        self.order: list[str] = data["order"]
+        self.exceptions: dict[str, str] = data["exceptions"]
+        self.breaks = {(e["importer"], e["imported"]) for e in data.get("break", ())}
+        self.target: dict[str, str] = {}  # the module of the plan to which a file belongs
+        self.planned = {f"{PACKAGE}.{name}" for name in data["modules"]}
+        self.problems: list[str] = []
+        for name, entry in data["modules"].items():
+            self._enter(name, entry)
+        for file, module in package.modules.items():
+            if module.is_package or file.endswith("__main__"):
+                self.target.setdefault(file, file)
+            elif file not in self.target:
+                self.problems.append(f"{file} is not in layout.toml")
+
+    def _enter(self, name: str, entry: dict[str, Any]) -> None:
+        if len(str(entry["purpose"])) > 92:
+            self.problems.append(f"{name}: its purpose is longer than a line")
+        folder = f"{PACKAGE}.{name.split('.')[0]}" if "." in name else PACKAGE
+        parts = [f"{folder}.{file}" for file in entry.get("from", ())]
+        whole = f"{PACKAGE}.{name}"
+        if whole in self.package.modules and not set(parts) - {whole} & self.package.modules.keys():
+            parts = [whole]
+        for file in parts:
+            if file not in self.package.modules:
+                self.problems.append(f"{name}: there is no {file}")
+            if file in self.target:
+                self.problems.append(f"{file} is listed twice")
+            self.target[file] = whole
+
+    def graph(self, *places: str) -> nx.DiGraph:
+        """The modules, with an edge for imports that stand at these places."""
+        graph = nx.DiGraph()
+        for each in self.package.imports:
+            home = self.package.origin(each)
+            broken = tuple(x.removeprefix(f"{PACKAGE}.") for x in (each.importer, home))
+            one, other = self.target.get(each.importer), self.target.get(home)
+            if (
+                each.where in places
+                and one
+                and other
+                and one != other
+                and broken not in self.breaks
+            ):
+                graph.add_edge(one, other)
+        return graph
+
+    @cached_property
+    def sizes(self) -> dict[str, int]:
+        """The lines of code of each module."""
+        sizes: dict[str, int] = defaultdict(int)
+        for file, module in self.target.items():
+            if file in self.package.modules and module in self.planned:
+                sizes[module] += self.package.modules[file].size
+        return dict(sizes)
+
+    def circles(self) -> list[list[str]]:
+        """The modules that import each other, directly or not."""
+        parts = nx.strongly_connected_components(self.graph(TOP, INSIDE, TYPES))
+        return [sorted(part) for part in parts if len(part) > 1]
+
+    def backwards(self) -> list[tuple[str, str]]:
+        """Imports against the order of the folders."""
+        place = {name: k for k, name in enumerate(self.order)}
+        return [
+            (one, other)
+            for one, other in sorted(self.graph(TOP, INSIDE, TYPES).edges)
+            if not self._may(folder_of(one), folder_of(other), place)
+        ]
+
+    @staticmethod
+    def _may(one: str, other: str, place: dict[str, int]) -> bool:
+        if one in {"", "__main__", other} or other == "":
+            return True
+        if one == "checker" or (other == "checker" and one not in {"answer", "cli"}):
+            return False
+        return place.get(other, len(place)) < place.get(one, -1)
+
+    def loaded(self, start: str) -> set[str]:
+        """The heavy libraries that a start loads."""
+        graph = self.graph(TOP)
+        first = {self.target[f] for f in self.target if f == start or f.startswith(f"{start}.")}
+        modules = first.union(*(nx.descendants(graph, one) for one in first & graph.nodes))
+        files = {file for file, module in self.target.items() if module in modules}
+        return {library for file in files for library in self.package.outside[file]} & HEAVY
+
+    def wrong(self) -> list[str]:
+        """What is not as the plan and the rule have it."""
+        found = list(self.problems)
+        for name, size in self.sizes.items():
+            if (
+                not LEAST <= size <= MOST
+                and name.removeprefix(f"{PACKAGE}.") not in self.exceptions
+            ):
+                found.append(f"{name} has {size} lines of code")
+        found += [f"these import each other: {', '.join(part)}" for part in self.circles()]
+        found += [f"{one} imports {other}, against the order" for one, other in self.backwards()]
+        for start in STARTS:
+            if libraries := self.loaded(start):
+                found.append(f"the start of {start} loads {', '.join(sorted(libraries))}")
+        return found
+
+    def figures(self) -> Iterator[str]:
+        """How many modules there are, how large, and how many names cross their borders."""
+        files = nx.DiGraph()
+        names = set()
+        for each in self.package.imports:
+            home = self.package.origin(each)
+            if home != each.importer:
+                files.add_edge(each.importer, home)
+            if self.target.get(home) != self.target.get(each.importer):
+                names.add((self.target.get(each.importer), home, each.name))
+        sizes = sorted(self.sizes.values())
+        inside = sum(each.where == INSIDE for each in self.package.imports)
+        yield f"files: {len(self.package.modules)}, with {files.number_of_edges()} imports"
+        circles = sum(len(part) > 1 for part in nx.strongly_connected_components(files))
+        edges = self.graph(TOP, INSIDE, TYPES).number_of_edges()
+        yield f"circles between files: {circles}"
+        yield f"modules of the plan: {len(sizes)}, with {edges} imports"
+        yield f"names that cross a border: {len(names)}"
+        yield f"imports of the package inside functions: {inside}"
+        median = sizes[len(sizes) // 2]
+        yield f"lines of code of a module: {sizes[0]} to {sizes[-1]}, median {median}"
+
+
+def folder_of(module: str) -> str:
+    """The folder or file directly below the package; nothing for the package itself."""
+    return [*module.split("."), ""][1]
+
+
+def main() -> None:
+    layout = Layout(Package())
+    print(*layout.figures(), sep="\n")
+    wrong = layout.wrong()
+    print(*(f"WRONG {each}" for each in wrong), sep="\n")
+    sys.exit(f"{len(wrong)} things are wrong" if wrong else None)
+
+
+if __name__ == "__main__":
+    main()
