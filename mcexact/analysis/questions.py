@@ -261,7 +261,8 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         },
         "box_setpoints": Question(
             "boxes.box_setpoints:box_setpoints",
-            "whether a controller of its own holds every plant within the radii at any set-points",
+            "whether a controller of its own holds every plant within the radii at any constant "
+            "set-points",
             about="plant",
             needs="uncertainty",
             reuses={"solvability": "setpoint"},

@@ -106,7 +106,7 @@ STABILIZABLE = Template(
 SETPOINTS = Template(
     "members-setpoints",
     "for every plant some decentralized linear time-invariant controller of its own holds all "
-    "outputs at any set-points",
+    "outputs at any constant set-points",
     "S. H. Wang and E. J. Davison 1973; E. J. Davison 1976",
     "within the radii",
 )

@@ -271,7 +271,7 @@ gains("every-channel", "both", everywhere)
 
 # Set-points.
 
-HELD = "linear time-invariant centralized control holds all outputs at any set-points"
+HELD = "linear time-invariant centralized control holds all outputs at any constant set-points"
 
 
 def unreached(c: Premise, o: Premise) -> list[str]:

@@ -33,7 +33,7 @@ def of_plants(stem: str, kinds: str, each: str) -> None:
 
 of_plants("members", "box", f"each of them {OWN}")
 of_plants("parametric-ranges", "parametric_box", f"each of these plants {OWN}")
-HOLDS = "some decentralized controller of its own holds all outputs at any set-points"
+HOLDS = "some decentralized controller of its own holds all outputs at any constant set-points"
 restate(
     "members-setpoints",
     Role(("box_fixed",), (("integrators",),)),

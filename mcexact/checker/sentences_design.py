@@ -152,14 +152,19 @@ def _kept(_: Premise, spectrum: Premise) -> str:
 
 @rule("design-steady-state", LOOP, theorem="B. A. Francis and W. M. Wonham 1976")
 def _steady_state(loop: Premise) -> str:
-    """The loop is stable, and agents integrate the difference of output and set-point."""
+    """The loop is stable, and agents integrate the difference of output and set-point.
+
+    Then all states tend to an equilibrium where nothing that enters varies: a set-point of any
+    other agent, too.
+    """
     loop.expect(_is_stable(loop), "the loop is not stable")
     _, agents = controller([loop])
     system = controlled(loop)
     for i, agent in enumerate(agents):
         good = integrates(system, i, agent)
         loop.expect(good, f"agent number {i + 1} does not integrate its outputs less set-points")
-    return f"{loop.about}: every output tends to the set-point of its agent, if that is constant"
+    constant = "every set-point, and every disturbance of the plant, is constant"
+    return f"{loop.about}: every output tends to its set-point if {constant}"
 
 
 def integrates(system: System, i: int, agent: Json) -> bool:

@@ -27,7 +27,7 @@ FIRST = (
     "within the radii: every plant is controllable by all channels together",
     "within the radii: every plant is observable by all channels together",
     "within the radii: for every plant some decentralized linear time-invariant controller of its "
-    "own holds all outputs at any set-points",
+    "own holds all outputs at any constant set-points",
     "At the nominal values:",
 )
 

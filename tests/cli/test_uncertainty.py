@@ -101,7 +101,7 @@ def test_analyze_reads_the_uncertainty_of_the_file(tmp_path: Path) -> None:
     assert found["box_setpoints"]["bound"] in (0, "0")
     status, out, _ = call("analyze", str(path))
     first = " ".join(out.partition("At the nominal values:")[0].split())
-    assert "controller of its own holds all outputs at any set-points" in first
+    assert "controller of its own holds all outputs at any constant set-points" in first
 
 
 def test_set_points_are_open_unless_the_plant_itself_has_none(tmp_path: Path) -> None:

@@ -48,7 +48,7 @@ def box_setpoints(
     >>> proof = box_setpoints(Box.relative(plant, "1/20").system)
     >>> print(proof.explain())
     within the radii: for every plant some decentralized linear time-invariant controller of its \
-own holds all outputs at any set-points
+own holds all outputs at any constant set-points
     >>> twice = MultiChannelSystem([[-1]], [[[1]]], [[[1], [2]]])
     >>> box_setpoints(Box.relative(twice, "1/20").system)
     Traceback (most recent call last):

@@ -41,9 +41,10 @@ KEPT = Template("design-kept", "{p:modes}", label="remaining fixed modes")
 LONGEST = Template("design-longest-number", "{bits:int} bits", label="longest number")
 STEADY = Template(
     "design-steady-state",
-    "the identity, exactly",
+    "each tends to its set-point if every set-point, and every disturbance of the plant, is "
+    "constant",
     "B. A. Francis and W. M. Wonham 1976",
-    "gain from set-points to outputs",
+    "outputs",
 )
 MEASURED = Template("design-measured", "computed in floating point, not certified")
 

@@ -31,7 +31,8 @@ UNREACHED = {
 }
 NOT_OBSERVABLE = Template(
     "refused-not-observable",
-    "no distributed observer estimates {p:modes}: all channels together do not observe {p:them}",
+    "no distributed observer moves {p:modes} of its errors: all channels together do not observe "
+    "{p:them}",
     "controllability.uncontrollable_modes",
 )
 ERRORS_NOT_COMPLETE = Template(

@@ -28,7 +28,7 @@ def test_every_member_holds_set_points_by_a_controller_of_its_own(
     box = Box.relative(plant, "1/20")
     proof = box_setpoints(box.system)
     assert check(proof, box.system).verdict == "VALID"
-    assert "holds all outputs at any set-points" in proof.explain()
+    assert "holds all outputs at any constant set-points" in proof.explain()
     rng = random.Random(1)
     for vertex in (True, False) * 5:
         member = box.member(rng, vertex=vertex)
