@@ -14,7 +14,7 @@ from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_text
 from mcexact.exact.shortened import rounded
-from mcexact.model.parametric import ParametricSystem, Range
+from mcexact.model.parametric import Range
 
 ModePolynomial = tuple[Polynomial, ...]
 """A polynomial in x, monic, by its coefficients, constant first, which are polynomials in t."""
@@ -140,7 +140,7 @@ def rows_of_values(
     for left in found.outside:
         where = f"{value_text(left.value, left.roots, t)} (out of range)"
         rows.append((where, "not decided", assumed))
-    for q in poles_of(found.about):
+    for q in found.about.poles:
         rows.append((f"{in_parameter(q, t)} = 0", "undefined", "a denominator is 0"))
     return tuple(rows)
 
@@ -153,13 +153,6 @@ def joined(
     said = [(where, f"{name}: {what}", why) for name, where, what, why in named if what]
     proved = dict.fromkeys((where, what, why) for _, where, what, why in named if not what)
     return (*said, *proved)
-
-
-def poles_of(about: ParametricSystem) -> tuple[Polynomial, ...]:
-    """The irreducible polynomials at whose roots an entry of a system is undefined."""
-    parts = [about.A, *(M for c in about.channels for M in (c.B, c.C))]
-    found = {q for M in parts for q, _ in M.reduced[1].factor()}
-    return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
 
 
 def mode_in_sympy(p: ModePolynomial, parameter: Any = "t") -> Any:

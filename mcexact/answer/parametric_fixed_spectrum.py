@@ -15,7 +15,6 @@ from mcexact.answer.parameter_values import (
     in_parameter,
     mode_in_sympy,
     mode_text,
-    poles_of,
     rows_of_values,
     value_text,
 )
@@ -123,8 +122,8 @@ class ParametricFixedSpectrum(Answer):
     """The modes that no linear time-invariant decentralized feedback moves, for every parameter.
 
     It is about A'/δ, B_i'/β_i, C_i'/γ_i in lowest terms, and every complex value of the parameter
-    at which all entries are defined.  The modes of the system are the roots x named here divided by
-    the value of δ.
+    at which all entries of the plant are defined.  The modes of the system are the roots x named
+    here divided by the value of δ.
 
     Attributes
     ----------
@@ -148,7 +147,7 @@ class ParametricFixedSpectrum(Answer):
     @shown("undefined at the roots of")
     def undefined_at(self) -> tuple[Polynomial, ...]:
         """The irreducible polynomials at whose roots an entry is undefined."""
-        return poles_of(self.about)
+        return self.about.poles
 
     @property
     def exceptional_at(self) -> tuple[Polynomial, ...]:

@@ -70,7 +70,7 @@ def _signals(p: Polynomial, system: ParametricSystem) -> Layers:
         for j in counted(range(d)):
             # the entry of -K: -1 below the diagonal, the coefficients of p in the last column
             c = (p[i] if j == d - 1 else 0) - (j == i - 1)
-            block = [identity.times(-c * value) for value in system.poles[0]]
+            block = [identity.times(-c * value) for value in system.scale]
             start = system.A if i == j else [Matrix.zeros(n, n)]
             row.append(layered.difference(start, block))
         inputs = [B if i == j else blank[n, B[0].ncols] for j in range(d)]

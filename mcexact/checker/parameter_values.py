@@ -4,6 +4,7 @@ from functools import reduce
 
 from . import reading, root_discs
 from .arithmetic import Polynomial, poly_divide, poly_product
+from .expressions import common_divisor
 from .parametric_system import ParametricSystem
 from .reading import Json, fields, items, require
 from .statement import polynomial_text
@@ -11,9 +12,14 @@ from .statement import polynomial_text
 REAL = "real ones where the disc is centered on the real axis, and only there"
 
 
-def listed_value(value: Json, discs: Json, place: str) -> Polynomial:
-    """A polynomial q of degree at least 1, with discs that tell its real roots from the others."""
+def listed_value(value: Json, discs: Json, place: str, system: ParametricSystem) -> Polynomial:
+    """A polynomial q of degree at least 1, with discs that tell its real roots from the others.
+
+    At its roots all entries of the plant are defined.
+    """
     q = reading.polynomial(value, f"{place}.value", 1)
+    defined = all(len(common_divisor(q, delta)) == 1 for delta in system.poles)
+    require(defined, "pole", f"{place}.value", "an entry of the plant is undefined there")
     root_discs.require_real_or_not(root_discs.root_discs(discs, f"{place}.roots", q), place)
     return q
 
@@ -42,14 +48,15 @@ def values_left_out(outside: Json, poles: Json, system: ParametricSystem) -> lis
         place = f"witness.undefined[{k}]"
         found.append(reading.polynomial(entry, place, 1))
         gone = not poly_divide(denominator, found[-1])[1]
-        require(gone, "pole", place, "it divides no denominator")
+        require(gone, "pole", place, "it divides no denominator of the plant")
     return found
 
 
 def where_text(claim: Json, system: ParametricSystem) -> str:
     """The values that a claim is about."""
     t = system.parameter
-    where = f"for every complex value of the parameter {t} at which all entries are defined"
+    where = f"for every complex value of the parameter {t} at which all entries of the plant are "
+    where += "defined"
     if claim["outside"]:
         roots = ", ".join(roots_text(entry, t) for entry in claim["outside"])
         where += f", except at {roots}, none of which is real and between {ends_text(system)}"

@@ -49,7 +49,7 @@ def _exceptional(
     place, inside = f"claim.{where}", f"witness.{where}"
     value, discs, listed = fields(entry, place, "value", "roots", "modes")
     blocks, divisors = fields(proof, inside, "modes", "divisors")
-    q = listed_value(value, discs, place)
+    q = listed_value(value, discs, place, system)
     count, modes = len(items(listed, f"{place}.modes")), []
     require(count > 0, "claim", f"{place}.modes", "expected at least one mode")
     for k, block in enumerate(items(blocks, f"{inside}.modes", count)):
@@ -66,7 +66,7 @@ def _exceptional(
 
 def statement(claim: Json, system: ParametricSystem) -> str:
     """The fixed modes for every value of the parameter."""
-    t, delta = system.parameter, polynomial_text(system.poles[0], system.parameter)
+    t, delta = system.parameter, polynomial_text(system.scale, system.parameter)
     scaled = "" if delta == "1" else f", multiplied by {delta},"
     where, fixed = where_text(claim, system), f"the modes that are {FIXED}{scaled} are the roots x"
     listed = [(roots_text(each, t), _modes_text(each, t)) for each in claim["exceptional"]]

@@ -42,7 +42,7 @@ def check(claim: Json, witness: Json, system: ParametricSystem) -> None:
     for k, proof in enumerate(counted(proofs)):
         place = f"claim.exceptional[{k}]"
         value, discs, rank = fields(listed[k], place, "value", "roots", "rank")
-        values.append(listed_value(value, discs, place))
+        values.append(listed_value(value, discs, place, system))
         least = integer(rank, f"{place}.rank")
         require(least < r, "claim", f"{place}.rank", f"expected less than {r}")
         _require_kernel(proof, f"witness.exceptional[{k}]", M, least, values[-1])

@@ -73,7 +73,8 @@ class FunctionSystem:
 class ParametricSystem(FunctionSystem):
     """x' = A/δ x + Σ B_i/β_i u_i, y_i = C_i/γ_i x with polynomials in t in A, B_i and C_i.
 
-    ``poles`` are the monic denominators, the first one δ.
+    ``scale`` is δ, monic, and ``poles`` are the monic denominators of the plant: what is made of it
+    is about the same values of t, even without the entries that have these denominators.
     """
 
     parameter: str
@@ -81,6 +82,7 @@ class ParametricSystem(FunctionSystem):
     A: Layers
     B: list[Layers]
     C: list[Layers]
+    scale: Polynomial
     poles: list[Polynomial]
 
     def number(self, value: int) -> Any:
@@ -97,7 +99,7 @@ class ParametricSystem(FunctionSystem):
 
     def remade(self, tables: list[Table], **parts: Any) -> "FunctionSystem":
         """The same with other functions."""
-        return replace(self, **cleared_tables(tables), **parts)
+        return replace(self, **cleared_tables(tables) | {"poles": self.poles}, **parts)
 
     def others(self, channels: list[int]) -> list[int]:
         """The channels that are not among these."""
@@ -261,9 +263,9 @@ def _form(table: Table, write: Callable[[Any], Json]) -> Json:
 
 def cleared_tables(tables: list[Table]) -> dict[str, Any]:
     """The parts of a plant that these matrices determine."""
-    (A, *ports), poles = zip(*map(_cleared, tables), strict=True)
-    B, C = ports[0::2], ports[1::2]
-    return {"tables": tables, "A": A, "B": B, "C": C, "poles": list(poles)}
+    (A, *ports), denominators = zip(*map(_cleared, tables), strict=True)
+    found = {"A": A, "B": ports[0::2], "C": ports[1::2], "scale": denominators[0]}
+    return {"tables": tables, **found, "poles": [*denominators]}
 
 
 def _cleared(table: Table) -> tuple[Layers, Polynomial]:

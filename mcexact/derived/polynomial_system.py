@@ -72,10 +72,8 @@ class PolynomialSystem:
 
     @cached_property
     def poles(self) -> tuple[Polynomial, ...]:
-        """The irreducible factors of all denominators, at whose roots an entry is undefined."""
-        parts = [self.system.A, *(M for c in self.system.channels for M in (c.B, c.C))]
-        found = {q for M in parts for q, _ in M.reduced[1].factor()}
-        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+        """The polynomials at whose roots an entry of the plant is undefined."""
+        return self.system.poles
 
     def closed(self, gains: Sequence[Matrix]) -> PolynomialMatrix:
         """A' + Σ B_i' F_i C_i'."""

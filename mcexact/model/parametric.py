@@ -6,12 +6,14 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, ClassVar
 
 from mcexact.arguments import told
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.location import require_time
+from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction, written
 from mcexact.exact.rational_function import RationalFunction
 from mcexact.model.channel import ByChannel, Channel, channels_of
@@ -149,6 +151,17 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
     def parameters_in_words(self) -> tuple[str, ...]:
         """Each parameter with its range, such as "t in [0, 1]"."""
         return tuple(map(_with_range, self.parameters, self.ranges))
+
+    @cached_property
+    def poles(self) -> tuple[Polynomial, ...]:
+        """With one parameter, the irreducible polynomials at whose roots an entry is undefined.
+
+        Of a system that was constructed from a plant these are the poles of the plant, since all
+        answers about the plant are about the same values, even without the entries that have them.
+        """
+        parts = [self.plant.A, *(M for c in self.plant.channels for M in (c.B, c.C))]
+        found = {q for M in parts for q, _ in M.reduced[1].factor()}
+        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
 
     @property
     def plant(self) -> ParametricSystem:

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.moved_entries import moved
 from mcexact.checker.parameter_values import (
     listed_value,
     roots_text,
@@ -31,7 +32,8 @@ def disc(re: str, im: str = "0", radius: str = "0") -> Any:
 def code(value: Any, discs: list[Any]) -> str:
     """Why a value is refused, if it is."""
     try:
-        assert listed_value(value, discs, "claim.values[0]") == [Fraction(c) for c in value]
+        known = listed_value(value, discs, "claim.values[0]", ranged(None, None))
+        assert known == [Fraction(c) for c in value]
     except Refused as found:
         assert found.place.startswith("claim.values[0]")
         return found.code
@@ -49,6 +51,25 @@ def test_discs_tell_real_roots_from_others() -> None:
     assert code([-2, 1], []) == "form"
     assert code([1], []) == "form"
     assert code([-4, 2], [disc("2")]) == "form"
+
+
+def test_nothing_is_said_of_a_value_at_which_an_entry_is_undefined() -> None:
+    assert code([0, 1], [disc("0")]) == code([1, 1], [disc("-1")]) == "pole"
+    assert code([0, -2, 1], [disc("0"), disc("2")]) == "pole"
+
+
+def test_what_is_made_of_a_plant_has_its_poles() -> None:
+    """The whole state is measured instead of 1/(t + 1), and 1/t² drives no channel of {2}."""
+    system = plant([["t"]], ([["(1)/(t^2)"]], [["(1)/(t + 1)"]]), ([[1]], [["t"]]))
+    known = one_parameter(read_parametric(system))
+    for steps in (
+        [{"construction": "restricted", "channels": ["2"]}],
+        [{"construction": "dual"}, {"construction": "full_output", "channel": "2"}],
+    ):
+        made = one_parameter(moved(steps, known))
+        assert made.poles == known.poles and [1, 1] in made.poles and made.scale == [1]
+        with pytest.raises(Refused, match="undefined there"):
+            listed_value([0, 1], [disc("0")], "claim.values[0]", made)
 
 
 def left_out(value: Any, discs: list[Any], low: Any = None, high: Any = 1) -> str:
@@ -117,7 +138,9 @@ TWO = {"value": [-2, 1], "roots": [disc("2")]}
 
 def test_values_have_words() -> None:
     assert roots_text(TWO, "t") == "the roots of t - 2, one in each of the discs {2 +- 0}"
-    start = "for every complex value of the parameter t at which all entries are defined"
+    start = (
+        "for every complex value of the parameter t at which all entries of the plant are defined"
+    )
     assert where_text({"outside": []}, ranged(None, 1)) == start
     said = f"{start}, except at the roots of t - 2, one in each of the discs {{2 +- 0}}"
     for ends, words in (

@@ -38,8 +38,9 @@ def test_what_is_found_is_proved(name: str) -> None:
 
 def test_the_statements_say_what_is_fixed_and_where() -> None:
     said = checked(PAPER).statement
-    start = "for every complex value of the parameter t at which all entries are defined, no mode "
-    assert f"{start}is fixed under linear time-invariant decentralized control; but at" in said
+    start = "for every complex value of the parameter t at which all entries of the plant are "
+    never = "no mode is fixed under linear time-invariant decentralized control"
+    assert f"{start}defined, {never}; but at" in said
     assert "; but at the roots of t, one in each of the discs {0 +- 0}, real" in said
     fixed = "the modes that are fixed under linear time-invariant decentralized control are the"
     assert (

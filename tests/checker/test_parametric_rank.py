@@ -99,7 +99,10 @@ def test_the_ranks_are_those_that_a_pencil_gives() -> None:
 
 def test_the_statements_name_the_matrix_and_the_values() -> None:
     said = checked(SQUARE).statement
-    assert "for every complex value of the parameter t at which all entries are defined" in said
+    assert (
+        "for every complex value of the parameter t at which all entries of the plant are defined"
+        in said
+    )
     assert ", [A, B; C, 0] with the matrices A, B and C of all channels has rank exactly 2" in said
     assert "has rank exactly 2; but rank exactly 1 at the roots of t - 1" in said
     assert said.endswith("real ones where the disc is centered on the real axis, and only there")

@@ -49,6 +49,7 @@ CODES = {
     "a polynomial that is not monic": "form",
     "a real value beyond no range": "range",
     "a pole of no entry": "pole",
+    "a value at which an entry is undefined": "pole",
     "a zero block of another mode": "identity",
     "a zero block beside inputs that act": "identity",
     "a zero block beside outputs that see": "identity",
@@ -259,4 +260,4 @@ def test_a_value_is_undefined_where_a_denominator_vanishes_and_nowhere_else() ->
     document = changed(spectrum(pole), ("witness.undefined", [[-1, 1]]))
     assert checked(document).verdict == "VALID"
     assert checked(spectrum(pole)).code == "common_factor"
-    assert checked(spectrum(pole, exceptional=(FIXED_AT_ONE,))).verdict == "VALID"
+    assert checked(spectrum(pole, exceptional=(FIXED_AT_ONE,))).code == "pole"

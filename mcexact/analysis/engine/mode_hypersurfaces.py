@@ -89,8 +89,9 @@ class _Search:
         self.system, self.rng, self.names = system, rng, system.parameters
         parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
         rows = [several_variables.cleared(M, self.names)[0] for M in parts]
+        entries = [about.A, *(M for c in about.channels for M in (c.B, c.C))]
         self.A, self.B, self.C = rows[0], rows[1::2], rows[2::2]
-        self.poles = poles(parts, self.names)
+        self.poles = poles(entries, self.names)
         self.chi = several_variables.characteristic(self.A, self.names)
 
     def found(self) -> ExceptionalHypersurfaces:

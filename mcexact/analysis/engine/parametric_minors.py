@@ -47,10 +47,10 @@ def parametric_rank(system: ParametricSystem, matrix: Named) -> ParametricRank:
 
     Notes
     -----
-    Exact, for every complex value at which all entries are defined.  The roots of one minor of full
-    order are the candidates; each irreducible factor is decided modulo a prime in which it has a
-    root, and what is lost there is proved by a kernel over its number field.  That no other value
-    counts is proved by a second, drawn minor modulo a prime.
+    Exact, for every complex value at which all entries of the plant are defined.  The roots of one
+    minor of full order are the candidates; each irreducible factor is decided modulo a prime in
+    which it has a root, and what is lost there is proved by a kernel over its number field.  That
+    no other value counts is proved by a second, drawn minor modulo a prime.
     """
     return _Search(PolynomialSystem(system), matrix).found()
 

@@ -64,11 +64,11 @@ def parametric_fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectr
 
     Notes
     -----
-    Exact, for every complex value at which all entries are defined.  The greatest common divisor of
-    det(xI − A_F) for some gains F, as polynomials in x and t, has the generic fixed modes as roots;
-    the values at which others can be fixed are common roots of resultants, and each of them is
-    decided over its number field.  Values without a real one in the range that is assumed are left
-    out.
+    Exact, for every complex value at which all entries of the plant are defined.  The greatest
+    common divisor of det(xI − A_F) for some gains F, as polynomials in x and t, has the generic
+    fixed modes as roots; the values at which others can be fixed are common roots of resultants,
+    and each of them is decided over its number field.  Values without a real one in the range that
+    is assumed are left out.
 
     Examples
     --------

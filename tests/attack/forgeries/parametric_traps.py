@@ -261,6 +261,9 @@ SPECTRA: dict[str, Document] = {
         spectrum(scalar("t")), "claim", outside=[{"value": [0, 1], "roots": AT_ZERO}]
     ),
     "a pole of no entry": saying(spectrum(scalar("t")), "witness", undefined=[[0, 1]]),
+    "a value at which an entry is undefined": spectrum(
+        plant([[0]], ([["t"]], [["(1)/(t)"]])), exceptional=(FIXED_AT_ZERO,)
+    ),
     "a zero block of another mode": spectrum(
         plant([[0]], ([[0]], [["t"]])), generic=(UNMOVED, (FIVE, ONE_ROW))
     ),

@@ -25,13 +25,17 @@ Rows = list[list[Function]]
 
 @dataclass(frozen=True)
 class ParametricPlant:
-    """A plant of rational functions of a parameter, each a numerator and a denominator."""
+    """A plant of rational functions of a parameter, each a numerator and a denominator.
+
+    What is made of a plant keeps its poles, the denominators of all entries.
+    """
 
     time: str
     names: tuple[str, ...]
     parameter: str
     range: tuple[Any, Any]
     tables: tuple[tuple[Rows, int, int], ...]
+    poles: tuple[fmpq_poly, ...] = ()
 
     @property
     def n(self) -> int:
@@ -71,7 +75,8 @@ def line_through(
         for rows, nrows, ncols in plant.tables
     )
     parameter, ends = list(plant.ranges.items())[k]
-    return ParametricPlant(plant.time, plant.names, parameter, ends, tables)
+    poles = tuple(common_denominator(rows) for rows, _, _ in tables)
+    return ParametricPlant(plant.time, plant.names, parameter, ends, tables, poles)
 
 
 def in_lowest_terms(top: fmpq_poly, bottom: fmpq_poly) -> Function:

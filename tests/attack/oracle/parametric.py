@@ -51,9 +51,11 @@ def spectrum(claim: Any, witness: Any, plant: ParametricPlant) -> bool:
     ]
     if not all(is_outside(q, entry["roots"], plant.range) for q, entry in outside):
         return False
-    if not all(discs_hold(entry["roots"], q, real=True) for q, entry in values):
+    if not all(
+        discs_hold(entry["roots"], q, real=True) and is_defined(q, plant) for q, entry in values
+    ):
         return False
-    silent = [*plant.denominators, *(q for q, _ in outside)]
+    silent = [*plant.poles, *(q for q, _ in outside)]
     points = [common_roots(left), *(q for q, _ in values)]
     different = {
         str(p): p for f in points if f.degree() > 0 for p, _ in algebra.irreducible_factors(f)
@@ -187,6 +189,11 @@ def is_outside(q: fmpq_poly, discs: Any, ends: tuple[Any, Any]) -> bool:
     return discs_hold(discs, q) and not meets(q, ends)
 
 
+def is_defined(q: fmpq_poly, plant: ParametricPlant) -> bool:
+    """Whether all entries of the plant are defined at the roots of a polynomial."""
+    return all(q.gcd(pole).degree() == 0 for pole in plant.poles)
+
+
 # The statement
 
 
@@ -210,7 +217,8 @@ def parametric_sentence(claim: Any, plant: ParametricPlant) -> str:
 def where_text(claim: Any, plant: ParametricPlant) -> str:
     """The values that a claim is about."""
     t = plant.parameter
-    start = f"for every complex value of the parameter {t} at which all entries are defined"
+    start = f"for every complex value of the parameter {t} at which all entries of the plant are "
+    start += "defined"
     if claim["outside"]:
         missing = ("-infinity", "infinity")
         pairs = zip(plant.range, missing, strict=True)

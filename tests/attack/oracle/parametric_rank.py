@@ -13,6 +13,7 @@ from flint import fmpq, fmpq_mat, fmpq_poly, nmod_mat
 from . import algebra
 from .one_parameter import SEED, ParametricPlant, common_denominator
 from .parametric import (
+    is_defined,
     is_outside,
     monic,
     residue_at,
@@ -47,11 +48,12 @@ def rank(claim: Any, witness: Any, plant: ParametricPlant) -> bool:
     ]
     if not all(is_outside(q, e["roots"], plant.range) for q, e in outside):
         return False
-    if not all(s < r and discs_hold(e["roots"], q, real=True) for q, s, e in values):
+    right = (s < r and discs_hold(e["roots"], q, real=True) for q, s, e in values)
+    if not all(right) or not all(is_defined(q, plant) for q, *_ in values):
         return False
     if _rank_at(M, ncols, fmpq(rng.getrandbits(60))) != r:
         return False
-    silent = [*plant.denominators, *(q for q, _ in outside)]
+    silent = [*plant.poles, *(q for q, _ in outside)]
     common = fmpq_poly([])
     for minor in _minors(M, ncols, r, rng):
         common = common.gcd(minor) if common != 0 else minor
