@@ -39,10 +39,6 @@ PARAMETERS = {"expressions", "parametric_system", "several_parameters"}
 """What the rules about plants with a parameter rest on: their entries and their reader."""
 RULES = sorted({path.stem for path in FILES} - FRONT - SHARED - SENTENCES - PARAMETERS - BOXES)
 """One rule a file: a kind, a construction, or a piece of evidence that several kinds use."""
-MOST = 6476
-"""The lines of code of the checker, of all files of its folder, as :func:`lines_of_code` counts.
-
-It is what was reached: it falls with the checker, and who raises it says what that buys."""
 SKIPPED = {
     tokenize.COMMENT,
     tokenize.DEDENT,
@@ -68,28 +64,9 @@ def lines_of_code(path: Path) -> int:
     return len(lines)
 
 
-def test_the_checker_takes_no_more_lines_than_were_reached() -> None:
-    assert sum(map(lines_of_code, FILES)) <= MOST
-
-
 @pytest.mark.parametrize("stem", RULES)
 def test_a_rule_takes_at_most_100_lines(stem: str) -> None:
     assert lines_of_code(FOLDER / f"{stem}.py") <= 100
-
-
-def test_what_all_rules_share_takes_at_most_1120_lines() -> None:
-    shared = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(SHARED)}
-    assert sum(shared.values()) <= 1120, shared
-
-
-def test_plants_with_parameters_take_at_most_420_lines() -> None:
-    read = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(PARAMETERS)}
-    assert sum(read.values()) <= 420, read
-
-
-def test_the_sentences_take_at_most_930_lines() -> None:
-    about = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(SENTENCES)}
-    assert sum(about.values()) <= 930, about
 
 
 def test_no_rule_about_a_certificate_rests_on_the_sentences() -> None:
