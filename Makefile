@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: absence boxes members parameters cluster corpus coverage digits package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence boxes hypersurfaces members parameters cluster corpus coverage digits package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -84,6 +84,11 @@ absence: $(STAMP)
 # after an interruption.
 parameters: $(STAMP)
 	$(BIN)/python -m tests.campaigns.parametric $(or $(N),1000) $(or $(FIRST),0)
+
+# Exceptional hypersurfaces of several parameters beside enumeration on other lines modulo primes, on
+# 300 drawn systems: a quarter of an hour.  The same command continues after an interruption.
+hypersurfaces: $(STAMP)
+	$(BIN)/python -m tests.campaigns.hypersurfaces $(or $(N),300) $(or $(FIRST),0)
 
 # What is proved for all plants in boxes of 3,000 drawn systems, beside exact decisions about members
 # and segments: an hour.  The same command continues after an interruption.

@@ -12,9 +12,11 @@ import importlib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, NoReturn, TypeVar, dataclass_transform
+from typing import Any, ClassVar, NoReturn, Self, TypeVar, dataclass_transform
 
 from mcexact.answer import showing
+from mcexact.arguments import told
+from mcexact.errors import InputError, UsageError
 from mcexact.model.canonical import Document, text_of
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document, digest
@@ -100,6 +102,11 @@ class Part(Shown):
         return showing.call(type(self).__name__, self.document())
 
 
+def _values(system: Any) -> tuple[Any, ...]:
+    """What decisions about a system at its nominal values depend on."""
+    return type(system).__name__, system.time, system.A, system.channels
+
+
 @dataclass(frozen=True, repr=False, eq=False)
 class Answer(Shown):
     """A decision about a system, with its proof; two answers are equal if their certificates are.
@@ -113,6 +120,29 @@ class Answer(Shown):
     kind: ClassVar[str] = ""
 
     about: MultiChannelSystem
+
+    @classmethod
+    def known(cls, found: Any, system: Any, where: str) -> Self | None:
+        """An argument that is this answer about a system, if it is known; None if it is not.
+
+        Radii are of no account: answers about a box are searched beside that about its center.
+
+        Raises
+        ------
+        InputError
+            If it is another answer.
+        UsageError
+            If it is about another system.
+        """
+        if found is None:
+            return None
+        if not isinstance(found, cls):
+            raise InputError(
+                f"expected the answer {cls.__name__}, found {told(found)}", where=where
+            )
+        if _values(found.about) != _values(system):
+            raise UsageError("expected it about this system, found it about another", where=where)
+        return found
 
     @property
     def system(self) -> Document:

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from .controller import MAPS
 from .location import in_stability_region
+from .moved_entries import constructed
 from .reading import Json, polynomial
 from .sentence import Holds, Path, Premise, Role, either, restate, rule
 from .sentences_analysis import FIXED_DYNAMIC, SETPOINT, controls
@@ -59,7 +60,8 @@ def _sizes(known: list[Premise]) -> str:
 @rule("design-observer-order")
 def _observer_order(known: list[Premise]) -> str:
     """The order of the paper's observer for what the controller controls, n m + m − 1."""
-    system = controlled(controller(known)[0])
+    loop, _ = controller(known)
+    system = constructed(loop.document["subject"][:-1], loop.plant)
     order = system.n * system.m + system.m - 1
     return f"For {system.words}: the paper's observer has {counted(order, 'state')}"
 

@@ -132,12 +132,18 @@ def common_divisor(polynomials: Sequence[Any]) -> Any:
     return reduce(lambda f, g: f.gcd(g), polynomials)
 
 
+def is_coprime(f: Any, g: Any) -> bool:
+    """Whether two polynomials have no common factor but constants."""
+    return bool(f.gcd(g).is_constant())
+
+
 def resultant_factors(
     f: Sequence[Any], g: Sequence[Any], parameters: tuple[str, ...]
 ) -> set[RationalFunction]:
     """The irreducible factors of the resultants with respect to x of two lists of polynomials.
 
-    Their coefficients are coprime integers, the first one positive.
+    No polynomial of the one list has a factor in common with one of the other, so that no resultant
+    is 0.  Their coefficients are coprime integers, the first one positive.
     """
     return {
         in_parameters(h, parameters)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -20,6 +21,7 @@ from mcexact import (
 from mcexact.errors import UsageError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_function import RationalFunction
+from tests.campaigns import hypersurfaces
 
 
 def surfaces(plant: ParametricSystem) -> list[str]:
@@ -91,6 +93,30 @@ def test_denominators_are_undefined_and_not_exceptional() -> None:
     found = exceptional_hypersurfaces(plant)
     assert [str(each) for each in found.undefined_at] == ["a", "a - b"]
     assert [str(each.polynomial) for each in found.hypersurfaces] == ["b"]
+
+
+@pytest.mark.parametrize("question", ["fixed_spectrum", "joint_controllability", "setpoint"])
+def test_lines_inside_a_hypersurface_and_beside_it_say_nothing_of_it(question: Any) -> None:
+    """Of the drawn lines some lie in a + b = 0, and some never meet it."""
+    for k in (-29, -17, -10, -7, 5, 12, 22, 25, 28):
+        plant = ParametricSystem([[k]], [[["a + b"]]], [[[1]]], parameters=["a", "b"])
+        found = exceptional_hypersurfaces(plant, question)
+        assert [str(each) for each in found.exceptional_at] == ["a + b"]
+
+
+@pytest.mark.parametrize("number", [17, 24])
+def test_drawn_plants_agree_with_enumeration_modulo_primes(number: int) -> None:
+    wrong, seen = hypersurfaces.examined(number)
+    assert not wrong
+    assert seen["certificates"] > 0
+
+
+def test_enumeration_notices_a_hypersurface_that_is_left_out() -> None:
+    plant = ParametricSystem([[1]], [[["a + b"]]], [[[1]]], parameters=["a", "b"])
+    found = exceptional_hypersurfaces(plant)
+    for told, agrees in ((found, True), (replace(found, hypersurfaces=()), False)):
+        told_of = hypersurfaces.more_fixed(told)
+        assert (hypersurfaces.differing(plant, told, random.Random(1), told_of) == []) is agrees
 
 
 def test_several_parameters_name_the_question_that_decides_for_them() -> None:

@@ -101,6 +101,24 @@ SHARING = programs(
 CIRCLE = ["1/8", "1/4", "3/8", "1/2", "3/4", 1, "4/3", 2, "8/3", 4, 8]
 LOOP_SAMPLED = stable(SAMPLED, [1, None, None], CIRCLE, LINKS, SHARING)
 """Each agent uses the other's output, too."""
+SLIDING = ranged([["-k"]], ([[1]], [[1]]), k=("7/4", "9/4"))
+PULLED = {
+    "name": "1",
+    "shared": 0,
+    "private": 0,
+    "shared_update": {},
+    "private_update": {},
+    "input": {"outputs": {"1": [[-1]]}},
+}
+HELD = stable(
+    SLIDING,
+    [None],
+    WAYS,
+    {"construction": "integrators"},
+    {"construction": "closed_loop", "controller": {"time": "continuous", "agents": [PULLED]}},
+    growth=[2, 2],
+)
+"""x' = −k x − w and w' = x."""
 ALL = {
     "tied entries": TIED,
     "two cells": HALVES,
@@ -113,4 +131,5 @@ ALL = {
     "turning": TURNED,
     "a loop with uncertain gains": LOOP_DAMPED,
     "a loop with links and two parameters": LOOP_SAMPLED,
+    "a loop with integrators": HELD,
 }

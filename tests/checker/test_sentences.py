@@ -41,6 +41,7 @@ from tests.attack.forgeries.joined import factors_joined
 from tests.checker.box_plants import OF_ONE_PLANT
 from tests.checker.handmade import Document, changed
 from tests.checker.manifests import manifest, one, said, sentence, write
+from tests.checker.parameter_plants import HELD, LOOP_DAMPED, LOOP_SAMPLED, OBSERVED, QUARTERS
 from tests.checker.test_complementary_subsystem import TWICE
 from tests.checker.test_fixed_spectrum import UNEVEN
 from tests.checker.test_sentences_design import OF_DESIGNS
@@ -59,6 +60,18 @@ def test_the_checker_knows_every_sentence_by_its_theorem(template: Template) -> 
 
 def test_the_checker_knows_no_sentence_that_is_never_said() -> None:
     assert set(RULES) == {template.key for template in TEMPLATES}
+
+
+@pytest.mark.parametrize("document", [HELD, LOOP_DAMPED, LOOP_SAMPLED, QUARTERS, OBSERVED])
+def test_no_rule_ends_with_a_bug_beside_certificates_about_parameters(
+    tmp_path: Path, document: Document
+) -> None:
+    """Loops of plants within ranges have no matrices, and several parameters no one letter."""
+    evidence = {"it": document}
+    listed = [sentence(key, "it", evidence=evidence) for key in RULES]
+    verdicts = said(write(tmp_path, evidence, manifest(evidence, listed)))
+    assert [each.line() for each in verdicts if each.verdict not in {"IMPLIED", "INVALID"}] == []
+    assert len(verdicts) == len(RULES)
 
 
 # Analyses and allocations, of plants that have every property somewhere.

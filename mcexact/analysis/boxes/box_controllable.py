@@ -361,11 +361,11 @@ def box_observability(
         ...
     mcexact.errors.LimitReached: no proof was found that every plant in the box is observable
     """
-    if isinstance(system, ParametricSystem):
-        return box_controllability(moved(system, dual), channels, bound=bound)
-    InputError.require(system, MultiChannelSystem, "system")
     try:
+        if isinstance(system, ParametricSystem):
+            return box_controllability(moved(system, dual), channels, bound=bound)
+        InputError.require(system, MultiChannelSystem, "system")
         return box_controllability(dual(system), channels, bound=bound)
     except LimitReached as error:
         told = error.message.replace("is controllable", "is observable")
-        raise LimitReached(told) from None
+        raise LimitReached(told.replace("is not controlled", "is not observed")) from None

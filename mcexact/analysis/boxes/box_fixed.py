@@ -254,8 +254,8 @@ def box_fixed_modes(
     starts : int
         How many local searches for gains there are at most at a point.
     spectrum : FixedSpectrum, optional
-        The fixed modes of the nominal plant, if they are known: with one of them no proof is
-        searched.
+        The fixed modes of the nominal plant, which has no parameters, if they are known: with one
+        of them no proof is searched.
 
     Raises
     ------
@@ -281,6 +281,7 @@ def box_fixed_modes(
         ...
     mcexact.errors.LimitReached: no proof was found that no plant in the box has a fixed mode
     """
+    spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
         from mcexact.analysis.boxes.parametric_box import parametric_box_fixed_modes
 
@@ -344,6 +345,7 @@ def box_stabilizability(
     >>> box_stabilizability(Box.relative(plant, "1/100").system).bound
     Fraction(0, 1)
     """
+    spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
         return box_fixed_modes(system, bound=StabilityRegion(system.time).edge)
     InputError.require(system, MultiChannelSystem, "system")

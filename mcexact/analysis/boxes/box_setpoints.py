@@ -57,6 +57,7 @@ own holds all outputs at any constant set-points
 outside of the region
     """
     InputError.require(system, MultiChannelSystem, "system")
-    if solvability is not None and not solvability.solvable:
+    known = SetpointSolvability.known(solvability, system, "solvability")
+    if known is not None and not known.solvable:
         raise LimitReached("some set-points of the plant itself have no equilibrium")
     return box_stabilizability(setpoint_system(system))

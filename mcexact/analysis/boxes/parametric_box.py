@@ -123,8 +123,8 @@ def parametric_box_controllability(
     ('1',)
     """
     InputError.require(system, ParametricSystem, "system")
-    chosen = range(system.m) if channels is None else sorted(map(system.index, channels))
-    named = tuple(system.names[i] for i in chosen)
+    chosen = range(system.m) if channels is None else system.indices(channels)
+    named = system.named(chosen)
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
     outside = Outside(system.time, limit)
 

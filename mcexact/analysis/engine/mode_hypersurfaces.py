@@ -97,7 +97,10 @@ class _Search:
     def found(self) -> ExceptionalHypersurfaces:
         """The answer."""
         for attempt in range(DRAWS):
-            generic, candidates = self._candidates(1 + attempt)
+            drawn = self._candidates(1 + attempt)
+            if drawn is None:
+                continue
+            generic, candidates = drawn
             degree = sum(map(several_variables.degree, generic))
 
             def is_generic(answer: ParametricFixedSpectrum, degree: int = degree) -> bool:
@@ -139,13 +142,19 @@ class _Search:
                 )
         return several_variables.characteristic(closed, self.names)
 
-    def _candidates(self, size: int) -> tuple[list[Any], list[RationalFunction]]:
-        """What drawn gains leave, and where more is common to what they move."""
+    def _candidates(self, size: int) -> tuple[list[Any], list[RationalFunction]] | None:
+        """What drawn gains leave, and where more is common to what they move.
+
+        None if one of both loops keeps more than the other: its resultants are 0, and their factors
+        say nothing.
+        """
         psi = [self.chi, self._loop(size), self._loop(size)]
         common = several_variables.common_divisor(psi)
         generic = [p for p in several_variables.factors(common) if several_variables.degree(p)]
         for p in generic:
             psi = [several_variables.without(f, p) for f in psi]
+        if not all(several_variables.is_coprime(psi[0], f) for f in psi[1:]):
+            return None
         left, first, second = map(several_variables.factors, psi)
         in_both = several_variables.resultant_factors(left, first, self.names)
         in_both &= several_variables.resultant_factors(left, [*second, *generic], self.names)

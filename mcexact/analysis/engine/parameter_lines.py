@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Collection, Mapping, Sequence
-from fractions import Fraction
 from typing import Any
 
 from mcexact.answer.exceptional_hypersurfaces import A, Line
@@ -95,10 +94,13 @@ def _line(about: ParametricSystem, rng: random.Random, size: int) -> dict[str, R
 
 
 def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Polynomial]:
-    """The values at which a line meets a hypersurface, as monic irreducible polynomials."""
+    """The values at which a line meets a hypersurface, as monic irreducible polynomials.
+
+    None of them says that all do, or none: along such a line nothing is confirmed.
+    """
     values = [at[name] for name in h.parameters]
     met = h.substituted(values, RationalFunction.constant(0, _ALONG)).polynomials()[0]
-    return {q * (Fraction(1) / q.leading) for q, _ in met.factor()} if met else set()
+    return set() if met.is_zero() else {q.monic() for q, _ in met.factor()}
 
 
 def _confirmed(answer: Along, met: Mapping[RationalFunction, set[Polynomial]]) -> Confirmed | None:

@@ -40,7 +40,7 @@ def parametric_controllability(
     >>> print(*parametric_controllability(plant).words)
     the roots of x - 1 where t = 0
     """
-    chosen = system.names if channels is None else tuple(channels)
+    chosen = system.names if channels is None else system.named(system.indices(channels))
 
     def alone(plain: MultiChannelSystem) -> MultiChannelSystem:
         made = dual(plain) if observed else plain

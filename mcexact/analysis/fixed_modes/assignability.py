@@ -40,8 +40,8 @@ def assignability(
     (False, [(('1',), 1), (('2',), 1)])
     """
     InputError.require(system, MultiChannelSystem, "system")
-    graph = transfer_graph(system) if graph is None else graph
-    InputError.require(graph, TransferGraph, "graph")
+    known = TransferGraph.known(graph, system, "graph")
+    graph = transfer_graph(system) if known is None else known
     rng = generator(system, "assignability")
     realizations, degrees = [], []
     for component in graph.components:

@@ -61,7 +61,7 @@ def completeness(
         For a plant with one parameter the answer says whether it is complete for almost every
         value, and for which values it is not (`ParametricCompleteness`).
     spectrum : FixedSpectrum, optional
-        ``fixed_spectrum(system)``, if it is known already.
+        ``fixed_spectrum(system)`` of a plant without parameters, if it is known already.
 
     Notes
     -----
@@ -82,12 +82,11 @@ def completeness(
     >>> completeness(MultiChannelSystem([], [[], []], [[], []])).complete
     False
     """
+    known = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
         return parametric_completeness(system)
     InputError.require(system, MultiChannelSystem, "system")
-    if spectrum is None:
-        spectrum = fixed_spectrum(system)
-    InputError.require(spectrum, FixedSpectrum, "spectrum")
+    spectrum = fixed_spectrum(system) if known is None else known
     rng = generator(system, "completeness")
     evidence = _evidence(system, spectrum, rng)
     complete = isinstance(evidence, BlocksWitness | FreedomWitness)

@@ -118,8 +118,8 @@ def pencil_ranks(
     """
     InputError.require(system, MultiChannelSystem, "system")
     names = system.named(system.indices(subset))
-    found = open_loop_spectrum(system) if spectrum is None else spectrum
-    InputError.require(found, ClosedLoopSpectrum, "spectrum")
+    known = ClosedLoopSpectrum.known(spectrum, system, "spectrum")
+    found = open_loop_spectrum(system) if known is None else known
     return tuple(pencil_rank(system, names, mode) for mode, _ in found.polynomial.factor())
 
 

@@ -64,7 +64,7 @@ def joint_controllability(
     channels : iterable of str, optional
         T, names of channels, by default all.
     spectrum : FixedSpectrum, optional
-        ``fixed_spectrum(system)``, if it is known already.
+        ``fixed_spectrum(system)`` of a plant without parameters, if it is known already.
 
     Notes
     -----
@@ -84,6 +84,7 @@ def joint_controllability(
     >>> alone.controllable, str(alone.uncontrollable_polynomial)
     (False, 'x - 2')
     """
+    spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
         return parametric_controllability(system, channels)
     InputError.require(system, MultiChannelSystem, "system")
@@ -204,7 +205,7 @@ def joint_observability(
     channels : iterable of str, optional
         T, names of channels, by default all.
     spectrum : FixedSpectrum, optional
-        ``fixed_spectrum(system)``, if it is known already.
+        ``fixed_spectrum(system)`` of a plant without parameters, if it is known already.
 
     Returns
     -------
@@ -212,6 +213,7 @@ def joint_observability(
         The answer about ``dual(system)``: ``observable`` says whether (C_T, A) is, ``dimension`` is
         the rank of [C_T; C_T A; …], and ``uncontrollable_polynomial`` has the unobservable modes.
     """
+    spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
         return parametric_controllability(system, channels, observed=True)
     InputError.require(system, MultiChannelSystem, "system")
