@@ -211,7 +211,8 @@ class Layout:
         folder = f"{PACKAGE}.{name.split('.')[0]}" if "." in name else PACKAGE
         parts = [f"{folder}.{file}" for file in entry.get("from", ())]
         whole = f"{PACKAGE}.{name}"
-        if whole in self.package.modules and not set(parts) - {whole} & self.package.modules.keys():
+        left = {part for part in parts if part not in self.planned} & self.package.modules.keys()
+        if whole in self.package.modules and not left:  # it is put together already
             parts = [whole]
         for file in parts:
             if file not in self.package.modules:

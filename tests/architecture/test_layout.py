@@ -26,16 +26,21 @@ CLEAN = {
 }
 
 
-def judged(folder: Path, changed: dict[str, str], plan: str = PLAN) -> str:
-    """What is wrong with the package as planned, with some files in place of others."""
-    packages = dict.fromkeys(("__init__.py", "exact/__init__.py", "model/__init__.py"), "")
-    for name, text in {**packages, **CLEAN, **changed}.items():
+def wrong(folder: Path, files: dict[str, str], plan: str) -> str:
+    """What is wrong with a package of these files."""
+    for name, text in files.items():
         path = folder / "mcexact" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     path = folder / "layout.toml"
     path.write_text(plan, encoding="utf-8")
     return "\n".join(Layout(Package(folder), path).wrong())
+
+
+def judged(folder: Path, changed: dict[str, str], plan: str = PLAN) -> str:
+    """What is wrong with the package as planned, with some files in place of others."""
+    packages = dict.fromkeys(("__init__.py", "exact/__init__.py", "model/__init__.py"), "")
+    return wrong(folder, {**packages, **CLEAN, **changed}, plan)
 
 
 def test_the_package_is_as_the_plan_has_it() -> None:
@@ -87,3 +92,17 @@ def test_a_heavy_library_at_the_start_of_the_command_line_is_named(tmp_path: Pat
     assert judged(tmp_path, files, plan) == ""
     files["exact/first.py"] = "import numpy\n" + BODY
     assert "the start of mcexact.cli loads numpy" in judged(tmp_path, files, plan)
+
+
+def test_a_module_may_take_the_name_of_a_file_that_goes_into_another(tmp_path: Path) -> None:
+    plan = """
+    order = ["exact"]
+    exceptions = {}
+    modules."exact.first" = {purpose = "Made of one file.", from = ["old"]}
+    modules."exact.second" = {purpose = "Made of the file of that name.", from = ["first"]}
+    """
+    before = {"exact/old.py": BODY, "exact/first.py": "from .old import name_1\n" + BODY}
+    after = {"exact/first.py": BODY, "exact/second.py": "from .first import name_1\n" + BODY}
+    for folder, files in (("before", before), ("after", after)):
+        package = {"__init__.py": "", "exact/__init__.py": "", **files}
+        assert wrong(tmp_path / folder, package, plan) == ""
