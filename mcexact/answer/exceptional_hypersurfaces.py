@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import Any, Generic, TypeVar
 
 from mcexact.answer.mode_words import blame, polynomial_in_x
+from mcexact.answer.parameter_values import LeftOut, Row, rows_left_out, within
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.answer.parametric_rank import (
     ControllabilityMatrix,
@@ -19,6 +20,7 @@ from mcexact.answer.parametric_rank import (
     SignalMatrix,
     TransferColumn,
 )
+from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_latex, rational_text
 from mcexact.exact.rational_function import RationalFunction, parameter_latex
 from mcexact.model.parametric import ParametricSystem
@@ -62,20 +64,30 @@ class Hypersurface(Shown):
     polynomial : RationalFunction
         Irreducible; its coefficients are coprime integers.
     channels : tuple of tuples of str
-        Sets s of channels whose pencils lose rank where the lines meet the hypersurface.
+        Sets s of channels whose pencils lose rank where the lines meet the hypersurface; none where
+        the question is what some channels control or observe.
     rank : int or None
         The rank there; None if the question is about modes.
+    example : tuple of a mapping and polynomials, or None
+        For modes a point of the hypersurface on a line, if one is rational, and the irreducible
+        polynomials of the modes that are fixed there besides those for almost all values.
     """
 
     polynomial: RationalFunction
     channels: tuple[tuple[str, ...], ...] = ()
     rank: int | None = None
+    example: tuple[Mapping[str, Fraction], tuple[Polynomial, ...]] | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
         more = {"channels": [[*s] for s in self.channels]} if self.rank is None else {}
         rank = {} if self.rank is None else {"rank": self.rank}
-        return {"polynomial": str(self.polynomial), **more, **rank}
+        found = {"polynomial": str(self.polynomial), **more, **rank}
+        if self.example is not None:
+            at, modes = self.example
+            point = {name: rational_text(value) for name, value in at.items()}
+            found["example"] = {"at": point, "modes": [str(p) for p in modes]}
+        return found
 
     def to_sympy(self) -> Any:
         """The polynomial as a ``sympy.Poly`` in the parameters."""
@@ -101,6 +113,31 @@ class Hypersurface(Shown):
             return f"{self.polynomial} = 0"
         name, value = self.value
         return f"{name} = {rational_text(value)}"
+
+    def inside(self, about: ParametricSystem) -> str:
+        """The condition, and whether a value of one parameter is in its range, if it has one."""
+        if self.value is None:
+            return str(self)
+        return str(self) + within(
+            self.meets(about), about.ranges[about.parameters.index(self.value[0])]
+        )
+
+    def meets(self, about: ParametricSystem) -> bool:
+        """Whether the hypersurface may meet the ranges; not, where one parameter is beyond its."""
+        if self.value is None:
+            return True
+        name, value = self.value
+        low, high = about.ranges[about.parameters.index(name)]
+        return (low is None or low <= value) and (high is None or value <= high)
+
+    @property
+    def modes_in_words(self) -> str:
+        """What is fixed at a point of the hypersurface, if one is known."""
+        if self.example is None:
+            return ""
+        at, modes = self.example
+        point = ", ".join(f"{name} = {rational_text(value)}" for name, value in at.items())
+        return f", such as {', '.join(map(str, modes))} at {point}"
 
     def __repr__(self) -> str:
         told = f"channels={self.channels}" if self.rank is None else f"rank={self.rank}"
@@ -185,14 +222,23 @@ class Hypersurfaces(Shown, Generic[A]):
         return (*told, "not decided: values at which several conditions meet")
 
     @property
-    def rows(self) -> tuple[tuple[str, str, str], ...]:
+    def rows(self) -> tuple[Row, ...]:
         """Where, what holds there, and why."""
-        found: list[tuple[str, str, str]] = []
-        found += [("almost all values", said, "") for said in self.worth_a_row()]
-        found += [(str(each), *self.there(each)) for each in self.hypersurfaces]
-        found += [(f"{q} = 0", "undefined", "a denominator is 0") for q in self.undefined_at]
-        proved = "proved along this line by a certificate, for every s"
-        return (*found, *((str(line), "", proved) for line in self.lines))
+        return *self.told, *rows_left_out([self.left_out])
+
+    @property
+    def told(self) -> tuple[Row, ...]:
+        """The rows about values at which all entries are defined."""
+        generic = [("almost all values", said, "") for said in self.worth_a_row()]
+        return *generic, *(
+            (each.inside(self.about), *self.there(each)) for each in self.hypersurfaces
+        )
+
+    @property
+    def left_out(self) -> LeftOut:
+        """The values at which an entry is undefined."""
+        undefined = tuple(Hypersurface(q).inside(self.about) for q in self.undefined_at)
+        return LeftOut(outside=(), assumed="", undefined=undefined)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
@@ -267,8 +313,13 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
         return self.of_almost_all() if self.generic else ()
 
     def there(self, each: Hypersurface) -> tuple[str, str]:
-        """That another mode is fixed, and which channels cause it."""
-        return "another mode", ", or ".join(blame(s, self.about.names) for s in each.channels)
+        """That a mode is fixed besides those for almost all values, and which channels cause it.
+
+        Where the question is about control or observation, no channels do.
+        """
+        besides = " besides these" if self.generic else ""
+        what = f"a mode{besides}{each.modes_in_words}"
+        return what, ", or ".join(blame(s, self.about.names) for s in each.channels)
 
     def _generic(self) -> dict[str, Any]:
         return {"generic": [[str(c) for c in p] for p in self.generic]}

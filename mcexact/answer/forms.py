@@ -275,6 +275,7 @@ FORMS: dict[str, Write] = {
     "words": str,
     "values": _values,
     "lost": _lost,
+    "undefined": lambda where: f"; undefined where {_values(where)}" if where else "",
     "another": lambda more: "Another" if more else "A",
     "shared": _shared,
     "percent": percent,

@@ -10,11 +10,11 @@ from typing import Any
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.mode_words import polynomial_in_x
 from mcexact.answer.protocol import Part
-from mcexact.exact.enclosures import exact_decimal
+from mcexact.exact.enclosures import exact_decimal, root_discs
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_text
 from mcexact.exact.shortened import rounded
-from mcexact.model.parametric import Range
+from mcexact.model.parametric import ParametricSystem, Range
 
 ModePolynomial = tuple[Polynomial, ...]
 """A polynomial in x, monic, by its coefficients, constant first, which are polynomials in t."""
@@ -118,10 +118,56 @@ def value_text(q: Polynomial, roots: Sequence[RootDisc], t: str) -> str:
     return f"{in_parameter(q, t)} = 0 ({told})"
 
 
-def rows_of_values(
-    found: Any, told: Callable[[Any], Sequence[tuple[str, str]]]
-) -> tuple[tuple[str, str, str], ...]:
-    """The rows of an answer about exceptional values, those out of range, and poles.
+Row = tuple[str, str, str]
+"""Where, what holds there, and why."""
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """The values of which answers say nothing.
+
+    Attributes
+    ----------
+    outside : tuple of str
+        Those out of the range, as conditions.
+    assumed : str
+        The parameter with its range.
+    undefined : tuple of str
+        Those at which an entry of the plant is undefined, as conditions.
+    """
+
+    outside: tuple[str, ...]
+    assumed: str
+    undefined: tuple[str, ...]
+
+
+def rows_left_out(parts: Iterable[LeftOut]) -> tuple[Row, ...]:
+    """The values of which some answers about one plant say nothing, each of them once."""
+    parts = [*parts]
+    outside = dict.fromkeys(at for each in parts for at in each.outside)
+    undefined = dict.fromkeys(at for each in parts for at in each.undefined)
+    rows = [(at, "undefined", "a denominator is 0") for at in undefined]
+    if not outside:
+        return tuple(rows)
+    where = f"{', '.join(outside)} (out of range)"
+    return (where, "not decided", f"{parts[0].assumed} is assumed"), *rows
+
+
+def left_out(found: Any) -> LeftOut:
+    """The values of which an answer about one parameter says nothing."""
+    [t], [bounds] = found.about.parameters, found.about.ranges
+    return LeftOut(
+        outside=tuple(value_text(each.value, each.roots, t) for each in found.outside),
+        assumed=found.about.parameters_in_words[0],
+        undefined=tuple(
+            value_text(each.value, each.roots, t) + within(each.inside(bounds), bounds)
+            for each in poles_of(found.about)
+        ),
+    )
+
+
+def rows_of_values(found: Any, told: Callable[[Any], Sequence[tuple[str, str]]]) -> tuple[Row, ...]:
+    """The rows of an answer about exceptional values.
 
     Parameters
     ----------
@@ -130,29 +176,68 @@ def rows_of_values(
         What holds at an exceptional value, and why.
     """
     [t], [bounds] = found.about.parameters, found.about.ranges
-    ranged = "" if bounds == (None, None) else " (in range)"
-    rows = [
-        (value_text(each.value, each.roots, t) + ranged, what, why)
+    return tuple(
+        (value_text(each.value, each.roots, t) + within(True, bounds), what, why)
         for each in found.exceptional
         for what, why in told(each)
+    )
+
+
+def within(inside: bool, bounds: Range) -> str:
+    """Whether a value is in the range that is assumed, if one is.
+
+    Examples
+    --------
+    >>> within(True, (0, None)), within(False, (None, None))
+    (' (in range)', '')
+    """
+    if bounds == (None, None):
+        return ""
+    return " (in range)" if inside else " (out of range)"
+
+
+def joined(parts: Iterable[tuple[str, Any]]) -> tuple[Row, ...]:
+    """The rows of several answers about one plant, each behind its name, and what all leave out."""
+    parts = [*parts]
+    said = [
+        (where, f"{name}: {what}", why) for name, each in parts for where, what, why in each.told
     ]
-    assumed = f"{found.about.parameters_in_words[0]} is assumed"
-    for left in found.outside:
-        where = f"{value_text(left.value, left.roots, t)} (out of range)"
-        rows.append((where, "not decided", assumed))
-    for q in found.about.poles:
-        rows.append((f"{in_parameter(q, t)} = 0", "undefined", "a denominator is 0"))
-    return tuple(rows)
+    return *said, *rows_left_out(each.left_out for _, each in parts)
 
 
-def joined(
-    parts: Iterable[tuple[str, Iterable[tuple[str, str, str]]]],
-) -> tuple[tuple[str, str, str], ...]:
-    """The rows of several answers, each behind its name; those along which proofs are, once."""
-    named = [(name, *row) for name, rows in parts for row in rows]
-    said = [(where, f"{name}: {what}", why) for name, where, what, why in named if what]
-    proved = dict.fromkeys((where, what, why) for _, where, what, why in named if not what)
-    return (*said, *proved)
+def undefined_where(about: ParametricSystem) -> list[str]:
+    """The values of one parameter, in its range if it has one, at which an entry is undefined."""
+    [t], [bounds] = about.parameters, about.ranges
+    inside = [each for each in poles_of(about) if bounds == (None, None) or each.inside(bounds)]
+    return [value_text(each.value, each.roots, t) for each in inside]
+
+
+def apart_from_poles(about: ParametricSystem) -> str:
+    """That one parameter has none of these values, in words behind "every value of t".
+
+    Examples
+    --------
+    >>> plant = ParametricSystem([["1/(t^3 - t^2)"]], [[[1]]], [[[1]]], parameters=["t"])
+    >>> apart_from_poles(plant)
+    ' with t ≠ 0 and t ≠ 1'
+    """
+    [t], [bounds] = about.parameters, about.ranges
+    apart = [
+        f"{in_parameter(each.value, t)} ≠ 0"
+        if each.exact is None
+        else f"{t} ≠ {rational_text(each.exact)}"
+        for each in poles_of(about)
+        if bounds == (None, None) or each.inside(bounds)
+    ]
+    return f" with {' and '.join(apart)}" if apart else ""
+
+
+def poles_of(about: ParametricSystem) -> tuple[ParameterValue, ...]:
+    """The values of one parameter at which an entry of the plant is undefined."""
+    return tuple(
+        ParameterValue(q, tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(q)))
+        for q in about.poles
+    )
 
 
 def mode_in_sympy(p: ModePolynomial, parameter: Any = "t") -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -11,8 +11,9 @@ from typing import Any
 
 from mcexact.answer import codec
 from mcexact.answer.account import Account
+from mcexact.answer.exceptional_hypersurfaces import Hypersurface, Hypersurfaces, Line
 from mcexact.answer.formats import count
-from mcexact.answer.parameter_values import joined
+from mcexact.answer.parameter_values import apart_from_poles, joined, undefined_where
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules.parameters import RANGES, RULES
 from mcexact.answer.rules.several_parameters import sentences_of_several
@@ -37,6 +38,8 @@ LABELS = {
 }
 """The questions, with what their answers are about."""
 COLUMNS = ("where", "what", "because")
+PROVED = "proved for every value of s along lines"
+PROOFS = ("about", "certificate", "line")
 MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
 """The questions about modes, of which a table says more than a sentence."""
 _OPEN = (
@@ -94,8 +97,19 @@ class ParametricAccount(Shown):
             "parameters": ", ".join(plant.parameters_in_words),
             "outputs": sum(q for _, q in plant.sizes),
             "scale": None if self.several else plant.A.reduced[1],
+            "undefined": self._undefined,
+            "apart": "" if self.several else apart_from_poles(plant),
         }
         return Given(plant, asked)
+
+    @property
+    def _undefined(self) -> list[str]:
+        """The values within the ranges at which an entry is undefined, as conditions."""
+        if not self.several:
+            return undefined_where(self.plant)
+        spectra = (each for each in self.answers.values() if isinstance(each, Hypersurfaces))
+        surfaces = [Hypersurface(q) for each in spectra for q in each.undefined_at]
+        return [*dict.fromkeys(str(h) for h in surfaces if h.meets(self.plant))]
 
     @cached_property
     def sentences(self) -> Sentences:
@@ -148,10 +162,18 @@ class ParametricAccount(Shown):
         if name in WITHIN_RANGES:
             return ((", ".join(self.plant.parameters_in_words), WITHIN_RANGES[name], ""),)
         if isinstance(answer, tuple):
-            blocks = [(count(k, "block"), each.rows) for k, each in enumerate(answer, 1)]
-            return joined(blocks)
+            return joined((count(k, "block"), each) for k, each in enumerate(answer, 1))
         found: tuple[Row, ...] = answer.rows
         return found
+
+    def along(self, name: str) -> tuple[tuple[str, str], ...]:
+        """With several parameters the certificates of a question, and the line of each."""
+        lines = _lines(self.answers[name]) if self.several and name != "completeness" else []
+        return tuple((f"{name}_{k}.json", str(line)) for k, line in enumerate(lines, 1))
+
+    def proofs(self, names: Iterable[str]) -> tuple[tuple[str, str, str], ...]:
+        """For some questions what the certificates along lines are about, and these lines."""
+        return tuple((LABELS[name], *each) for name in names for each in self.along(name))
 
     def table(self, name: str) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
         """The same with the heads of columns, without the reasons where there are none."""
@@ -189,7 +211,9 @@ class ParametricAccount(Shown):
         files = [f"{each}.json" for each in self.parts if own.fullmatch(each)]
         rows = [dict(zip(COLUMNS, row, strict=True)) for row in self.rows(name)]
         view = {} if isinstance(answer, tuple) else answer.to_dict()
-        return view | {"rows": rows, "certificates": files}
+        found = view | {"rows": rows, "certificates": files}
+        along = [{"certificate": file, "line": line} for file, line in self.along(name)]
+        return found | ({"along": along} if along else {})
 
     def explain(self) -> str:
         """Say in plain words what was found, one sentence a line."""
@@ -209,6 +233,8 @@ class ParametricAccount(Shown):
         listed = [(each.cells[0], str(each)) for each in self.sentences.at("table")]
         made = [grid(("", ""), listed, "".join(self.sentences.at("title")))]
         made += [grid(*self.table(name), LABELS[name]) for name in self.detailed()]
+        if proofs := self.proofs(name for name in self.answers if name in MODES):
+            made.append(grid(PROOFS, proofs, PROVED))
         return f'<ul class="said">{said}</ul>' + "".join(made)
 
     def detailed(self, names: Collection[str] = MODES) -> list[str]:
@@ -216,13 +242,21 @@ class ParametricAccount(Shown):
         return [
             name
             for name, answer in self.answers.items()
-            if name in names and self.rows(name) and not (self.several and _says_all(name, answer))
+            if name in names and self.rows(name) and not _says_all(name, answer)
         ]
 
 
 def _says_all(name: str, answer: Any) -> bool:
-    """Whether a sentence says all of an answer about modes: there are none."""
+    """Whether a sentence says all of an answer about modes: none is lost for any value."""
     return name in MODES and not (answer.generic or answer.exceptional)
+
+
+def _lines(answer: Any) -> list[Line[Any]]:
+    """The lines of the certificates of an answer about several parameters, in their order."""
+    if isinstance(answer, Hypersurfaces):
+        return [*answer.lines]
+    parts = answer if isinstance(answer, tuple) else getattr(answer, "columns", {}).values()
+    return [line for each in parts for line in _lines(each)]
 
 
 def _proofs(answer: Any) -> list[Answer]:

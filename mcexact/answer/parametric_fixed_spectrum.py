@@ -9,12 +9,16 @@ from typing import Any
 from mcexact.answer.evidence import ZeroBlock
 from mcexact.answer.mode_words import blame
 from mcexact.answer.parameter_values import (
+    LeftOut,
     ModePolynomial,
     OutsideValue,
     ParameterValue,
+    Row,
     in_parameter,
+    left_out,
     mode_in_sympy,
     mode_text,
+    rows_left_out,
     rows_of_values,
     value_text,
 )
@@ -254,8 +258,18 @@ class ParametricFixedSpectrum(Answer):
         return found
 
     @property
-    def rows(self) -> tuple[tuple[str, str, str], ...]:
+    def rows(self) -> tuple[Row, ...]:
         """Where, the polynomials in x of the modes, and why these are fixed there."""
+        return *self.told, *rows_left_out([self.left_out])
+
+    @property
+    def left_out(self) -> LeftOut:
+        """The values of which it says nothing."""
+        return left_out(self)
+
+    @property
+    def told(self) -> tuple[Row, ...]:
+        """The rows about values of which it says something."""
         [t] = self.about.parameters
         scaled = "" if self.scale.degree < 1 else f", divided by {in_parameter(self.scale, t)}"
         found = [(f"every {t}", mode_text(p, t) + scaled, "") for p in self.generic]

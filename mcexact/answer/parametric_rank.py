@@ -5,8 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from mcexact.answer.parameter_values import (
+    LeftOut,
     OutsideValue,
     ParameterValue,
+    Row,
+    left_out,
+    rows_left_out,
     rows_of_values,
     value_text,
 )
@@ -164,18 +168,36 @@ class ParametricRank(Answer):
     def words(self) -> tuple[str, ...]:
         """The rank for almost all values, and at which it is less, in the parameter's name."""
         t = self.about.parameters[0]
-        every = self.about.parameters_in_words[0] if self.outside else t
-        told = [f"rank {self.rank} for {'almost ' * bool(self.exceptional)}every {every}"]
+        told = [f"rank {self.rank} for {'almost ' * bool(self.exceptional)}every {self._every}"]
         for each in self.exceptional:
             told.append(f"rank {each.rank} where {value_text(each.value, each.roots, t)}")
         return tuple(told)
 
     @property
-    def rows(self) -> tuple[tuple[str, str, str], ...]:
+    def rows(self) -> tuple[Row, ...]:
         """Where the rank is which."""
-        [t] = self.about.parameters
-        generic = (f"{'almost ' if self.exceptional else ''}every {t}", f"rank {self.rank}", "")
+        return *self.told, *rows_left_out([self.left_out])
+
+    @property
+    def left_out(self) -> LeftOut:
+        """The values of which it says nothing."""
+        return left_out(self)
+
+    @property
+    def told(self) -> tuple[Row, ...]:
+        """The rows about values of which it says something."""
+        generic = (
+            f"{'almost ' * bool(self.exceptional)}every {self._every}",
+            f"rank {self.rank}",
+            "",
+        )
         return generic, *rows_of_values(self, lambda each: [(f"rank {each.rank}", "")])
+
+    @property
+    def _every(self) -> str:
+        """The parameter, with its range where values out of it are left out."""
+        about = self.about
+        return about.parameters_in_words[0] if self.outside else about.parameters[0]
 
     def in_range(self) -> tuple[LowerRank, ...]:
         """The exceptional values with a root in the range that is assumed of the parameter."""

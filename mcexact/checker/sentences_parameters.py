@@ -1,11 +1,11 @@
 """What certificates about a plant with a parameter imply, for all of its values."""
 
 from collections.abc import Callable
-from itertools import combinations
+from itertools import combinations, pairwise
 
 from . import reading
 from .expressions import common_divisor
-from .parameter_values import ends_text
+from .parameter_values import ends_text, where_text
 from .parametric_system import ParametricSystem
 from .reading import Json
 from .sentence import PLANT, Premise, Role, restate, rule
@@ -24,10 +24,12 @@ DUAL_RANKS = Role(STEADY.kinds, (("dual",),), many=True)
 
 @rule("parametric-heading")
 def _given(known: list[Premise]) -> str:
-    """The sizes of the plant, and its parameter."""
+    """The sizes of the plant, its parameter, and where an entry is undefined."""
     plant = known[0].meant
     known[0].expect(isinstance(plant, ParametricSystem), "the plant has no parameter")
-    return f"For {described(plant)}: its parameter is {plant.parameter}, between {ends_text(plant)}"
+    told = f"For {described(plant)}: its parameter is {plant.parameter}, between {ends_text(plant)}"
+    poles = dict.fromkeys(polynomial_text(q, plant.parameter) for q in plant.poles if len(q) > 1)
+    return f"{told}; an entry is undefined at the roots of {', '.join(poles)}" if poles else told
 
 
 # Modes: none for every value, none unless, some, some and others.
@@ -67,6 +69,22 @@ restate("parametric-fixed", MODES, lambda found: found["generic"])
 restate("parametric-another", MODES, lambda found: found["exceptional"])
 
 
+# What several certificates say together: of the values of which each of them says something.
+
+
+def concluded(found: list[Premise], told: str) -> str:
+    """What certificates say one by one, and what follows for the values that all are about."""
+    outside = {str(entry["value"]): entry for each in found for entry in each["outside"]}
+    where = where_text({"outside": [*outside.values()]}, found[0].meant)
+    return "; ".join([*(each.statement for each in found), f"so {where}, {told}"])
+
+
+def except_at(values: list[Json], t: str) -> str:
+    """Where something else holds."""
+    roots = [f"the roots of {polynomial_text(q, t)}" for q in values]
+    return f" except at {' and '.join(roots)}" if roots else ""
+
+
 # The transfer graph and completeness.
 
 Lost = dict[tuple[str, str], list[Json]]
@@ -104,8 +122,9 @@ def _graph(keys: str, lost: bool) -> None:
         """The edges for almost every value, and what is proved of each."""
         kept = edges(found)
         found[0].expect(any(kept.values()) == lost, "the claim is different")
-        told = "; ".join(each.statement for each in found)
-        return f"{told}; so the transfer graph has almost everywhere the edges {edge_set(kept)}"
+        values = [*{str(q): q for gone in kept.values() for q in gone}.values()]
+        less = except_at(values, found[0].meant.parameter)
+        return concluded(found, f"the transfer graph has the edges {edge_set(kept)}{less}")
 
 
 _graph("parametric-graph-always", False)
@@ -138,16 +157,14 @@ def _complete(key: str, holds: Callable[[list[Json] | None], bool], told: str) -
     @rule(key, MODES, RANKS)
     def _say(spectrum: Premise, found: list[Premise]) -> str:
         """No fixed mode and a strongly connected transfer graph."""
-        where, t = complete(spectrum, found), spectrum.system.parameter
+        where, t = complete(spectrum, found), spectrum.meant.parameter
         spectrum.expect(holds(where), "the claim is different")
-        parts = "; ".join(each.statement for each in (spectrum, *found))
-        roots = [f"the roots of {polynomial_text(q, t)}" for q in where or []]
-        return f"{parts}; so it is complete {told}{' and '.join(roots)}"
+        return concluded([spectrum, *found], told + except_at(where or [], t))
 
 
-_complete("parametric-complete-always", lambda where: where == [], "for every such value")
-_complete("parametric-complete-unless", bool, "for every such value except ")
-_complete("parametric-complete-never", lambda where: where is None, "for no value")
+_complete("parametric-complete-always", lambda where: where == [], "it is complete")
+_complete("parametric-complete-unless", bool, "it is complete")
+_complete("parametric-complete-never", lambda where: where is None, "it is not complete")
 
 
 # Indices and set-points.
@@ -172,9 +189,14 @@ def _indices(stem: str, role: Role) -> None:
 
         @rule(f"parametric-{stem}-indices-{way}", role)
         def _say(found: list[Premise], lost: bool = lost) -> str:
-            """The ranks block by block."""
+            """The ranks block by block, and the numbers of columns that each input adds to them."""
             found[0].expect(said(found) == lost, "the claim is different")
-            return "; ".join(each.statement for each in found)
+            ranks = [0, *(each["rank"] for each in found)]
+            growth = [b - a for a, b in pairwise(ranks)]
+            indices = [sum(g > j for g in growth) for j in range(growth[0])]
+            listed = {str(e["value"]): e["value"] for each in found for e in each["exceptional"]}
+            less = except_at([*listed.values()], found[0].meant.parameter)
+            return concluded(found, f"the {stem} indices are {indices}{less}")
 
 
 def _ranks(found: Premise) -> Json:

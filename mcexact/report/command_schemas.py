@@ -192,7 +192,8 @@ def analyze() -> Schema:
 def analyze_parameters() -> Schema:
     """Answers about a system with parameters, for all values."""
     row = record({"where": TEXT, "what": TEXT, "because": TEXT}, closed=True)
-    answer = record({"rows": rows(row), "certificates": rows(TEXT)})
+    line = record({"certificate": TEXT, "line": TEXT}, closed=True)
+    answer = record({"rows": rows(row), "certificates": rows(TEXT)}, {"along": rows(line)})
     return record(
         named("mcexact-parametric-analysis/1")
         | {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces
-from mcexact.answer.parametric_account import LABELS, MODES, ParametricAccount
+from mcexact.answer.parametric_account import LABELS, MODES, PROOFS, PROVED, ParametricAccount
 from mcexact.plot.parameters import hypersurfaces, parameter_modes
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.picture import Picture
@@ -26,7 +26,11 @@ def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tupl
     title = "All answers" if whole else "".join(said.at("title"))
     first = (Table(title, (), rows),) if rows else ()
     shown = account.detailed(LABELS) if whole else account.detailed(MODES)
-    return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown))
+    about = account.answers if whole else (name for name in account.answers if name in MODES)
+    proofs = account.proofs(name for name in about if name in LABELS)
+    named = slice(None, None, 1 if whole else 2)  # files are named on a page alone
+    told = (Table(PROVED, PROOFS[named], tuple(each[named] for each in proofs)),) if proofs else ()
+    return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *told)
 
 
 def parameter_page(account: ParametricAccount) -> AnswerPage:
@@ -62,4 +66,6 @@ def parameter_latex(account: ParametricAccount) -> str:
     for name in account.detailed():
         rows = ((where, "; ".join(filter(None, rest))) for where, *rest in account.rows(name))
         lines.append(rf"\[ {array(rows)} \]")
+    if proofs := account.proofs(name for name in account.answers if name in MODES):
+        lines += [escaped(PROVED), rf"\[ {array((about, line) for about, _, line in proofs)} \]"]
     return "\n".join(lines) + "\n"

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact import ParametricSystem, analyze, check
+from mcexact.answer.parametric_account import ParametricAccount
 from mcexact.errors import InputError
 
 POLE = ParametricSystem([[1]], [[["1/t"]]], [[["t"]]], parameters=["t"])
@@ -54,6 +55,17 @@ def test_no_answer_speaks_of_a_value_at_which_the_plant_is_undefined(
                 with pytest.raises(InputError, match="undefined"):
                     plant.at(-q.coefficients[0] / q.leading)
         assert check(found, plant).valid, name
+
+
+@pytest.mark.parametrize("plant", PLANTS)
+def test_the_same_values_are_undefined_in_every_table(plant: ParametricSystem) -> None:
+    account: ParametricAccount = analyze(plant).account
+    undefined = {
+        name: {where for where, what, _ in account.rows(name) if what.endswith("undefined")}
+        for name in account.answers
+    }
+    assert len(set(map(frozenset, undefined.values()))) == 1, undefined
+    assert len(undefined["setpoint"]) == len(plant.poles)
 
 
 def test_observability_and_its_indices_agree_at_a_pole() -> None:

@@ -124,11 +124,12 @@ def test_the_words_name_what_is_lost_where(tmp_path: Path) -> None:
     listed = [sentence(key, *premises, evidence=known) for key, premises in keys]
     first, second, third = said(write(tmp_path, known, manifest(known, listed)))
     assert "its parameter is t, between -infinity and infinity" in first.statement
-    ends = "complete for every such value except the roots of t - 2 and the roots of t"
-    swapped = "complete for every such value except the roots of t and the roots of t - 2"
+    every = "so for every complex value of the parameter t at which all entries of the plant are "
+    ends = f"{every}defined, it is complete except at the roots of t - 2 and the roots of t"
+    swapped = f"{every}defined, it is complete except at the roots of t and the roots of t - 2"
     assert ends in second.statement or swapped in second.statement
     edges_told = '"1" -> "1", "1" -> "2", "2" -> "1", "2" -> "2"'
-    assert f"almost everywhere the edges {{{edges_told}}}" in third.statement
+    assert f"the transfer graph has the edges {{{edges_told}}} except at the" in third.statement
 
 
 def test_a_value_that_is_exceptional_for_two_reasons_is_named_once(tmp_path: Path) -> None:
@@ -136,7 +137,7 @@ def test_a_value_that_is_exceptional_for_two_reasons_is_named_once(tmp_path: Pat
     premises = ["fixed_spectrum", *asked(("transfer_graph",), known)]
     told = sentence("parametric-complete-unless", *premises, evidence=known)
     [verdict] = said(write(tmp_path, known, manifest(known, [told])))
-    words = "complete for every such value except the roots of t from fixed_spectrum.json"
+    words = "it is complete except at the roots of t from fixed_spectrum.json"
     assert words in verdict.statement
 
 
@@ -304,7 +305,7 @@ def test_values_with_a_common_root_do_not_hide_that_edges_vanish_together(tmp_pa
     listed = [sentence(key, "fixed_spectrum", *edges, evidence=known) for key in keys]
     first, second = said(write(tmp_path, known, manifest(known, listed)))
     assert (first.verdict, second.verdict) == ("INVALID", "IMPLIED")
-    assert "complete for every such value except the roots of t - 1" in second.statement
+    assert "it is complete except at the roots of t - 1" in second.statement
     [edge] = [known[name] for name in edges if len(known[name]["claim"]["exceptional"]) == 2]
     discs = [each["roots"][0] for each in edge["claim"]["exceptional"]]
     edge["claim"]["exceptional"] = [{"value": [2, -3, 1], "roots": discs, "rank": 0}]
@@ -314,3 +315,43 @@ def test_values_with_a_common_root_do_not_hide_that_edges_vanish_together(tmp_pa
     listed = [sentence(key, "fixed_spectrum", *edges, evidence=known) for key in keys]
     for verdict in said(write(tmp_path, known, manifest(known, listed))):
         assert verdict.verdict == "INVALID" and "some roots of a value alone" in verdict.message
+
+
+BEYOND = ParametricSystem(
+    [[1, "t - 2"], ["t", 2]],
+    [[[1], [0]], [[0], ["t - 3"]]],
+    [[[1, 0]], [[0, 1]]],
+    parameters=["t"],
+    assume={"t": (5, 6)},
+)
+"""Beyond the range one edge vanishes at 2, another at 0, and nothing is controlled at 3."""
+
+
+def test_what_several_certificates_imply_is_about_the_values_that_all_are_about(
+    tmp_path: Path,
+) -> None:
+    found = analyze(BEYOND).account
+    for name, text in found.files().items():
+        (tmp_path / name).write_text(text)
+    verdicts = [*said(tmp_path)]
+    rules = [each["rule"] for each in found.manifest()["sentences"]]
+    known = {name: json.loads(text) for name, text in found.certificates.items()}
+    for rule, stems in (
+        ("parametric-complete-always", ("fixed_spectrum", "transfer_graph_")),
+        ("parametric-graph-always", ("transfer_graph_",)),
+        ("parametric-controllability-indices-always", ("controllability_indices_",)),
+    ):
+        verdict = verdicts[rules.index(rule)]
+        conclusion = verdict.statement.rpartition("; so ")[2]
+        assert verdict.verdict == "IMPLIED" and "between 5 and 6, " in conclusion
+        parts = [each for name, each in known.items() if name.startswith(stems)]
+        outside = {
+            json.dumps(entry["value"]) for each in parts for entry in each["claim"]["outside"]
+        }
+        words = {json.dumps([-k, 1]): f"roots of t - {k}," for k in (2, 3)} | {
+            json.dumps([0, 1]): "roots of t,"
+        }
+        assert outside and outside <= words.keys()
+        assert {value for value, word in words.items() if word in conclusion} == outside
+    graph = [known[f"transfer_graph_{k}.json"]["claim"]["outside"] for k in range(1, 5)]
+    assert len({json.dumps(each) for each in graph}) > 1

@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterable
+from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.engine.parameter_lines import DRAWS, confirming_lines, in_order, poles
 from mcexact.analysis.engine.parametric_control import parametric_controllability
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
-from mcexact.answer.exceptional_hypersurfaces import ExceptionalHypersurfaces, Hypersurface
+from mcexact.answer.exceptional_hypersurfaces import (
+    ExceptionalHypersurfaces,
+    Hypersurface,
+    Line,
+)
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.derived.modular_system import generator
 from mcexact.errors import LimitReached
 from mcexact.exact import several_variables
 from mcexact.exact.function_matrix import FunctionMatrix
+from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_function import RationalFunction
 from mcexact.model.function_entry import as_functions
 from mcexact.model.parametric import ParametricSystem
+
+_NUMBER = RationalFunction.constant(0, ())
+"""What a function of parameters is when they have values."""
 
 
 def mode_hypersurfaces(system: ParametricSystem) -> ExceptionalHypersurfaces:
@@ -119,7 +128,12 @@ class _Search:
         return ExceptionalHypersurfaces(
             about=self.about,
             hypersurfaces=tuple(
-                Hypersurface(h, channels=tuple(sorted(sets[h]))) for h in in_order(sets)
+                Hypersurface(
+                    h,
+                    channels=() if self.system is not self.about else tuple(sorted(sets[h])),
+                    example=_example(h, lines),
+                )
+                for h in in_order(sets)
             ),
             undefined_at=tuple(in_order(self.poles)),
             lines=lines,
@@ -159,3 +173,26 @@ class _Search:
         in_both = several_variables.resultant_factors(left, first, self.names)
         in_both &= several_variables.resultant_factors(left, [*second, *generic], self.names)
         return generic, [h for h in in_both if h not in self.poles]
+
+
+def _example(
+    h: RationalFunction, lines: Iterable[Line[ParametricFixedSpectrum]]
+) -> tuple[dict[str, Fraction], tuple[Polynomial, ...]] | None:
+    """A rational point at which a line meets a hypersurface, and what is fixed only there."""
+    for line in lines:
+        for each in line.answer.exceptional:
+            s = each.exact
+            if s is None:
+                continue
+            at = {name: value.substituted([s], _NUMBER).value for name, value in line.at.items()}
+            if h.substituted([at[name] for name in h.parameters], _NUMBER).value == 0:
+                scale = line.answer.scale(s)
+                modes = {
+                    p.monic()
+                    for mode in each.modes
+                    for p, _ in Polynomial.from_coefficients([c(s) for c in mode.polynomial])
+                    .scale(scale)
+                    .factor()
+                }
+                return at, tuple(sorted(modes, key=lambda p: (p.degree, p.coefficients)))
+    return None

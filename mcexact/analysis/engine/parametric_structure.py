@@ -13,18 +13,21 @@ from mcexact.analysis.engine.mode_hypersurfaces import mode_hypersurfaces
 from mcexact.analysis.engine.parameter_lines import Along, in_order
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.analysis.engine.rank_hypersurfaces import rank_for_all_values
+from mcexact.answer.evidence import RootDisc
 from mcexact.answer.exceptional_hypersurfaces import (
     ExceptionalHypersurfaces,
     Hypersurface,
     RankHypersurfaces,
 )
 from mcexact.answer.parameter_values import (
-    in_parameter,
     joined,
+    rows_left_out,
     value_text,
+    within,
 )
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.answer.parametric_rank import ParametricRank, TransferColumn
+from mcexact.exact.enclosures import root_discs
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_function import RationalFunction
 from mcexact.model.parametric import ParametricSystem
@@ -65,11 +68,8 @@ class ParametricTransferGraph:
     @property
     def rows(self) -> tuple[tuple[str, str, str], ...]:
         """For each pair of channels where it is an edge."""
-        said = {"rank 1": "an edge", "rank 0": "no edge"}
-        return joined(
-            (f"{start} -> {end}", [(at, said.get(what, what), why) for at, what, why in each.rows])
-            for (start, end), each in self.columns.items()
-        )
+        rows = joined((f"{start} -> {end}", each) for (start, end), each in self.columns.items())
+        return tuple((at, _as_edge(what), why) for at, what, why in rows)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data: the edges for almost every value."""
@@ -142,13 +142,27 @@ class ParametricCompleteness:
     @property
     def rows(self) -> tuple[tuple[str, str, str], ...]:
         """Where it is complete, in words of the parameters."""
-        names = ", ".join(self.spectrum.about.parameters)
+        about = self.spectrum.about
+        beyond = any(
+            each.left_out.outside for each in (self.spectrum, *self.graph.columns.values())
+        )
+        names = ", ".join(about.parameters_in_words if beyond else about.parameters)
         some = "almost " if self.exceptional else ""
         said = "complete" if self.generic else "not complete"
         found = [(f"{some}every value of {names}", said, "")]
         for q in self.exceptional:
-            found.append((_at(q, names), "not complete", ""))
-        return tuple(found)
+            found.append((self._at(q), "not complete", ""))
+        parts = [self.spectrum, *self.graph.columns.values()]
+        return *found, *rows_left_out(each.left_out for each in parts)
+
+    def _at(self, q: Surface) -> str:
+        """Where a polynomial in the parameters is 0."""
+        about = self.spectrum.about
+        if isinstance(q, RationalFunction):
+            return Hypersurface(q).inside(about)
+        [t], [bounds] = about.parameters, about.ranges
+        discs = tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(q))
+        return value_text(q, discs, t) + within(True, bounds)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
@@ -160,11 +174,11 @@ class ParametricCompleteness:
         return *_proofs(self.spectrum), *self.graph.certificates
 
 
-def _at(q: Surface, t: str) -> str:
-    """Where a polynomial in parameters is 0."""
-    if isinstance(q, RationalFunction):
-        return str(Hypersurface(q))
-    return value_text(q, [], t) if q.degree == 1 else f"{in_parameter(q, t)} = 0"
+def _as_edge(what: str) -> str:
+    """A row about the rank of a column in words of edges."""
+    for rank, said in ((": rank 1", ": an edge"), (": rank 0", ": no edge")):
+        what = what.removesuffix(rank) + said if what.endswith(rank) else what
+    return what
 
 
 def _proofs(

@@ -57,10 +57,10 @@ class Values:
 def values_of(claims: Iterable[Claim], given: Given) -> Values:
     """The exceptional values of certificates about one parameter."""
     where: dict[str, None] = {}
-    every = f"every value of {given.parameter}"
+    every = f"every value of {given.parameter}{given.apart}"
     for claim in claims:
         if [each.value for each in claim.outside]:
-            every = f"every value of {given.parameters}"
+            every = f"every value of {given.parameters}{given.apart}"
         for each in claim.exceptional:
             where[value_text(each.value, [*each.roots], given.parameter)] = None
     return Values(every, tuple(where))
@@ -171,6 +171,7 @@ def heading(given: Given) -> Sentence:
         names=given.names,
         time=given.time,
         parameters=given.parameters,
+        undefined=given.undefined,
     )
 
 

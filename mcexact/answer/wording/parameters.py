@@ -10,7 +10,7 @@ _RANK = "setpoint.setpoint_rank"
 HEADING = Template(
     "parametric-heading",
     "{name:name}: {n:count state}, {m:count channel} {names:set}, {time:time} time, "
-    "{parameters:words}",
+    "{parameters:words}{undefined:undefined}",
 )
 
 # The answer in words.
