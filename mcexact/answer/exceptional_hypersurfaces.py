@@ -20,6 +20,7 @@ from mcexact.answer.parametric_rank import (
     SignalMatrix,
     TransferColumn,
 )
+from mcexact.exact import several_variables
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_latex, rational_text
 from mcexact.exact.rational_function import RationalFunction, parameter_latex
@@ -306,7 +307,21 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
 
     def of_almost_all(self) -> tuple[str, ...]:
         """The polynomials in x whose roots are fixed."""
-        return tuple(f"the roots of {mode_in_x(p)}" for p in self.generic) or ("no mode",)
+        return tuple(f"the roots of {each}" for each in self.modes) or ("no mode",)
+
+    @property
+    def scale(self) -> RationalFunction:
+        """The denominator of A, by which the roots of the generic polynomials are divided."""
+        names = self.about.parameters
+        return several_variables.in_parameters(
+            several_variables.cleared(self.about.A, names)[1], names
+        )
+
+    @property
+    def modes(self) -> tuple[str, ...]:
+        """The generic polynomials in words, with what their roots are divided by."""
+        divided = "" if self.scale.is_constant else f", divided by {self.scale}"
+        return tuple(mode_in_x(p) + divided for p in self.generic)
 
     def worth_a_row(self) -> tuple[str, ...]:
         """The polynomials in x whose roots are fixed, perhaps none."""

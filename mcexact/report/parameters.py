@@ -28,8 +28,9 @@ def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tupl
     shown = account.detailed(LABELS) if whole else account.detailed(MODES)
     about = account.answers if whole else (name for name in account.answers if name in MODES)
     proofs = account.proofs(name for name in about if name in LABELS)
-    named = slice(None, None, 1 if whole else 2)  # files are named on a page alone
-    told = (Table(PROVED, PROOFS[named], tuple(each[named] for each in proofs)),) if proofs else ()
+    named = (0, 1, 2) if whole else (0, 2)  # files are named on a page alone
+    lines = tuple(tuple(row[k] for k in named) for row in (PROOFS, *proofs))
+    told = (Table(PROVED, lines[0], lines[1:]),) if proofs else ()
     return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *told)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import re
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -11,6 +12,8 @@ import pytest
 
 from mcexact import ParametricSystem, analyze
 from mcexact.errors import InputError
+from tests.campaigns.parametric_words import examined
+from tests.oracle.parametric_words import disagreements
 
 CONDITION = re.compile(r"t = (-?\d+(?:/\d+)?)(?! =)")
 ENTRIES = [0, 0, 0, 1, 1, -1, 2, "t", "t - 1", "t + 2", "t^2 - 1", "1/(t - 3)"]
@@ -74,3 +77,55 @@ def require_agreement(said: dict[str, str], t: Fraction, found: Any) -> None:
     lost = re.findall(r"(\w+) -> (\w+) vanishes where ([^;]*)", said["transfer graph"])
     gone = {(j, i) for j, i, at in lost if t in map(Fraction, CONDITION.findall(at))}
     assert set(found.transfer_graph.arcs) == edges - gone, (said, t)
+
+
+@pytest.mark.parametrize("number", [1, 6, 19])
+def test_words_about_small_plants_hold_at_points_on_and_off_what_they_name(number: int) -> None:
+    """In 6 denominators divide the modes, in 19 a line meets two hypersurfaces at one point."""
+    wrong, seen = examined(number)
+    assert wrong == [] and seen["points"] >= 3
+
+
+TWO = ParametricSystem(
+    [[-1, "c"], [0, -2]],
+    [[[1], [0]], [[0], [1]]],
+    [[["k", 0]], [["k", 0]]],
+    parameters=["c", "k"],
+)
+
+
+def test_no_channel_is_said_to_control_what_all_channels_control() -> None:
+    account = analyze(TWO).account
+    causes = {name: {why for *_, why in account.rows(name)} for name in account.answers}
+    assert causes["joint_observability"] == {""}
+    assert causes["fixed_spectrum"] == {"no channel observes it"}
+    at = {"c": Fraction(0), "k": Fraction(5)}
+    assert disagreements(TWO, account, at) == []
+    answer = account.answers["joint_observability"]
+    blamed = [replace(each, channels=((),)) for each in answer.hypersurfaces]
+    wrong = {**account.answers, "joint_observability": replace(answer, hypersurfaces=(*blamed,))}
+    assert disagreements(TWO, replace(account, answers=wrong), at) != []
+
+
+def test_a_line_of_proof_is_not_listed_among_conditions() -> None:
+    account = analyze(TWO).account
+    lines = {line for name in account.answers for _, line in account.along(name)}
+    where = {at for name in account.answers for at, *_ in account.rows(name)}
+    assert len(lines) > 2 and not lines & where
+    files = [file for name in account.answers for file, _ in account.along(name)]
+    assert sorted(files) == sorted(account.certificates)
+
+
+def test_values_out_of_the_range_and_poles_have_one_row_each() -> None:
+    plant = ParametricSystem(
+        [["1/(t - 9)", "t - 7"], ["t - 8", 2]],
+        [[[1], [0]], [[0], ["t - 6"]]],
+        [[[1, 0]], [[0, 1]]],
+        parameters=["t"],
+        assume={"t": (0, 1)},
+    )
+    account = analyze(plant).account
+    for name in account.answers:
+        what = [what for _, what, _ in account.rows(name)]
+        assert what.count("undefined") == 1 and what.count("not decided") <= 1, name
+    assert any("not decided" in each for each in account.rows("transfer_graph"))

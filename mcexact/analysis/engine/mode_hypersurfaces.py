@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections import Counter
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import Any
@@ -121,9 +122,15 @@ class _Search:
         else:
             raise LimitReached("no drawn gains leave the fixed modes alone")
         lines, confirmed = made
+        # Where a line meets two hypersurfaces at once, modes are fixed because of either.
+        met = Counter(id(value) for values in confirmed.values() for value in values)
+        alone = {
+            h: [value for value in values if met[id(value)] == 1] or values
+            for h, values in confirmed.items()
+        }
         sets = {
             h: {mode.channels for value in values for mode in value.modes}
-            for h, values in confirmed.items()
+            for h, values in alone.items()
         }
         return ExceptionalHypersurfaces(
             about=self.about,
@@ -131,7 +138,7 @@ class _Search:
                 Hypersurface(
                     h,
                     channels=() if self.system is not self.about else tuple(sorted(sets[h])),
-                    example=_example(h, lines),
+                    example=_example(alone[h], lines),
                 )
                 for h in in_order(sets)
             ),
@@ -176,16 +183,17 @@ class _Search:
 
 
 def _example(
-    h: RationalFunction, lines: Iterable[Line[ParametricFixedSpectrum]]
+    values: Iterable[Any], lines: Iterable[Line[ParametricFixedSpectrum]]
 ) -> tuple[dict[str, Fraction], tuple[Polynomial, ...]] | None:
-    """A rational point at which a line meets a hypersurface, and what is fixed only there."""
+    """One of the values at which lines meet a hypersurface, and what is fixed only there."""
+    known = {id(value) for value in values}
     for line in lines:
         for each in line.answer.exceptional:
             s = each.exact
-            if s is None:
-                continue
-            at = {name: value.substituted([s], _NUMBER).value for name, value in line.at.items()}
-            if h.substituted([at[name] for name in h.parameters], _NUMBER).value == 0:
+            if s is not None and id(each) in known:
+                at = {
+                    name: value.substituted([s], _NUMBER).value for name, value in line.at.items()
+                }
                 scale = line.answer.scale(s)
                 modes = {
                     p.monic()

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces, mode_in_x
+from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces
 from mcexact.answer.rules.parameters import (
     Said,
     Values,
@@ -61,7 +61,7 @@ def _row(name: str, answer: Any, answers: Mapping[str, Any], given: Given) -> Sa
 
 
 def _modes(spectrum: Any) -> list[str]:
-    return [mode_in_x(p) for p in spectrum.generic]
+    return [f"{p}," if ", divided" in p else p for p in spectrum.modes]
 
 
 def _every(given: Given) -> str:
