@@ -40,6 +40,8 @@ class Account(Shown):
         The questions that were asked and have no answer.
     failing : mapping
         For some of these the exact answer about a plant within the radii that lacks what was asked.
+    nearby : collection of str
+        The names of answers, as far as there are such, that are about another plant nearby.
     """
 
     answers: Mapping[str, Any]
@@ -48,6 +50,7 @@ class Account(Shown):
     subject: Sequence[Mapping[str, Any]] = ()
     open: Collection[str] = ()
     failing: Mapping[str, Any] = field(default_factory=dict)
+    nearby: Collection[str] = ()
 
     def __repr__(self) -> str:
         return f"Account({len(self.answers)} answers, {len(self.sentences)} sentences)"
@@ -59,7 +62,11 @@ class Account(Shown):
 
     def manifest(self) -> dict[str, Any]:
         """Return the sentences with their premises, and the digests of the certificates."""
-        return manifest(self.sentences, self.certificates, self.subject)
+        return self._manifest(self.certificates)
+
+    def _manifest(self, texts: Mapping[str, str]) -> dict[str, Any]:
+        near = [f"{name}.json" for name in sorted(self.nearby) if name in self.answers]
+        return manifest(self.sentences, texts, self.subject, near)
 
     def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
         """Return the certificates and the manifest, keyed by the names of their files.
@@ -77,8 +84,7 @@ class Account(Shown):
                 f"{name}.json": codec.encode(answer, system_by_digest=digest(answer.about) == own)
                 for name, answer in self.answers.items()
             }
-        told = manifest(self.sentences, texts, self.subject)
-        return texts | {MANIFEST: canonical(told) + "\n"}
+        return texts | {MANIFEST: canonical(self._manifest(texts)) + "\n"}
 
     def save(self, folder: str | os.PathLike[str], *, system_by_digest: bool = False) -> None:
         """Write the certificates and the manifest into a folder, which is made if it is missing.

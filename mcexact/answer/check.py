@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from mcexact.model.system import MultiChannelSystem
 
 
+_ACCEPTED = ("VALID", "IMPLIED", "REMARK", "INCOMPLETE")
+
+
 def check(
     certificate: Answer | str | os.PathLike[str],
     system: MultiChannelSystem | ParametricSystem | None = None,
@@ -165,7 +168,7 @@ def recheck(files: Mapping[str, str], plant: str | Mapping[str, str]) -> dict[st
     """
     size, verdicts = max(map(len, files.values()), default=0), {}
     for about, found in _verdicts(files, plant, _limits(size)):
-        if found.verdict not in {"VALID", "IMPLIED", "INCOMPLETE"} or found.code == "rule":
+        if found.verdict not in _ACCEPTED or found.code == "rule":
             [what] = about.values()
             raise InternalError(
                 f"the independent checker does not accept {what} ({found.line()}): "

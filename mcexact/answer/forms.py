@@ -19,7 +19,14 @@ from mcexact.answer.formats import (
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.location import TIMES, StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.shortened import decimal_number, number, percent, polynomial, rounded
+from mcexact.exact.shortened import (
+    decimal_number,
+    number,
+    percent,
+    polynomial,
+    rounded,
+    three_digits,
+)
 from mcexact.shown import escaped
 
 Write = Callable[[Any], str]
@@ -279,6 +286,8 @@ FORMS: dict[str, Write] = {
     "another": lambda more: "Another" if more else "A",
     "shared": _shared,
     "percent": percent,
+    "percent_above": lambda part: percent(part, up=True),
+    "digits_above": lambda number: three_digits(number, up=True),
     "gains": _gains,
 }
 

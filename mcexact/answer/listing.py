@@ -52,8 +52,10 @@ reads the claims of its premises and nothing else; the manifest records the valu
 the independent checker verifies the manifest with its own rules. A premise is a certificate, given
 by the stem of its file (`loop` is the one about the closed loop); the checker verifies every
 certificate before the command ends. A sentence without premises repeats the user's input, or says
-how a proof was found. If a sentence does not only repeat claims, it has a theorem: machine-checked
-theorems of `proofs/`, or the authors of a published one. `make sentences` writes this file.
+how a proof was found. A *remark* claims nothing: it is a title, or says that something is not
+decided or not proved; the checker does not count it as implied. If a sentence does not only repeat
+claims, it has a theorem: machine-checked theorems of `proofs/`, or the authors of a published one.
+`make sentences` writes this file.
 """
 
 
@@ -83,6 +85,7 @@ def listing() -> str:
 def _row(template: Template, rulebook: Rulebook) -> str:
     text = f"{template.label}: {template.text}" if template.label else template.text
     premises = ", ".join(f"`{premise}`" for premise in premises_of(template, rulebook))
+    premises = premises if template.claims else "*remark*"
     cells = (template.key, f"`{text}`", premises, template.theorem)
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 

@@ -278,6 +278,7 @@ def manifest(
     sentences: Iterable[Sentence],
     certificates: Mapping[str, str],
     subject: Sequence[Mapping[str, Any]] = (),
+    nearby: Sequence[str] = (),
 ) -> dict[str, Any]:
     """Make the manifest, from which the checker verifies the sentences.
 
@@ -287,11 +288,14 @@ def manifest(
     certificates : mapping from names of files to texts
     subject : sequence of mapping
         The constructions that lead from the plant to the system of the sentences.
+    nearby : sequence of str
+        The names of the files that are about another plant.
     """
     digests = {name: sha256(text) for name, text in certificates.items()}
     return {
         "format": FORMAT,
         **({"subject": plain(subject)} if subject else {}),
+        **({"nearby": [*nearby]} if nearby else {}),
         "certificates": digests,
         "sentences": [
             {

@@ -68,12 +68,16 @@ class Template:
         machine-checked theorems of ``proofs/``, or the authors of a published theorem.
     label : str
         Its label in a table of names and values.
+    claims : bool
+        Whether its sentences claim something.  A title, and what is not decided or not proved, is a
+        remark, which the checker does not count as implied.
     """
 
     key: str
     text: str
     theorem: str = ""
     label: str = ""
+    claims: bool = True
 
     def __call__(self, **values: Any) -> Sentence:
         """Make the sentence with some values."""

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from .arithmetic import Matrix, beside
-from .boxes import ALL, Box
+from .boxes import Box
 from .covers import require_covered
 from .evidence import inputs
 from .exterior_discs import discs_of_gains
@@ -41,7 +41,7 @@ def check(claim: Json, witness: Json, box: Box) -> None:
 
 def statement(claim: Json, box: Box) -> str:
     """What the channels control."""
-    return controls(claim, box, ALL)
+    return controls(claim, box, box.members)
 
 
 def controls(claim: Json, box: System | FunctionSystem, members: str) -> str:

@@ -1,7 +1,7 @@
 """Kind ``box_fixed``: no member of a box has a fixed mode; ``proofs/boxes.md``."""
 
 from .arithmetic import Matrix, beside, diagonal, stack
-from .boxes import ALL, Box, absolute
+from .boxes import Box, absolute
 from .covers import require_covered
 from .exterior_discs import discs_of_gains
 from .reading import Json, fields, integer, items, malformed, matrices
@@ -62,4 +62,4 @@ def augmented(value: Json, place: str, box: Box) -> Pencil:
 
 def statement(claim: Json, box: Box) -> str:
     """What no member of the box has."""
-    return f"{ALL}, there is {no_fixed_mode(claim['bound'], box)}"
+    return f"{box.members}, there is {no_fixed_mode(claim['bound'], box)}"

@@ -5,9 +5,11 @@ from itertools import pairwise
 from operator import mul
 
 from . import budget, stability
-from .boxes import ALL, Box, absolute
+from .arithmetic import Matrix
+from .boxes import Box, absolute
 from .complex_matrices import magnitude
-from .controller import read_controller
+from .controller import MAPS, read_controller
+from .function_loops import FunctionLoop
 from .loop_pencil import loop_pencil
 from .parametric_system import FunctionSystem
 from .reading import Json, fields, integer, items, malformed, rational, require
@@ -16,6 +18,7 @@ from .regular_discs import Pencil, left_inverse, read_weights
 from .root_discs import Disc
 from .statement import canonical_json, with_digest
 from .system import System
+from .uncertainty import Pair, pairs_of, radii_in_words
 
 
 def check(claim: Json, witness: Json, box: Box) -> None:
@@ -103,7 +106,7 @@ def _require_growth(value: Json, pencil: Pencil, R: Fraction) -> None:
 
 def statement(claim: Json, box: Box) -> str:
     """Where all eigenvalues of all members lie."""
-    return lie_inside(claim, box, ALL)
+    return lie_inside(claim, box, box.members)
 
 
 def lie_inside(claim: Json, box: System | FunctionSystem, members: str) -> str:
@@ -113,5 +116,31 @@ def lie_inside(claim: Json, box: System | FunctionSystem, members: str) -> str:
     gains = ""
     if radii is not None:
         given = canonical_json(read_controller(radii, "claim.gain_radii"))
-        gains = f", and for all gains of the controller within the radii with {with_digest(given)}"
+        programs = box.programs if isinstance(box, Box | FunctionLoop) else None
+        near = radii_in_words(gain_pairs(programs, radii), "their radii")
+        which = f"those of the controller {near}, the radii being those with {with_digest(given)}"
+        gains = f", and for all controllers whose entries differ from {which}"
     return f"{members}{gains}, every eigenvalue of A has {inside(bound, box)}"
+
+
+def gain_pairs(programs: Json, radii: Json) -> list[Pair]:
+    """The radii of the gains of a controller; those of set-points are in no loop."""
+    known, spread = (read_controller(value, "controller")["agents"] for value in (programs, radii))
+    nominal, found = list[Matrix](), list[Matrix]()
+    for pair in zip(known, spread, strict=True):
+        for label in MAPS:
+            M, D = (_signals(agent.get(label, {})) for agent in pair)
+            for signal in {**M, **D}:
+                some = M.get(signal) or D[signal]
+                zeros = Matrix.zeros(some.nrows, some.ncols)
+                nominal.append(M.get(signal, zeros))
+                found.append(D.get(signal, zeros))
+    return pairs_of(nominal, found)
+
+
+def _signals(program: Json) -> dict[tuple[str, str], Matrix]:
+    """The matrices of a program that are in the loop, by the signal that each multiplies."""
+    used = {("private", ""): program["private"]} if "private" in program else {}
+    for key in ("outputs", "shared"):
+        used |= {(key, name): M for name, M in program.get(key, {}).items()}
+    return used

@@ -10,13 +10,12 @@ from .arithmetic import Matrix
 from .covers import Cell
 from .reading import Json, incomplete
 from .region import Bound
+from .statement import digest
 from .subject import read_subject
 from .system import System
-from .uncertainty import read_radii
+from .uncertainty import pairs_of, radii_in_words, read_radii
 
 LOOP = "closed_loop"
-ALL = "for all values within their radii"
-"""The words with which a statement about a box begins."""
 NONE = System("", [], Matrix.zeros(0, 0), [], [])
 
 
@@ -26,13 +25,15 @@ class Box(System):
 
     Its A, B_i and C_i are the values A_0, B_i0 and C_i0, ``radii`` has D_A, D_Bi and D_Ci.  Each of
     ``tied`` may be added to the values with a factor from −1 to 1.  For a closed loop ``plant`` is
-    the box in the loop, and ``programs`` the controller.
+    the box in the loop, and ``programs`` the controller.  ``members`` are the words with which a
+    statement about all of them begins.
     """
 
     radii: System = NONE
     tied: tuple[System, ...] = ()
     plant: Box | None = None
     programs: Json = None
+    members: str = ""
 
     def independent(self) -> Box:
         """A box without ties that contains all members."""
@@ -72,11 +73,23 @@ def box_of(steps: Json, plant: System, kind: str) -> Box:
         if step["construction"] == LOOP:
             message = "a closed loop is the last construction, for the kind box_stable alone"
             incomplete("construction", f"subject[{k}]", message)
-    radii = _radii(computed, plant)
+    radii, members = _radii(computed, plant), members_in_words(plant)
     if not looped:
-        return Box(**vars(center), radii=radii)
+        return Box(**vars(center), radii=radii, members=members)
     inside = Box(**vars(read_subject(computed, plant)), radii=radii)
-    return Box(**vars(center), plant=inside, programs=steps[-1]["controller"])
+    programs = steps[-1]["controller"]
+    return Box(**vars(center), plant=inside, programs=programs, members=members)
+
+
+def members_in_words(plant: System) -> str:
+    """All plants within the radii, by the digest of the plant without radii and their size."""
+    if plant.uncertainty is None:
+        return "for this plant alone, as none of its entries has a radius"
+    values = digest(replace(plant, uncertainty=None))
+    nominal = [plant.A, *plant.B, *plant.C]
+    pairs = pairs_of(nominal, read_radii(plant.uncertainty, plant.names, nominal))
+    near = radii_in_words(pairs, f"the radii of {plant.words}")
+    return f"for all plants whose entries differ from those of the plant {values} {near}"
 
 
 def _radii(steps: Json, plant: System) -> System:

@@ -4,7 +4,7 @@ from .arithmetic import Matrix, stack
 from .budget import spend, table
 from .controller import MAPS, read_controller
 from .reading import Json, fields, require
-from .statement import canonical_json, digest_of, prefixed, with_digest
+from .statement import canonical_json, channel_set, digest_of, prefixed, with_digest
 from .system import System
 
 STATES = (("x", "shared"), ("z", "private"))
@@ -34,7 +34,9 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     blocks, text = tuple(width for _, width in order[: 2 * m + 1]), canonical_json(controller)
     words = f"the closed loop with the controller with {with_digest(text)}"
     alone = System(system.time, [], A, [], [], words=system.words)
-    return prefixed(words, alone, blocks=blocks, controller=digest_of(text))
+    own = f"{system.n} of the controlled system and {A.nrows - system.n} added by the controller"
+    ports = f"{own} of the channels {channel_set(system.names)}"
+    return prefixed(words, alone, blocks=blocks, ports=ports, controller=digest_of(text))
 
 
 def programs_of(system: System, agents: list[Json], place: str) -> list[list[Terms]]:

@@ -25,6 +25,7 @@ from .expectation import CLAIM, Expectation
 from .kinds import Found, Verdict, attempt, check_document
 from .manifest import NAME, manifest_verdicts
 from .reading import Limits, read_file
+from .statement import counted
 
 PRECEDENCE = (70, 3, 1, 5, 0)
 """Of these statuses the first that any verdict has is that of the run."""
@@ -91,16 +92,19 @@ def _certificate(path: str, wanted: Expectation, limits: Limits) -> Iterator[Fou
 
 def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
     """The verdicts on a manifest without those of VALID certificates, and then their numbers."""
-    numbers = Counter[tuple[str, bool]]()
+    numbers, remarks = Counter[tuple[str, bool]](), 0
     for about, verdict in manifest_verdicts(path, wanted, limits):
         own = about == {"file": NAME}
-        if not own:
+        if verdict.verdict == "REMARK":
+            remarks += 1
+        elif not own:
             numbers.update((what, not verdict.status) for what in about)
         if verdict.verdict != "VALID":
             yield {"file": path} if own else {**about, "manifest": path}, verdict
     implied, rest = numbers["text", True], numbers["text", False]
     valid, other = numbers["file", True], numbers["file", False]
-    told = f"{implied} sentences implied, {rest} not; {valid} certificates valid, {other} not"
+    told = f"{implied} sentences implied, {rest} not, {counted(remarks, 'remark')}"
+    told += f"; {valid} certificates valid, {other} not"
     yield {"file": path}, Verdict("COUNTED", told)
 
 
@@ -188,9 +192,10 @@ def _parser() -> argparse.ArgumentParser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Exit status: the first that applies of 70, 3, 1, 5, 0.
 
-    70 is a bug in this checker, 3 MALFORMED, 1 INVALID, 5 INCOMPLETE, 0 all VALID or IMPLIED; 2 is
-    wrong usage, 74 the verdicts cannot be written, 130 interrupted.  Python itself ends with 1 if
-    it cannot start: a status of 1 without a line that says INVALID is no verdict.
+    70 is a bug in this checker, 3 MALFORMED, 1 INVALID, 5 INCOMPLETE, 0 all VALID or IMPLIED, or a
+    REMARK, which claims nothing; 2 is wrong usage, 74 the verdicts cannot be written, 130
+    interrupted.  Python itself ends with 1 if it cannot start: a status of 1 without a line that
+    says INVALID is no verdict.
     """
     try:
         try:

@@ -37,7 +37,8 @@ KINDS = {stem: import_module(f".{stem}", __package__) for stem in STEMS}
 Its ``check(claim, witness, system)`` stops unless the witness proves the claim, and its
 ``statement(claim, system)`` says the claim in words, from the claim and the subject alone.
 """
-STATUSES = {"VALID": 0, "IMPLIED": 0, "COUNTED": 0, "INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
+STATUSES = dict.fromkeys(("VALID", "IMPLIED", "REMARK", "COUNTED"), 0)
+STATUSES |= {"INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
 
 
 @dataclass(frozen=True)
@@ -47,8 +48,9 @@ class Verdict:
     Attributes
     ----------
     verdict : str
-        VALID (for a sentence IMPLIED), INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in this
-        checker; COUNTED for the numbers of these in a manifest.
+        VALID (for a sentence IMPLIED, or REMARK if it claims nothing), INVALID, MALFORMED,
+        INCOMPLETE, or ERROR for a bug in this checker; COUNTED for the numbers of these in a
+        manifest.
     statement : str
         What was proved, in words, or counted; else empty.
     statement_digest : str

@@ -3,7 +3,7 @@
 import hashlib
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, field, replace
 
 from . import (
@@ -20,7 +20,18 @@ from .expectation import DIGEST, Expectation, same
 from .kinds import KINDS, Found, Verdict, attempt, check_document, refusal
 from .moved_entries import constructed, subject_of
 from .parametric_system import FunctionSystem, digest_of_values, plant_of
-from .reading import Json, Limits, Refused, fields, items, malformed, parse, require, shown, string
+from .reading import (
+    Json,
+    Limits,
+    Refused,
+    fields,
+    items,
+    malformed,
+    parse,
+    require,
+    shown,
+    string,
+)
 from .sentence import RULES, Premise
 from .system import System
 
@@ -76,8 +87,8 @@ def verdicts_of(read: Read, expected: Expectation, limits: Limits) -> Iterator[F
     if isinstance(parts, Verdict):
         yield {"file": NAME}, parts
         return
-    digests, sentences, base = parts
-    known = Evidence(read, base, limits, expected, budget)
+    digests, sentences, base, nearby = parts
+    known = Evidence(read, base, limits, expected, budget, nearby)
     for name in sorted(digests):
         yield {"file": name}, known.taken(name, digests[name])
     refused = attempt(known.make_subject)
@@ -106,9 +117,9 @@ def _bytes(manifest: str, name: str, limits: Limits) -> bytes:
 
 
 def _parts(document: Json) -> tuple[Json, ...]:
-    """Read the digests by name, the sentences, and the subject of a manifest."""
-    given, more = ("format", "certificates", "sentences"), ("subject",)
-    version, listed, sentences, base = fields(document, "manifest", *given, optional=more)
+    """Read the digests by name, the sentences, the subject, and what is about nearby plants."""
+    given, more = ("format", "certificates", "sentences"), ("subject", "nearby")
+    version, listed, sentences, base, near = fields(document, "manifest", *given, optional=more)
     if string(version, "format") != FORMAT:
         malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
     if not isinstance(listed, dict) or not items(sentences, "sentences"):
@@ -127,7 +138,10 @@ def _parts(document: Json) -> tuple[Json, ...]:
                 malformed(place, f"{shown(name)} is not a certificate of this manifest")
         for text in texts:
             string(text, place)
-    return listed, sentences, [] if base is None else items(base, "subject")
+    nearby = [] if near is None else [string(each, "nearby") for each in items(near, "nearby")]
+    if nearby != sorted({*nearby}) or not {*nearby} <= listed.keys():
+        malformed("nearby", "expected names of certificates of this manifest, sorted, each once")
+    return listed, sentences, [] if base is None else items(base, "subject"), nearby
 
 
 @dataclass
@@ -146,6 +160,8 @@ class Evidence:
         may be about boxes; and the controller of all loops.
     budget : Budget
         The work that all of them may take together.
+    nearby : collection of str
+        The names of certificates that may be about another plant, with the controller of the loops.
     verdicts, premises : dict
         The verdicts on all certificates, and the premises made of VALID ones.
     """
@@ -155,6 +171,7 @@ class Evidence:
     limits: Limits
     expected: Expectation
     budget: Budget = field(default_factory=lambda: current(None))
+    nearby: Collection[str] = ()
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     premises: dict[str, Premise] = field(default_factory=dict)
 
@@ -168,6 +185,7 @@ class Evidence:
             require(right, "digest", "file", "not the bytes that the manifest names")
             with limited(self.budget):
                 any_loop = replace(self.expected, controller="")
+                any_loop = Expectation() if name in self.nearby else any_loop
                 verdict = check_document(data, any_loop, self.limits)
                 if verdict.verdict == "VALID":
                     document, controller = parse(data, self.limits), verdict.controller_digest
@@ -181,7 +199,7 @@ class Evidence:
 
     def make_subject(self) -> None:
         """Make the system that the sentences are about, out of the plant of the certificates."""
-        known = sorted(self.premises.values(), key=lambda each: is_uncertain(each.plant))
+        known = sorted(self.own(), key=lambda each: is_uncertain(each.plant))
         first = next(iter(known), None)
         if first is not None:
             with limited(self.budget):
@@ -189,12 +207,17 @@ class Evidence:
             for name, each in self.premises.items():
                 self.premises[name] = replace(each, meant=meant)
 
+    def own(self) -> list[Premise]:
+        """The certificates about the plant of the manifest, or boxes around it."""
+        return [each for each in self.premises.values() if not each.nearby]
+
     def _premise(self, name: str, document: Json, digest: str) -> Premise:
         """A certificate that was found VALID."""
         given, steps = document["system"], document["subject"]
         given = self.expected.named(given) if type(given) is str else given
         known, kind = replace(plant_of(given), words=f"the plant {digest}"), document["kind"]
-        if not self.expected.system:
+        nearby = name in self.nearby
+        if not (self.expected.system or nearby):
             values = digest_of_values(known, digest)
             self.expected = replace(self.expected, system=values)
         plant = known if isinstance(known, FunctionSystem) else at_values(known)
@@ -203,7 +226,7 @@ class Evidence:
         system = subject_of(steps, known, kind)
         sentence = KINDS[kind].statement(document["claim"], system)
         said = f"For {system.words}: {sentence}"
-        return Premise(name, document, plant, system, plant, said, path)
+        return Premise(name, document, plant, system, plant, said, path, nearby=nearby)
 
     def judged(self, sentence: dict[str, Json], place: str) -> Verdict:
         """The verdict on one sentence."""
@@ -224,14 +247,15 @@ class Evidence:
             for name, pointer, value in because:
                 found = pointed(self.premises[name].document, pointer, name)
                 require(same(found, value), "value", name, f"another value at {shown(pointer)}")
-            require(bool(self.premises), "premise", "because", "no certificate is about the plant")
+            require(bool(self.own()), "premise", "because", "no certificate is about the plant")
             spend(2 * len(cited) * len(because) + 100 * len(self.premises))
             pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
             told = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
             words = RULES[key].implied(told, [*self.premises.values()])
             words += f" [{theorem}]" if theorem else ""
             spend(len(words))
-            return Verdict("IMPLIED", f"{words} from {', '.join(cited)}" if cited else words)
+            words += f" from {', '.join(cited)}" if cited and RULES[key].claims else ""
+            return Verdict(RULES[key].verdict, words)
 
         with limited(self.budget):
             return attempt(check).inside(f"{place} {shown(key)}")

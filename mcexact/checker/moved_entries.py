@@ -80,6 +80,7 @@ def looped(steps: Json, plant: FunctionSystem) -> FunctionSystem:
         document=inside.document,
         words=loop.words,
         controller=loop.controller,
+        ports=loop.ports,
         inside=inside,
         programs=last["controller"],
         states=loop.n,

@@ -33,7 +33,7 @@ class FunctionSystem:
 
     ``ranges`` has the least and the largest value of each parameter, None where there is none.
     ``tables`` are A, B_1, C_1, B_2, … as functions, each a numerator and a denominator, and
-    ``document`` is the canonical object of the plant.
+    ``document`` is the canonical object of the plant; ``ports`` is as in `System`.
     """
 
     time: str
@@ -44,6 +44,7 @@ class FunctionSystem:
     neighbors: list[list[int]] | None = None
     words: str = "the plant"
     controller: str = ""
+    ports: str = ""
 
     @property
     def n(self) -> int:

@@ -32,6 +32,9 @@ class Premise:
         The constructions of the subject; None if they do not begin at the manifest's system.
     pointers : tuple of str
         The pointers of a sentence into this certificate.
+    nearby : bool
+        Whether the plant is another one than that of the manifest: then no rule but those about
+        such plants takes it.
     """
 
     file: str
@@ -42,6 +45,7 @@ class Premise:
     statement: str
     path: Path | None
     pointers: tuple[str, ...] = ()
+    nearby: bool = False
 
     def __getitem__(self, key: str) -> Any:
         return self.document["claim"][key]
@@ -77,12 +81,14 @@ class Premise:
 class Role:
     """The requirements on a premise: one of these kinds, with one of these subjects.
 
-    With ``many``, all fitting premises, at least one, are taken as a list.
+    With ``many``, all fitting premises, at least one, are taken as a list; with ``nearby`` those
+    about another plant than that of the manifest, and no others.
     """
 
     kinds: Path
     paths: tuple[Path, ...] = SYSTEM
     many: bool = False
+    nearby: bool = False
 
     def fits(self, premise: Premise, heard: bool) -> bool:
         """Whether a premise can play the role, for agents with or without their neighbors' outputs.
@@ -92,12 +98,14 @@ class Role:
         ways = self.paths
         if ways in (SYSTEM, DUAL):
             ways = ways[heard : heard + 1]
-        return premise.kind in self.kinds and premise.path in ways
+        right = premise.kind in self.kinds and premise.path in ways
+        return right and premise.nearby == self.nearby
 
     def words(self) -> str:
         """The role, for a message."""
         ways = " or ".join("+".join(path) or "the plant" for path in self.paths)
-        return f"a premise of the kind {' or '.join(self.kinds)}, about {ways}"
+        whose = " of a plant that is listed as nearby" if self.nearby else ""
+        return f"a premise of the kind {' or '.join(self.kinds)}, about {ways}{whose}"
 
 
 @dataclass(frozen=True)
@@ -106,12 +114,19 @@ class Rule:
 
     ``say`` takes the premises in the order of the roles, and stops if their claims do not imply the
     sentence. Without roles it takes all premises, those of the sentence first, and repeats what was
-    given.
+    given.  ``claims`` is false of a remark, which says nothing that could be true or false of the
+    system: its verdict is REMARK and never IMPLIED.
     """
 
     theorem: str
     roles: tuple[Role, ...]
     say: Callable[..., str]
+    claims: bool = True
+
+    @property
+    def verdict(self) -> str:
+        """The verdict on a sentence that this rule accepts."""
+        return "IMPLIED" if self.claims else "REMARK"
 
     def implied(self, cited: list[Premise], known: list[Premise]) -> str:
         """The statement that the premises imply.
@@ -122,7 +137,7 @@ class Rule:
             If a premise is missing, or they do not imply the sentence.
         """
         if not self.roles:
-            return self.say([*cited, *known])
+            return self.say([each for each in [*cited, *known] if not each.nearby])
         casts = [list(self._cast(cited, heard)) for heard in (False, True)]
         found = max(casts, key=len)
         if len(found) < len(self.roles):
@@ -154,6 +169,19 @@ def rule(keys: str, *roles: Role, theorem: str = "") -> Callable[[Say], Say]:
         return say
 
     return enter
+
+
+def remark(keys: str) -> None:
+    """Enter rules of sentences that claim nothing: titles, and what is not decided or proved."""
+
+    def enter(key: str) -> None:
+        def say(known: list[Premise]) -> str:
+            return f"For {known[0].meant.words}: the sentence {key} claims nothing"
+
+        RULES[key] = Rule("", (), say, claims=False)
+
+    for each in keys.split():
+        enter(each)
 
 
 def repeated(premise: Premise) -> str:

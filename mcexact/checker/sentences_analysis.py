@@ -6,7 +6,7 @@ from collections.abc import Callable
 from .arithmetic import exponent
 from .location import in_stability_region
 from .reading import polynomial
-from .sentence import DUAL, PLANT, SYSTEM, Holds, Premise, Role, either, restate, rule
+from .sentence import DUAL, PLANT, SYSTEM, Holds, Premise, Role, either, remark, restate, rule
 from .statement import PENCIL, channel_set, described, edge_set, polynomial_text
 from .system import System
 
@@ -42,7 +42,7 @@ def controls(found: Premise) -> bool:
     return bool(found["controllable"])
 
 
-# What is given, and titles that claim nothing.
+# What is given, and remarks: titles, what is not proved, and what was not decided.
 
 
 def plain(known: list[Premise]) -> System:
@@ -52,8 +52,7 @@ def plain(known: list[Premise]) -> System:
     return meant
 
 
-@rule("heading page-heading information controllability-indices-left-out")
-@rule("observability-indices-left-out")
+@rule("heading page-heading information")
 def _given(known: list[Premise]) -> str:
     """The sizes of what the manifest is about, and the names of its channels."""
     plant = plain(known)
@@ -62,11 +61,10 @@ def _given(known: list[Premise]) -> str:
     return f"For {described(plant)}: {ports}"
 
 
-@rule("subsystem channel picture-graphs picture-graphs-outputs picture-dimensions certify-loop")
-@rule("design-measured table-links-limit least-outputs-states-limit least-states-limit")
-def _nothing(known: list[Premise]) -> str:
-    """A title, a remark that something is not proved, or that it was not decided."""
-    return f"For {known[0].meant.words}: nothing is claimed"
+remark("subsystem channel picture-graphs picture-graphs-outputs picture-dimensions certify-loop")
+remark("design-measured")
+remark("table-links-limit least-outputs-states-limit least-states-limit")
+remark("controllability-indices-left-out observability-indices-left-out")
 
 
 @rule("inactive-channels")

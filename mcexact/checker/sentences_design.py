@@ -3,7 +3,10 @@
 import json
 from fractions import Fraction
 
+from . import budget
+from .boxes import absolute
 from .controller import MAPS
+from .expectation import same
 from .location import in_stability_region
 from .moved_entries import constructed
 from .reading import Json, polynomial
@@ -14,6 +17,7 @@ from .statement import counted
 from .subject import read_subject
 from .system import System
 from .system_matrices import read_matrix
+from .uncertainty import pairs_of, read_radii
 
 UNCONTROLLABLE = "controllability.uncontrollable_modes"
 NO_FIXED = "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed"
@@ -186,6 +190,52 @@ def integrates(system: System, i: int, agent: Json) -> bool:
         if alone and difference and sorted(own[z]) == [0] * (q - 1) + [1]:
             found.add(own[z].index(Fraction(1)))
     return found == set(range(q))
+
+
+# A plant nearby whose loop fails.
+
+FAILS = Role(("stability",), CLOSED, nearby=True)
+
+
+def farthest(near: Premise, loop: Premise, *, of_radii: bool) -> Fraction:
+    """How far the entries of a plant nearby are from those of the plant of a loop at most.
+
+    In radii of the plant of the loop, or else in absolute values of its entries.  Both plants have
+    the same time, channels, neighbors and delays, and both loops the same controller.
+    """
+    given, other = loop.plant, near.plant
+    for plant in (given, other):
+        near.expect(isinstance(plant, System), "a plant has parameters")
+    parts = ("time", "names", "neighbors", "delays")
+    alike = all(getattr(given, part) == getattr(other, part) for part in parts)
+    near.expect(alike, "another time, or other channels, neighbors or delays")
+    near.expect(same(near.document["subject"], loop.document["subject"]), "another loop")
+    values, others = ([each.A, *each.B, *each.C] for each in (given, other))
+    pairs = list(zip(values, others, strict=True))
+    fits = all((M.nrows, M.ncols) == (N.nrows, N.ncols) for M, N in pairs)
+    near.expect(fits, "matrices of other shapes")
+    units = read_radii(given.uncertainty, given.names, values) if of_radii else values
+    found = pairs_of(units, [absolute(N + M.times(-1)) for M, N in pairs])
+    near.expect(all(unit for moved, unit in found if moved), "an entry without a radius is moved")
+    budget.spend(budget.fractions(len(found), 2 * budget.limbs_of([x for p in found for x in p])))
+    return max((moved / unit for moved, unit in found if moved), default=Fraction(0))
+
+
+def fails_near(key: str, unit: str, *, of_radii: bool) -> None:
+    """Enter the rule about a plant nearby whose loop is not stable."""
+
+    @rule(key, FAILS, LOOP)
+    def _say(near: Premise, loop: Premise) -> str:
+        near.expect(not near["stable"], "the loop is stable")
+        near.expect(set(near.document["claim"]) == {"bound", "stable"}, "limits are claimed, too")
+        near.expect(near["bound"] is None, "a bound is claimed")
+        far = farthest(near, loop, of_radii=of_radii)
+        whose = f"each entry of its plant differs from that of {loop.plant.words}"
+        return f"{near.statement}; {whose} by at most {far} of the {unit} of the latter"
+
+
+fails_near("certify-failing-plant", "absolute value", of_radii=False)
+fails_near("certify-failing-plant-radii", "radius", of_radii=True)
 
 
 # Refusals.

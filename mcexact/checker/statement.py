@@ -102,9 +102,12 @@ def counted(number: int, noun: str) -> str:
 # Systems: the plant by its digest, and constructions before or behind what they are applied to.
 
 
-def prefixed(words: str, system: System, blocks: tuple[int, ...] = (), **parts: Any) -> System:
+def prefixed(
+    words: str, system: System, blocks: tuple[int, ...] = (), ports: str = "", **parts: Any
+) -> System:
     """The system with these parts that a construction makes, named before what it is made from."""
-    return replace(system, words=f"{words} of: {system.words}", blocks=blocks, **parts)
+    named = f"{words} of: {system.words}"
+    return replace(system, words=named, blocks=blocks, ports=ports, **parts)
 
 
 def suffixed(system: System, words: str, **parts: Any) -> System:
@@ -114,10 +117,11 @@ def suffixed(system: System, words: str, **parts: Any) -> System:
     """
     alone = system.words.startswith(("the plant", "("))
     before = system.words if alone else f"({system.words})"
-    return replace(system, words=f"{before} {words}", blocks=(), **parts)
+    return replace(system, words=f"{before} {words}", blocks=(), ports="", **parts)
 
 
 def described(system: System | FunctionSystem) -> str:
     """The system a claim is about: what it was made from, its states, its channels, its time."""
     channels = f"channels {channel_set(system.names)}" if system.m else "no channels"
-    return f"{system.words} ({counted(system.n, 'state')}, {channels}, {system.time} time)"
+    told = f"{counted(system.n, 'state')}, {system.ports or channels}, {system.time} time"
+    return f"{system.words} ({told})"

@@ -15,8 +15,9 @@ class System:
 
     ``neighbors[i]`` is N_i in the order of the channels, with i in it; None means that there is no
     graph; ``delays[i, j]`` is d_ij where it is not 0.  ``words`` name the system in
-    statements; in a closed loop ``blocks`` are the sizes of x, x_1, z_1, x_2, z_2, …, and
-    ``controller`` is the digest of the controller.  ``uncertainty`` are the radii of all entries in
+    statements; in a closed loop ``blocks`` are the sizes of x, x_1, z_1, x_2, z_2, …,
+    ``controller`` is the digest of the controller, and ``ports`` say whose the states are and which
+    channels it closes.  ``uncertainty`` are the radii of all entries in
     canonical form; None means that all are certain.
     """
 
@@ -30,6 +31,7 @@ class System:
     words: str = "the plant"
     blocks: tuple[int, ...] = ()
     controller: str = ""
+    ports: str = ""
     uncertainty: Json = None
 
     @property

@@ -1,4 +1,4 @@
-"""How far the entries of a plant may be from their values: the radii of A, B_i and C_i."""
+"""How far entries may be from their values: the radii of a plant, and the words for any radii."""
 
 import json
 import re
@@ -11,6 +11,8 @@ from .sparse import SparseMatrix, entries_of
 from .system_matrices import in_json, number, read_matrix
 
 WAYS = ("relative", "digits", "absolute")
+Pair = tuple[Fraction, Fraction]
+"""A radius, and the absolute value of the entry that it is of."""
 
 
 def as_typed(data: bytes, document: Json, limits: Limits) -> Json:
@@ -63,6 +65,42 @@ def read_radii(form: Json, names: list[str], nominal: list[Matrix]) -> list[Matr
     if form is not None:
         return _absolute(form["absolute"], names, nominal, None)
     return [Matrix.zeros(M.nrows, M.ncols) for M in nominal]
+
+
+def pairs_of(nominal: list[Matrix], radii: list[Matrix]) -> list[Pair]:
+    """The radius of each entry that is uncertain or not 0."""
+    found = list[Pair]()
+    for M, D in zip(nominal, radii, strict=True):
+        values = {(i, j): abs(x) for i, j, x in entries_of(M)}
+        spread = {(i, j): radius for i, j, radius in entries_of(D)}
+        places, longest = {**values, **spread}, max(M.limbs, D.limbs)
+        budget.spend(100 + 200 * len(places) + 4 * budget.fractions(len(places), longest))
+        for place in places:
+            radius = Fraction(spread.get(place, 0), D.denominator)
+            found.append((radius, Fraction(values.get(place, 0), M.denominator)))
+    return found
+
+
+def radii_in_words(pairs: list[Pair], whose: str) -> str:
+    """How far entries may be from "the latter", whose radii are ``whose`` in words.
+
+    Where all radii are one part of the absolute values, this part says all; otherwise how many
+    radii there are, the largest one, and the largest part, unless an entry that is 0 is uncertain.
+    """
+    wide = [pair for pair in pairs if pair[0]]
+    longest = budget.limbs_of([number for pair in pairs for number in pair])
+    budget.spend(budget.fractions(4 * len(pairs) + 4, 2 * longest))
+    if not wide:
+        return f"by at most {whose} (no entry has one)"
+    parts = [radius / value for radius, value in wide if value]
+    largest = f"none above {max(radius for radius, _ in wide)}"
+    if len(parts) == len(wide):
+        most = f"{max(parts)} of the absolute value"
+        if len(pairs) == len(wide) and len(set(parts)) == 1:
+            return f"by at most {most}s of the latter"
+        largest += f" and none above {most} of its entry"
+    have = "1 entry has one" if len(wide) == 1 else f"{len(wide)} entries have one"
+    return f"by at most {whose} ({have}, {largest})"
 
 
 def _absolute(

@@ -202,7 +202,7 @@ def _certified(
     loops = uncertainty.loops(system, controller, found, gains, largest)
     assessment = replace(assessment, within_radii=loops.within_radii)
     account = account_of_verdict(
-        found, largest=wanted["largest"], every_loop=loops.proof, gains=gains
+        found, largest=wanted["largest"], every_loop=loops.proof, gains=gains, failing=loops.failing
     )
     if digits is not None:
         loops = loops.with_digits(uncertainty.digits_of(system, typed, found, digits))

@@ -83,7 +83,8 @@ def command(
     INVALID, MALFORMED and INCOMPLETE are followed by a code and a place. With several files,
     the name of the file stands behind the verdict. A sentence of a manifest is IMPLIED instead of
     VALID; the statement printed for it is made from the certificates, not from the text of the
-    sentence.
+    sentence. A sentence that claims nothing, such as a title, is a REMARK, and not counted as
+    implied.
 
     The status is the first that applies of 70, 3 (MALFORMED), 1 (INVALID), 5 (INCOMPLETE) and 0, or
     74 if the verdicts cannot be written. The file that --export writes prints the same verdicts:

@@ -210,7 +210,7 @@ def _designed(
             account,
             assessment,
             found.loop.closed,
-            (*tables(account.sentences), *_box(around, system), figures),
+            (*tables(account.sentences), *_box(around), figures),
             with_page,
         )
         | {
@@ -224,11 +224,11 @@ def _designed(
     )
 
 
-def _box(around: EveryLoop | None, system: MultiChannelSystem) -> tuple[Table, ...]:
-    """What is not proved of every loop in a box, and where one fails, as a table."""
+def _box(around: EveryLoop | None) -> tuple[Table, ...]:
+    """What is not proved of every loop in a box, as a table."""
     from mcexact.report.text import Table
 
-    rows = () if around is None else tuple(around.rows(system.uncertainty is None))
+    rows = () if around is None else tuple(around.rows())
     return (Table("plants near this one", (), rows),) if rows else ()
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from mcexact.model.properties import PROPERTIES, Property
 
 if TYPE_CHECKING:
+    from mcexact.analysis.boxes.failing_plants import FailingPlant
     from mcexact.analysis.boxes.two_sided import LargestUncertainty
     from mcexact.answer.account import Account
     from mcexact.answer.box_stable import BoxStability
@@ -131,12 +132,15 @@ class Loops:
         Plain data.
     within_radii : str or None
         Whether all loops within the given radii are stable; None if none are given.
+    failing : FailingPlant or None
+        A plant nearby whose loop is not stable.
     """
 
     rows: tuple[tuple[str, str], ...] = ()
     proof: BoxStability | None = None
     view: Mapping[str, Any] = field(default_factory=dict)
     within_radii: WithinRadii | None = None
+    failing: FailingPlant | None = None
 
     def tables(self) -> tuple[Table, ...]:
         """The table, if there is something to say."""
@@ -175,7 +179,7 @@ def loops(
     from mcexact.exact.rational import written
     from mcexact.model.box import radii_in_words
     from mcexact.model.loop import closed_loop
-    from mcexact.synthesis.every_loop import failing_plant, failing_row, known_within
+    from mcexact.synthesis.every_loop import failing_plant, known_within
 
     if system.uncertainty is None and gains is None:
         return Loops()
@@ -193,12 +197,11 @@ def loops(
     if proof is None and found.stable and system.uncertainty is not None:
         failing = failing_plant(closed_loop(system, controller))
     if failing is not None:
-        said.append(failing_row(failing, relative=False))
         view |= {"fails_within": written(failing.distance), "failing": failing.plant.to_dict()}
     within: WithinRadii | None = known_within(proof, failing)
     if largest is not None and largest.proof is not None:
         within = _within_given(largest)
-    return Loops(tuple(said), proof, {"every_loop": view}, within)
+    return Loops(tuple(said), proof, {"every_loop": view}, within, failing)
 
 
 def _within_given(largest: LargestUncertainty) -> WithinRadii | None:

@@ -229,7 +229,10 @@ def check() -> Schema:
     verdict = record(
         {
             "verdict": {
-                "enum": ["VALID", "INVALID", "MALFORMED", "INCOMPLETE", "IMPLIED", "COUNTED"]
+                "enum": [
+                    *("VALID", "INVALID", "MALFORMED", "INCOMPLETE"),
+                    *("IMPLIED", "REMARK", "COUNTED"),
+                ]
             },
             "statement": TEXT,
             "statement_digest": TEXT,

@@ -161,7 +161,7 @@ def manifest() -> Schema:
     return record(
         named("mcexact-manifest/1")
         | {"certificates": table(DIGEST), "sentences": rows(sentence, minItems=1)},
-        {"subject": rows(record({"construction": TEXT}))},
+        {"subject": rows(record({"construction": TEXT})), "nearby": rows(TEXT)},
         closed=True,
     )
 

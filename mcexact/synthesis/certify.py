@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import get_args
 
+from mcexact.analysis.boxes.failing_plants import FAILING, FailingPlant
 from mcexact.analysis.stability.closed_loop_spectrum import eigenvalue_outside
 from mcexact.analysis.stability.stability import (
     POLYNOMIAL_LIMIT,
@@ -220,6 +221,7 @@ def account_of_verdict(
     largest: bool = False,
     every_loop: BoxStability | None = None,
     gains: Fraction | None = None,
+    failing: FailingPlant | None = None,
 ) -> Account:
     """Make the account of a verdict on a closed loop.
 
@@ -232,11 +234,17 @@ def account_of_verdict(
         About all loops of a box around the plant.
     gains : Fraction, optional
         The part of their moduli that the radii of the gains are there.
+    failing : FailingPlant, optional
+        A plant nearby whose loop is not stable.
     """
     asked = {"region": found.region, "states": found.about.n, "largest": largest}
     answers: dict[str, Answer] = {found.kind: found}
     if every_loop is not None:
         answers["box_stability"] = every_loop
         asked |= {"part_of_plant": Box(every_loop.about.plant).part, "part_of_gains": gains}
+    if failing is not None and failing.refutation is not None:
+        answers[FAILING] = failing.refutation
+        asked |= failing.facts(found.about.plant)
     given = Given(found.about.plant, asked)
-    return Account(answers, given, VERDICT.sentences(answers, given), found.about.subject[:-1])
+    sentences = VERDICT.sentences(answers, given)
+    return Account(answers, given, sentences, found.about.subject[:-1], nearby=(FAILING,))

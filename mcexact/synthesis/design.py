@@ -8,6 +8,7 @@ from functools import cached_property
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Literal
 
+from mcexact.analysis.boxes.failing_plants import FAILING
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.account import Account, ShownByAccount
 from mcexact.answer.protocol import Answer
@@ -140,8 +141,13 @@ class Design(ShownByAccount):
         if around is not None and around.proof is not None:
             found["box_stability"] = around.proof
             facts |= {"part_of_plant": around.part, "part_of_gains": around.gains}
+        failing = None if around is None else around.failing
+        if failing is not None and failing.refutation is not None:
+            found[FAILING] = failing.refutation
+            facts |= failing.facts(closed.plant)
         given = Given(closed.plant, {**facts, **self.parts})
-        return Account(found, given, DESIGN.sentences(found, given), closed.subject[:-1])
+        sentences = DESIGN.sentences(found, given)
+        return Account(found, given, sentences, closed.subject[:-1], nearby=(FAILING,))
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the loop's eigenvalues, robustness, decay, and effort or step responses.

@@ -18,7 +18,7 @@ from mcexact.arguments import require_seconds
 from mcexact.errors import LimitReached
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import written
-from mcexact.exact.shortened import percent, three_digits
+from mcexact.exact.shortened import percent
 from mcexact.model.box import Box
 from mcexact.model.loop import ClosedLoop
 from mcexact.shown import Shown
@@ -76,18 +76,10 @@ class EveryLoop(Shown):
         """Whether every loop within the radii of the plant is stable, where it has some."""
         return known_within(self.proof, self.failing)
 
-    def rows(self, relative: bool) -> Iterator[tuple[str, str]]:
-        """Yield labels and texts: why there is no proof, and where a plant fails.
-
-        Parameters
-        ----------
-        relative : bool
-            Whether the plant has no radii of its own.
-        """
+    def rows(self) -> Iterator[tuple[str, str]]:
+        """Yield a label and a text: why there is no proof."""
         if self.proof is None:
             yield "eigenvalues of every loop", self.reason
-        if self.failing is not None:
-            yield failing_row(self.failing, relative)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the proof, and the plant that fails."""
@@ -206,14 +198,6 @@ def known_within(proof: BoxStability | None, failing: FailingPlant | None) -> Wi
     return "open" if failing is None or failing.distance > 1 else "refuted"
 
 
-def failing_row(failing: FailingPlant, relative: bool) -> tuple[str, str]:
-    """A label and how near a plant is whose loop fails: as a part of its entries, or in radii."""
-    distance = failing.distance
-    near = f"{three_digits(distance, up=True)} times the radii"
-    near = f"{percent(distance, up=True)} of each entry" if relative else near
-    return "a loop fails", f"for a plant within {near}"
-
-
 def failing_plant(loop: ClosedLoop) -> FailingPlant | None:
     """Search a plant whose loop is not stable, near in the radii of the plant of a loop.
 
@@ -268,6 +252,7 @@ def _failing(search: StabilitySearch) -> FailingPlant | None:
     given = search.loop.given
     known = [*([] if found is None else [found]), *severed_plants(given, Box(given).radii)]
     for near in sorted(known, key=lambda each: each.distance):
-        if refuted_loop(search, near.plant) is not None:
-            return near
+        refutation = refuted_loop(search, near.plant)
+        if refutation is not None:
+            return replace(near, refutation=refutation)
     return None

@@ -50,8 +50,8 @@ def require_said(account: Account, topic: str, folder: Path) -> None:
     require_known([text for text in texts if text not in CHROME], known_texts(account))
     account.save(folder)
     for about, verdict in manifest_verdicts(str(folder), Expectation(), Limits()):
-        good = "IMPLIED" if "text" in about else "VALID"
-        assert verdict.verdict == good, (about, verdict.line())
+        good = {"IMPLIED", "REMARK"} if "text" in about else {"VALID"}
+        assert verdict.verdict in good, (about, verdict.line())
 
 
 @pytest.mark.parametrize("start", range(0, 60, 10))

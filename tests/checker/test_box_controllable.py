@@ -80,13 +80,13 @@ def test_the_radii_of_what_is_not_used_do_not_matter() -> None:
 
 
 def test_the_statement_says_which_modes_are_controlled() -> None:
-    begin = "for all values within their radii, the channels "
     for document, said in (
         (CONTROLLABLE, '{"1", "2"} together control every mode'),
         (STABILIZABLE_BY_1, '{"1"} together control every mode of real part at least 0'),
         (DETECTABLE, '{"1"} together control every mode of modulus at least 7/8'),
     ):
-        assert checked(document).statement.endswith(f"time): {begin}{said}")
+        told = checked(document).statement.partition(" time): for all plants whose entries ")[2]
+        assert told.endswith(f", the channels {said}")
     assert checked(OBSERVABLE).statement.startswith("For the dual of: the plant ")
 
 

@@ -172,7 +172,13 @@ def test_radii_are_part_of_the_statement_by_the_digest_of_the_plant() -> None:
     said, other = checked(FIXED), checked({**FIXED, "system": exact})
     assert said.verdict == other.verdict == "VALID"
     assert said.system_digest != other.system_digest
-    assert "for all values within their radii, there is no mode that is fixed" in said.statement
+    values = other.system_digest
+    assert f"for all plants whose entries differ from those of the plant {values} by at most" in (
+        said.statement
+    )
+    assert "time): for this plant alone, as none of its entries has a radius, there is no mode" in (
+        other.statement
+    )
     told = checked(STABILIZABLE).statement
     assert "there is no mode of real part at least 0 that is fixed under" in told
     assert "no mode of modulus at least 15/16 that is" in checked(SAMPLED_FIXED).statement

@@ -308,22 +308,24 @@ def test_segments_are_on_the_border_and_leave_no_gap() -> None:
 
 def test_without_a_loop_there_are_no_signals_but_the_state() -> None:
     said = checked(STABLE).statement
-    assert said.endswith(
-        "for all values within their radii, every eigenvalue of A has real part below 0"
-    )
+    assert said.endswith(", every eigenvalue of A has real part below 0")
+    assert " time): for all plants whose entries differ from those of the plant " in said
     assert checked(SAMPLED_STABLE).statement.endswith("every eigenvalue of A has modulus below 7/8")
 
 
-def test_the_statement_names_the_radii_of_the_gains_by_their_digest() -> None:
+def test_the_statement_names_the_radii_of_the_gains_by_their_size_and_digest() -> None:
     said = checked(LOOP_STABLE).statement
     assert said.startswith("For the closed loop with the controller with SHA-256 ")
-    between = ": for all values within their radii, and for all gains of the controller within the "
-    assert f"{between}radii with SHA-256 " in said
+    between = (
+        ", and for all controllers whose entries differ from those of the controller by at most "
+    )
+    assert f"{between}their radii (2 entries have one, none above 1/50 and none " in said
+    assert ", the radii being those with SHA-256 " in said
     assert said.endswith(", every eigenvalue of A has real part below -1/8")
     written = changed(LOOP_STABLE, (RADIUS, [["1/100"]]), (f"{RADII}.agents.0.hold", {"2": 0}))
     assert checked(written).statement == said
     none = changed(LOOP_STABLE, (RADII, None))
-    assert "gains" not in checked(none).statement
+    assert "for all controllers" not in checked(none).statement
     assert checked(none).verdict == "VALID"
 
 

@@ -183,7 +183,7 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     *lines, counted = done.stdout.splitlines()
     assert len(lines) == len(SENTENCES)
     assert counted == (
-        f"COUNTED {len(SENTENCES)} sentences implied, 0 not; "
+        f"COUNTED {len(SENTENCES)} sentences implied, 0 not, 0 remarks; "
         f"{len(EVIDENCE)} certificates valid, 0 not"
     )
     assert all(line.startswith("IMPLIED ") for line in lines)
@@ -201,7 +201,7 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     assert absent.returncode == 3
     named = run(folder, "--manifest", "nowhere", "fixed.json").stdout.splitlines()[1]
     assert named.startswith("MALFORMED 'nowhere' unreadable file: ")
-    nothing = "COUNTED 0 sentences implied, 0 not; 0 certificates valid, 0 not"
+    nothing = "COUNTED 0 sentences implied, 0 not, 0 remarks; 0 certificates valid, 0 not"
     assert absent.stdout.splitlines()[1] == nothing  # a manifest is no certificate
     files = [f"evidence/{path.name}" for path in (folder / "evidence").iterdir()]
     words = [line.split()[0] for line in run(folder, *files).stdout.splitlines()]

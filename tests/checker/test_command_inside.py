@@ -172,7 +172,8 @@ def test_a_line_names_its_file_where_there_are_several(
     assert valid.replace(" 'fixed.json' ", " ", 1) + "\n" == alone
     assert invalid.startswith("INVALID 'invalid.json' common_factor ")
     assert all(line.startswith("IMPLIED 'evidence' For ") for line in implied)
-    told = f"{len(SENTENCES)} sentences implied, 0 not; {len(EVIDENCE)} certificates valid, 0 not"
+    told = f"{len(SENTENCES)} sentences implied, 0 not, 0 remarks; "
+    told += f"{len(EVIDENCE)} certificates valid, 0 not"
     assert counted == f"COUNTED 'evidence' {told}"
     (folder / "said.txt").write_text(valid + "\n", encoding="ascii")
     assert main(["fixed.json", "--expect", "said.txt"]) == 0

@@ -20,6 +20,7 @@ from tests.checker.handmade import FIXED, FREE, changed, checked, without
 STATUSES = [
     ("VALID", 0),
     ("IMPLIED", 0),
+    ("REMARK", 0),
     ("COUNTED", 0),
     ("INVALID", 1),
     ("MALFORMED", 3),

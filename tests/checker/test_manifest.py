@@ -112,7 +112,8 @@ def test_what_is_given_is_said_of_the_system_of_the_manifest(tmp_path: Path) -> 
     found, title = said(write(tmp_path, evidence, listed | {"subject": [DUAL]}))
     assert found.statement.startswith(f"For the dual of: {ABOUT[4:]} (3 states, ")
     assert found.statement.endswith(": 4 inputs and 3 outputs in all")
-    assert title.statement == f"For the dual of: {ABOUT[4:]}: nothing is claimed"
+    said_of = f"For the dual of: {ABOUT[4:]}"
+    assert title.line() == f"REMARK {said_of}: the sentence subsystem claims nothing"
 
 
 LINK = {"construction": "arcs", "added": [["1", "2"]]}

@@ -135,12 +135,15 @@ def test_every_part_of_the_witness_is_needed(part: str) -> None:
 def test_the_statement_names_the_loop_the_ranges_and_the_radii() -> None:
     said = checked(LOOP_DAMPED).statement
     assert said.startswith("For the closed loop with the controller with SHA-256 ")
-    assert " (3 states, no channels, continuous time): for all real values of the " in said
-    assert " parameter k from 1/4 to 3/4, and for all gains of the controller within the " in said
-    assert " radii with SHA-256 " in said
+    whose = "2 of the controlled system and 1 added by the controller of the channels "
+    assert f' (3 states, {whose}{{"1", "2"}}, continuous time): for all real values of the ' in said
+    assert (
+        " parameter k from 1/4 to 3/4, and for all controllers whose entries differ from " in said
+    )
+    assert ", the radii being those with SHA-256 " in said
     assert said.endswith(", every eigenvalue of A has real part below -1/8")
     said = checked(LOOP_SAMPLED).statement
-    assert " added to its neighbor graph (3 states, no channels, discrete time): " in said
+    assert " added to its neighbor graph (3 states, 2 of the controlled system and 1 added " in said
     assert " parameter a from 7/16 to 9/16 and of the parameter b from 15/16 to 17/16, " in said
     assert said.endswith(" to 17/16, every eigenvalue of A has modulus below 1")
     said = checked(TURNED).statement

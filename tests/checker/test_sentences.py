@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import random
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
@@ -19,6 +20,7 @@ from mcexact.analysis.fixed_modes.assignability import assignability
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.questions import asked_by
 from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
+from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.account import Account
 from mcexact.answer.codec import document
 from mcexact.answer.listing import everything
@@ -33,8 +35,11 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
 from mcexact.model.canonical import canonical, plain
+from mcexact.model.local_controllers import local_controllers
 from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.certify import certify_controller
 from tests.answer.asking import asked as asking
 from tests.answer.test_sentences import drawn, question
 from tests.attack.forgeries.joined import factors_joined
@@ -170,7 +175,7 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
                 because = [[name, "/kind", found.premises[name].kind] for name in cast]
                 what = {"text": "", "rule": key, "theorem": rule.theorem, "because": because}
                 verdict = found.judged(what, "")
-                assert verdict.verdict in {"IMPLIED", "INVALID"}, (key, verdict.line())
+                assert verdict.verdict in {rule.verdict, "INVALID"}, (key, verdict.line())
                 (implied if verdict.verdict == "IMPLIED" else denied)[key].add((number, cast))
     for one_key, other in OPPOSITE:
         assert not implied[one_key] & implied[other], (one_key, other)
@@ -346,3 +351,45 @@ def test_no_sentence_is_implied_on_fewer_grounds_or_on_false_ones() -> None:
                 false = [name, pointer, 7 if value != 7 else 8]
                 because = [*what["because"][:k], false, *what["because"][k + 1 :]]
                 assert found.judged(what | {"because": because}, "").code == "value"
+
+
+REMARKS = {each.key for each in TEMPLATES if not each.claims}
+"""Titles, and what is not decided or not proved, as the package marks them."""
+
+
+def of_different_plants() -> Iterator[dict[str, Document]]:
+    """Certificates about plants that differ in everything, two with loops, two with parameters."""
+    for A, B, C, heard, controller, rate in (
+        ([[1]], [[[1]], [[0]]], [[[1]], [[1]]], {"1": ["2"]}, [[[-3]], [[0]]], "1/2"),
+        (
+            *([[2, 0], [0, -1]], [[[0], [0]], [[1], [1]]], [[[1, 0]], [[0, 1]]], {"2": ["1"]}),
+            *([[[0]], ([[-5]], [["1/7"]], [[-6]], [[0]])], None),
+        ),
+    ):
+        plant = MultiChannelSystem(A, B, C, neighbors=heard)
+        loop = certify_controller(plant, local_controllers(plant, controller), rate=rate)
+        yield {"graph": document(transfer_graph(plant)), "loop": document(loop)}
+    for t in "st":
+        family = ParametricSystem([[t]], [[[1]]], [[[1]]], parameters=[t])
+        yield {"modes": document(fixed_spectrum(family))}
+
+
+def test_a_rule_that_would_say_the_same_of_every_system_is_marked_as_a_remark(
+    tmp_path: Path,
+) -> None:
+    """Nothing is claimed by it, so that it must not be counted as proved."""
+    assert {key for key, rule in RULES.items() if not rule.claims} == REMARKS
+    plants = []
+    for k, documents in enumerate(of_different_plants()):
+        (tmp_path / str(k)).mkdir()
+        plants.append(known(tmp_path / str(k), documents))
+    for key in (key for key, rule in RULES.items() if not rule.roles):
+        what = {"text": "", "rule": key, "theorem": "", "because": []}
+        found = [each.judged(what, "") for each in plants]
+        said = [re.sub("[0-9a-f]{64}", "", each.statement) for each in found if not each.status]
+        if key in REMARKS:
+            assert [each.verdict for each in found] == ["REMARK"] * len(plants), key
+            assert len(set(said)) == 1 and f"{key} claims nothing" in said[0]
+        else:
+            assert {each.verdict for each in found} <= {"IMPLIED", "INVALID"}, key
+            assert len(said) == len(set(said)) >= 2, (key, said)

@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from mcexact.checker.sentences_boxes import least, of_plant
-from mcexact.checker.system import read_plant
+from mcexact.analysis.boxes.box_stable import box_stability
+from mcexact.answer.codec import document
+from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.sentences_boxes import least
+from mcexact.checker.system_matrices import read_matrix
+from mcexact.checker.uncertainty import pairs_of, radii_in_words
+from mcexact.model.box import Box
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest as system_digest
+from mcexact.model.system_file import digest_of_values as system_digest_of_values
 from tests.checker.box_maker import stable
 from tests.checker.box_plants import LOOP_STABLE, PART_CERTAIN, PART_STABLE, WAYS, proportional
 from tests.checker.handmade import checked, plant
@@ -57,7 +67,57 @@ def test_set_points_are_in_no_loop_and_need_no_radii(tmp_path: Path) -> None:
 
 
 def test_a_plant_of_zeros_has_no_entry_that_changes() -> None:
-    assert least(of_plant(read_plant(plant([[0]], ([[0]], [[0]]))))) == 0
+    assert least(pairs_of([Matrix([[0]], 1)], [Matrix([[0]], 1)])) == 0
+
+
+OF_IT = "of the absolute value"
+NEAR = [
+    ("no radius", [[2, 0]], [[0, 0]], "by at most ITS (no entry has one)"),
+    (
+        "one part",
+        [[2, -4]],
+        [["1/5", "2/5"]],
+        "by at most 1/10 of the absolute values of the latter",
+    ),
+    (
+        "0 is certain",
+        [[2, 0]],
+        [["1/5", 0]],
+        "by at most 1/10 of the absolute values of the latter",
+    ),
+    (
+        "an entry is certain",
+        [[2, 4]],
+        [["1/5", 0]],
+        "by at most ITS (1 entry has one, none above 1/5 and none above 1/10 of the absolute value "
+        "of its entry)",
+    ),
+    (
+        "the largest radius is another one than the largest part",
+        [[1, -100]],
+        [["1/2", 1]],
+        "by at most ITS (2 entries have one, none above 1 and none above 1/2 of the absolute value "
+        "of its entry)",
+    ),
+    ("0 is uncertain", [[2, 0]], [["1/5", 3]], "by at most ITS (2 entries have one, none above 3)"),
+]
+
+
+@pytest.mark.parametrize(("values", "radii", "said"), [row[1:] for row in NEAR])
+def test_words_say_how_large_radii_are(values: Any, radii: Any, said: str) -> None:
+    M, D = (read_matrix(each, "", None, None) for each in (values, radii))
+    assert radii_in_words(pairs_of([M], [D]), "ITS") == said
+
+
+def test_the_statement_of_a_box_names_the_plant_without_radii_and_the_part() -> None:
+    wide = Box.relative(MultiChannelSystem([[-1]], [[[1]]], [[[1]]]), "1/10").system
+    loop = box_stability(wide, local_controllers(wide, [[["-1/2"]]]), gains="1/100")
+    said, near = checked(document(loop)).statement, f"{OF_IT}s of the latter"
+    own, whole = system_digest_of_values(wide), system_digest(wide)
+    assert own != whole and f"of: the plant {whole} (1 state, 1 of the controlled system " in said
+    assert f"for all plants whose entries differ from those of the plant {own} by at most" in said
+    assert f" by at most 1/10 {near}, and for all controllers whose entries differ from" in said
+    assert f"those of the controller by at most 1/100 {near}, the radii being those with" in said
 
 
 def test_a_loop_is_in_its_region_at_all_values(tmp_path: Path) -> None:

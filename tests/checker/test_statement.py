@@ -13,7 +13,9 @@ from typing import Any
 import pytest
 
 from mcexact.checker import check_document
+from mcexact.checker.boxes import box_of
 from mcexact.checker.kinds import KINDS
+from mcexact.checker.moved_entries import looped
 from mcexact.checker.parametric_system import digest, plant_of
 from mcexact.checker.reading import Refused
 from mcexact.checker.statement import canonical_json, described, polynomial_text
@@ -74,14 +76,19 @@ def test_the_system_is_named_as_the_format_describes(name: str) -> None:
         assert subject_of(document).words == second_words(document)
 
 
-def subject_of(document: Document) -> System:
+def subject_of(document: Document) -> Any:
     """The subject with the words that a statement has for it."""
     if "parameters" in document["system"]:
         plant: Any = plant_of(document["system"])
-        return replace(plant, words=f"the plant {digest(plant)}")
+        named = replace(plant, words=f"the plant {digest(plant)}")
+        if document["kind"].startswith("parametric_box_"):
+            return looped(document["subject"], named)
+        return named
     verdict = check_document({**document, "kind": "neighbor_graph", "claim": {}, "witness": {}})
     system = read_plant(document["system"])
     named = System(**{**vars(system), "words": f"the plant {verdict.system_digest}"})
+    if document["kind"].startswith("box_"):
+        return box_of(document["subject"], named, document["kind"])
     return read_subject(document["subject"], named)
 
 

@@ -29,14 +29,19 @@ def plant_file(folder: Path, graph: str, *, fixed: bool = False) -> str:
 def assert_proved_about(plant: str, certificates: Path) -> None:
     """Every certificate in the folder is valid, and about the plant in the file."""
     files = [str(path) for path in sorted(certificates.iterdir()) if path.name != "manifest.json"]
-    checked = run("check", *files, "--system", plant)
-    assert files
-    assert (checked.status, checked.stdout.count("VALID ")) == (0, len(files)), checked.stdout
+    own = [path for path in files if Path(path).name != "failing_loop.json"]
+    checked = run("check", *own, "--system", plant)
+    assert own
+    assert (checked.status, checked.stdout.count("VALID ")) == (0, len(own)), checked.stdout
     implied = run("check", "--manifest", str(certificates), "--system", plant)
     *lines, counted = implied.stdout.splitlines()
-    assert implied.status == 0 and all(line.startswith("IMPLIED ") for line in lines), lines
+    remarks = [line for line in lines if line.startswith("REMARK ")]
+    claimed = [line for line in lines if line.startswith("IMPLIED ")]
+    assert implied.status == 0 and len(remarks) + len(claimed) == len(lines), lines
+    told = "1 remark" if len(remarks) == 1 else f"{len(remarks)} remarks"
     assert counted == (
-        f"COUNTED {len(lines)} sentences implied, 0 not; {len(files)} certificates valid, 0 not"
+        f"COUNTED {len(claimed)} sentences implied, 0 not, {told}; "
+        f"{len(files)} certificates valid, 0 not"
     )
 
 

@@ -76,8 +76,8 @@ def require_implied(account: Account, folder: Path) -> None:
     """The checker finds that the certificates imply every sentence."""
     account.save(folder)
     for about, verdict in manifest_verdicts(str(folder), Expectation(), Limits()):
-        good = "IMPLIED" if "text" in about else "VALID"
-        assert verdict.verdict == good, (about, verdict.line())
+        good = {"IMPLIED", "REMARK"} if "text" in about else {"VALID"}
+        assert verdict.verdict in good, (about, verdict.line())
 
 
 def test_decentralized_control_of_the_extended_system_is_distributed_control_of_the_plant() -> None:

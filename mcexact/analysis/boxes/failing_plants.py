@@ -6,10 +6,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 
 from mcexact.analysis.boxes.rank_drops import Freedom, Uncertain
+from mcexact.answer.protocol import Answer
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
@@ -18,6 +20,8 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.uncertainty import Radii
 
 _PAIRS = 6
+FAILING = "failing_loop"
+"""The name of the answer that the loop of a plant nearby is not stable."""
 
 
 @dataclass(frozen=True)
@@ -33,12 +37,22 @@ class FailingPlant:
         About the mode that is fixed, or not controlled, or on the border.
     channels : tuple of str
         The channels s whose outputs do not show the mode.
+    refutation : Answer or None
+        The exact answer that the plant, or its loop, fails, where it was decided.
     """
 
     plant: MultiChannelSystem
     distance: Fraction
     mode: complex
     channels: tuple[str, ...]
+    refutation: Answer | None = None
+
+    def facts(self, system: MultiChannelSystem) -> dict[str, Any]:
+        """What a sentence says of it: its distance from a plant, and in which unit.
+
+        Radii are the unit if the plant has some, and else the moduli of its entries.
+        """
+        return {"fails_within": self.distance, "of_radii": system.uncertainty is not None}
 
 
 def tried_sets(m: int) -> list[tuple[int, ...]]:

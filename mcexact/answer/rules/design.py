@@ -43,6 +43,14 @@ def _every_loop(box_stability: Claim, given: Given) -> Said:
         yield say.EVERY_LOOP_PART(region=region, part=given.part_of_plant, gains=gains)
 
 
+@EVERY_LOOP.rule("table", say.FAILING_PLANT, say.FAILING_PLANT_RADII)
+def _failing_plant(failing_loop: Claim, loop: Claim, given: Given) -> Said:
+    """How near a plant is whose loop with the same controller is not stable."""
+    if not failing_loop.stable and failing_loop.bound is None and inside(loop, given.region):
+        told = say.FAILING_PLANT_RADII if given.of_radii else say.FAILING_PLANT
+        yield told(distance=given.fails_within)
+
+
 # Designs.
 
 

@@ -140,6 +140,7 @@ def _index_templates(name: str) -> tuple[Template, Template, Template]:
             f"{name}-indices-left-out",
             "left out: many states for few inputs or outputs",
             label=label,
+            claims=False,
         ),
     )
 
@@ -250,7 +251,12 @@ def _least_templates(key: str, before: str, alone: str) -> tuple[Template, ...]:
         Template(f"least-{key}", before + "{sizes:shared}{time:instant}", label=label),
         Template(f"least-{key}-none", alone + "{time:instant}", label=label),
         Template(f"least-{key}-impossible", before + "no dimensions suffice", label=label),
-        Template(f"least-{key}-limit", before + "not decided within the node limit", label=label),
+        Template(
+            f"least-{key}-limit",
+            before + "not decided within the node limit",
+            label=label,
+            claims=False,
+        ),
     )
 
 
@@ -261,7 +267,10 @@ TABLE_LINKS = {
         "table-links-impossible", "no links suffice", label="fewest links to add"
     ),
     "limit": Template(
-        "table-links-limit", "not decided within the node limit", label="fewest links to add"
+        "table-links-limit",
+        "not decided within the node limit",
+        label="fewest links to add",
+        claims=False,
     ),
 }
 LEAST = {

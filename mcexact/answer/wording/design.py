@@ -46,9 +46,9 @@ STEADY = Template(
     "B. A. Francis and W. M. Wonham 1976",
     "outputs",
 )
-MEASURED = Template("design-measured", "computed in floating point, not certified")
+MEASURED = Template("design-measured", "computed in floating point, not certified", claims=False)
 
-LOOP = Template("certify-loop", "closed loop")
+LOOP = Template("certify-loop", "closed loop", claims=False)
 LOOP_STATES = Template("certify-states", "{n:int}", label="states of the loop")
 INSIDE = Template("certify-inside", "every one satisfies {region:region}", label="eigenvalues")
 OUTSIDE = Template(
@@ -72,6 +72,16 @@ EVERY_VALUE = Template(
     "parametric-ranges-in-region",
     "{region:region} for every {parameters:words}{gains:gains}",
     label="every loop in the ranges",
+)
+FAILING_PLANT = Template(
+    "certify-failing-plant",
+    "for a plant within {distance:percent_above} of each entry",
+    label="a loop is not stable",
+)
+FAILING_PLANT_RADII = Template(
+    "certify-failing-plant-radii",
+    "for a plant within {distance:digits_above} times the radii",
+    label="a loop is not stable",
 )
 LARGEST = Template("certify-largest", "{bound:number}", label="largest rate found")
 LEAST = Template("certify-least", "{bound:number}", label="least radius found")

@@ -30,7 +30,7 @@ PENCIL = Template(
     "closed_loop_spectrum.closed_loop_spectrum",
 )
 PENCIL_ROW = Template("pencil-row", "{p:polynomial} | {rank:int} | {below:yes}")
-SUBSYSTEM = Template("subsystem", "complementary subsystem of s = {s:set}")
+SUBSYSTEM = Template("subsystem", "complementary subsystem of s = {s:set}", claims=False)
 NORMAL_RANK = Template("subsystem-normal-rank", "{rank:int}", label="normal rank")
 ZEROS = Template("subsystem-zeros", "the roots of {zeros:factors}", label="invariant zeros")
 NO_ZEROS = Template("subsystem-no-zeros", "none", label="invariant zeros")
@@ -52,7 +52,7 @@ SUBSYSTEM_BOTH = Template(
 
 # A channel.
 
-CHANNEL = Template("channel", "channel {name:name}")
+CHANNEL = Template("channel", "channel {name:name}", claims=False)
 _ALONE = {"controllability": "controllable alone", "observability": "observable alone"}
 ALONE = {
     what: (
@@ -65,8 +65,8 @@ ALONE = {
 
 # Pictures of a page.
 
-PICTURE = Template("picture-graphs", "Graphs")
-PICTURE_OUTPUTS = Template("picture-graphs-outputs", "Graphs (agents share outputs)")
+PICTURE = Template("picture-graphs", "Graphs", claims=False)
+PICTURE_OUTPUTS = Template("picture-graphs-outputs", "Graphs (agents share outputs)", claims=False)
 PICTURE_NEIGHBORS = Template("picture-neighbor-graph", "neighbor graph: {arcs:arrows}")
 PICTURE_TRANSFER = Template(
     "picture-transfer-graph", "transfer graph, between different channels: {arcs:arrows}"
@@ -77,7 +77,7 @@ PICTURE_OBSTRUCTION = Template(
 PICTURE_HEARD = Template(
     "picture-heard", "purple: {heard:channels}, from which some of them receive"
 )
-PICTURE_DIMENSIONS = Template("picture-dimensions", "Shared states by agent")
+PICTURE_DIMENSIONS = Template("picture-dimensions", "Shared states by agent", claims=False)
 
 # A page.
 

@@ -385,4 +385,4 @@ def test_what_is_told_where_it_is_open_how_often_a_mode_is_in_A(
     found.save(tmp_path)
     assert {
         each.verdict for _, each in manifest_verdicts(str(tmp_path), Expectation(), Limits())
-    } == {"VALID", "IMPLIED"}
+    } == {"VALID", "IMPLIED", "REMARK"}

@@ -255,21 +255,21 @@ def _single(claim: Any, system: System) -> str:
     )
 
 
-MEMBERS = "for all values within their radii"
-
-
-def _box_controllable(claim: Any, system: System, members: str = MEMBERS) -> str:
+def _box_controllable(claim: Any, system: System, members: str) -> str:
     bound = claim["bound"]
     beyond = "" if bound is None else f" of {_region(bound, system.time, 'at least')}"
     named = channels(claim["channels"])
     return f"{members}, the channels {named} together control every mode{beyond}"
 
 
-def _box_stable(claim: Any, system: System, members: str = MEMBERS) -> str:
+def _box_stable(claim: Any, system: System, members: str) -> str:
     gains, radii = "", claim["gain_radii"]
     if radii is not None:
-        within = "for all gains of the controller within the radii with"
-        gains = f", and {within} {digested(radii)}"
+        near, text = radii
+        gains = (
+            f", and for all controllers whose entries differ from those of the controller {near}, "
+            f"the radii being those with {text}"
+        )
     region = _region(claim["bound"], system.time)
     return f"{members}{gains}, every eigenvalue of A has {region}"
 
@@ -286,8 +286,8 @@ def _transfer_graph(claim: Any, system: System) -> str:
 SENTENCES: dict[str, Any] = {
     "assignability": _assignability,
     "box_controllable": _box_controllable,
-    "box_fixed": lambda claim, system: (
-        f"{MEMBERS}, there is {_freedom(claim['bound'], system.time)}"
+    "box_fixed": lambda claim, system, members: (
+        f"{members}, there is {_freedom(claim['bound'], system.time)}"
     ),
     "box_stable": _box_stable,
     "closed_loop_spectrum": lambda claim, system: (

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
+
+from flint import fmpq, fmpq_mat
 
 from .constructions import is_ranged, output_gains, subject_of
 from .controllers import MAPS, read_agents
@@ -17,6 +19,7 @@ from .words import (
     edges,
     json_text,
     name,
+    number,
     sha256,
 )
 
@@ -28,10 +31,68 @@ def statement(document: Mapping[str, Any]) -> str:
     claim = document["claim"]
     if claim.get("gain_radii") is not None:
         inner = subject_of(document, len(document["subject"]) - 1)
-        claim = {**claim, "gain_radii": _controller(claim["gain_radii"], inner)}
-    given = (claim, system, ranges(document)) if is_ranged(document) else (claim, system)
+        text = digested(_controller(claim["gain_radii"], inner))
+        pairs = gain_pairs(document["subject"][-1]["controller"], claim["gain_radii"], inner)
+        claim = {**claim, "gain_radii": (near(pairs, "their radii"), text)}
+    given: tuple[Any, ...] = (claim, system)
+    if is_ranged(document):
+        given = (*given, ranges(document))
+    elif document["kind"].startswith("box_"):
+        given = (*given, members(document))
     sentence = SENTENCES[document["kind"]](*given)
-    return f"For {words} ({_sizes(system)}): {sentence}"
+    return f"For {words} ({_sizes(document, system)}): {sentence}"
+
+
+def members(document: Mapping[str, Any]) -> str:
+    """All plants of the box."""
+    plant = read_plant(document["system"])
+    if plant.radii is None:
+        return "for this plant alone, as none of its entries has a radius"
+    certain = {key: part for key, part in document["system"].items() if key != "uncertainty"}
+    pairs = []
+    for M, D in zip((plant.A, *plant.B, *plant.C), _flat(plant.radii), strict=True):
+        pairs += zip(D.entries(), M.entries(), strict=True)
+    how = near(pairs, f"the radii of the plant {plant_digest(document)}")
+    values = plant_digest({**document, "system": certain})
+    return f"for all plants whose entries differ from those of the plant {values} {how}"
+
+
+def _flat(radii: Any) -> list[Any]:
+    A, B, C = radii
+    return [A, *B, *C]
+
+
+def near(pairs: Sequence[tuple[fmpq, fmpq]], whose: str) -> str:
+    """How far entries may be, from pairs of a radius and an entry."""
+    wide = [(r, abs(v)) for r, v in pairs if r != 0]
+    if not wide:
+        return f"by at most {whose} (no entry has one)"
+    zero = any(v == 0 for _, v in wide)
+    largest = max(r for r, _ in wide)
+    if not zero:
+        ratio = max(r / v for r, v in wide)
+        if all(r == ratio * abs(v) for r, v in pairs):
+            return f"by at most {number(ratio)} of the absolute values of the latter"
+    have = "1 entry has one" if len(wide) == 1 else f"{len(wide)} entries have one"
+    more = "" if zero else f" and none above {number(ratio)} of the absolute value of its entry"
+    return f"by at most {whose} ({have}, none above {number(largest)}{more})"
+
+
+def gain_pairs(programs: Any, radii: Any, system: System) -> list[tuple[fmpq, fmpq]]:
+    """The radii of the gains that are in the loop, with the gains."""
+    pairs = []
+    for agent, spread in zip(
+        *(read_agents(system, each) for each in (programs, radii)), strict=True
+    ):
+        for label in MAPS:
+            gains, found = agent.maps[label], spread.maps[label]
+            for signal in {*gains, *found}:
+                if signal[0] != "reference":
+                    M, D = gains.get(signal), found.get(signal)
+                    some = M if M is not None else D
+                    zeros = fmpq_mat(some.nrows(), some.ncols())
+                    pairs += zip((D or zeros).entries(), (M or zeros).entries(), strict=True)
+    return pairs
 
 
 def ranges(document: Mapping[str, Any]) -> str:
@@ -85,9 +146,16 @@ def _table(M: Any) -> Any:
     return M
 
 
-def _sizes(system: System) -> str:
+def _sizes(document: Mapping[str, Any], system: System) -> str:
     states = "1 state" if system.n == 1 else f"{system.n} states"
     ports = f"channels {channels(system.names)}" if system.m else "no channels"
+    steps = document["subject"]
+    if steps and steps[-1]["construction"] == "closed_loop":
+        inner = subject_of(document, len(steps) - 1)
+        ports = (
+            f"{inner.n} of the controlled system and {system.n - inner.n} added by the controller "
+            f"of the channels {channels(inner.names)}"
+        )
     return f"{states}, {ports}, {system.time} time"
 
 

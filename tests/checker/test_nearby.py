@@ -1,0 +1,151 @@
+"""Manifests with a plant nearby whose loop fails: no other rule takes what is about this plant."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact.answer.codec import document
+from mcexact.checker import Expectation, Limits
+from mcexact.checker.manifest import manifest_verdicts
+from mcexact.model.box import Box
+from mcexact.model.controller_file import controller_text
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest, system_text
+from mcexact.synthesis.certify import certify_controller
+from mcexact.synthesis.decentralized import design_decentralized
+from tests.checker.handmade import Document, changed
+from tests.checker.manifests import manifest, sentence, write
+
+GAIN = [[[-3]], [[0]]]
+
+
+def plant(a: Any = 1, c: Any = 0, **parts: Any) -> MultiChannelSystem:
+    """One state that the first channel controls and measures."""
+    return MultiChannelSystem([[a]], [[[1]], [[0]]], [[[1]], [[c]]], **parts)
+
+
+def loop(system: MultiChannelSystem, gains: Any = GAIN, **asked: Any) -> Document:
+    """The certificate about the loop of a plant with constant gains."""
+    return document(certify_controller(system, local_controllers(system, gains), **asked))
+
+
+def verdicts(
+    folder: Path, given: Document, near: Document, rule: str, nearby: Any = ("near.json",)
+) -> list[Any]:
+    """The verdicts where a sentence rests on a plant nearby, and on the loop of the given one."""
+    evidence = {"given": given, "near": near}
+    told = sentence(rule, "near", "given", evidence=evidence)
+    listed = manifest(evidence, [told]) | ({"nearby": [*nearby]} if nearby is not None else {})
+    write(folder, evidence, listed)
+    return [found for _, found in manifest_verdicts(str(folder), Expectation(), Limits())]
+
+
+STABLE, FAILS, WIDE = plant(), plant(3), Box.absolute(plant(), A=[["1/2"]]).system
+PART, RADII = "certify-failing-plant", "certify-failing-plant-radii"
+DELAYED = {"1": ["2"]}
+ROWS: list[tuple[str, Document, Document, str, str]] = [
+    ("a plant whose only moved entry is 3 for 1", loop(STABLE), loop(FAILS), PART, "IMPLIED"),
+    ("a rate was asked of the loop", loop(STABLE, rate=1), loop(FAILS), PART, "IMPLIED"),
+    ("the radius of the entry is 1/2", loop(WIDE), loop(FAILS), RADII, "IMPLIED"),
+    ("the radii do not matter for parts", loop(WIDE), loop(FAILS), PART, "IMPLIED"),
+    ("the loop of the plant nearby is stable", loop(STABLE), loop(plant(2)), PART, "INVALID"),
+    ("it is only too slow", loop(STABLE), loop(plant(2), rate=9), PART, "INVALID"),
+    ("another controller", loop(STABLE), loop(FAILS, [[[1]], [[0]]]), PART, "INVALID"),
+    ("the plant has no radii", loop(STABLE), loop(FAILS), RADII, "INVALID"),
+    ("an entry without a radius is moved", loop(WIDE), loop(plant(3, 1)), RADII, "INVALID"),
+    ("an entry that is 0 is moved", loop(STABLE), loop(plant(3, 1)), PART, "INVALID"),
+    ("another time", loop(STABLE), loop(plant(3, time="discrete")), PART, "INVALID"),
+    ("other channels", loop(STABLE), loop(plant(3, names=["a", "b"])), PART, "INVALID"),
+    ("another graph", loop(STABLE), loop(plant(3, neighbors=DELAYED)), PART, "INVALID"),
+    ("the plant itself, at the distance 0", loop(FAILS), loop(FAILS), PART, "IMPLIED"),
+    (
+        "another rule, which is about the plant",
+        loop(FAILS),
+        loop(FAILS),
+        "certify-outside",
+        "IMPLIED",
+    ),
+    ("that rule and a plant nearby", loop(STABLE), loop(FAILS), "certify-outside", "INVALID"),
+]
+
+
+@pytest.mark.parametrize(("given", "near", "rule", "verdict"), [row[1:] for row in ROWS])
+def test_a_plant_nearby_fails_as_it_is_said(
+    tmp_path: Path, given: Document, near: Document, rule: str, verdict: str
+) -> None:
+    *certificates, found = verdicts(tmp_path, given, near, rule)
+    assert {each.verdict for each in certificates} == {"VALID"}
+    assert found.verdict == verdict, found.line()
+
+
+@pytest.mark.parametrize(("given", "rule", "far"), [(STABLE, PART, 2), (WIDE, RADII, 4)])
+def test_the_distance_is_computed_from_both_plants(
+    tmp_path: Path, given: MultiChannelSystem, rule: str, far: int
+) -> None:
+    found = verdicts(tmp_path, loop(given), loop(FAILS), rule)[-1]
+    assert f"of: the plant {digest(FAILS)}: not every eigenvalue" in found.statement
+    assert f"differs from that of the plant {digest(given)}" in found.statement
+    assert f"by at most {far} of the " in found.statement
+
+
+def test_a_certificate_about_another_plant_is_listed_as_nearby_or_refused(tmp_path: Path) -> None:
+    first, second, found = verdicts(tmp_path, loop(STABLE), loop(FAILS), PART, None)
+    assert (first.verdict, second.verdict, second.code) == ("VALID", "INVALID", "system")
+    assert (found.verdict, found.code) == ("INVALID", "premise")
+
+
+def test_plants_nearby_alone_prove_nothing_of_the_plant(tmp_path: Path) -> None:
+    both = ("given.json", "near.json")
+    for rule in (PART, "certify-states", "certify-outside"):
+        found = verdicts(tmp_path, loop(STABLE), loop(FAILS), rule, both)[-1]
+        assert (found.verdict, found.code) == ("INVALID", "premise")
+
+
+def test_what_repeats_data_repeats_none_of_a_plant_nearby(tmp_path: Path) -> None:
+    found = verdicts(tmp_path, loop(STABLE), loop(FAILS), "certify-states")[-1]
+    assert digest(STABLE) in found.statement and digest(FAILS) not in found.statement
+
+
+BAD = [
+    ("unknown", ["far.json"]),
+    ("twice", ["near.json", "near.json"]),
+    ("unsorted", ["near.json", "given.json"]),
+    ("no name", [1]),
+]
+
+
+@pytest.mark.parametrize("nearby", [names for _, names in BAD])
+def test_names_of_what_is_nearby_are_known_and_sorted(tmp_path: Path, nearby: Any) -> None:
+    (found,) = verdicts(tmp_path, loop(STABLE), loop(FAILS), PART, nearby)
+    assert found.verdict == "MALFORMED"
+
+
+def test_a_plant_nearby_is_in_a_loop_with_the_controller_that_is_asked_for(tmp_path: Path) -> None:
+    near = changed(loop(FAILS), ("subject.0.controller.agents.0.input.outputs.1", [[-2]]))
+    verdicts(tmp_path, loop(STABLE), near, PART)
+    asked = controller_text(local_controllers(STABLE, GAIN)).encode()
+    wanted = Expectation().controlled(asked, Limits())
+    found = [each for _, each in manifest_verdicts(str(tmp_path), wanted, Limits())]
+    assert [each.verdict for each in found] == ["VALID", "INVALID", "INVALID"]
+    assert found[1].code == "controller"
+
+
+@pytest.mark.parametrize("uncertain", [False, True])
+def test_a_design_says_of_which_plant_nearby_the_loop_is_not_stable(
+    tmp_path: Path, uncertain: bool
+) -> None:
+    given = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    given = Box.relative(given, "1/100").system if uncertain else given
+    design = design_decentralized(given, rate="1/2")
+    account = design.account_with(design.every_loop(1))
+    rule = RADII if uncertain else PART
+    (told,) = (each for each in account.sentences if each.template.key == rule)
+    assert {name for name, *_ in told.because} >= {"failing_loop.json"}
+    account.save(tmp_path, system_by_digest=True)
+    wanted = Expectation().about(system_text(given).encode(), Limits())
+    for about, found in manifest_verdicts(str(tmp_path), wanted, Limits()):
+        assert found.status == 0, (about, found.line())
