@@ -254,8 +254,9 @@ class Evidence:
             words = RULES[key].implied(told, [*self.premises.values()])
             words += f" [{theorem}]" if theorem else ""
             spend(len(words))
-            words += f" from {', '.join(cited)}" if cited and RULES[key].claims else ""
-            return Verdict(RULES[key].verdict, words)
+            if not RULES[key].claims:
+                return Verdict("REMARK", words)
+            return Verdict("IMPLIED", f"{words} from {', '.join(cited)}" if cited else words)
 
         with limited(self.budget):
             return attempt(check).inside(f"{place} {shown(key)}")

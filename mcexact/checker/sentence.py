@@ -123,11 +123,6 @@ class Rule:
     say: Callable[..., str]
     claims: bool = True
 
-    @property
-    def verdict(self) -> str:
-        """The verdict on a sentence that this rule accepts."""
-        return "IMPLIED" if self.claims else "REMARK"
-
     def implied(self, cited: list[Premise], known: list[Premise]) -> str:
         """The statement that the premises imply.
 

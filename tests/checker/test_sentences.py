@@ -175,7 +175,7 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
                 because = [[name, "/kind", found.premises[name].kind] for name in cast]
                 what = {"text": "", "rule": key, "theorem": rule.theorem, "because": because}
                 verdict = found.judged(what, "")
-                assert verdict.verdict in {rule.verdict, "INVALID"}, (key, verdict.line())
+                assert verdict.verdict in {"IMPLIED", "REMARK", "INVALID"}, (key, verdict.line())
                 (implied if verdict.verdict == "IMPLIED" else denied)[key].add((number, cast))
     for one_key, other in OPPOSITE:
         assert not implied[one_key] & implied[other], (one_key, other)
@@ -313,7 +313,9 @@ def test_everything_that_is_said_is_implied(tmp_path: Path, start: int) -> None:
     for number, account in enumerate(accounts(start, start + 10)):
         found = told(tmp_path / str(number), account, account.manifest())
         assert len(found) == len(account.sentences)
-        assert not [verdict.line() for verdict in found if verdict.verdict != "IMPLIED"]
+        assert not [
+            verdict.line() for verdict in found if verdict.verdict not in {"IMPLIED", "REMARK"}
+        ]
 
 
 def test_what_is_said_of_derived_systems_is_implied(tmp_path: Path) -> None:

@@ -100,7 +100,7 @@ def test_no_step_can_vanish_under_optimization(path: Path) -> None:
     assert not any(isinstance(node, ast.Assert) for node in ast.walk(tree))
 
 
-@pytest.mark.parametrize("word", ["VALID", "IMPLIED"])
+@pytest.mark.parametrize("word", ["VALID", "IMPLIED", "REMARK"])
 def test_the_good_verdicts_are_said_in_one_place_each(word: str) -> None:
     made = [
         node
