@@ -210,7 +210,7 @@ pip install 'mcexact[plot]'
 
 
 class NotWritten(McexactError):
-    """Standard output cannot be written: the disk is full, or it is closed.
+    """An output cannot be written: standard output, a file or a folder.
 
     Parameters
     ----------

@@ -2,11 +2,13 @@
 
 import gc
 import os
+import sys
 from collections.abc import Generator
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from mcexact import processes
 from tests.durations import SLOW_FIXTURES, slow_tests
 
 _SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large]
@@ -20,6 +22,12 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "dev"))
 
 # Pages have the same date on every day.
 os.environ.setdefault("SOURCE_DATE_EPOCH", "1700000000")
+
+
+@pytest.fixture(autouse=True)
+def _children_are_forks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Fork on Linux also where OpenBLAS has threads: children inherit what a test replaces."""
+    monkeypatch.setattr(processes, "may_fork", lambda: sys.platform == "linux")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, overload
@@ -37,6 +37,8 @@ class Analysis(Asking):
     information : {"own", "outputs"}
     subset : sequence of str, optional
     channel : str, optional
+    timeout : float, optional
+    progress : callable, optional
         As `analyze` takes them.
 
     Attributes
@@ -55,6 +57,8 @@ class Analysis(Asking):
         information: str = "own",
         subset: Sequence[str] | None = None,
         channel: str | None = None,
+        timeout: float | None = None,
+        progress: Callable[[str], None] | None = None,
     ) -> None:
         InputError.require(plant, MultiChannelSystem, "system")
         self.plant = plant
@@ -74,7 +78,7 @@ class Analysis(Asking):
                 "neighbors", "the information 'outputs' is about messages between neighbors"
             )
         self._refuted: dict[str, Answer | None] = {}
-        self._ask(questions)
+        self._ask(questions, timeout, progress)
 
     def _too_long(self, question: Question) -> str:
         system = self.system
@@ -125,18 +129,6 @@ class Analysis(Asking):
                 reused[key] = self._answer(other)
         return arguments, reused
 
-    def know(self, name: str, answer: Answer) -> None:
-        """Use an answer that was found elsewhere, about the same system, for a question.
-
-        Raises
-        ------
-        UsageError
-            If there is no such question, or the system lacks something that it needs.
-        """
-        self._require_known(name)
-        self._found[name], self._seconds[name] = answer, 0.0
-        self._asked.add(name)
-
     def decided(self) -> dict[str, Any]:
         """Return the answers to all questions asked, with several answers to one numbered."""
         answers: dict[str, Any] = {}
@@ -151,7 +143,7 @@ class Analysis(Asking):
     def account(self) -> Account:
         """Decide all questions asked, and return the answers with their sentences."""
         answers = self.decided()
-        open_ = {*self.left_out, *self.open()} - answers.keys()
+        open_ = {*self.left_out, *self.open()} - answers.keys() - self._ended
         given = Given(self.system, {"information": self.information})
         said = with_own(ANALYSIS, answers).sentences(answers, given, open_)
         return Account(answers, given, said, self.plant.subject, sorted(open_), self.failing())
@@ -162,8 +154,8 @@ class Analysis(Asking):
         Such a plant is searched for each question of `PROPERTIES` that was asked and is open, if
         the system has at most 60 states.  What is not found proves nothing.
         """
-        system, asked = self.system, PROPERTIES.keys() & self.open().keys()
-        if system.subject or system.n > _MOST_STATES:
+        system, asked = self.system, PROPERTIES.keys() & (self.open().keys() - self._ended)
+        if system.subject or system.n > _MOST_STATES or self._left == 0:
             return {}
         for name in asked - self._refuted.keys():
             self._refuted[name] = failing_member(system, PROPERTIES[name])
@@ -213,6 +205,8 @@ def analyze(
     information: str = "own",
     subset: Sequence[str] | None = None,
     channel: str | None = None,
+    timeout: float | None = None,
+    progress: Callable[[str], None] | None = None,
 ) -> Analysis: ...
 
 
@@ -223,6 +217,8 @@ def analyze(
     *,
     also: Iterable[str] = (),
     channel: str | None = None,
+    timeout: float | None = None,
+    progress: Callable[[str], None] | None = None,
 ) -> ParametricAnalysis: ...
 
 
@@ -234,6 +230,8 @@ def analyze(
     information: str = "own",
     subset: Sequence[str] | None = None,
     channel: str | None = None,
+    timeout: float | None = None,
+    progress: Callable[[str], None] | None = None,
 ) -> Analysis | ParametricAnalysis:
     """Answer questions about a system, by default all that apply and are cheap.
 
@@ -254,6 +252,12 @@ def analyze(
         well.
     channel : str, optional
         The name of a channel, whose controllability and observability are asked about as well.
+    timeout : float, optional
+        Seconds that deciding may take in all.  Then a process of its own decides, which is ended
+        when they are over: what it has decided stays, and the other questions are open, with this
+        limit as their reason in ``effort()``.
+    progress : callable, optional
+        It is called with a line of text before each question is decided, such as `print`.
 
     Returns
     -------
@@ -263,7 +267,8 @@ def analyze(
     Raises
     ------
     UsageError
-        If a name is not a question, or the system lacks something that a question needs.
+        If a name is not a question, or the system lacks something that a question needs; if
+        ``timeout`` is no number of seconds, or ``progress`` no function.
 
     Examples
     --------
@@ -273,6 +278,11 @@ def analyze(
     (False, False)
     >>> sorted(found.minimal_communication.added)
     [('1', '2')]
+    >>> found = analyze(found.plant, ["completeness"], progress=print)
+    >>> found.completeness.complete
+    0 of 2 questions decided, now the fixed spectrum
+    1 of 2 questions decided, now the completeness
+    False
     """
     made: Analysis | ParametricAnalysis
     if isinstance(plant, ParametricSystem):
@@ -280,8 +290,18 @@ def analyze(
             raise UsageError(
                 "these questions are about systems without parameters: give values with .at({…})"
             )
-        made = ParametricAnalysis(plant, questions, channel=channel)
+        made = ParametricAnalysis(
+            plant, questions, channel=channel, timeout=timeout, progress=progress
+        )
     else:
-        made = Analysis(plant, questions, information=information, subset=subset, channel=channel)
+        made = Analysis(
+            plant,
+            questions,
+            information=information,
+            subset=subset,
+            channel=channel,
+            timeout=timeout,
+            progress=progress,
+        )
     made.also(also)
     return made

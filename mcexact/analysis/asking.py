@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import signal
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from typing import Any, NoReturn
 
 from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.account import ShownByAccount
 from mcexact.answer.sentence import Sentences
-from mcexact.arguments import several, told
-from mcexact.errors import LimitReached, UsageError
+from mcexact.arguments import require_seconds, several, telling, told
+from mcexact.errors import InternalError, LimitReached, McexactError, UsageError
+from mcexact.processes import Child
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,26 @@ class Effort:
         }
 
 
+Begin = Callable[[str, str], None]
+Keep = Callable[[str, Any, float], None]
+
+
+def _decide_in_child(connection: Any, asking: Asking) -> None:
+    """Decide questions as they are named, and send each outcome at once."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's
+    asking.watch(
+        lambda name, step: connection.send(("begin", name, step)),
+        lambda name, found, seconds: connection.send(("keep", name, found, seconds)),
+    )
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            try:
+                asking.without_limit(connection.recv())
+            except McexactError as error:
+                connection.send(("error", error))
+            connection.send(("end",))
+
+
 class Asking(ShownByAccount):
     """The answers about one system, by attribute or item, each decided when it is first used.
 
@@ -52,8 +76,20 @@ class Asking(ShownByAccount):
     _arguments: dict[str, Any]
     """What questions need besides the plant; None where it is not given."""
 
-    def _ask(self, questions: Iterable[str] | None) -> None:
+    def _ask(
+        self,
+        questions: Iterable[str] | None,
+        timeout: float | None = None,
+        progress: Callable[[str], None] | None = None,
+    ) -> None:
         """Note which questions are asked, by default those that apply and are cheap."""
+        if timeout is not None:
+            require_seconds(timeout, "timeout")
+        tell = telling(progress)
+        self._timeout, self._left = timeout, timeout
+        self._child: Child | None = None
+        self._ended: set[str] = set()
+        self.watch(lambda _, step: tell(step), lambda *_: None)
         self._found: dict[str, Any] = {}
         self._seconds: dict[str, float] = {}
         if questions is not None:
@@ -62,6 +98,55 @@ class Asking(ShownByAccount):
         for name in listed:
             self._require_known(name)
         self._asked = set(listed)
+
+    def watch(self, begin: Begin, keep: Keep) -> None:
+        """Call functions as questions are decided.
+
+        Parameters
+        ----------
+        begin : callable
+            It takes the name of a question that is decided next, and a line about the progress.
+        keep : callable
+            It takes the name of a question that is decided, the answer or the limit that prevented
+            it, and the seconds that it took.
+        """
+        self._begin, self._keep = begin, keep
+
+    def know(self, name: str, answer: Any, seconds: float = 0.0) -> None:
+        """Use an answer that was found elsewhere, about the same system, for a question.
+
+        Parameters
+        ----------
+        name : str
+        answer : Answer or LimitReached
+            The limit that prevented an answer leaves the question open.
+        seconds : float
+            What it took.
+
+        Raises
+        ------
+        UsageError
+            If there is no such question, or the system lacks something that it needs.
+        """
+        self._require_known(name)
+        self._found[name], self._seconds[name] = answer, seconds
+        self._asked.add(name)
+
+    def leave_open(self, reason: str, names: Iterable[str] | None = None) -> None:
+        """Decide these questions no more, by default none of those that are not decided yet.
+
+        Parameters
+        ----------
+        reason : str
+            The limit on time or memory, or the interrupt, that ended the work on them.
+        names : iterable of str, optional
+        """
+        if names is None:
+            names = self._asked - self._found.keys()
+            self._timeout = self._left = 0.0
+        for name in names:
+            self.know(name, LimitReached(reason))
+            self._ended.add(name)
 
     def also(self, names: Iterable[str]) -> None:
         """Ask further questions.
@@ -158,17 +243,87 @@ class Asking(ShownByAccount):
 
     def _answer(self, name: str) -> Any:
         """Return the answer, or the limit that prevented it."""
-        if name not in self._found:
-            began = time.perf_counter()
-            try:
-                arguments, reused = self._given(name)
-                began = time.perf_counter()
-                self._found[name] = self._decide(name, arguments, reused)
-            except LimitReached as reached:
-                self._found[name] = reached
-            self._seconds[name] = time.perf_counter() - began
         self._asked.add(name)
+        if name not in self._found:
+            if self._left is None:
+                self._decide_here(name)
+            else:
+                self._decide_in_time([name])
         return self._found[name]
+
+    def _decide_here(self, name: str) -> None:
+        began = time.perf_counter()
+        try:
+            arguments, reused = self._given(name)
+            began = time.perf_counter()
+            self._begin(name, self._progress(name))
+            found = self._decide(name, arguments, reused)
+        except LimitReached as reached:
+            found = reached
+        self._found[name], self._seconds[name] = found, time.perf_counter() - began
+        self._keep(name, found, self._seconds[name])
+
+    def without_limit(self, names: Iterable[str]) -> None:
+        """Decide questions here, however long it takes."""
+        self._left = None
+        for name in names:
+            self._answer(name)
+
+    def _progress(self, name: str) -> str:
+        """A line that says how many questions are decided, and which is next."""
+        done, asked = len(self._found), len(self._asked | self._found.keys())
+        return f"{done} of {asked} questions decided, now the {name.replace('_', ' ')}"
+
+    def _decide_in_time(self, names: list[str]) -> None:
+        """Decide questions in a child process, which is ended when the time is over.
+
+        What it has decided by then is known, and what it had not is open.
+        """
+        began, left = time.monotonic(), self._left or 0.0
+        if left > 0:
+            try:
+                if self._child is None:
+                    self._child = Child(_decide_in_child, (self,))
+                self._child.connection.send(names)
+                self._listen(self._child, began + left)
+            except BaseException:
+                self._end_child()
+                raise
+        self._left = max(0.0, left - (time.monotonic() - began))
+        if undecided := [name for name in names if name not in self._found]:
+            self._left = 0.0
+            self._end_child()
+            self.leave_open(f"the time limit of {self._timeout:g} s was reached", undecided)
+
+    def _end_child(self) -> None:
+        child, self._child = self._child, None
+        if child is not None:
+            child.end()
+
+    def _listen(self, child: Child, end: float) -> None:
+        """Take what a child has decided, until it has all or the time is over."""
+        try:
+            while child.connection.poll(max(0.0, end - time.monotonic())):
+                said, *rest = child.connection.recv()
+                if said == "begin":
+                    self._begin(*rest)
+                elif said == "keep":
+                    self.know(*rest)
+                    self._keep(*rest)
+                elif said == "error":
+                    raise rest[0]
+                else:
+                    return
+        except (EOFError, OSError):
+            status = child.exit_status()
+            if status == -getattr(signal, "SIGKILL", 9):
+                raise LimitReached("the memory was exhausted while deciding") from None
+            raise InternalError(f"the computation ended with status {status}") from None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what another process decides with: no functions of the caller."""
+        left = ("_begin", "_keep", "_child")
+        return {key: each for key, each in vars(self).items() if key not in left}
 
     def _given(self, name: str) -> tuple[list[Any], dict[str, Any]]:
         """Return what a question is asked about, and the answers to others that it uses."""
@@ -184,6 +339,32 @@ class Asking(ShownByAccount):
             for name, found in self._outcomes().items()
             if isinstance(found, LimitReached)
         }
+
+    def ended(self) -> dict[str, list[str]]:
+        """Return the questions on which the work was ended, by the reason of that."""
+        found: dict[str, list[str]] = {}
+        for name in self.asked:
+            if name in self._ended:
+                found.setdefault(self._found[name].message, []).append(name)
+        return found
+
+    def explain(self) -> str:
+        """Say in plain words what was found, and what a limit left undecided, one a line."""
+        return "\n".join([super().explain(), *self._undecided()])
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield what the account is shown as, and what a limit left undecided."""
+        yield from super()._labeled()
+        yield from (("", line) for line in self._undecided())
+
+    def _html(self) -> str:
+        return super()._html() + "".join(f"<p>{escape(line)}</p>" for line in self._undecided())
+
+    def _undecided(self) -> list[str]:
+        return [
+            f"not decided, as {reason}: {', '.join(name.replace('_', ' ') for name in names)}"
+            for reason, names in self.ended().items()
+        ]
 
     @property
     def sentences(self) -> Sentences:
@@ -237,6 +418,11 @@ class Asking(ShownByAccount):
 
     def _outcomes(self) -> dict[str, Any]:
         """Return the names of all questions asked or needed, in the order of the table."""
-        for name in self.asked:
+        # The evidence of questions with ports is long: a limit shall not discard others for it.
+        names = sorted(self.asked, key=lambda name: bool(self.questions[name].ports))
+        if self._left is not None and (rest := [n for n in names if n not in self._found]):
+            self._decide_in_time(rest)
+            self._end_child()
+        for name in names:
             self._answer(name)
         return {name: self._found[name] for name in self.asked}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from types import MappingProxyType
 from typing import Any
 
@@ -36,6 +36,8 @@ class ParametricAnalysis(Asking):
     plant : ParametricSystem
     questions : iterable of str, optional
     channel : str, optional
+    timeout : float, optional
+    progress : callable, optional
         As `analyze` takes them.
 
     Attributes
@@ -64,6 +66,8 @@ class ParametricAnalysis(Asking):
         questions: Iterable[str] | None = None,
         *,
         channel: str | None = None,
+        timeout: float | None = None,
+        progress: Callable[[str], None] | None = None,
     ) -> None:
         self.plant = plant
         ends = [end for bounds in plant.ranges for end in bounds]
@@ -72,7 +76,7 @@ class ParametricAnalysis(Asking):
             "uncertainty": None if None in ends else plant.ranges,
         }
         plant.indices([] if channel is None else [channel])
-        self._ask(questions)
+        self._ask(questions, timeout, progress)
 
     def _too_long(self, question: Question) -> str:
         plant = self.plant

@@ -97,7 +97,7 @@ class Account(Shown):
 
         Raises
         ------
-        InputError
+        NotWritten
             If a file cannot be written.
         OSError
             If the folder cannot be made.

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.protocol import Answer
 from mcexact.answer.verdict import Verdict
+from mcexact.arguments import require_seconds, telling
 from mcexact.checker import Expectation, Limits, check_document
 from mcexact.checker import Verdict as Found
 from mcexact.checker.manifest import NAME, verdicts_of
 from mcexact.checker.reading import Refused
 from mcexact.errors import InputError, InternalError, place_of
+from mcexact.processes import Child
 
 if TYPE_CHECKING:
     from mcexact.model.controller import Controller
@@ -30,6 +32,9 @@ def check(
     system: MultiChannelSystem | ParametricSystem | None = None,
     controller: Controller | str | os.PathLike[str] | None = None,
     expect: str | Mapping[str, Any] | None = None,
+    *,
+    timeout: float | None = None,
+    progress: Callable[[str], None] | None = None,
 ) -> Verdict:
     """Check a certificate with the independent checker.
 
@@ -48,6 +53,10 @@ def check(
         The statement that the certificate must make, its SHA-256, the line of its verdict, or a
         claim ``{"kind": …, "claim": …}`` as in the certificate.  Such a claim is about ``system``,
         or else about the plant itself; the key ``"subject"`` names other constructions.
+    timeout : float, optional
+        Seconds after which the verdict is INCOMPLETE.  A process of its own checks then.
+    progress : callable, optional
+        It is called with a line of text before the certificate is read and checked.
 
     Returns
     -------
@@ -60,6 +69,8 @@ def check(
     ------
     InputError
         If a file is missing, unreadable, malformed or too large, or an argument has another type.
+    UsageError
+        If ``timeout`` is no number of seconds, or ``progress`` no function.
 
     Examples
     --------
@@ -83,6 +94,9 @@ fixed_spectrum(system), or the name of a certificate file, found dict
     from mcexact.model.system import MultiChannelSystem
     from mcexact.model.system_file import canonical_text
 
+    tell = telling(progress)
+    if timeout is not None:
+        require_seconds(timeout, "timeout")
     if system is not None and not isinstance(system, ParametricSystem):
         InputError.require(system, MultiChannelSystem, "system")
     wanted = Expectation() if system is None else about_plant(canonical_text(system))
@@ -92,7 +106,32 @@ fixed_spectrum(system), or the name of a certificate file, found dict
         wanted = _asked("controller", wanted.controlled, _controller(controller))
     if expect is not None:
         wanted = _asked("expect", wanted.saying, _expected(expect))
-    return Verdict.of(check_document(_text(certificate), wanted))
+    tell("reading the certificate")
+    text = _text(certificate)
+    tell(f"checking a certificate of {len(text):,} bytes")
+    if timeout is None:
+        return Verdict.of(check_document(text, wanted))
+    return Verdict.of(_in_time(text, wanted, timeout))
+
+
+def _in_time(text: bytes, wanted: Expectation, seconds: float) -> Found:
+    """The verdict of a child process, or INCOMPLETE when the time is over."""
+    child = Child(_check_in_child, (text, wanted))
+    try:
+        if not child.connection.poll(seconds):
+            message = f"not decided after {seconds:g} s (timeout= allows more)"
+            return Found("INCOMPLETE", code="time", place="checker", message=message)
+        found: Found = child.connection.recv()
+    except (EOFError, OSError):
+        message = f"the process that checks ended with status {child.exit_status()}"
+        return Found("INCOMPLETE", code="memory", place="checker", message=message)
+    finally:
+        child.end()
+    return found
+
+
+def _check_in_child(connection: Any, text: bytes, wanted: Expectation) -> None:
+    connection.send(check_document(text, wanted))
 
 
 def _asked(where: str, ask: Callable[[bytes, Limits], Expectation], data: bytes) -> Expectation:
@@ -144,7 +183,11 @@ def about_plant(text: str) -> Expectation:
     return Expectation(system=sha256(text), plant=plant, size=len(text))
 
 
-def recheck(files: Mapping[str, str], plant: str | Mapping[str, str]) -> dict[str, Found]:
+def recheck(
+    files: Mapping[str, str],
+    plant: str | Mapping[str, str],
+    each: Callable[[str, Found], None] | None = None,
+) -> dict[str, Found]:
     """Verify certificates, and the sentences of their manifest.
 
     Parameters
@@ -154,6 +197,8 @@ def recheck(files: Mapping[str, str], plant: str | Mapping[str, str]) -> dict[st
     plant : str or mapping
         The plant as the ``system`` object of a certificate; or of each file its own, that of the
         manifest being the one of its sentences.
+    each : callable, optional
+        It is called with the name of a file and its verdict as soon as this is known.
 
     Returns
     -------
@@ -176,6 +221,8 @@ def recheck(files: Mapping[str, str], plant: str | Mapping[str, str]) -> dict[st
             )
         if "file" in about:
             verdicts[about["file"]] = found
+            if each is not None:
+                each(about["file"], found)
     return verdicts
 
 

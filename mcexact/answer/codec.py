@@ -74,8 +74,10 @@ def save_certificate(
 
     Raises
     ------
+    NotWritten
+        If the file cannot be written.
     InputError
-        If the file cannot be written, or the answer is something else.
+        If the answer is something else.
     """
     InputError.require(answer, Answer, "answer")
     write_text(path, encode(answer, system_by_digest=system_by_digest))

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import ClassVar
 
 from mcexact.answer.evidence import Block
-from mcexact.answer.protocol import Answer, Part, answer, claim, witness
+from mcexact.answer.protocol import Answer, Part, answer, claim, is_about_dual, witness
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -75,6 +78,13 @@ class JointControllability(Answer):
         The second for large systems, where such blocks are found.
     """
 
+    dual_keys: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {
+            "controllable": "observable",
+            "uncontrollable_polynomial": "unobservable_polynomial",
+        }
+    )
+
     channels: tuple[str, ...] = claim()
     dimension: int = claim()
     controllable: bool = claim()
@@ -90,6 +100,6 @@ class JointControllability(Answer):
         UsageError
             If the answer is not about a dual system.
         """
-        if not self.subject or self.subject[-1]["construction"] != "dual":
+        if not is_about_dual(self.subject):
             raise UsageError("this answer is about controllability: ask .controllable")
         return self.controllable

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, Self, TypeVar, dataclass_transform
 
 from mcexact.answer import showing
@@ -118,6 +119,8 @@ class Answer(Shown):
     """
 
     kind: ClassVar[str] = ""
+    dual_keys: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Other names of keys where the answer is displayed that is about a dual system."""
 
     about: MultiChannelSystem
 
@@ -172,8 +175,9 @@ class Answer(Shown):
 
     def entries(self) -> Iterator[tuple[str, str, Any]]:
         """Yield key, label and value of the claims and of the marked properties."""
+        dual = self.dual_keys if is_about_dual(self.subject) else {}
         for each in fields_of(type(self), "claim"):
-            key, value = key_of(each), getattr(self, each.name)
+            key, value = dual.get(key_of(each), key_of(each)), getattr(self, each.name)
             if value is not None or not is_optional(each):
                 yield key, each.metadata["label"] or _in_words(key), value
         for name, label in shown_of(type(self)).items():
@@ -228,6 +232,11 @@ class Answer(Shown):
         from mcexact.answer.explaining import explained
 
         return explained(self)
+
+
+def is_about_dual(subject: Sequence[Document]) -> bool:
+    """Whether the last construction of a subject is the dual."""
+    return bool(subject) and subject[-1]["construction"] == "dual"
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(claim, witness))

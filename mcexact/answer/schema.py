@@ -30,17 +30,17 @@ RATIONAL: Schema = {
     "anyOf": [{"type": "integer"}, {"type": "string", "pattern": r"^-?[0-9]+(/[0-9]+)?$"}],
 }
 _INTEGERS = {"type": "array", "items": {"type": "array", "items": {"type": "integer"}}}
-_TEXTS = {"type": "array", "items": {"type": "string"}}
+_RATIONALS: Schema = {"type": "array", "items": RATIONAL}
 _EXACT: dict[tuple[type, Form], Schema] = {
-    (Polynomial, "certificate"): {"type": "array", "items": RATIONAL},
-    (Polynomial, "view"): _TEXTS,
+    (Polynomial, "certificate"): _RATIONALS,
+    (Polynomial, "view"): _RATIONALS,
     (Matrix, "certificate"): {
         "type": "object",
         "properties": {"denominator": {"type": "integer", "minimum": 1}, "entries": _INTEGERS},
         "required": ["denominator", "entries"],
         "additionalProperties": False,
     },
-    (Matrix, "view"): {"type": "array", "items": _TEXTS},
+    (Matrix, "view"): {"type": "array", "items": _RATIONALS},
     (PolynomialMatrix, "certificate"): {
         "type": "object",
         "properties": {
@@ -93,6 +93,16 @@ def view_schema(kind: type[Answer]) -> Schema:
         typed[name] = typing.get_type_hints(get)["return"]
     made = _object(typed | {"certificate": str}, "view")
     return _without_optional(made, fields_of(kind, "claim"))
+
+
+def view_schemas(kind: type[Answer]) -> list[Schema]:
+    """The schema of the view, and that of an answer about a dual system, if it has other keys."""
+    made = view_schema(kind)
+    if not kind.dual_keys:
+        return [made]
+    named = {kind.dual_keys.get(key, key): each for key, each in made["properties"].items()}
+    required = [kind.dual_keys.get(key, key) for key in made["required"]]
+    return [made, made | {"properties": named, "required": required}]
 
 
 def _typed(kind: type[Any], fields: Sequence[dataclasses.Field[Any]]) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from mcexact import shown
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import rational_text
+from mcexact.exact.rational import rational_text, written
 from mcexact.exact.shortened import polynomial
 from mcexact.model.canonical import plain
 from mcexact.shown import LINE, Shown
@@ -96,11 +96,11 @@ def _sequence(values: Sequence[Any], room: int) -> str:
 
 
 def plain_view(value: Any) -> Any:
-    """Return plain data, with polynomials and matrices as lists of exact strings."""
+    """Return plain data, with polynomials and matrices as lists of exact numbers."""
     if isinstance(value, Polynomial):
-        return [rational_text(c) for c in value.coefficients]
+        return [written(c) for c in value.coefficients]
     if isinstance(value, Matrix):
-        return [[rational_text(entry) for entry in row] for row in value.rows()]
+        return [[written(entry) for entry in row] for row in value.rows()]
     if hasattr(value, "document"):
         return {key: plain_view(item) for key, item in value.document().items()}
     if isinstance(value, (tuple, list)):

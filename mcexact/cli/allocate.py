@@ -12,6 +12,7 @@ from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
 
 if TYPE_CHECKING:
+    from mcexact.answer.account import Account
     from mcexact.exact.location import StabilityRegion
 
 
@@ -84,10 +85,9 @@ def command(file: str, **given: Any) -> int:
     set of communication links for which no mode is fixed.
     """
 
-    from mcexact.cli.files import require_apart, require_page
+    from mcexact.cli.files import require_apart, require_page, write_result
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run, show_tables
-    from mcexact.model.atomic import write_text
 
     run, html = Run(given), given.pop("html")
     require_page(html, run.certificates, file)
@@ -105,7 +105,7 @@ def command(file: str, **given: Any) -> int:
 
     def write(checked: Rechecked) -> None:
         if html is not None:
-            write_text(html, answer["page"].rendered(answer["certificates"], checked.verdicts))
+            write_result(html, answer["page"].rendered(answer["certificates"], checked.verdicts))
 
     about = f"the answers about {plant[0]}"
     run.conclude(answer, show_tables(answer), about=about, write=write).require_complete()
@@ -140,10 +140,25 @@ def _answer(
         page = allocation_page(account)
     return told(account, system_by_digest) | {
         "page": page,
-        "json": account.as_json(),
+        "json": account.as_json(**_shares(account)),
         "tables": tables(account.sentences),
         "feasible": least.feasible,
     }
+
+
+def _shares(account: Account) -> dict[str, Any]:
+    """The dimensions by agent and in all: the least, and those of a bound that holds."""
+    from mcexact.answer.wording.allocation import ROW_BOUND
+
+    least = account.answers.get("minimal_shared_dimensions")
+    if least is None or least.dimensions is None:
+        return {}
+    holds = any(each.template.key == ROW_BOUND.key for each in account.sentences)
+    k = account.answers["shared_dimension_bound"].deficiency if holds else None
+    named = zip(account.given.names, least.dimensions, strict=True)
+    total = {"least": least.total, "bound": None if k is None else k * account.given.m}
+    by_agent = {agent: {"least": size, "bound": k} for agent, size in named}
+    return {"shares": {"by_agent": by_agent, "total": total}}
 
 
 def _region(time: str, rate: Fraction | None, radius: Fraction | None) -> StabilityRegion | None:

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mcexact.analysis.questions import QUESTIONS, asked_by
 from mcexact.cli import options
-from mcexact.cli.failures import DEFINITE_NO
+from mcexact.cli.failures import DEFINITE_NO, one_message
 from mcexact.cli.parameters import at_values
 from mcexact.model.properties import PROPERTIES, Property, question_about
+
+if TYPE_CHECKING:
+    from mcexact.analysis.boxes.two_sided import LargestUncertainty
+    from mcexact.cli.running import Known
+    from mcexact.cli.supervision import Reporting
+    from mcexact.model.system import MultiChannelSystem
 
 _LINES_OF_WORDS = 5
 _MODES = 6
@@ -115,10 +122,9 @@ def command(
     """
 
     from mcexact.cli import output
-    from mcexact.cli.files import require_apart, require_page
+    from mcexact.cli.files import require_apart, require_page, write_result
     from mcexact.cli.rechecking import Rechecked
-    from mcexact.cli.running import Run
-    from mcexact.model.atomic import write_text
+    from mcexact.cli.running import Run, undecided_error
 
     effort = options.effort_of_search(given, "property")
     if effort is not None and information != "own":
@@ -132,7 +138,8 @@ def command(
     require_apart(html, run.certificates)
     also = [option for option in _ALSO if given[option.replace("-", "_")]]
     plant = run.read(file)
-    answer = run.result(
+    doing = f"analyzing {plant[0]}"
+    answer, ended = run.result_in_parts(
         _answer,
         plant,
         run.limits,
@@ -144,7 +151,7 @@ def command(
         html is not None,
         latex,
         run.system_by_digest,
-        doing=f"analyzing {plant[0]}",
+        doing=doing,
     )
     only_latex = latex and html is None
 
@@ -160,14 +167,20 @@ def command(
         if html is not None:
             results = answer["latex"] if latex else None
             page = answer["page"].rendered(answer["certificates"], checked.verdicts, results)
-            write_text(html, page)
+            write_result(html, page)
 
     about = f"the answers about {plant[0]}"
-    run.conclude(answer, show, about=about, write=write).require_complete()
+    checked = run.conclude(answer, show, about=about, write=write)
+    undecided = undecided_error(ended, answer["ended"], doing)
+    if checked.missing is not None and undecided is not None:
+        click.echo(one_message(undecided), err=True)
+    checked.require_complete()
     if asserted == "no-fixed-modes":
         spectrum = answer["json"]["fixed_spectrum"]
         if any(spectrum.get(key) for key in _FIXED):
             return DEFINITE_NO
+    if undecided is not None:
+        raise undecided
     return 0
 
 
@@ -189,6 +202,8 @@ def _answer(
     with_page: bool,
     with_latex: bool,
     system_by_digest: bool,
+    known: Known,
+    report: Reporting,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
     from dataclasses import replace
@@ -207,12 +222,15 @@ def _answer(
         refused = question["information"] != "own" or question["subset"] or any(uncertain[:2])
         asked, channel = [*asked_by(*also), *named], question["channel"]
         return for_all_values(
-            given, asked, channel, bool(refused), with_page, with_latex, system_by_digest
+            *(given, asked, channel, bool(refused), with_page, with_latex, system_by_digest),
+            known=known,
+            report=report,
         )
-    system, largest = uncertainty.of(given, *uncertain)
+    system, largest = _searched(given, uncertain, known, report)
     found = analyze(system, also=[*asked_by(*also), *named], **question)
     if largest is not None and largest.proof is not None:
         found.know(question_about(uncertain[2]), largest.proof)
+    known.resume(found, report)
     account = found.account
     page = None
     if with_page:
@@ -239,4 +257,39 @@ def _answer(
         ),
         "latex": latex(account) if with_latex else "",
         "page": page,
+        "ended": _not_searched(uncertain, known) | found.ended(),
     }
+
+
+_LARGEST = "largest uncertainty"
+
+
+def _searched(
+    given: MultiChannelSystem,
+    uncertain: tuple[Fraction | None, float | None, Property],
+    known: Known,
+    report: Reporting,
+) -> tuple[MultiChannelSystem, LargestUncertainty | None]:
+    """The system with the radii that are asked for, and the search for the largest ones."""
+    from mcexact.cli import uncertainty
+
+    part, effort, wanted = uncertain
+    if effort is None or _not_searched(uncertain, known):
+        return uncertainty.of(given, part)
+    if _LARGEST in known.parts:
+        found: tuple[MultiChannelSystem, LargestUncertainty] = pickle.loads(known.parts[_LARGEST])
+        return found
+    report.begin(_LARGEST, f"searching the {_LARGEST}")
+    made = uncertainty.of(given, part, effort, wanted)
+    report.keep(_LARGEST, pickle.dumps(made))
+    return made
+
+
+def _not_searched(
+    uncertain: tuple[Fraction | None, float | None, Property], known: Known
+) -> dict[str, list[str]]:
+    """The search for the largest radii, by the reason why it was ended, if it was."""
+    reason = known.lost.get(_LARGEST) or known.ended
+    if uncertain[1] is None or not reason or _LARGEST in known.parts:
+        return {}
+    return {reason: [_LARGEST]}

@@ -44,10 +44,9 @@ def command(file: str, step: Fraction, decimals: int, output: Path | None, **giv
     sampled A and B depends on many of the entries that are uncertain. Decide about the plant in
     continuous time, or give the sampled file an "uncertainty" of its own.
     """
-    from mcexact.cli.files import require_other, require_writable
+    from mcexact.cli.files import require_other, require_writable, write_result
     from mcexact.cli.output import emit
     from mcexact.cli.running import Run
-    from mcexact.model.atomic import write_text
 
     run = Run(given)
     require_other(output, file)
@@ -65,7 +64,7 @@ def command(file: str, step: Fraction, decimals: int, output: Path | None, **giv
     if output is None:
         emit(text)
     else:
-        write_text(output, text)
+        write_result(output, text)
 
 
 def _sampled(

@@ -87,12 +87,12 @@ def command(file: str, controller: str, **given: Any) -> int:
         require_other,
         require_page,
         require_writable,
+        write_result,
     )
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
     from mcexact.errors import LimitReached
-    from mcexact.model.atomic import write_text
 
     run, weights, html = Run(given), given.pop("weights"), given.pop("html")
     output, given["effort"] = given.pop("output"), options.effort_of_search(given)
@@ -127,9 +127,9 @@ def command(file: str, controller: str, **given: Any) -> int:
 
     def write(checked: Rechecked) -> None:
         if output is not None:
-            write_text(output, answer["controller"])
+            write_result(output, answer["controller"])
         if html is not None:
-            write_text(html, answer["page"].rendered(answer["certificates"], checked.verdicts))
+            write_result(html, answer["page"].rendered(answer["certificates"], checked.verdicts))
 
     about = f"the verdict on {about}"
     run.conclude(answer, show, about=about, write=write).require_complete()

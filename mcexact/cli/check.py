@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
+import sys
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import click
 
 from mcexact.cli import options
+from mcexact.cli.failures import INTERRUPTED
 
 
 @click.command(name="check", short_help="Verify certificates with the independent checker.")
@@ -117,13 +121,18 @@ def command(
     found, clock = [], Clock(timeout)
     allowed = Limits(**options.given(limits))
     paths = [*certificates, *([manifest] if manifest else [])]
+    progress, interrupted = _Progress(paths), False
     try:
         try:
-            with memory(max_memory), clock.running():
+            with memory(max_memory), clock.running(), progress.shown():
                 for each in verdicts(certificates, manifest, asking, allowed, clock):
                     found.append(each)
+                    progress.clear()
                     if not as_json:
                         deliver(line_of(each, paths) + "\n")
+                    progress.after(each[0])
+        except KeyboardInterrupt:
+            interrupted = True
         except NotAsked as refused:
             if not as_json:
                 error = InputError(str(refused))
@@ -137,7 +146,46 @@ def command(
         if not error.reader_left:
             raise
         return UNWRITTEN
+    if interrupted:
+        click.echo(f"mcexact: interrupted after {progress.done()}", err=True)
+        return INTERRUPTED
     return status_of(found)
+
+
+class _Progress:
+    """How many of several files are checked, on standard error if that is a terminal."""
+
+    def __init__(self, paths: list[str]) -> None:
+        self._paths, self._checked = paths, set[str]()
+        self._shows = len(paths) > 1 and sys.stderr is not None and sys.stderr.isatty()
+
+    def done(self) -> str:
+        """How many files are checked, in words."""
+        return f"{len(self._checked)} of {len(self._paths)} files"
+
+    def after(self, about: Mapping[str, str]) -> None:
+        """Show what is checked, after one more verdict."""
+        if "manifest" not in about:
+            self._checked.add(about["file"])
+        self._show()
+
+    @contextlib.contextmanager
+    def shown(self) -> Iterator[None]:
+        """Show a line while files are checked, and clear it."""
+        self._show()
+        try:
+            yield
+        finally:
+            self.clear()
+
+    def clear(self) -> None:
+        """Clear the line, so that another can be printed."""
+        if self._shows:
+            click.echo("\r\x1b[K", nl=False, err=True)
+
+    def _show(self) -> None:
+        if self._shows:
+            click.echo(f"\r\x1b[Kchecked {self.done()}", nl=False, err=True)
 
 
 def _plant_file(system: str) -> str:
@@ -169,6 +217,6 @@ def _plant_file(system: str) -> str:
 def _export(file: Path) -> None:
     """Write the archive of the checker."""
     from mcexact.cli.checker_archive import checker_archive
-    from mcexact.model.atomic import write_bytes
+    from mcexact.cli.files import write_result
 
-    write_bytes(file, checker_archive())
+    write_result(file, checker_archive())

@@ -59,11 +59,10 @@ def command(file: str, output: Path | None, **given: Any) -> None:
     source. Nothing is lost: numbers that the output cannot hold are an error. A system with
     parameters is written as JSON, which YAML is too, or with --at in every kind.
     """
-    from mcexact.cli.files import require_other, require_writable
+    from mcexact.cli.files import require_other, require_writable, write_result
     from mcexact.cli.folders import require_replaceable, write_folder
     from mcexact.cli.output import emit
     from mcexact.cli.running import Run
-    from mcexact.model.atomic import write_bytes
     from mcexact.model.formats.csv_folder import MARK
     from mcexact.model.formats.files import is_folder
 
@@ -79,7 +78,7 @@ def command(file: str, output: Path | None, **given: Any) -> None:
     if output is None:
         emit(made.decode("ascii"))
     elif isinstance(made, bytes):
-        write_bytes(output, made)
+        write_result(output, made)
     else:
         write_folder(output, made)
 

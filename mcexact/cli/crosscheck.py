@@ -36,10 +36,9 @@ def command(file: str | None, exhibits: bool, html: Path | None, **given: Any) -
     table quotes the call. The last table has a plant near a small system that has a fixed
     mode, which is decided exactly.
     """
-    from mcexact.cli.files import require_writable
+    from mcexact.cli.files import require_writable, write_result
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.running import Run
-    from mcexact.model.atomic import write_text
     from mcexact.report.text import WIDE, plain
 
     if exhibits == (file is not None):
@@ -55,7 +54,7 @@ def command(file: str | None, exhibits: bool, html: Path | None, **given: Any) -
         doing = f"cross-checking {plant[0]}"
         answer = run.result(_crosschecked, *plant, run.limits, doing=doing)
     if html is not None:
-        write_text(html, answer["html"])
+        write_result(html, answer["html"])
     if run.as_json:
         emit_json(answer["json"])
     else:

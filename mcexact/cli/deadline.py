@@ -11,6 +11,9 @@ from types import FrameType
 
 from mcexact.errors import LimitReached
 
+_LEAST_GRACE = 5.0
+"""Seconds that it may take at least to show and to re-check what was decided in time."""
+
 
 class Deadline:
     """A time limit of some seconds from now, or no limit.
@@ -24,6 +27,7 @@ class Deadline:
     def __init__(self, seconds: float | None) -> None:
         self.seconds = seconds
         self._start = time.monotonic()
+        self._said = seconds
 
     def left(self) -> float | None:
         """Return the seconds that are left, at least 0; None without a limit."""
@@ -31,10 +35,19 @@ class Deadline:
             return None
         return max(0.0, self.seconds - (time.monotonic() - self._start))
 
+    def with_grace(self) -> Deadline:
+        """Return the limit on what follows the decisions: a quarter of the time again, or 5 s."""
+        left = self.left()
+        if left is None or self.seconds is None:
+            return self
+        allowed = Deadline(max(left, self.seconds / 4, _LEAST_GRACE))
+        allowed._said = self._said
+        return allowed
+
     def missed(self, doing: str) -> LimitReached:
         """Return the error to raise when the time is over."""
         return LimitReached(
-            f"the time limit of {self.seconds:g} s was reached while {doing}; "
+            f"the time limit of {self._said:g} s was reached while {doing}; "
             "nothing has been decided (--timeout allows more)"
         )
 

@@ -73,13 +73,18 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keyword arguments of the function.
     """
-    from mcexact.cli.files import require_apart, require_other, require_page, require_writable
+    from mcexact.cli.files import (
+        require_apart,
+        require_other,
+        require_page,
+        require_writable,
+        write_result,
+    )
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
     from mcexact.cli.spectra import read_spectrum
     from mcexact.errors import Impossible
-    from mcexact.model.atomic import write_text
 
     run, spectrum, weights = Run(given), given["spectrum"], given["weights"]
     output, html = given["output"], given["html"]
@@ -114,9 +119,9 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
 
     def write(checked: Rechecked) -> None:
         if possible and output is not None:
-            write_text(output, done["controller"])
+            write_result(output, done["controller"])
         if possible and html is not None:
-            write_text(html, done["page"].rendered(done["certificates"], checked.verdicts))
+            write_result(html, done["page"].rendered(done["certificates"], checked.verdicts))
 
     checked = run.conclude(done, show, about=f"the design for {plant[0]}", write=write)
     if not possible and checked.missing is not None and not run.as_json:

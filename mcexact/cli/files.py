@@ -1,4 +1,4 @@
-"""Reading input files, and checking where results can be written."""
+"""Reading input files, checking where results can be written, and writing them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mcexact.errors import InputError, MissingExtra
+import click
+
+from mcexact.errors import InputError, MissingExtra, NotWritten
 from mcexact.errors import place_of as place_of
 
 if TYPE_CHECKING:
@@ -155,20 +157,20 @@ def require_writable(file: Path | None, folder: Path | None = None) -> None:
 
     Raises
     ------
-    InputError
+    NotWritten
         If a new file cannot be made there, or something else has that name.
     """
     if folder is not None:
         with _refusing(folder):
             made = Path(os.path.realpath(folder))
             if _exists(made) and not made.is_dir():
-                raise InputError("cannot be made a directory: File exists", where=str(folder))
+                raise NotWritten("cannot be made a directory: File exists", where=str(folder))
             _try(_nearest(made))
     if file is not None:
         with _refusing(file):
             if _exists(file) and not file.is_file():
                 if file.is_dir() or not os.access(file, os.W_OK):
-                    raise InputError("cannot write: it is no file", where=str(file))
+                    raise NotWritten("cannot write: it is no file", where=str(file))
                 return
             target = Path(os.path.realpath(file))
             _exists(target)
@@ -203,7 +205,9 @@ def require_page(page: Path | None, folder: Path | None, *inputs: str | None) ->
     Raises
     ------
     InputError
-        If the page is one of these files, or cannot be written.
+        If the page is one of these files.
+    NotWritten
+        If it cannot be written.
     MissingExtra
         If the library that draws is not installed.
     """
@@ -214,11 +218,11 @@ def require_page(page: Path | None, folder: Path | None, *inputs: str | None) ->
 
 @contextlib.contextmanager
 def _refusing(path: Path) -> Iterator[None]:
-    """Turn an operating-system error about writing into an InputError."""
+    """Turn an operating-system error about writing into NotWritten."""
     try:
         yield
     except OSError as error:
-        raise InputError(f"cannot write: {error.strerror or error}", where=str(path)) from None
+        raise NotWritten(f"cannot write: {error.strerror or error}", where=str(path)) from None
     except ValueError as error:
         if isinstance(error, InputError):
             raise
@@ -248,16 +252,49 @@ def _try(folder: Path) -> None:
     os.unlink(name)
 
 
+def write_result(path: Path, content: str | bytes) -> None:
+    """Write a result to a file, completely or not at all, and say so on standard error.
+
+    Raises
+    ------
+    NotWritten
+        If it cannot be written.
+    """
+    from mcexact.model.atomic import write_bytes
+
+    write_bytes(path, content if isinstance(content, bytes) else content.encode("utf-8"))
+    say_written(path)
+
+
+def say_written(path: Path, files: int | None = None) -> None:
+    """Say on standard error that a file was written, or a number of files into a folder.
+
+    Nothing is said of a stream such as ``/dev/stdout``.
+
+    Parameters
+    ----------
+    path : Path
+        The file or the folder.
+    files : int, optional
+        The number of files in a folder.
+    """
+    if files is not None:
+        number = "1 file" if files == 1 else f"{files} files"
+        click.echo(f"mcexact: wrote {number} into {path}{os.sep}", err=True)
+    elif path.is_file():
+        click.echo(f"mcexact: wrote {path}", err=True)
+
+
 def directory(path: Path) -> Path:
     """Make the directory at a path if it is missing, and return the path.
 
     Raises
     ------
-    InputError
+    NotWritten
         If it cannot be made, or something else has that name.
     """
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"cannot be made a directory: {error.strerror}", where=str(path)) from None
+        raise NotWritten(f"cannot be made a directory: {error.strerror}", where=str(path)) from None
     return path

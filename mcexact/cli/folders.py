@@ -8,8 +8,8 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from mcexact.cli.files import require_writable
-from mcexact.errors import InputError
+from mcexact.cli.files import require_writable, say_written
+from mcexact.errors import InputError, NotWritten
 
 
 def require_replaceable(folder: Path, mark: str) -> None:
@@ -39,7 +39,7 @@ def require_replaceable(folder: Path, mark: str) -> None:
 
 
 def write_folder(folder: Path, files: Mapping[str, str]) -> None:
-    """Write files into a new folder, then rename it to the folder's name.
+    """Write files into a new folder, rename it to the folder's name, and say so.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def write_folder(folder: Path, files: Mapping[str, str]) -> None:
 
     Raises
     ------
-    InputError
+    NotWritten
         If it cannot be written.
     """
     target = Path(os.path.realpath(folder))
@@ -73,4 +73,5 @@ def write_folder(folder: Path, files: Mapping[str, str]) -> None:
         finally:
             shutil.rmtree(made, ignore_errors=True)
     except OSError as error:
-        raise InputError(f"cannot write: {error.strerror or error}", where=str(folder)) from error
+        raise NotWritten(f"cannot write: {error.strerror or error}", where=str(folder)) from error
+    say_written(folder, len(files))

@@ -11,6 +11,8 @@ import click
 from mcexact.cli import options
 
 if TYPE_CHECKING:
+    from mcexact.cli.running import Known
+    from mcexact.cli.supervision import Reporting
     from mcexact.model.parametric import ParametricSystem
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -49,6 +51,9 @@ def for_all_values(
     with_page: bool,
     with_latex: bool,
     system_by_digest: bool,
+    *,
+    known: Known,
+    report: Reporting,
 ) -> dict[str, Any]:
     """Decide and format the answers for all values, in the child process.
 
@@ -61,6 +66,8 @@ def for_all_values(
     refused : bool
         Whether something is asked that is only decided for systems without parameters.
     with_page, with_latex, system_by_digest : bool
+    known : Known
+    report : Reporting
 
     Raises
     ------
@@ -82,6 +89,7 @@ def for_all_values(
         )
     found = ParametricAnalysis(system, channel=channel)
     found.also(also)
+    known.resume(found, report)
     account, taken = found.account, effort_tables(found.effort())
     page = parameter_page(account) if with_page else None
     if page is not None:
@@ -96,4 +104,5 @@ def for_all_values(
         "tables": (*parameter_tables(account), *taken),
         "latex": parameter_latex(account) if with_latex else "",
         "page": page,
+        "ended": found.ended(),
     }

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from mcexact.checker import Verdict
     from mcexact.cli.deadline import Deadline
+    from mcexact.cli.supervision import Reporting
     from mcexact.errors import LimitReached
 
 
@@ -41,7 +42,8 @@ class Rechecked:
         if not self.verdicts:
             return "no certificate, as nothing was decided exactly\n"
         number = count(len(self.verdicts), "certificate")
-        return f"{number} re-checked by the independent checker: VALID\n"
+        rest = f"not re-checked: {', '.join(self.open)}\n" if self.open else ""
+        return f"{number} re-checked by the independent checker: VALID\n{rest}"
 
     def require_complete(self) -> None:
         """Raise an error if a certificate was not re-checked.
@@ -82,27 +84,52 @@ def rechecked(
     InternalError
         If the checker rejects a certificate, or a sentence that the certificates do not imply.
     """
-    from mcexact.answer.check import recheck
     from mcexact.answer.sentence import MANIFEST
-    from mcexact.cli.supervision import supervised
+    from mcexact.cli.supervision import Kept, supervised
     from mcexact.errors import LimitReached
 
+    names, kept, missing = [name for name in files if name != MANIFEST], Kept(), None
     try:
         found = supervised(
-            recheck,
+            _recheck,
             dict(files),
             plant,
+            len(names),
             doing=doing,
             timeout=deadline,
             max_memory=max_memory,
+            kept=kept,
         )
     except LimitReached as reached:
-        told = reached.message.replace("nothing has been decided", "the answers are not re-checked")
-        names = tuple(name for name in files if name != MANIFEST)
-        return Rechecked({}, names, LimitReached(told))
+        found = {name: said for name, said in kept.parts.items() if name != MANIFEST}
+        valid = {name: said for name, said in found.items() if said.verdict == "VALID"}
+        what = f"{len(valid)} of {len(names)} certificates" if valid else "the answers"
+        what += " are re-checked, and the sentences are not" if valid else " are not re-checked"
+        missing = LimitReached(reached.message.replace("nothing has been decided", what))
+        return Rechecked(valid, tuple(name for name in names if name not in valid), missing)
     valid = {name: said for name, said in found.items() if said.verdict == "VALID"}
     reasons = [f"{name} ({found[name].message})" for name in found if name not in valid]
-    missing = None
     if reasons:
         missing = LimitReached(f"not re-checked, a limit of the checker: {', '.join(reasons)}")
     return Rechecked(valid, tuple(name for name in found if name not in valid), missing)
+
+
+def _recheck(
+    files: Mapping[str, str],
+    plant: str | Mapping[str, str],
+    number: int,
+    *,
+    report: Reporting,
+) -> dict[str, Verdict]:
+    """Verify files, and hand over each verdict, in the child process."""
+    from mcexact.answer.check import recheck
+
+    done: list[str] = []
+
+    def keep(name: str, verdict: Verdict) -> None:
+        done.append(name)
+        report.keep(name, verdict)
+        report.step(f"{len(done)} of {number} certificates")
+
+    report.step(f"0 of {number} certificates")
+    return recheck(files, plant, keep)

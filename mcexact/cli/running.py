@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import pickle
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -12,7 +14,11 @@ from mcexact.cli.deadline import Deadline
 from mcexact.cli.rechecking import Rechecked, rechecked
 
 if TYPE_CHECKING:
+    from mcexact.analysis.asking import Asking
     from mcexact.answer.account import Account
+    from mcexact.cli.failures import Interrupted
+    from mcexact.cli.supervision import Reporting
+    from mcexact.errors import LimitReached
 
 LIMITS = ("bytes", "depth", "digits", "exponent")
 
@@ -38,6 +44,36 @@ def told(account: Account, system_by_digest: bool) -> dict[str, Any]:
         "files": files | others,
         "plant": dict.fromkeys(files, canonical_text(own)) | plants,
     }
+
+
+@dataclass
+class Known:
+    """What is known of the parts of an answer when the work on it begins, or begins again.
+
+    Attributes
+    ----------
+    parts : dict
+        What was decided, pickled, by name.
+    lost : dict
+        Why other parts were not decided: the memory that each needs.
+    ended : str
+        Why nothing more is to be decided; empty if it is.
+    """
+
+    parts: dict[str, bytes] = field(default_factory=dict)
+    lost: dict[str, str] = field(default_factory=dict)
+    ended: str = ""
+
+    def resume(self, found: Asking, report: Reporting) -> None:
+        """Give an analysis what is known, and have it hand over what it decides besides."""
+        for name, data in self.parts.items():
+            if name in found.questions:
+                found.know(name, *pickle.loads(data))
+        for name, reason in self.lost.items():
+            found.leave_open(reason, [name])
+        if self.ended:
+            found.leave_open(self.ended)
+        found.watch(report.begin, lambda name, *outcome: report.keep(name, pickle.dumps(outcome)))
 
 
 class Run:
@@ -81,6 +117,64 @@ class Run:
             telling=telling,
         )
 
+    def result_in_parts(
+        self, work: Callable[..., Any], *arguments: Any, doing: str
+    ) -> tuple[Any, BaseException | None]:
+        """Call a function in a child process, and once more for what a limit did not discard.
+
+        Parameters
+        ----------
+        work : callable
+            A function that takes these arguments, the keyword ``known`` and the keyword ``report``,
+            by which it hands over pickled parts as they are decided.
+        *arguments
+        doing : str
+            A description of the work.
+
+        Returns
+        -------
+        result
+        LimitReached or KeyboardInterrupt or None
+            What ended the work before everything was decided.
+
+        Raises
+        ------
+        LimitReached, KeyboardInterrupt
+            If nothing was decided by then.
+        """
+        from mcexact.cli.supervision import Kept, supervised
+        from mcexact.errors import LimitReached
+
+        known, kept = Known(), Kept()
+        ended: BaseException | None = None
+        deadline = self.deadline
+        while True:
+            kept.running = ""
+            try:
+                result = supervised(
+                    work,
+                    *arguments,
+                    known,
+                    doing="showing what was decided" if known.ended else doing,
+                    timeout=deadline,
+                    max_memory=self.max_memory,
+                    kept=kept,
+                )
+            except (LimitReached, KeyboardInterrupt) as error:
+                known.parts = kept.parts
+                if known.ended or not known.parts:
+                    raise ended or error from None
+                ended, deadline = error, self.deadline.with_grace()
+                interrupted = isinstance(error, KeyboardInterrupt)
+                if interrupted or self.deadline.left() == 0 or not kept.running:
+                    known.ended = _reason(error)
+                else:  # other questions may need less memory
+                    known.lost[kept.running] = _reason(error)
+                    deadline = self.deadline
+                continue
+            self.deadline = deadline if ended else self.deadline
+            return result, ended
+
     def conclude(
         self,
         answer: Mapping[str, Any],
@@ -108,7 +202,7 @@ class Run:
         InternalError
             If the checker rejects a certificate or a sentence; no file is written then.
         """
-        from mcexact.cli.files import directory
+        from mcexact.cli.files import directory, say_written
         from mcexact.cli.output import emit, emit_json
         from mcexact.model.atomic import write_text
 
@@ -117,19 +211,57 @@ class Run:
             answer["files"],
             answer["plant"],
             doing=f"re-checking {about}",
-            deadline=self.deadline,
+            deadline=self.deadline.with_grace(),
             max_memory=self.max_memory,
         )
         if self.certificates is not None:
             folder = directory(self.certificates)
             for name, text in answer["files"].items():
                 write_text(folder / name, text)
+            say_written(folder, len(answer["files"]))
         write(checked)
         if self.as_json:
             emit_json({**answer["json"], "re_checked": checked.view()})
-        elif line_follows and checked.missing is None:
+        elif line_follows and (checked.missing is None or checked.verdicts):
             emit("\n" + checked.line())
         return checked
+
+
+def undecided_error(
+    ended: BaseException | None, open_: Mapping[str, Sequence[str]], doing: str
+) -> LimitReached | Interrupted | None:
+    """Return the error to raise if something ended the work, which names what is not decided.
+
+    Parameters
+    ----------
+    ended : LimitReached or KeyboardInterrupt or None
+    open_ : mapping
+        The parts that were not decided, by the reason of that.
+    doing : str
+        A description of the work.
+    """
+    from mcexact.cli.failures import Interrupted
+    from mcexact.errors import LimitReached
+
+    if ended is None:
+        return None
+    said = f"{_reason(ended)} while {doing}, after everything was decided"
+    if open_:
+        lists = {reason: ", ".join(names).replace("_", " ") for reason, names in open_.items()}
+        said = "; ".join(
+            f"{reason} while {doing}, not decided: {names}" for reason, names in lists.items()
+        )
+    if isinstance(ended, KeyboardInterrupt):
+        return Interrupted(said)
+    option = "--timeout" if "time limit" in said else "--max-memory"
+    return LimitReached(f"{said} ({option} allows more)")
+
+
+def _reason(error: BaseException) -> str:
+    """Why a question was not decided, as a clause."""
+    if isinstance(error, KeyboardInterrupt):
+        return "the work was interrupted"
+    return str(error).partition(" while ")[0]
 
 
 def show_tables(answer: Mapping[str, Any]) -> Callable[[], bool]:

@@ -58,7 +58,7 @@ def command(
     The output is JSON with and without --json, since a system file is JSON.
     """
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, require_writable
+    from mcexact.cli.files import directory, require_writable, say_written
     from mcexact.cli.output import emit
     from mcexact.cli.supervision import supervised
     from mcexact.derived.drawn.draw import Draw
@@ -88,6 +88,8 @@ def command(
             emit(text)
         else:
             write_text(directory(output) / f"sample-{number}.json", text)
+    if output is not None:
+        say_written(output, count)
 
 
 def _drawn(draw: Draw) -> str:

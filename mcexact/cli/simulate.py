@@ -80,11 +80,16 @@ def command(file: str, controller: str, **given: Any) -> None:
     stable and nothing changes after the start, bounds on the outputs are proved, too; their
     certificate is checked, and --certificates writes it.
     """
-    from mcexact.cli.files import require_apart, require_drawable, require_other, require_writable
+    from mcexact.cli.files import (
+        require_apart,
+        require_drawable,
+        require_other,
+        require_writable,
+        write_result,
+    )
     from mcexact.cli.output import emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
-    from mcexact.model.atomic import write_bytes, write_text
 
     run = Run(given)
     output, fractions = given.pop("output"), given.pop("fractions")
@@ -113,9 +118,9 @@ def command(file: str, controller: str, **given: Any) -> None:
 
     def write(checked: Rechecked) -> None:
         if output is not None and answer["page"] is not None:
-            write_text(output, answer["page"].rendered(answer["certificates"], checked.verdicts))
+            write_result(output, answer["page"].rendered(answer["certificates"], checked.verdicts))
         elif output is not None:
-            write_bytes(output, answer["file"])
+            write_result(output, answer["file"])
 
     about = f"the simulation of {plant[0]}"
     run.conclude(answer, show, about=about, write=write).require_complete()

@@ -100,12 +100,18 @@ def command(
     """
     from functools import partial
 
-    from mcexact.cli.files import directory, require_apart, require_other, require_writable
+    from mcexact.cli.files import (
+        directory,
+        require_apart,
+        require_other,
+        require_writable,
+        say_written,
+        write_result,
+    )
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.derived.drawn.draw import Draw
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.model.atomic import write_text
     from mcexact.report.sweep_view import skipped_table, sweep_page, sweep_tables, sweep_view
     from mcexact.report.text import WIDE
     from mcexact.report.tolerances import tolerance_tables
@@ -130,6 +136,7 @@ def command(
     if limited and scheduler is not None:
         raise click.UsageError("limits on time and memory hold here: leave them out on a cluster")
     documents: list[dict[str, Any]] = []
+    written = 0
     try:
         with cluster(scheduler) as (executor, threads), _progress(len(sources)) as tell:
             records = sweep(
@@ -149,7 +156,7 @@ def command(
                     documents.append(record.to_dict())
                     tell(documents)
                     if certificates is not None:
-                        _write(directory(certificates), record, len(sources))
+                        written += _write(directory(certificates), record, len(sources))
     except KeyboardInterrupt:
         kept = f"; run the same command again to resume from {output}" if output is not None else ""
         said = f"interrupted after {len(documents)} of {len(sources)} systems{kept}"
@@ -159,8 +166,12 @@ def command(
     documents, skipped = listed.separated(documents)
     if not documents:
         raise InputError("found no system file", where=", ".join(files))
+    if output is not None:
+        say_written(output)
+    if certificates is not None:
+        say_written(certificates, written)
     if html is not None:
-        write_text(html, sweep_page(documents, asked, skipped).rendered())
+        write_result(html, sweep_page(documents, asked, skipped).rendered())
     if as_json:
         emit_json({"format": "mcexact-sweep-summary/1", **sweep_view(documents, asked, skipped)})
     else:
@@ -271,8 +282,11 @@ def _read(path: str | os.PathLike[str], limits: Limits, timeout: float | None) -
         return read_input(path, limits)
 
 
-def _write(folder: Path, record: Record, total: int) -> None:
-    """Write the certificates of one system; file names give its number, name and question."""
+def _write(folder: Path, record: Record, total: int) -> int:
+    """Write the certificates of one system; file names give its number, name and question.
+
+    Returns how many these are.
+    """
     from mcexact.model.atomic import write_text
 
     number = str(record.number + 1).zfill(len(str(total)))
@@ -280,6 +294,7 @@ def _write(folder: Path, record: Record, total: int) -> None:
     stem = re.sub(r"[^A-Za-z0-9_.-]+", "-", Path(path).stem + (f"-{member}" if member else ""))[:60]
     for question, text in record.certificates.items():
         write_text(folder / f"{number}-{stem}-{question}.json", text)
+    return len(record.certificates)
 
 
 @contextlib.contextmanager

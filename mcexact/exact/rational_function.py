@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copyreg
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -30,6 +31,22 @@ MOST_DEGREE = 1000
 def _ring(parameters: tuple[str, ...]) -> Any:
     """The ring of polynomials in these parameters; flint needs at least one."""
     return flint.fmpq_mpoly_ctx.get(parameters or ("t",), flint.Ordering.lex)
+
+
+def _polynomial(names: tuple[str, ...], terms: dict[tuple[int, ...], tuple[int, int]]) -> Any:
+    """The polynomial with these terms, in another process."""
+    ring = flint.fmpq_mpoly_ctx.get(names, flint.Ordering.lex)
+    return ring.from_dict({degrees: flint.fmpq(*quotient) for degrees, quotient in terms.items()})
+
+
+def _reduced(polynomial: Any) -> tuple[Any, ...]:
+    """What `_polynomial` makes a polynomial from, since flint's cannot be pickled."""
+    terms = polynomial.to_dict().items()
+    plain = {degrees: (int(q.numerator), int(q.denominator)) for degrees, q in terms}
+    return _polynomial, (polynomial.context().names(), plain)
+
+
+copyreg.pickle(flint.fmpq_mpoly, _reduced)
 
 
 @dataclass(frozen=True, eq=False)

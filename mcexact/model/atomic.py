@@ -6,7 +6,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from mcexact.errors import InputError, place_of
+from mcexact.errors import InputError, NotWritten, place_of
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
@@ -21,8 +21,10 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
 
     Raises
     ------
-    InputError
+    NotWritten
         If the folder is missing or cannot be written.
+    InputError
+        If the path is no name of a file.
     """
     write_bytes(path, text.encode("utf-8"))
 
@@ -32,8 +34,10 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
 
     Raises
     ------
-    InputError
+    NotWritten
         If the folder is missing or cannot be written.
+    InputError
+        If the path is no name of a file.
     """
     place = place_of(path)
     try:
@@ -45,7 +49,7 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
             return
         _replace(target, data)
     except OSError as error:
-        raise InputError(f"cannot write: {error.strerror or error}", where=place) from error
+        raise NotWritten(f"cannot write: {error.strerror or error}", where=place) from error
     except ValueError as error:
         raise InputError(f"is not a file name: {error}", where=repr(path)) from error
 

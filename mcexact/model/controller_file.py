@@ -183,7 +183,7 @@ def save_controller(controller: Controller, path: str | os.PathLike[str]) -> Non
 
     Raises
     ------
-    InputError
+    NotWritten
         If the file cannot be written.
     """
     InputError.require(controller, Controller, "controller")

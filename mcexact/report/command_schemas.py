@@ -7,7 +7,7 @@ do not know.
 from __future__ import annotations
 
 from mcexact.answer.parametric_account import LABELS
-from mcexact.answer.schema import Schema, kinds, view_schema
+from mcexact.answer.schema import RATIONAL, Schema, kinds, view_schemas
 from mcexact.answer.wording.parameters import WITHIN_RANGES
 from mcexact.report.file_schemas import agents, sweep_record
 from mcexact.report.schema_terms import (
@@ -44,7 +44,7 @@ _RANGES = table(record({}, {"range": rows(some(NUMBER), minItems=2, maxItems=2)}
 def _account(required: Schema, optional: Schema | None = None) -> Schema:
     """The JSON of a command whose answers have certificates."""
     known = named("mcexact-analysis/1") | {"system": _SYSTEM_IN_SHORT} | SENTENCES
-    views = [view_schema(kind) for kind in kinds().values()]
+    views = [view for kind in kinds().values() for view in view_schemas(kind)]
     return record(known | required, optional) | {
         "additionalProperties": {
             "description": "an answer, by its name; its certificate is the file of this name",
@@ -95,7 +95,7 @@ def design() -> Schema:
         "order": WHOLE,
         "certified_bound": some(TEXT),
         "region": TEXT,
-        "closed_loop_polynomial": some(rows(TEXT)),
+        "closed_loop_polynomial": some(rows(RATIONAL)),
         "bits_of_longest_number": WHOLE,
         "floating_point": _FIGURES,
         "controller": record(agents(), closed=True),
@@ -221,7 +221,9 @@ def simulate() -> Schema:
 
 def allocate() -> Schema:
     """The JSON of `mcexact allocate`."""
-    return _account({})
+    sizes = record({"least": WHOLE, "bound": some(WHOLE)})
+    said = "the least dimensions, and those of the theorem's bound where its hypotheses hold"
+    return _account({}, {"shares": record({"by_agent": table(sizes), "total": sizes}, says=said)})
 
 
 def check() -> Schema:

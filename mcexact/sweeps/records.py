@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from io import FileIO
 from typing import Any
 
-from mcexact.errors import InputError, UsageError, place_of
+from mcexact.errors import InputError, NotWritten, UsageError, place_of
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.canonical import canonical
 from mcexact.shown import LINE, Shown, fitting
@@ -173,7 +173,9 @@ class RecordFile:
     Raises
     ------
     InputError
-        If it cannot be read or written, or is not a file of records.
+        If it cannot be read, or is not a file of records.
+    NotWritten
+        If it cannot be written.
     UsageError
         If another sweep is writing it.
     """
@@ -205,8 +207,8 @@ class RecordFile:
         except OSError as error:
             raise self._unwritable(error) from error
 
-    def _unwritable(self, error: OSError) -> InputError:
-        return InputError(f"cannot be written: {error.strerror or error}", where=self.path)
+    def _unwritable(self, error: OSError) -> NotWritten:
+        return NotWritten(f"cannot be written: {error.strerror or error}", where=self.path)
 
     def close(self) -> None:
         """Close the file and release its lock."""

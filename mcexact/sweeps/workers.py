@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import contextlib
-import multiprocessing
-import os
-import signal
-import sys
+import pickle
+import queue
 from collections.abc import Callable
-from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from typing import Any
 
 from mcexact.errors import UsageError
+from mcexact.processes import Child, serve
 
 _MOST = 256
 
 
 class Workers:
-    """A given executor, or one that is made when it is needed and replaced when it breaks.
+    """A given executor, or processes that are started when they are needed, and again if one dies.
 
     Parameters
     ----------
@@ -30,6 +29,11 @@ class Workers:
     ------
     UsageError
         If the executor is not an executor, or the count is out of range.
+
+    Notes
+    -----
+    A thread waits for each process.  The processes are new interpreters and no forks: this process
+    has threads, of which the locks of a fork would remain locked.
     """
 
     def __init__(self, executor: Executor | None, count: int) -> None:
@@ -43,10 +47,13 @@ class Workers:
             raise UsageError(f"expected 1 to {_MOST} workers, found {count!r}")
         self.count = count
         self._given = executor
-        self._own: ProcessPoolExecutor | None = None
+        self._threads: ThreadPoolExecutor | None = None
+        self._idle: queue.SimpleQueue[Child] = queue.SimpleQueue()
+        self._all: list[Child] = []
+        self._ended = False
 
     def submit(self, work: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """Submit one call.
+        """Submit one call, whose future raises BrokenExecutor if its process dies.
 
         Raises
         ------
@@ -55,24 +62,41 @@ class Workers:
         """
         if self._given is not None:
             return self._given.submit(work, *arguments)
-        if self._own is None:
-            self._own = _pool(self.count)
+        if self._threads is None:
+            self._threads = ThreadPoolExecutor(self.count, thread_name_prefix="mcexact-sweep")
+        return self._threads.submit(self._done, work, arguments)
+
+    def _done(self, work: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+        """Have a process do a call, and wait for it, in one of the threads."""
+        piece = pickle.dumps((work, arguments))
         try:
-            return self._own.submit(work, *arguments)
-        except BrokenExecutor:
-            self.end()
-            self._own = _pool(self.count)
-            return self._own.submit(work, *arguments)
+            child = self._idle.get_nowait()
+        except queue.Empty:
+            child = Child(serve, one_thread=True)
+            self._all.append(child)
+            if self._ended:
+                child.kill()
+        try:
+            child.connection.send_bytes(piece)
+            fine, result = pickle.loads(child.connection.recv_bytes())
+        except (EOFError, OSError) as error:
+            raise BrokenExecutor("the process died") from error
+        self._idle.put(child)
+        if not fine:
+            raise result
+        return result
 
     def end(self) -> None:
         """End the processes that this team started, even while they work."""
-        if self._own is None:
+        if self._threads is None:
             return
-        pool, self._own = self._own, None
-        for process in list((getattr(pool, "_processes", None) or {}).values()):
-            with contextlib.suppress(Exception):
-                process.kill()
-        pool.shutdown(wait=True, cancel_futures=True)
+        self._ended = True
+        for child in list(self._all):
+            child.kill()
+        self._threads.shutdown(wait=True, cancel_futures=True)
+        for child in self._all:
+            with contextlib.suppress(OSError):
+                child.end()
 
 
 def alone(work: Callable[..., Any], *arguments: Any) -> Any:
@@ -88,38 +112,3 @@ def alone(work: Callable[..., Any], *arguments: Any) -> Any:
         return workers.submit(work, *arguments).result()
     finally:
         workers.end()
-
-
-def process_context() -> Any:
-    """How processes are started: by a fork on Linux, and anew elsewhere.
-
-    A fork has loaded everything already.  Libraries of macOS do not survive it.
-    """
-    return multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
-
-
-def _pool(count: int) -> ProcessPoolExecutor:
-    longest = sys.get_int_max_str_digits()
-    return ProcessPoolExecutor(
-        count, mp_context=process_context(), initializer=_prepare, initargs=(longest,)
-    )
-
-
-def _prepare(longest: int) -> None:
-    """Set up a worker: only the parent handles interrupts, and each worker uses one thread."""
-    sys.set_int_max_str_digits(longest)  # a process that is no fork has a limit of its own
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    end_with_parent()
-    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
-
-
-def end_with_parent() -> None:
-    """Ask the kernel, if it supports this, to end this process when its parent ends."""
-    if sys.platform == "linux":
-        import ctypes
-
-        parent_death_signal = 1
-        with contextlib.suppress(OSError, AttributeError):
-            ctypes.CDLL(None).prctl(parent_death_signal, signal.SIGKILL)

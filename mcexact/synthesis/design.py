@@ -18,6 +18,7 @@ from mcexact.errors import UsageError
 from mcexact.exact.floats import finite, matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import written
 from mcexact.floating.margins import loop_margins
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -179,7 +180,7 @@ class Design(ShownByAccount):
         return loop(curves, ax)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the design as plain data; a polynomial is a list of coefficients as strings."""
+        """Return the design as plain data; a polynomial is a list of its coefficients."""
         polynomial, bound = self.loop.polynomial, self.region.bound
         return {
             "design": self.name,
@@ -231,7 +232,7 @@ def _is_inside(loop: CertifiedLoop, region: StabilityRegion) -> bool:
 def _plain(value: Any) -> Any:
     """Convert a part to plain data."""
     if isinstance(value, Polynomial):
-        return [str(c) for c in value.coefficients]
+        return [written(c) for c in value.coefficients]
     if isinstance(value, Mapping):
         return {key: _plain(each) for key, each in value.items()}
     if isinstance(value, tuple):

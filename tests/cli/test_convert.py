@@ -43,7 +43,7 @@ def test_an_output_that_cannot_hold_the_numbers_is_not_written(tmp_path: Path) -
     target = tmp_path / "p.mat"
     status, _, said = call("convert", TANKS, "-o", str(target), "--rounding", "decimal")
     assert status == 3 and not target.exists()
-    assert f"{target}: A[0][0]: no float is -1/62 that the rounding 'decimal' reads as it" in said
+    assert f"{target}: A[0][0]: no float is read as -1/62 with the rounding 'decimal'" in said
     assert call("convert", TANKS, "-o", str(target), "--nearest") == (0, "", "")
 
 

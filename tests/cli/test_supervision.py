@@ -6,13 +6,17 @@ import os
 import signal
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import pytest
 
+from mcexact import processes
 from mcexact.cli import supervision
-from mcexact.cli.supervision import supervised
+from mcexact.cli.running import Known, Run, undecided_error
+from mcexact.cli.supervision import Reporting, supervised
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached
-from mcexact.sweeps.workers import alone, process_context
+from mcexact.processes import may_fork
 from tests.end_to_end.command_line import interruptible
 
 
@@ -118,14 +122,88 @@ def test_an_interrupt_ends_compiled_code_and_leaves_no_process() -> None:
         assert told.read() == b"", "it ends when no process holds the other end"
 
 
-def test_where_a_fork_is_unsafe_processes_start_anew(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert process_context().get_start_method() == "fork"
-    monkeypatch.setattr(sys, "platform", "darwin")
-    assert process_context().get_start_method() == "spawn"
+def test_a_process_with_threads_is_not_forked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(processes, "may_fork", may_fork)
     assert supervised(os.getppid, doing="asking") == os.getpid()
-    assert supervised(str, 10**5000, doing="writing") == "1" + "0" * 5000
+    with ThreadPoolExecutor(1) as threads:
+        threads.submit(int).result()
+        assert not may_fork()
+        assert supervised(os.getppid, doing="asking") == os.getpid()
+        assert supervised(str, 10**5000, doing="writing") == "1" + "0" * 5000
+        with pytest.raises(LimitReached, match=r"time limit of 9 s was reached while dividing"):
+            supervised(deaf, 10**9, doing="dividing", timeout=9)
 
 
-def test_a_pool_of_processes_starts_anew_there_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "platform", "darwin")
-    assert alone(os.getppid) == os.getpid()
+def test_a_new_interpreter_does_not_run_the_main_script_again() -> None:
+    """A script without a main guard, whose functions a new interpreter does not know."""
+    script = (
+        "import os, sys, threading\n"
+        "print('begun', flush=True)\n"
+        "threading.Thread(target=threading.Event().wait, daemon=True).start()\n"
+        "from mcexact.sweeps.workers import alone\n"
+        "assert alone(os.getppid) == os.getpid()\n"
+        "def own():\n"
+        "    return 1\n"
+        "try:\n"
+        "    alone(own)\n"
+        "except ValueError as error:\n"
+        "    print(error)\n"
+    )
+    for how in (["-c", script], ["-W", "error", "-"]):
+        done = subprocess.run(
+            [sys.executable, *how],
+            input=script,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        first, second = done.stdout.splitlines()
+        assert (first, done.stderr) == ("begun", "") and second.startswith("own is defined in")
+
+
+def half_done(known: Known, *, report: Reporting) -> dict[str, Any]:
+    """Decide one thing at once, and then one that never ends."""
+    if not known.ended:
+        report.keep("first", b"1")
+        report.begin("second", "1 of 2 decided")
+        deaf(10**9)
+    return {"parts": known.parts, "ended": known.ended}
+
+
+def hungry(known: Known, *, report: Reporting) -> dict[str, Any]:
+    """Decide three things, of which the second needs too much memory."""
+    for name in ("first", "second", "third"):
+        if name not in known.parts and name not in known.lost:
+            report.begin(name, name)
+            allocate(200 if name == "second" else 1)
+            report.keep(name, b"1")
+    return {"parts": set(known.parts), "lost": known.lost}
+
+
+def run_with(**limits: Any) -> Run:
+    return Run({"timeout": None, "max_memory": None} | limits)
+
+
+def test_what_was_decided_before_a_time_limit_is_not_lost() -> None:
+    result, ended = run_with(timeout=3.0).result_in_parts(half_done, doing="working")
+    assert result == {"parts": {"first": b"1"}, "ended": "the time limit of 3 s was reached"}
+    error = undecided_error(ended, {result["ended"]: ["second"]}, "working")
+    assert isinstance(error, LimitReached) and "not decided: second" in str(error)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="there the limit is defined")
+def test_what_needs_too_much_memory_costs_only_itself() -> None:
+    result, ended = run_with(max_memory=100).result_in_parts(hungry, doing="working")
+    assert result["parts"] == {"first"}
+    assert result["lost"] == {"second": "the memory limit of 100 MiB was exhausted"}
+    assert isinstance(ended, LimitReached)
+
+
+def test_an_error_ends_the_work_even_if_something_was_decided() -> None:
+    with pytest.raises(InternalError):
+        run_with().result_in_parts(fails_late, doing="working")
+
+
+def fails_late(known: Known, *, report: Reporting) -> None:
+    report.keep("first", b"1")
+    stumble()

@@ -10,7 +10,7 @@ import pytest
 
 from mcexact.cli import main
 from mcexact.cli.files import require_apart, require_writable
-from mcexact.errors import InputError, LimitReached
+from mcexact.errors import InputError, LimitReached, NotWritten
 from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
 
@@ -83,7 +83,7 @@ def test_a_place_that_cannot_be_written_is_refused_before_the_work(
     barrier = tmp_path / "barrier"
     barrier.write_text("no folder", encoding="ascii")
     status, told = ended(arguments, barrier)
-    assert (status, begun) == (3, [])
+    assert (status, begun) == (74, [])
     assert "cannot write: Not a directory" in told
 
 
@@ -114,7 +114,6 @@ def test_an_existing_file_is_not_touched(tmp_path: Path) -> None:
         ("folder", "cannot write: it is no file"),
         ("x" * 1000, "cannot write: File name too long"),
         ("loop/result", "cannot write: Too many levels of symbolic links"),
-        ("a\0b", "is not a file name"),
     ],
 )
 def test_a_file_that_cannot_be_made_is_refused_with_the_reason(
@@ -122,13 +121,18 @@ def test_a_file_that_cannot_be_made_is_refused_with_the_reason(
 ) -> None:
     (tmp_path / "folder").mkdir()
     os.symlink("loop", tmp_path / "loop")
-    with pytest.raises(InputError, match=message):
+    with pytest.raises(NotWritten, match=message):
         require_writable(tmp_path / file)
+
+
+def test_what_is_no_name_of_a_file_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="is not a file name"):
+        require_writable(tmp_path / "a\0b")
 
 
 def test_a_folder_where_a_file_stands_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("", encoding="ascii")
-    with pytest.raises(InputError, match="cannot be made a directory"):
+    with pytest.raises(NotWritten, match="cannot be made a directory"):
         require_writable(None, tmp_path / "file")
 
 
@@ -136,7 +140,7 @@ def test_a_file_may_go_into_the_folder_that_is_made_for_other_results(tmp_path: 
     made = tmp_path / "evidence" / "deep"
     require_writable(made / "controller.json", made)
     require_writable(tmp_path / "evidence" / "controller.json", made)
-    with pytest.raises(InputError, match="No such file or directory"):
+    with pytest.raises(NotWritten, match="No such file or directory"):
         require_writable(tmp_path / "elsewhere" / "controller.json", made)
     assert list(tmp_path.iterdir()) == []
 
@@ -158,6 +162,51 @@ def test_output_that_cannot_be_written_ends_with_74(
         monkeypatch.undo()
         [line] = capsys.readouterr().err.splitlines()
         assert line.startswith("mcexact: standard output: cannot be written: ")
+
+
+FULL = {
+    name: tuple("/dev/full" if each in ("FILE", "FILE.csv") else each for each in arguments)
+    for name, arguments in WRITING.items()
+    if "FOLDER" not in arguments and name not in ("simulate -o", "sweep -o")
+}
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a full device")
+@pytest.mark.parametrize("arguments", FULL.values(), ids=FULL.keys())
+def test_every_file_that_cannot_be_written_ends_with_74(
+    ended: Ended, tmp_path: Path, arguments: tuple[str, ...]
+) -> None:
+    status, told = ended(arguments, tmp_path)
+    assert (status, told.splitlines()[-1]) == (
+        74,
+        "mcexact: /dev/full: cannot write: No space left on device",
+    )
+
+
+@pytest.mark.parametrize("arguments", WRITING.values(), ids=WRITING.keys())
+def test_every_command_says_what_it_wrote(
+    ended: Ended, tmp_path: Path, arguments: tuple[str, ...]
+) -> None:
+    place = tmp_path / "place"
+    place.mkdir()
+    controller = tmp_path / "controller.json"
+    ended(("design", "decentralized", "PLANT", "--rate=1", "-o", str(controller)), place)
+    if arguments[0] in ("certify", "simulate"):
+        arguments = (arguments[0], "PLANT", str(controller), *arguments[3:])
+    status, told = ended(arguments, place)
+    assert status in (0, 1)
+    said = [line for line in told.splitlines() if line.startswith("mcexact: wrote ")]
+    files = [path for path in place.rglob("*") if path.is_file()]
+    if "FOLDER" in arguments:
+        number = f"{len(files)} file{'s' if len(files) > 1 else ''}"
+        assert said == [f"mcexact: wrote {number} into {place / 'results' / 'deep'}/"]
+    else:
+        assert said == [f"mcexact: wrote {path}" for path in files] and len(files) == 1
+
+
+def test_nothing_is_said_of_a_stream(ended: Ended, tmp_path: Path) -> None:
+    _, told = ended(("analyze", "PLANT", "--html", os.devnull), tmp_path)
+    assert "wrote" not in told
 
 
 TWICE = {

@@ -22,7 +22,7 @@ from mcexact.answer import codec
 from mcexact.checker import Limits as CheckerLimits
 from mcexact.checker import check_document
 from mcexact.derived.extended import extended_system
-from mcexact.errors import FloatRefused, InputError
+from mcexact.errors import FloatRefused, InputError, NotWritten
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery
@@ -387,13 +387,13 @@ def test_nothing_is_left_behind_when_writing_fails(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", failing)
-    with pytest.raises(InputError, match="cannot write: No space left on device"):
+    with pytest.raises(NotWritten, match="cannot write: No space left on device"):
         write_text(path, "after")
     assert path.read_text() == "before" and os.listdir(tmp_path) == ["plant.json"]
 
 
 def test_writing_into_a_missing_folder_is_refused(tmp_path):
-    with pytest.raises(InputError, match="cannot write: No such file or directory"):
+    with pytest.raises(NotWritten, match="cannot write: No such file or directory"):
         write_text(tmp_path / "missing" / "plant.json", "{}")
 
 

@@ -146,10 +146,10 @@ def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool
         i, j = next(
             (i, j) for i in range(M.nrows) for j in range(M.ncols) if again[i, j] != M[i, j]
         )
-        by = f" that the rounding '{rounding}' reads as it" if rounding else " equal to it"
+        by = f" with the rounding '{rounding}'" if rounding else ""
         hint = "" if rounding else "--rounding decimal, or "
         raise InputError(
-            f"no float is {decimal_or_quotient(M[i, j])}{by}: write .json or .csv files, "
+            f"no float is read as {decimal_or_quotient(M[i, j])}{by}: write .json or .csv files, "
             f"or add {hint}--nearest for the nearest floats",
             where=f"{where}[{i}][{j}]",
         )

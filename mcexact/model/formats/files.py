@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from mcexact.errors import InputError, UsageError, place_of
+from mcexact.errors import InputError, NotWritten, UsageError, place_of
 from mcexact.exact.floats import Rounding
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.atomic import write_bytes, write_text
@@ -116,8 +116,10 @@ def save_system(
 
     Raises
     ------
+    NotWritten
+        If the file cannot be written.
     InputError
-        If the file cannot be written, or would not hold the numbers of the system.
+        If it would not hold the numbers of the system.
     """
     made = system_files(system, path, rounding=rounding, nearest=nearest)
     if isinstance(made, bytes):
@@ -126,7 +128,7 @@ def save_system(
     try:
         os.makedirs(path, exist_ok=True)
     except OSError as error:
-        raise InputError(f"cannot write: {error.strerror}", where=os.fspath(path)) from None
+        raise NotWritten(f"cannot write: {error.strerror}", where=os.fspath(path)) from None
     for name, text in made.items():
         write_text(Path(path) / name, text)
 
