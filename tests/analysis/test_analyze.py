@@ -1,8 +1,10 @@
 """Everything about one system: asked for lazily, decided once, and nothing slow unless named."""
 
 import inspect
+import time
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +17,9 @@ from mcexact.checker import Expectation, Limits
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model import gallery
+from mcexact.model.box import Box
 from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 PAPER = gallery.load("liu2020-3ch-no-communication")
@@ -217,3 +221,79 @@ def test_an_argument_of_another_type_is_named(call: Callable[[MultiChannelSystem
 def test_an_unknown_channel_is_refused_at_once(unknown: dict[str, Any]) -> None:
     with pytest.raises(UsageError, match="there is no channel"):
         analyze(PAPER, **unknown)
+
+
+def endless(*_: Any, **__: Any) -> None:
+    """A question that takes for ever."""
+    time.sleep(10**6)
+
+
+PARAMETRIC = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
+INDICES = "mcexact.analysis.structure.controllability_indices.controllability_indices"
+
+
+def test_a_limit_on_time_keeps_what_was_decided(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(INDICES, endless)
+    lines: list[str] = []
+    found = analyze(gallery.load("hidden-triple-mode"), timeout=4, progress=lines.append)
+    assert found.fixed_spectrum.polynomial.degree == 1
+    outcomes = {each.question: (each.outcome, each.reason) for each in found.effort()}
+    undecided = {name for name, (outcome, _) in outcomes.items() if outcome == "open"}
+    assert undecided == {"controllability_indices", "observability_indices"}
+    assert found.ended() == {"the time limit of 4 s was reached": sorted(undecided)}
+    assert "not decided" in found.explain() and "not decided" in found._repr_html_()
+    assert not [each for each in found.sentences if "left-out" in each.template.key]
+    with pytest.raises(LimitReached, match="time limit of 4 s"):
+        _ = found.controllability_indices
+    assert lines[-1] == "7 of 9 questions decided, now the controllability indices"
+    found.save(tmp_path)
+    assert {path.stem for path in tmp_path.iterdir()} == {
+        "manifest",
+        *(outcomes.keys() - undecided),
+    }
+    again = analyze(PARAMETRIC, timeout=100)
+    assert [str(each) for each in again.sentences] == [
+        str(each) for each in analyze(PARAMETRIC).sentences
+    ]
+
+
+def test_answers_with_a_limit_are_those_without() -> None:
+    for name in ("liu2020-3ch-no-communication", "compleib-dis2"):
+        plant = gallery.load(name)
+        limited, free = analyze(plant, timeout=100), analyze(plant)
+        assert limited.decided() == free.decided()
+        assert limited.account.certificates == free.account.certificates
+
+
+def test_what_was_ended_is_told_to_be_open_for_its_own_reason() -> None:
+    """It is no question that was left out, and none of which no proof was found."""
+    plant = Box.relative(gallery.load("compleib-dis2"), Fraction(1, 1000)).system
+    found = analyze(plant)
+    found.leave_open("the work was interrupted")
+    assert found.account.open == [] and found.account.leading == () and found.failing() == {}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "where"),
+    [
+        ({"timeout": "a day"}, "timeout"),
+        ({"timeout": -1}, "timeout"),
+        ({"progress": 1}, "progress"),
+    ],
+)
+def test_a_limit_that_is_no_time_is_refused(arguments: dict[str, Any], where: str) -> None:
+    for plant in (gallery.load("compleib-dis2"), PARAMETRIC):
+        with pytest.raises(UsageError, match=where):
+            analyze(plant, **arguments)
+
+
+def test_a_view_about_observability_does_not_speak_of_controllability() -> None:
+    found = analyze(gallery.load("compleib-cse1"), ["joint_controllability", "joint_observability"])
+    views = [found[name].to_dict() for name in found.asked]
+    assert [each.get("controllable") for each in views] == [True, None]
+    assert [each.get("observable") for each in views] == [None, False]
+    assert views[0]["uncontrollable_polynomial"] == [1]
+    unobservable = found.joint_observability.uncontrollable_polynomial
+    assert views[1]["unobservable_polynomial"] == [*unobservable.coefficients]

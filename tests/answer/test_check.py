@@ -1,5 +1,7 @@
 """Checking from Python is the same as checking files."""
 
+import os
+import time
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,7 @@ from mcexact import (
 )
 from mcexact.answer import codec
 from mcexact.derived.feedback import feedback
-from mcexact.errors import InputError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix
 
 PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]]], [[[1, 1]]])
@@ -117,3 +119,20 @@ def test_what_cannot_be_asked_is_refused(tmp_path: Path) -> None:
     (tmp_path / "controller.json").write_text("{}", encoding="ascii")
     with pytest.raises(InputError, match=r"controller: controller: the key .* is missing"):
         check(certificate, controller=tmp_path / "controller.json")
+
+
+def test_a_check_that_takes_too_long_is_incomplete_and_says_what_it_does(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    found, lines = fixed_spectrum(plant), list[str]()
+    assert check(found, plant, timeout=100, progress=lines.append).valid
+    assert [line.split()[0] for line in lines] == ["reading", "checking"]
+    monkeypatch.setattr("mcexact.answer.check.check_document", lambda *_: time.sleep(1000))
+    verdict = check(found, plant, timeout=0.2)
+    assert (verdict.verdict, verdict.code) == ("INCOMPLETE", "time")
+    monkeypatch.setattr("mcexact.answer.check.check_document", lambda *_: os._exit(9))
+    assert check(found, plant, timeout=100).code == "memory"
+    for wrong in ({"timeout": "long"}, {"progress": True}):
+        with pytest.raises(UsageError):
+            check(found, plant, **wrong)  # type: ignore[arg-type]

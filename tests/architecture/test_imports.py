@@ -26,7 +26,7 @@ STAGE = {
     "sweeps": 9,
     "reproduce": 10,
 }
-BESIDE = {"checker", "testing", "cli", "errors", "shown"}
+BESIDE = {"checker", "testing", "cli", "errors", "shown", "processes"}
 EXACT_STAGES = {"exact", "model", "derived", "answer", "analysis", "checker"}
 SHOWN = {"answer", "model", "exact", "plot", "simulation", "errors", "shown"}
 """What a report may import: it shows answers, accounts and trajectories, and decides nothing."""
@@ -82,7 +82,7 @@ def may_import(importer: str, imported: str) -> bool:
         return True
     if importer == "__init__":  # only names, loaded when they are used
         return True
-    if imported in {"errors", "shown"}:
+    if imported in {"errors", "shown", "processes"}:
         return importer != "checker"
     if imported == "checker":
         # The independent checker is called, never built upon.

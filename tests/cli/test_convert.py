@@ -20,7 +20,7 @@ TANKS = "gallery:quadruple-tank-pminus"
 def test_a_plant_goes_through_all_kinds_and_comes_back(tmp_path: Path) -> None:
     way = [TANKS, *(str(tmp_path / name) for name in ("a.yaml", "b", "c.npz", "d.json"))]
     for source, target in itertools.pairwise(way):
-        assert call("convert", source, "-o", target) == (0, "", "")
+        assert call("convert", source, "-o", target)[:2] == (0, "")
     assert load_system(way[-1]) == gallery.load("quadruple-tank-pminus")
     status, out, _ = call("convert", str(tmp_path / "b"))
     assert status == 0 and out == (tmp_path / "d.json").read_text()
@@ -35,7 +35,7 @@ def test_floats_are_converted_by_a_rounding_only(tmp_path: Path) -> None:
     assert f"'mcexact convert {source} --rounding decimal -o plant.json'" in said
     assert call("analyze", str(source))[0] == 3
     done = call("convert", str(source), *sizes, "--rounding", "decimal", "-o", str(target))
-    assert done == (0, "", "")
+    assert done[:2] == (0, "")
     assert json.loads(target.read_text())["A"] == [["1/10", 0], [0, 1]]
 
 
@@ -44,7 +44,7 @@ def test_an_output_that_cannot_hold_the_numbers_is_not_written(tmp_path: Path) -
     status, _, said = call("convert", TANKS, "-o", str(target), "--rounding", "decimal")
     assert status == 3 and not target.exists()
     assert f"{target}: A[0][0]: no float is read as -1/62 with the rounding 'decimal'" in said
-    assert call("convert", TANKS, "-o", str(target), "--nearest") == (0, "", "")
+    assert call("convert", TANKS, "-o", str(target), "--nearest")[:2] == (0, "")
 
 
 def test_a_folder_of_other_files_is_not_replaced(tmp_path: Path) -> None:
@@ -103,8 +103,8 @@ PARAMETRIC = "gallery:quadruple-tank-parametric"
 @pytest.mark.parametrize("name", ["plant.json", "plant.yaml"])
 def test_a_system_with_parameters_is_written_and_read_again(tmp_path: Path, name: str) -> None:
     first, again = tmp_path / name, tmp_path / "again.json"
-    assert call("convert", PARAMETRIC, "-o", str(first)) == (0, "", "")
-    assert call("convert", str(first), "-o", str(again)) == (0, "", "")
+    assert call("convert", PARAMETRIC, "-o", str(first))[:2] == (0, "")
+    assert call("convert", str(first), "-o", str(again))[:2] == (0, "")
     assert load_parametric_system(again) == load_parametric_system(PARAMETRIC)
 
 
@@ -121,7 +121,7 @@ def test_values_make_it_a_system_of_every_kind(tmp_path: Path, name: str) -> Non
     save_system(plant, tmp_path / "letters.json")
     at = [f"--at={letter}={value}" for letter, value in values.items()]
     path = str(tmp_path / name)
-    assert call("convert", str(tmp_path / "letters.json"), *at, "-o", path) == (0, "", "")
+    assert call("convert", str(tmp_path / "letters.json"), *at, "-o", path)[:2] == (0, "")
     rounding: Any = "dyadic" if name.endswith(".npz") else None
     assert load_system(path, rounding=rounding) == plant.at(values)
 

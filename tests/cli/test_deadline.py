@@ -1,11 +1,14 @@
 """A time limit holds over everything that a command does, also while it waits for its input."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,6 +17,7 @@ from mcexact.errors import LimitReached
 from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
+from tests.cli.calling import call
 from tests.end_to_end.command_line import MCEXACT, interruptible, run
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
@@ -131,3 +135,50 @@ def test_what_is_done_in_time_leaves_no_alarm_behind() -> None:
         assert signal.getitimer(signal.ITIMER_REAL)[0] > 0
     assert signal.getitimer(signal.ITIMER_REAL)[0] == 0
     assert signal.getsignal(signal.SIGALRM) is before
+
+
+INDICES = "mcexact.analysis.structure.controllability_indices.controllability_indices"
+LIMITED = ("analyze", "gallery:hidden-triple-mode", "--timeout", "6")
+
+
+def endless(*_: Any, **__: Any) -> None:
+    time.sleep(10**6)
+
+
+def test_a_limit_shows_writes_and_checks_what_was_decided(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(INDICES, endless)
+    folder, page = tmp_path / "evidence", tmp_path / "page.html"
+    status, out, err = call(*LIMITED, "--json", "--certificates", str(folder), "--html", str(page))
+    told = json.loads(out)
+    left = {each["question"] for each in told["questions"] if each["outcome"] == "open"}
+    assert (status, left) == (4, {"controllability_indices", "observability_indices"})
+    assert told["fixed_spectrum"]["polynomial"] == [-1, 1]
+    assert not any(told[name]["decided"] for name in left)
+    assert told["re_checked"] == {"valid": 7, "open": []}
+    assert len([*folder.iterdir()]) == 8 and page.exists()
+    assert "not decided: controllability indices, observability indices" in err
+    assert call("check", "--manifest", str(folder))[0] == 0
+
+
+def test_an_answer_that_was_decided_counts_more_than_a_limit(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(INDICES, endless)
+    assert call(*LIMITED, "--assert", "no-fixed-modes")[0] == 1
+
+
+def test_a_limit_keeps_answers_about_parameters_and_names_a_search_that_it_ended(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("mcexact.analysis.structure.setpoint.setpoint_solvability", endless)
+    plant = "gallery:liu2020-3ch-parametric-a11"
+    status, out, err = call("analyze", plant, "--timeout", "6", "--json")
+    left = [each for each in json.loads(out)["questions"] if each["outcome"] == "open"]
+    assert (status, [each["question"] for each in left]) == (4, ["setpoint"])
+    assert "not decided: setpoint" in err
+    monkeypatch.undo()
+    monkeypatch.setattr("mcexact.analysis.boxes.largest_box.largest_uncertainty", endless)
+    status, _, err = call(*LIMITED, "--largest-uncertainty")
+    assert (status, "nothing has been decided" in err) == (4, True)
