@@ -231,15 +231,15 @@ def work_limits(function: F) -> F:
             "--max-memory",
             type=click.IntRange(min=1),
             metavar="MIB",
-            help="Limit on memory in MiB; if it is reached, the status is 4. `analyze` goes on with the "
-            "other questions.",
+            help="Limit on memory in MiB; if it is reached, the status is 4, and `analyze` goes on "
+            "with the other questions.",
         ),
         click.option(
             "--timeout",
             type=seconds,
             metavar="SECONDS",
-            help="Limit on time in seconds; if it is reached, the status is 4. `analyze` shows, writes "
-            "and re-checks what was decided by then, in a quarter of the time again (5 s at least).",
+            help="Limit on time in seconds; if it is reached, the status is 4. `analyze` shows and "
+            "re-checks what was decided by then, in a quarter of the time again (at least 5 s).",
         ),
     ):
         function = option(function)
