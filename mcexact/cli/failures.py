@@ -17,12 +17,6 @@ INTERNAL_ERROR = 70
 INTERRUPTED = 130
 
 
-class Interrupted(McexactError):
-    """The user interrupted the work, after a part of it was done."""
-
-    exit_status = INTERRUPTED
-
-
 def exit_status(error: BaseException) -> int:
     """Return the exit status of an error."""
     if isinstance(error, McexactError):

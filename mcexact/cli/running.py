@@ -16,7 +16,6 @@ from mcexact.cli.rechecking import Rechecked, rechecked
 if TYPE_CHECKING:
     from mcexact.analysis.asking import Asking
     from mcexact.answer.account import Account
-    from mcexact.cli.failures import Interrupted
     from mcexact.cli.supervision import Reporting
     from mcexact.errors import LimitReached
 
@@ -229,7 +228,7 @@ class Run:
 
 def undecided_error(
     ended: BaseException | None, open_: Mapping[str, Sequence[str]], doing: str
-) -> LimitReached | Interrupted | None:
+) -> LimitReached | None:
     """Return the error to raise if something ended the work, which names what is not decided.
 
     Parameters
@@ -240,7 +239,7 @@ def undecided_error(
     doing : str
         A description of the work.
     """
-    from mcexact.cli.failures import Interrupted
+    from mcexact.cli.failures import INTERRUPTED
     from mcexact.errors import LimitReached
 
     if ended is None:
@@ -252,7 +251,9 @@ def undecided_error(
             f"{reason} while {doing}, not decided: {names}" for reason, names in lists.items()
         )
     if isinstance(ended, KeyboardInterrupt):
-        return Interrupted(said)
+        error = LimitReached(said)
+        error.exit_status = INTERRUPTED
+        return error
     option = "--timeout" if "time limit" in said else "--max-memory"
     return LimitReached(f"{said} ({option} allows more)")
 

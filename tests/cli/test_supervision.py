@@ -188,7 +188,10 @@ def test_what_was_decided_before_a_time_limit_is_not_lost() -> None:
     result, ended = run_with(timeout=3.0).result_in_parts(half_done, doing="working")
     assert result == {"parts": {"first": b"1"}, "ended": "the time limit of 3 s was reached"}
     error = undecided_error(ended, {result["ended"]: ["second"]}, "working")
-    assert isinstance(error, LimitReached) and "not decided: second" in str(error)
+    assert error is not None and error.exit_status == 4 and "not decided: second" in str(error)
+    error = undecided_error(KeyboardInterrupt(), {}, "working")
+    assert error is not None and error.exit_status == 130
+    assert undecided_error(None, {}, "working") is None
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="there the limit is defined")
