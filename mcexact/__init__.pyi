@@ -114,6 +114,7 @@ from .derived.error_system import error_system as error_system
 from .derived.extended import extended_system as extended_system
 from .derived.integrators import setpoint_system as setpoint_system
 from .derived.merged import merged as merged
+from .derived.moved_entries import along_line as along_line
 from .derived.restricted import restricted as restricted
 from .derived.variants import Variant as Variant
 from .derived.variants import neighbor_graph_variants as neighbor_graph_variants

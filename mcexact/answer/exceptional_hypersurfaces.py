@@ -37,13 +37,19 @@ class Line(Shown, Generic[A]):
     Attributes
     ----------
     at : mapping
-        For each parameter its value, a function of s.
+        For each parameter its value, a function of the parameter of the line: s, unless the plant
+        has such a parameter.
     answer : ParametricFixedSpectrum or ParametricRank
-        The answer for every value of s, which is a certificate.
+        The answer for every value of this parameter, a certificate about the plant on the line.
     """
 
     at: Mapping[str, RationalFunction]
     answer: A
+
+    @property
+    def parameter(self) -> str:
+        """The parameter of the line."""
+        return self.answer.about.parameters[0]
 
     def __str__(self) -> str:
         return ", ".join(f"{name} = {value}" for name, value in self.at.items())
@@ -219,7 +225,7 @@ class Hypersurfaces(Shown, Generic[A]):
         for each in self.hypersurfaces:
             what, why = self.there(each)
             told.append(f"{what} where {each}" + (f": {why}" if why else ""))
-        told += [f"proved for every value of s: {line}" for line in self.lines]
+        told += [f"proved for every value of {each.parameter}: {each}" for each in self.lines]
         return (*told, "not decided: values at which several conditions meet")
 
     @property

@@ -17,7 +17,7 @@ from mcexact.answer.parameter_values import apart_from_poles, joined, undefined_
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules.parameters import RANGES, RULES
 from mcexact.answer.rules.several_parameters import sentences_of_several
-from mcexact.answer.sentence import MANIFEST, Given, Sentences
+from mcexact.answer.sentence import Given, Sentences
 from mcexact.answer.wording.parameters import WITHIN_RANGES
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system_file import canonical_text
@@ -38,7 +38,7 @@ LABELS = {
 }
 """The questions, with what their answers are about."""
 COLUMNS = ("where", "what", "because")
-PROVED = "proved for every value of s along lines"
+PROVED = "proved for every point of lines"
 PROOFS = ("about", "certificate", "line")
 MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
 """The questions about modes, of which a table says more than a sentence."""
@@ -136,7 +136,8 @@ class ParametricAccount(Shown):
     def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
         """Return the certificates, and the manifest if there is one, by the names of files.
 
-        With several parameters it is about ranges: certificates along lines are about other plants.
+        With several parameters its sentences are about ranges: of what is proved along lines alone
+        it claims nothing.
         """
         along = {
             f"{name}.json": codec.encode(each, system_by_digest=system_by_digest)
@@ -148,13 +149,9 @@ class ParametricAccount(Shown):
         return along | self.proved.files(system_by_digest=system_by_digest)
 
     @property
-    def plants(self) -> str | dict[str, str]:
-        """The plant of all certificates, or with several parameters that of each file."""
-        own = canonical_text(self.plant)
-        if not self.several:
-            return own
-        about = {f"{name}.json": canonical_text(each.about) for name, each in self.parts.items()}
-        return {MANIFEST: own, **about}
+    def about(self) -> str:
+        """The plant of all certificates, as their object ``system``."""
+        return canonical_text(self.plant)
 
     def rows(self, name: str) -> tuple[Row, ...]:
         """Where what holds by the answer to a question, and why."""

@@ -23,7 +23,7 @@ from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
 from mcexact.derived.merged import merged
-from mcexact.derived.moved_entries import moved
+from mcexact.derived.moved_entries import LINE, along_line, moved
 from mcexact.derived.parametric_loop import looped
 from mcexact.derived.restricted import restricted
 from mcexact.errors import InputError, place_of
@@ -89,6 +89,9 @@ def answer_of(
 def constructed(system: Any, subject: Sequence[Mapping[str, Any]]) -> Any:
     """Apply constructions, given as plain data of a certificate, to a plant."""
     if isinstance(system, ParametricSystem):
+        if subject and subject[0]["construction"] == LINE:
+            step, *subject = subject
+            system = along_line(system, step["point"], step["direction"], step["parameter"])
         loop = [each["construction"] for each in subject[-1:]] == ["closed_loop"]
         apply = looped if loop else moved
         return apply(system, lambda plain: constructed(plain, subject)) if subject else system

@@ -48,6 +48,13 @@ def common_divisor(a: Polynomial, b: Polynomial) -> Polynomial:
     return [c / b[-1] for c in b]
 
 
+def in_lowest_terms(top: Polynomial, bottom: Polynomial) -> Function:
+    """The quotient by bottom ≠ 0 without common factors, with a monic denominator."""
+    g = common_divisor(top, bottom)
+    top, bottom = poly_divide(top, g)[0], poly_divide(bottom, g)[0]
+    return [c / bottom[-1] for c in top], [c / bottom[-1] for c in bottom]
+
+
 class Reader(ABC, Generic[P]):
     """The tokens of an expression, those that are left, and how polynomials are computed with."""
 
@@ -204,6 +211,4 @@ class _OneParameter(Reader[Polynomial]):
         return stripped([x + y for x, y in zip_longest(a, b, fillvalue=Fraction(0))])
 
     def lowest(self, top: Polynomial, bottom: Polynomial) -> Function:
-        g = common_divisor(top, bottom)
-        top, bottom = poly_divide(top, g)[0], poly_divide(bottom, g)[0]
-        return [c / bottom[-1] for c in top], [c / bottom[-1] for c in bottom]
+        return in_lowest_terms(top, bottom)

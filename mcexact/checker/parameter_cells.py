@@ -6,9 +6,10 @@ from math import comb, lcm, prod
 from . import budget
 from .arithmetic import Matrix
 from .boxes import Box
+from .common_factors import Terms
 from .parametric_system import FunctionSystem
 from .reading import Json, integer, items, malformed, require
-from .several_parameters import Quotient, Terms
+from .several_parameters import Quotient
 from .system import System
 
 Cell = list[tuple[Fraction, Fraction]]

@@ -8,9 +8,10 @@ from typing import Any
 
 from . import budget, reading
 from .arithmetic import Matrix, Polynomial, poly_divide, poly_product
+from .common_factors import Terms
 from .expressions import PARAMETER, common_divisor, function, function_text
 from .reading import Json, Limits, fields, incomplete, integer, items, malformed, printable, string
-from .several_parameters import Quotient, Terms, quotient, quotient_text
+from .several_parameters import Quotient, quotient, quotient_text
 from .statement import canonical_json, digest_of
 from .system import System, canonical, parse_file, read_plant, read_system
 from .system_matrices import number
@@ -269,13 +270,20 @@ def cleared_tables(tables: list[Table]) -> dict[str, Any]:
     return {"tables": tables, **found, "poles": [*denominators]}
 
 
+def least_denominator(denominators: list[Polynomial]) -> Polynomial:
+    """The least common multiple of polynomials, monic; 1 of none."""
+    delta: Polynomial = ONE
+    for bottom in denominators:
+        rest = poly_divide(bottom, common_divisor(delta, bottom))[0]
+        delta = poly_product(delta, [c / rest[-1] for c in rest])
+    return delta
+
+
 def _cleared(table: Table) -> tuple[Layers, Polynomial]:
     """The layers of M, and δ, with M/δ the matrix and δ the least common denominator."""
     rows, ncols = table
     different = dict.fromkeys(tuple(bottom) for row in rows for _, bottom in row)
-    delta: Polynomial = ONE
-    for bottom in map(list, different):
-        delta = poly_product(delta, poly_divide(bottom, common_divisor(delta, bottom))[0])
+    delta = least_denominator([*map(list, different)])
     factors = {bottom: poly_divide(delta, [*bottom])[0] for bottom in different}
     above = [
         [poly_product(top, factors[tuple(bottom)]) if top else [] for top, bottom in row]

@@ -1,17 +1,16 @@
-"""Entries with several parameters: quotients whose denominators are products of parameters."""
+"""Entries with several parameters: quotients of polynomials in lowest terms."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 
 from .budget import fractions, limbs_of, spend
+from .common_factors import Terms, common_factor, divided
 from .expressions import Reader
-from .reading import Json, Limits, incomplete
+from .reading import Json, Limits
 
-Terms = dict[tuple[int, ...], Fraction]
-"""A polynomial: its coefficients, none of which is 0, by the exponents of the parameters."""
 Quotient = tuple[Terms, Terms]
-"""Numerator and denominator in lowest terms, the latter one product of parameters."""
+"""Numerator and denominator in lowest terms, the leading coefficient of the latter being 1."""
 
 
 def quotient(
@@ -31,7 +30,7 @@ def quotient_text(value: Quotient, parameters: tuple[str, ...]) -> Json:
         found = top[constant]
         return found.numerator if found.denominator == 1 else str(found)
     text = terms_text(top, parameters)
-    return text if constant in bottom else f"({text})/({terms_text(bottom, parameters)})"
+    return text if {*bottom} == {constant} else f"({text})/({terms_text(bottom, parameters)})"
 
 
 def terms_text(p: Terms, parameters: tuple[str, ...]) -> str:
@@ -77,10 +76,12 @@ class _SeveralParameters(Reader[Terms]):
         return {key: c for key, c in found.items() if c}
 
     def lowest(self, top: Terms, bottom: Terms) -> Quotient:
-        """Only a product of parameters is divided by: common factors are then parameters."""
+        """A denominator of one term has common factors that are parameters; others are searched."""
         if len(bottom) > 1:
-            message = "a sum of several parameters in a denominator"
-            incomplete("parameters", self.place, message)
+            shared = common_factor(top, bottom, self)
+            top, bottom = (divided(p, shared, self) for p in (top, bottom))
+            lead = {(0,) * len(self.parameters): bottom[max(bottom)]}
+            return divided(top, lead, self), divided(bottom, lead, self)
         [(below, d)] = bottom.items()
         common = [min(each) for each in zip(below, *top, strict=True)] if top else below
 

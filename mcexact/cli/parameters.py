@@ -98,7 +98,7 @@ def for_all_values(
     return {
         "certificates": account.certificates,
         "files": account.files(system_by_digest=system_by_digest),
-        "plant": account.plants,
+        "plant": account.about,
         "json": found.to_dict(),
         "words": "\n".join(words) + "\n",
         "tables": (*parameter_tables(account), *taken),

@@ -1,16 +1,21 @@
-"""Constructions that only put entries elsewhere, applied to systems with parameters."""
+"""Constructions of systems with parameters: those that only put entries elsewhere, and lines."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
 from itertools import count
+from typing import Any
 
-from mcexact.errors import UsageError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import as_fraction, written
 from mcexact.exact.rational_function import RationalFunction
-from mcexact.model.parametric import ParametricSystem
+from mcexact.model.parametric import ParametricSystem, values_by_name
 from mcexact.model.system import Construction, MultiChannelSystem
 
 MOVING = frozenset(
@@ -26,6 +31,8 @@ MOVING = frozenset(
     }
 )
 """The constructions whose results have entries of the system, 0 and 1 for entries."""
+LINE = "line"
+"""The construction that comes before these."""
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -44,6 +51,22 @@ class DerivedParametricSystem(ParametricSystem):
     def subject(self) -> tuple[Construction, ...]:
         """The constructions that lead from the plant to this system, in order."""
         return self.steps
+
+    @cached_property
+    def poles(self) -> tuple[Polynomial, ...]:
+        """The irreducible polynomials at whose roots an entry of the plant is undefined."""
+        if self.steps[0]["construction"] != LINE:
+            return super().poles
+        line = [*points_of(self).values()]
+        zero = RationalFunction.constant(0, self.parameters)
+        parts = [self.origin.A, *(M for c in self.origin.channels for M in (c.B, c.C))]
+        entries = {entry for M in parts for row in M.rows for entry in row}
+        below = {
+            RationalFunction(e.parameters, e.denominator, e.denominator**0).substituted(line, zero)
+            for e in entries
+        }
+        found = {q.monic() for each in below for q, _ in each.polynomials()[0].factor()}
+        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
 
 
 def moved(
@@ -118,6 +141,116 @@ def moved(
     object.__setattr__(result, "origin", system.plant)
     object.__setattr__(result, "steps", (*system.subject, *made.subject))
     return result
+
+
+def along_line(
+    system: ParametricSystem,
+    point: Mapping[Any, Any],
+    direction: Mapping[Any, Any],
+    parameter: str = "s",
+) -> ParametricSystem:
+    """The system on a line through the space of its parameters, each a + b s, for every s.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        With one parameter or several; their ranges are of no account on the line.
+    point, direction : mapping
+        For each parameter, by symbol or name, the exact numbers a and b; not every b is 0.
+    parameter : str
+        The letter s, which is none of the parameters.
+
+    Returns
+    -------
+    ParametricSystem
+        It records the plant and the line, before all other constructions, so that certificates
+        about it name the plant: ``mcexact check --system`` accepts them with its file.
+
+    Raises
+    ------
+    InputError
+        If a number is missing, the direction is 0, or an entry is undefined on all of the line.
+    UsageError
+        If the parameter is one of the system, or the system is on a line already.
+
+    Notes
+    -----
+    Exact.  Nothing is claimed where an entry of the plant is undefined, also where its numerator
+    vanishes with the denominator on the line.
+
+    Examples
+    --------
+    >>> plant = ParametricSystem([["a + b"]], [[["a"]]], [[["1/b"]]], parameters=["a", "b"])
+    >>> line = along_line(plant, {"a": 1, "b": 0}, {"a": "1/2", "b": -1})
+    >>> print(line.A[0, 0], "|", line.channels[0].C[0, 0], "|", *line.poles)
+    -1/2*s + 1 | (-1)/(s) | x
+    >>> along_line(plant, {"a": 1, "b": 0}, {"a": 1, "b": 0})
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: channels[0].C: (1)/(b) is undefined there: its denominator is 0
+    """
+    InputError.require(system, ParametricSystem, "system")
+    if parameter in system.parameters:
+        raise UsageError(f"{parameter} is a parameter of the system: choose another letter")
+    if any(step["construction"] == LINE for step in system.subject):
+        raise UsageError("the system is on a line already: take one of the plant")
+    start, slope = _numbers(system, point, "point"), _numbers(system, direction, "direction")
+    if not any(slope.values()):
+        raise InputError("expected a direction that is not 0", where="direction")
+    line = _line(system, start, slope, parameter)
+    made = system.along(line, [parameter])
+    if system.subject:
+        # also where an entry was left out that is undefined on the line
+        system.plant.along(line, [parameter])
+    result = object.__new__(DerivedParametricSystem)
+    for key, value in vars(made).items():
+        object.__setattr__(result, key, value)
+    step = {
+        "construction": LINE,
+        "parameter": parameter,
+        "point": {name: written(value) for name, value in start.items()},
+        "direction": {name: written(value) for name, value in slope.items()},
+    }
+    object.__setattr__(result, "origin", system.plant)
+    object.__setattr__(result, "steps", (step, *system.subject))
+    return result
+
+
+def points_of(line: ParametricSystem) -> dict[str, RationalFunction]:
+    """The values of the parameters of the plant on the line that a system is on.
+
+    Examples
+    --------
+    >>> plant = ParametricSystem([["a + b"]], [[[1]]], [[[1]]], parameters=["a", "b"])
+    >>> [*map(str, points_of(along_line(plant, {"a": 1, "b": 0}, {"a": 2, "b": 1})).values())]
+    ['2*s + 1', 's']
+    """
+    step = line.subject[0]
+    point, direction = (
+        {name: Fraction(value) for name, value in step[key].items()}
+        for key in ("point", "direction")
+    )
+    return _line(line.plant, point, direction, step["parameter"])
+
+
+def _numbers(system: ParametricSystem, value: Mapping[Any, Any], where: str) -> dict[str, Fraction]:
+    """An exact number for each parameter."""
+    known = values_by_name(value, system.parameters, where)
+    missing = [name for name in system.parameters if name not in known]
+    if missing:
+        raise InputError(f"expected a number for the parameter {missing[0]!r}", where=where)
+    return {name: as_fraction(known[name], where=f"{where}[{name}]") for name in system.parameters}
+
+
+def _line(
+    system: ParametricSystem,
+    point: Mapping[str, Fraction],
+    direction: Mapping[str, Fraction],
+    parameter: str,
+) -> dict[str, RationalFunction]:
+    """For each parameter a + b s."""
+    s = RationalFunction.parameter(parameter, (parameter,))
+    return {name: direction[name] * s + point[name] for name in system.parameters}
 
 
 def _number(

@@ -189,7 +189,7 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         """
         if len(self.parameters) == 1 and not isinstance(values, Mapping):
             values = {self.parameters[0]: values}
-        given = _by_name(values, self.parameters, "values")
+        given = values_by_name(values, self.parameters, "values")
         missing = [name for name in self.parameters if name not in given]
         if missing:
             raise InputError(f"expected a value of the parameter {missing[0]!r}", where="values")
@@ -225,7 +225,7 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         >>> print(plant.with_values({"a": "1/2"}).A[0, 0])
         b + 1/2
         """
-        given = _by_name(values, self.parameters, "values")
+        given = values_by_name(values, self.parameters, "values")
         left = {
             name: bounds
             for name, bounds in zip(self.parameters, self.ranges, strict=True)
@@ -263,7 +263,7 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         >>> print(line.A[0, 0], "|", line.channels[0].C[0, 0])
         1 | -s^2 + s
         """
-        given, new = _by_name(line, self.parameters, "line"), _checked_parameters(parameters)
+        given, new = values_by_name(line, self.parameters, "line"), _checked_parameters(parameters)
         values = [
             as_function(given.get(name, name), f"line[{name}]", new) for name in self.parameters
         ]
@@ -358,7 +358,7 @@ def _checked_parameters(parameters: Sequence[Any]) -> tuple[str, ...]:
     return tuple(sorted(known))
 
 
-def _by_name(given: Mapping[Any, Any], known: tuple[str, ...], where: str) -> dict[str, Any]:
+def values_by_name(given: Mapping[Any, Any], known: tuple[str, ...], where: str) -> dict[str, Any]:
     """The values of a mapping whose keys are symbols or names of parameters."""
     if not isinstance(given, Mapping):
         raise InputError(
@@ -379,7 +379,7 @@ def _by_name(given: Mapping[Any, Any], known: tuple[str, ...], where: str) -> di
 def _checked_ranges(
     assume: Mapping[Any, tuple[Any, Any]], known: tuple[str, ...]
 ) -> tuple[Range, ...]:
-    given = _by_name(assume, known, "assume")
+    given = values_by_name(assume, known, "assume")
     ranges: list[Range] = []
     for name in known:
         where = f"assume[{name}]"

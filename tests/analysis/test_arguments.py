@@ -39,7 +39,8 @@ OF_CHANNELS = (
 def asked(name: str, system: str, channels: Any) -> Any:
     """The answer for some channels, by the function for as many parameters."""
     if system == "several" and not name.startswith("box"):
-        return mcexact.exceptional_hypersurfaces(SYSTEMS[system], name, channels=channels)
+        decide: Any = mcexact.exceptional_hypersurfaces
+        return decide(SYSTEMS[system], name, channels=channels)
     return getattr(mcexact, name)(SYSTEMS[system], channels)
 
 

@@ -49,6 +49,16 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
 }
 
 
+def test_a_line_is_made_again(tmp_path: Path) -> None:
+    ports = [[["a"], [1]], [["b"], [1]]], [[[1, "a*b"]], [[0, 1]]]
+    plant = mcexact.ParametricSystem([["a", 1], [0, "b"]], *ports, parameters=["a", "b"])
+    line = mcexact.along_line(plant, {"a": 1, "b": 0}, {"a": "1/2", "b": -1})
+    for found in (mcexact.fixed_spectrum(line), mcexact.joint_observability(line)):
+        mcexact.save_certificate(found, tmp_path / "line.json", system_by_digest=True)
+        read = mcexact.load_certificate(tmp_path / "line.json", plant)
+        assert read == found and read.about.subject == found.about.subject
+
+
 @pytest.mark.parametrize("name", MADE)
 def test_the_system_of_an_answer_is_made_again(name: str, tmp_path: Path) -> None:
     system = MADE[name]()

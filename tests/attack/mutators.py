@@ -178,7 +178,9 @@ def crossed(rng: random.Random, document: Document, other: Document) -> Document
     return {**document, **{part: copied(other[part]) for part in chosen}}
 
 
-FIXED_WORDS = ("format", "kind", "time", "construction", "share", "property", "side", "method")
+FIXED_WORDS = (
+    "format", "kind", "time", "construction", "parameter", "share", "property", "side", "method"
+)  # fmt: skip
 DECIMALS = ("re", "im", "radius", "lower", "upper")
 
 

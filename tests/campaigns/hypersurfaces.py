@@ -60,7 +60,7 @@ def examined(number: int) -> Examined:
         for each in found if isinstance(found, tuple) else (found,):
             seen["hypersurfaces"] += len(each.hypersurfaces)
             for line in each.lines:
-                verdict = check(line.answer)
+                verdict = check(line.answer, plant)
                 wrong += [] if verdict.verdict == "VALID" else [verdict.line()]
                 seen["certificates"] += 1
             if question == "fixed_spectrum":

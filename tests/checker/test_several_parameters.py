@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import random
 from typing import Any
 
 import pytest
 
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.checker.reading import Limits, Refused
+from mcexact.errors import InputError
 from mcexact.model.parametric_file import read_parametric_document
 from tests.checker.handmade import ranged
 
@@ -35,6 +37,12 @@ TEXTS: dict[str, Any] = {
     "(a^2 + 1)^501": None,
     "0*a^1000": 0,
     "1/(a*b)^500*(1/a)": None,
+    "1/(a + b)": "(1)/(a + b)",
+    "1/(1/a + 1/b)": "(a*b)/(a + b)",
+    "(a^2 - b^2)/(2*a + 2*b)": "1/2*a - 1/2*b",
+    "(a*b + b)/(3*a^2*b + 3*a*b)": "(1/3)/(a)",
+    "1/(a - 1) - 1/(a - 1)": 0,
+    "(a - b)^2/(b - a)": "-a + b",
     "c": None,
     "a b": None,
     "a/0": None,
@@ -62,11 +70,34 @@ def test_entries_of_several_parameters_have_one_canonical_form(text: str) -> Non
         assert again.document == package
 
 
-@pytest.mark.parametrize("text", ["1/(a + b)", "a/(1 + b)", "1/(1/a + 1/b)"])
-def test_a_sum_in_a_denominator_of_several_parameters_is_not_known(text: str) -> None:
-    with pytest.raises(Refused) as refused:
-        read_parametric(ranged([[text]], ([[1]], [[1]]), a=(1, 2), b=(1, 2)))
-    assert refused.value.args[:2] == ("INCOMPLETE", "parameters")
+def drawn_expression(rng: random.Random, depth: int) -> str:
+    """An expression in a, b and c, often with a factor above and below."""
+    if depth == 0 or rng.random() < 0.15:
+        return rng.choice(["a", "b", "c", str(rng.randint(1, 4))])
+    first, second = (drawn_expression(rng, depth - 1) for _ in range(2))
+    return f"({first}{rng.choice('+-**/')}{second})"
+
+
+@pytest.mark.parametrize("factor", ["1", "(a + b - 1)", "(a*b - c^2)*(a - 2)"])
+def test_drawn_quotients_have_the_lowest_terms_of_the_package(factor: str) -> None:
+    rng, compared = random.Random(factor), 0
+    for _ in range(40):
+        below = rng.choice(["a^2 - b", "a*b + 1", "c - b", "a*b*c", "3"])
+        text = f"({drawn_expression(rng, 3)}*{factor})/(({below})*{factor})"
+        ranges: Any = dict.fromkeys("abc", (1, 2))
+        document = {
+            "format": "mcexact-system/1",
+            **ranged([[text]], ([[1]], [[1]]), **ranges),
+        }
+        try:
+            package = read_parametric_document(document).document()
+        except InputError:
+            with pytest.raises(Refused, match="division by 0"):
+                read_parametric(document, Limits())
+            continue
+        compared += 1
+        assert read_parametric(document, Limits()).document == package
+    assert compared > 20
 
 
 def test_a_file_with_several_parameters_has_the_digest_of_the_package() -> None:

@@ -12,7 +12,7 @@ import pytest
 from mcexact.checker import arithmetic
 from mcexact.checker.reading import Refused
 from mcexact.checker.statement import digest
-from mcexact.checker.subject import CONSTRUCTIONS, read_subject
+from mcexact.checker.subject import CONSTRUCTIONS, LINE, read_subject
 from mcexact.checker.system import System, read_plant
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.delayed import held_system, lifted_system
@@ -135,6 +135,13 @@ def assert_same(ours: System, theirs: MultiChannelSystem) -> None:
     for i in range(theirs.m):
         assert equal(ours.B[i], theirs.B(i))
         assert equal(ours.C[i], theirs.C(i))
+
+
+def test_a_plant_without_parameters_has_no_line() -> None:
+    step = {"construction": LINE, "parameter": "s", "point": {}, "direction": {}}
+    with pytest.raises(Refused) as found:
+        read_subject([step], read_plant(FREE["system"]))
+    assert found.value.args[:3] == ("INVALID", "subject", "subject[0]")
 
 
 @pytest.mark.parametrize("name", sorted(CONSTRUCTIONS))

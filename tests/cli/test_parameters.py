@@ -67,6 +67,28 @@ def test_the_json_is_as_its_schema_says(file: str, tmp_path: Path) -> None:
     assert where[0] == "a*b - 1 = 0" and found["re_checked"]["valid"] == 18
 
 
+def test_certificates_along_lines_are_about_the_file(tmp_path: Path) -> None:
+    """Also where a denominator is a sum, and where the plant has the letter of lines."""
+    several, folder = tmp_path / "two.json", tmp_path / "certificates"
+    for letters in (("a", "b"), ("s", "s1")):
+        first, second = letters
+        plant = {
+            **TWO,
+            "parameters": {key: {} for key in letters},
+            "A": [[f"-{first}", 0], [f"({first}*{second} - 1)/({first} + {second})", "-2"]],
+        }
+        several.write_text(json.dumps(plant))
+        assert call("analyze", str(several), "--certificates", str(folder / first))[0] == 0
+        files = sorted(map(str, (folder / first).glob("*.json")))
+        assert len(files) > 10
+        status, out, _ = call("check", "--system", str(several), *files)
+        assert status == 0
+        assert {line.split()[0] for line in out.splitlines()} == {"VALID"}
+    other = tmp_path / "other.json"
+    other.write_text(json.dumps({**plant, "A": [[0, 0], [0, 0]]}))
+    assert call("check", "--system", str(other), files[0])[0] == 1
+
+
 def test_values_make_the_plant_of_which_all_questions_are_asked(file: str, tmp_path: Path) -> None:
     status, out, _ = call("analyze", file, "--at", "t=1/2")
     assert status == 0 and "the 2 roots of x^2 + 3*x + 2" in out

@@ -9,6 +9,7 @@ from typing import Any
 from mcexact.answer.exceptional_hypersurfaces import A, Line
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.answer.parametric_rank import ParametricRank
+from mcexact.derived.moved_entries import along_line, points_of
 from mcexact.errors import InputError
 from mcexact.exact import several_variables
 from mcexact.exact.function_matrix import FunctionMatrix
@@ -20,7 +21,6 @@ DRAWS = 60
 """How often gains or minors are drawn."""
 _LINES = 2
 """The number of lines along which the answer is proved."""
-_ALONG = ("s",)
 Along = ParametricFixedSpectrum | ParametricRank
 Confirmed = dict[RationalFunction, list[Any]]
 """The exceptional values of all lines on each hypersurface."""
@@ -53,12 +53,13 @@ def confirming_lines(
     lines: list[Line[A]] = []
     confirmed: Confirmed = {}
     for attempt in range(_LINES + 2):
-        at = _line(about, rng, 3 + attempt)
-        met = {h: _values(h, at) for h in candidates}
         try:
-            answer = decide(about.along(at, _ALONG))
+            line = _line(about, rng, 3 + attempt)
         except InputError:
             continue
+        at = points_of(line)
+        met = {h: _values(h, at) for h in candidates}
+        answer = decide(line)
         found = _confirmed(answer, met)
         if found is None or not is_generic(answer):
             continue
@@ -86,11 +87,24 @@ def in_order(surfaces: Collection[RationalFunction]) -> list[RationalFunction]:
     return sorted(surfaces, key=lambda h: (int(h.numerator.total_degree()), str(h)))
 
 
-def _line(about: ParametricSystem, rng: random.Random, size: int) -> dict[str, RationalFunction]:
-    """A line through a drawn point in a drawn direction."""
-    s = RationalFunction.parameter(*_ALONG, _ALONG)
+def _line(about: ParametricSystem, rng: random.Random, size: int) -> ParametricSystem:
+    """The system on a line through a drawn point in a drawn direction.
+
+    Raises
+    ------
+    InputError
+        If an entry is undefined on all of the line.
+    """
     slopes = [k for k in range(-size, size + 1) if k]
-    return {name: rng.choice(slopes) * s + rng.randint(-size, size) for name in about.parameters}
+    drawn = {name: (rng.choice(slopes), rng.randint(-size, size)) for name in about.parameters}
+    point, direction = ({name: ends[k] for name, ends in drawn.items()} for k in (1, 0))
+    return along_line(about, point, direction, _letter(about.parameters))
+
+
+def _letter(parameters: Collection[str]) -> str:
+    """The parameter of the lines, which is none of the system: s, or s1, s2, …"""
+    known = ("s" + str(k or "") for k in range(len(parameters) + 1))
+    return next(s for s in known if s not in parameters)
 
 
 def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Polynomial]:
@@ -99,7 +113,7 @@ def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Poly
     None of them says that all do, or none: along such a line nothing is confirmed.
     """
     values = [at[name] for name in h.parameters]
-    met = h.substituted(values, RationalFunction.constant(0, _ALONG)).polynomials()[0]
+    met = h.substituted(values, values[0] * 0).polynomials()[0]
     return set() if met.is_zero() else {q.monic() for q, _ in met.factor()}
 
 

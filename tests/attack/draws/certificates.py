@@ -34,7 +34,7 @@ from mcexact.model.system_file import read_system
 
 from .boxes import drawn_about_a_box, drawn_in_ranges
 from .observers import drawn_observer
-from .parametric import drawn_moves, drawn_parametric_plant
+from .parametric import drawn_moves, drawn_on_a_line, drawn_parametric_plant
 from .plants import Document, drawn_plant
 from .subjects import NEEDS_GRAPH, drawn_subject
 
@@ -224,6 +224,8 @@ def drawn_certificate(rng: random.Random, kind: str, focus: str | None) -> Docum
     if kind.startswith("parametric_box_"):
         return drawn_in_ranges(rng, kind)
     if kind in PARAMETRIC:
+        if rng.random() < 0.25:
+            return certified(rng, kind, *drawn_on_a_line(rng))
         parametric = drawn_parametric_plant(rng)
         return certified(rng, kind, parametric, drawn_moves(rng, parametric))
     plant = drawn_plant(rng, graph=graph)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import random
 
+from mcexact.derived.moved_entries import along_line
+from mcexact.errors import McexactError
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.parametric_file import read_parametric_system
 from tests.attack.oracle.constructions import subject_of
 from tests.attack.oracle.moved_entries import MOVING
 from tests.attack.oracle.reading import Unspecified
@@ -51,6 +55,28 @@ def drawn_parametric_plant(rng: random.Random) -> Document:
         names=rng.choice(NAMES)[:m],
     )
     return plant.document()
+
+
+INSIDE = ("u1 + v1", "u1*v1", "u1 - 2*v1 + 1", "u1", "u1^2 - v1", "1/(u1 + v1)", "(u1 + 1)/v1")
+"""What t is in terms of two parameters."""
+
+
+def drawn_on_a_line(rng: random.Random) -> tuple[Document, list[Document]]:
+    """A plant with two parameters, and a line perhaps with constructions that move entries."""
+    while True:
+        text = json.dumps({"format": "mcexact-system/1", **drawn_parametric_plant(rng)})
+        curve = {"t": rng.choice(INSIDE)}
+        assume = {"u1": (0, 1)} if rng.random() < 0.1 else {}
+        try:
+            plant = read_parametric_system(text).along(curve, ["u1", "v1"], assume)
+            point, direction = (
+                {name: rng.choice((0, 1, -1, 2, "1/2")) for name in plant.parameters}
+                for _ in range(2)
+            )
+            line = along_line(plant, point, direction, rng.choice(("s", "t", "u2")))
+        except (McexactError, ZeroDivisionError):
+            continue
+        return plant.document(), [dict(line.subject[0]), *drawn_moves(rng, plant.document())]
 
 
 def drawn_moves(rng: random.Random, plant: Document, largest: int = 5) -> list[Document]:

@@ -13,7 +13,7 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "integrators", "error", "merged", "restricted", "closed_loop",
+    "integrators", "error", "merged", "restricted", "closed_loop", "line",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "error")
 LARGEST = 12
@@ -31,6 +31,8 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
     if system.heard is None and name in NEEDS_GRAPH:
         return None
     if system.time == "continuous" and name in ("lifted", "held"):
+        return None
+    if name == "line":  # only of plants with parameters, which `drawn_on_a_line` draws
         return None
     step: Document = {"construction": name}
     m = system.m

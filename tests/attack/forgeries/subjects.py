@@ -33,6 +33,27 @@ def other_time(rng: random.Random, document: Document) -> Document:
     return document
 
 
+def other_line(rng: random.Random, document: Document) -> Document | None:
+    """Another line through the same plant, no line, or one behind another construction."""
+    steps = document["subject"]
+    if not steps or steps[0]["construction"] != "line":
+        return None
+    line, what = steps[0], rng.randrange(5)
+    values = line[rng.choice(("point", "direction"))]
+    if what == 0:
+        values[rng.choice(sorted(values))] = rng.choice((0, 1, -2, "1/3"))
+    elif what == 1:
+        line["point"], line["direction"] = line["direction"], line["point"]
+    elif what == 2:
+        first, second = sorted(values)
+        values[first], values[second] = values[second], values[first]
+    elif what == 3:
+        steps.append(steps.pop(0))
+    else:
+        document["subject"] = steps[1:]
+    return document
+
+
 def other_subject(rng: random.Random, document: Document) -> Document | None:
     """One change of the list of constructions."""
     steps = document["subject"]

@@ -12,10 +12,12 @@ from .algebra import below, beside, identity, selection, stacked
 from .controllers import closed_loop
 from .moved_entries import MOVING, moved
 from .networks import held, lifted
-from .one_parameter import read_parametric
+from .one_parameter import along, read_parametric
 from .reading import demand, integer, listed, matrix, place, positions, record
 from .several_parameters import read_several
 from .systems import System, read_plant
+
+LINE = "line"
 
 
 def subject_of(document: Mapping[str, Any], most: int | None = None) -> Any:
@@ -37,8 +39,12 @@ def subject_of(document: Mapping[str, Any], most: int | None = None) -> Any:
         steps = whole[:most]
         return built(several.at(next(several.points())), steps)
     if isinstance(document["system"], Mapping) and "parameters" in document["system"]:
-        plant = read_parametric(document["system"])
-        return moved(plant, listed(document["subject"])[:most], built)
+        steps = listed(document["subject"])[:most]
+        if steps and isinstance(steps[0], Mapping) and steps[0].get("construction") == LINE:
+            return moved(along(read_several(document["system"]), steps[0]), steps[1:], built)
+        if most == 0:
+            return read_several(document["system"])
+        return moved(read_parametric(document["system"]), steps, built)
     return built(read_plant(document["system"]), listed(document["subject"])[:most])
 
 
@@ -204,6 +210,12 @@ def restricted(system: System, given: Mapping[str, Any]) -> System:
     return replace(system, names=names, B=B, C=C).plain()
 
 
+def line(system: System, _: Mapping[str, Any]) -> System:
+    """Only a plant with parameters has a line, and only as the first construction."""
+    demand(False, "expected parameters")
+    return system
+
+
 Build = Callable[[System, Mapping[str, Any]], System]
 CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "augmented_outputs": ((), augmented_outputs),
@@ -215,6 +227,7 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "lifted": (("share", "dimensions"), lambda system, g: lifted(system, *shares(system, g))),
     "held": (("dimensions",), lambda system, g: held(system, shares(system, g)[0])),
     "integrators": ((), integrators),
+    LINE: (("parameter", "point", "direction"), line),
     "error": (("gains",), error),
     "merged": (("parts",), merged),
     "restricted": (("channels",), restricted),

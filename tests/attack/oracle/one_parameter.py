@@ -11,9 +11,9 @@ from typing import Any
 from flint import Ordering, acb, fmpq, fmpq_mpoly_ctx, fmpq_poly
 
 from . import algebra
-from .reading import demand
+from .reading import demand, rational, record, text
 from .roots import Sign, decided, roots_of
-from .several_parameters import SeveralParameters, in_one, read_several
+from .several_parameters import NAME, SeveralParameters, in_one, read_several
 
 RING = fmpq_mpoly_ctx.get(("t", "x"), Ordering.lex)
 SEED = 20
@@ -77,6 +77,34 @@ def line_through(
     parameter, ends = list(plant.ranges.items())[k]
     poles = tuple(common_denominator(rows) for rows, _, _ in tables)
     return ParametricPlant(plant.time, plant.names, parameter, ends, tables, poles)
+
+
+def along(plant: SeveralParameters, step: Any) -> ParametricPlant:
+    """The plant where each parameter is the value point + direction·s, for every s."""
+    given = record(step, "construction", "parameter", "point", "direction")
+    s = text(given["parameter"])
+    demand(bool(NAME.fullmatch(s)) and s != "x" and s not in plant.ranges, "expected another name")
+    ends = [record(given[key], *plant.ranges) for key in ("point", "direction")]
+    points, slopes = ([rational(each[name]) for name in plant.ranges] for each in ends)
+    demand(any(slope != 0 for slope in slopes), "expected a direction")
+    values = [fmpq_poly([*pair]) for pair in zip(points, slopes, strict=True)]
+
+    def at(p: Any) -> fmpq_poly:
+        total = fmpq_poly([])
+        for exponents, c in p.items():
+            term = fmpq_poly([c])
+            for value, e in zip(values, exponents, strict=True):
+                term *= value**e
+            total += term
+        return total
+
+    tables, poles = [], []
+    for rows, nrows, ncols in plant.tables:
+        found = [[(at(top), at(bottom)) for top, bottom in row] for row in rows]
+        demand(all(bottom != 0 for row in found for _, bottom in row), "expected a defined entry")
+        poles.append(common_denominator(found))
+        tables.append(([[in_lowest_terms(*entry) for entry in row] for row in found], nrows, ncols))
+    return ParametricPlant(plant.time, plant.names, s, (None, None), tuple(tables), tuple(poles))
 
 
 def in_lowest_terms(top: fmpq_poly, bottom: fmpq_poly) -> Function:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from flint import fmpq, fmpq_mat, fmpq_poly
+from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly_ctx, fmpq_poly
 
 from .reading import demand, integer, listed, rational, record, text
 from .systems import System, require_names
@@ -148,12 +148,9 @@ def function(value: Any, parameters: tuple[str, ...]) -> Function:
     if quotient:
         lead = max(bottom)
         demand(lead != constant and bottom[lead] == 1, "expected a denominator")
-        if len(parameters) > 1:
-            demand(len(bottom) == 1, "expected a product of parameters in a denominator")
-            common = max(min(each) for each in zip(lead, *top, strict=True))
-        else:
-            common = in_one(top).gcd(in_one(bottom)).degree()
-        demand(common == 0, "expected lowest terms")
+        ring = fmpq_mpoly_ctx.get(parameters, Ordering.lex)
+        common = ring.from_dict(dict(top)).gcd(ring.from_dict(dict(bottom)))
+        demand(common.is_constant(), "expected lowest terms")
     demand(quotient is not None or set(top) != {constant}, "expected a number")
     return top, bottom
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq, fmpq_mat, fmpq_poly
 
 from .constructions import is_ranged, output_gains, subject_of
 from .controllers import MAPS, read_agents
-from .reading import is_sparse, matrix
+from .reading import is_sparse, matrix, rational
 from .sentences import SENTENCES, SHARING
 from .systems import System, read_plant
 from .words import (
@@ -20,6 +20,7 @@ from .words import (
     json_text,
     name,
     number,
+    polynomial_text,
     sha256,
 )
 
@@ -193,6 +194,13 @@ def _words(step: Mapping[str, Any], system: System) -> str:
         return f"with its channels merged into {', '.join(map(channels, step['parts']))}"
     if kind == "restricted":
         return f"with the channels {channels(step['channels'])} alone"
+    if kind == "line":
+        values = {
+            label: fmpq_poly([rational(step[key][label]) for key in ("point", "direction")])
+            for label in sorted(step["point"])
+        }
+        told = [f"{a} = {polynomial_text(p, step['parameter'])}" for a, p in values.items()]
+        return f"along the line {', '.join(told)}"
     if kind == "closed_loop":
         shown = digested(_controller(step["controller"], system))
         return f"the closed loop with the controller with {shown} of: "
