@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -15,10 +15,11 @@ from mcexact.answer.exceptional_hypersurfaces import Hypersurface, Hypersurfaces
 from mcexact.answer.formats import count
 from mcexact.answer.parameter_values import apart_from_poles, joined, undefined_where
 from mcexact.answer.protocol import Answer
-from mcexact.answer.rules.parameters import RANGES, RULES
+from mcexact.answer.rules.parameters import RULES
+from mcexact.answer.rules.several_parameters import RULES as SEVERAL
 from mcexact.answer.rules.several_parameters import sentences_of_several
 from mcexact.answer.sentence import Given, Sentences
-from mcexact.answer.wording.parameters import WITHIN_RANGES
+from mcexact.answer.wording.parameters import ON_LINE, WITHIN_RANGES
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system_file import canonical_text
 from mcexact.shown import Shown, grid
@@ -39,12 +40,13 @@ LABELS = {
 """The questions, with what their answers are about."""
 COLUMNS = ("where", "what", "because")
 PROVED = "proved for every point of lines"
-PROOFS = ("about", "certificate", "line")
+PROOFS = ("about", "line", "what holds on it")
 MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
 """The questions about modes, of which a table says more than a sentence."""
 _OPEN = (
-    "Where it is so for almost all values, this is proved along drawn lines; between them, "
-    "conditions are computed and not certified. Where several conditions meet is not decided."
+    "That no mode is fixed for almost all values is proved by a point at which none is. All else "
+    "about almost all values, and the conditions, is proved along drawn lines; between them it is "
+    "computed and not certified. Where several conditions meet is not decided."
 )
 _PLACES = ("title", "answer", "table")
 Row = tuple[str, str, str]
@@ -82,22 +84,23 @@ class ParametricAccount(Shown):
 
     @cached_property
     def proved(self) -> Account:
-        """The sentences that follow from certificates by rules, of several about ranges alone."""
-        parts, rules = self.parts, RULES
-        if self.several:
-            parts = {name: each for name, each in parts.items() if name in WITHIN_RANGES}
-            rules = RANGES
-        return Account(parts, self._given, rules.sentences(parts, self._given))
+        """The sentences that follow from certificates by rules."""
+        rules = SEVERAL if self.several else RULES
+        return Account(self.parts, self._given, rules.sentences(self.parts, self._given))
 
     @property
     def _given(self) -> Given:
         plant = self.plant
+        bottoms = [entry.denominator for row in plant.A.rows for entry in row]
+        whole = all(bottom.is_constant() for bottom in bottoms)
+        divided = "" if whole else ", divided by the denominator of A"
         asked = {
             "parameter": ", ".join(plant.parameters),
             "parameters": ", ".join(plant.parameters_in_words),
             "outputs": sum(q for _, q in plant.sizes),
             "scale": None if self.several else plant.A.reduced[1],
             "undefined": self._undefined,
+            "divided": divided,
             "apart": "" if self.several else apart_from_poles(plant),
         }
         return Given(plant, asked)
@@ -134,19 +137,10 @@ class ParametricAccount(Shown):
         return self.proved.manifest()
 
     def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
-        """Return the certificates, and the manifest if there is one, by the names of files.
-
-        With several parameters its sentences are about ranges: of what is proved along lines alone
-        it claims nothing.
-        """
-        along = {
-            f"{name}.json": codec.encode(each, system_by_digest=system_by_digest)
-            for name, each in self.parts.items()
-            if name not in self.proved.answers
-        }
-        if self.several and not self.proved.answers:
-            return along
-        return along | self.proved.files(system_by_digest=system_by_digest)
+        """Return the certificates and the manifest, by the names of files; none without answers."""
+        if not self.parts:
+            return {}
+        return self.proved.files(system_by_digest=system_by_digest)
 
     @property
     def about(self) -> str:
@@ -168,9 +162,10 @@ class ParametricAccount(Shown):
         lines = _lines(self.answers[name]) if self.several and name != "completeness" else []
         return tuple((f"{name}_{k}.json", str(line)) for k, line in enumerate(lines, 1))
 
-    def proofs(self, names: Iterable[str]) -> tuple[tuple[str, str, str], ...]:
-        """For some questions what the certificates along lines are about, and these lines."""
-        return tuple((LABELS[name], *each) for name in names for each in self.along(name))
+    def proofs(self, names: Collection[str]) -> tuple[tuple[str, ...], ...]:
+        """What is proved on lines about some questions."""
+        keys = {ON_LINE[name].key for name in names if name in ON_LINE}
+        return tuple(each.cells for each in self.sentences.at("line") if each.template.key in keys)
 
     def table(self, name: str) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
         """The same with the heads of columns, without the reasons where there are none."""
@@ -230,7 +225,7 @@ class ParametricAccount(Shown):
         listed = [(each.cells[0], str(each)) for each in self.sentences.at("table")]
         made = [grid(("", ""), listed, "".join(self.sentences.at("title")))]
         made += [grid(*self.table(name), LABELS[name]) for name in self.detailed()]
-        if proofs := self.proofs(name for name in self.answers if name in MODES):
+        if proofs := self.proofs(MODES):
             made.append(grid(PROOFS, proofs, PROVED))
         return f'<ul class="said">{said}</ul>' + "".join(made)
 

@@ -5,7 +5,7 @@ from functools import reduce
 from . import reading, root_discs
 from .arithmetic import Polynomial, poly_divide, poly_product
 from .expressions import common_divisor
-from .parametric_system import ParametricSystem
+from .parametric_system import ParametricSystem, Range
 from .reading import Json, fields, items, require
 from .statement import polynomial_text
 
@@ -65,7 +65,12 @@ def where_text(claim: Json, system: ParametricSystem) -> str:
 
 def ends_text(system: ParametricSystem) -> str:
     """The least and the largest value of the parameter."""
-    low, high = system.range
+    return ends_of(system.range)
+
+
+def ends_of(bounds: Range) -> str:
+    """The ends of a range."""
+    low, high = bounds
     return f"{'-infinity' if low is None else low} and {'infinity' if high is None else high}"
 
 

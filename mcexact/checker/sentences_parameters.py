@@ -5,10 +5,10 @@ from itertools import combinations, pairwise
 
 from . import reading
 from .expressions import common_divisor
-from .parameter_values import ends_text, where_text
-from .parametric_system import ParametricSystem
+from .parameter_values import ends_of, ends_text, where_text
+from .parametric_system import FunctionSystem, ParametricSystem
 from .reading import Json
-from .sentence import PLANT, Premise, Role, restate, rule
+from .sentence import PLANT, Holds, Premise, Role, restate, rule
 from .sentences_analysis import HAUTUS, RANK_RULE
 from .statement import described, edge_set, polynomial_text
 
@@ -26,7 +26,12 @@ DUAL_RANKS = Role(STEADY.kinds, (("dual",),), many=True)
 def _given(known: list[Premise]) -> str:
     """The sizes of the plant, its parameter, and where an entry is undefined."""
     plant = known[0].meant
-    known[0].expect(isinstance(plant, ParametricSystem), "the plant has no parameter")
+    known[0].expect(isinstance(plant, FunctionSystem), "the plant has no parameter")
+    if not isinstance(plant, ParametricSystem):
+        ends = ", ".join(
+            f"{name} between {ends_of(bounds)}" for name, bounds in plant.ranges.items()
+        )
+        return f"For {described(plant)}: its parameters are {ends}"
     told = f"For {described(plant)}: its parameter is {plant.parameter}, between {ends_text(plant)}"
     poles = dict.fromkeys(polynomial_text(q, plant.parameter) for q in plant.poles if len(q) > 1)
     return f"{told}; an entry is undefined at the roots of {', '.join(poles)}" if poles else told
@@ -218,3 +223,111 @@ ALWAYS, UNLESS, NEVER = (f"parametric-setpoint-{way}" for way in ("always", "unl
 restate(ALWAYS, STEADY, lambda c: solvable(c) and not c["exceptional"], RANK_RULE)
 restate(UNLESS, STEADY, lambda c: solvable(c) and c["exceptional"], RANK_RULE)
 restate(NEVER, STEADY, lambda c: not solvable(c), RANK_RULE)
+
+
+# Several parameters.  A certificate is about a line, where s is any complex number: what it says is
+# repeated.  What holds at one point of it, and fails where polynomials in the parameters are 0,
+# holds for almost all values: that no mode is fixed, or that a rank is at least so large.  A mode
+# is fixed where pencils lose rank at a root of det(xI - A), which is monic: so the values at which
+# one is fixed are zeros of polynomials, apart from the poles.
+
+
+def on_a_line(role: Role) -> Role:
+    """The same role of a premise about what is constructed from the plant on a line."""
+    return Role(role.kinds, tuple(("line", *path) for path in role.paths), role.many)
+
+
+LINES, LINE_RANKS = on_a_line(MODES), on_a_line(RANKS)
+RANK_ON_LINE = on_a_line(STEADY)
+
+
+def almost(found: list[Premise], told: str) -> str:
+    """What certificates say of lines, and what follows for almost all values."""
+    parameters = ", ".join(found[0].meant.ranges)
+    every = f"so for almost all complex values of the parameters {parameters}, {told}"
+    return "; ".join([*(each.statement for each in found), every])
+
+
+def of_lines(stem: str, role: Role, theorem: str, about: Callable[[Premise], bool]) -> None:
+    """Enter the rule that repeats what modes are on a line."""
+
+    def holds(found: Premise) -> bool:
+        found.expect(about(found), "about other channels")
+        return True
+
+    restate(f"parametric-line-{stem}", on_a_line(role), holds, theorem)
+
+
+def almost_no_mode(key: str, role: Role, told: str, theorem: str = "") -> None:
+    """Enter the rule that nothing is lost for almost all values if nothing is at one point."""
+
+    @rule(key, on_a_line(role), theorem=theorem)
+    def _say(found: Premise) -> str:
+        """No mode at some point of a line."""
+        found.expect(not found["generic"], "the claim is different")
+        found.expect(key == "parametric-almost-nothing-fixed" or together(found), "other channels")
+        return almost([found], told)
+
+
+of_lines("modes", MODES, "", lambda found: True)
+of_lines("controllable", CONTROLLED, "", together)
+of_lines("observable", OBSERVED, "", together)
+of_lines("channel-controllable", ALONE, "", together)
+of_lines("channel-observable", SEEN, "", together)
+almost_no_mode("parametric-almost-nothing-fixed", MODES, "no mode is fixed")
+almost_no_mode(
+    "parametric-almost-controllable", CONTROLLED, "all channels control every mode", HAUTUS
+)
+almost_no_mode("parametric-almost-observable", OBSERVED, "all channels observe every mode", HAUTUS)
+almost_no_mode(
+    "parametric-almost-channel-controllable", ALONE, "the channel controls every mode", HAUTUS
+)
+almost_no_mode(
+    "parametric-almost-channel-observable", SEEN, "the channel observes every mode", HAUTUS
+)
+
+
+def named(matrix: str) -> Holds:
+    """Whether a certificate is about the rank of such a matrix."""
+    return lambda found: found["matrix"]["name"] == matrix
+
+
+restate("parametric-line-graph", RANK_ON_LINE, named("transfer"))
+restate("parametric-line-setpoint", RANK_ON_LINE, named("setpoint"))
+restate("parametric-line-controllability-indices", RANK_ON_LINE, named("controllability"))
+restate(
+    "parametric-line-observability-indices",
+    Role(STEADY.kinds, (("line", "dual"),)),
+    named("controllability"),
+)
+
+
+def some_edges(found: list[Premise]) -> list[tuple[str, str]]:
+    """The edges that are proved at a point."""
+    for each in found:
+        each.expect(each["matrix"]["name"] == "transfer", "not about the inputs of a channel")
+    pairs = [(each["matrix"]["from"], each["matrix"]["to"]) for each in found if each["rank"]]
+    return [*dict.fromkeys(pairs)]
+
+
+@rule("parametric-almost-graph", LINE_RANKS)
+def _almost_edges(found: list[Premise]) -> str:
+    """The edges that a point of a line has; others may be edges as well."""
+    edges_known = some_edges(found)
+    found[0].expect(bool(edges_known), "no edge is proved")
+    return almost(found, f"the transfer graph has the edges {edge_set(edges_known)}")
+
+
+@rule("parametric-almost-complete", LINES, LINE_RANKS)
+def _almost_complete(spectrum: Premise, found: list[Premise]) -> str:
+    """No mode is fixed at a point, and the edges of other points connect all channels."""
+    spectrum.expect(not spectrum["generic"], "the claim is different")
+    spectrum.expect(connected(spectrum.meant.names, some_edges(found)), "the claim is different")
+    return almost([spectrum, *found], "it is complete")
+
+
+@rule("parametric-almost-setpoint", RANK_ON_LINE, theorem=RANK_RULE)
+def _almost_steady(found: Premise) -> str:
+    """Full rank at a point of a line."""
+    found.expect(solvable(found), "the claim is different")
+    return almost([found], "the rank is as large")

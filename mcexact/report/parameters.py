@@ -26,11 +26,8 @@ def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tupl
     title = "All answers" if whole else "".join(said.at("title"))
     first = (Table(title, (), rows),) if rows else ()
     shown = account.detailed(LABELS) if whole else account.detailed(MODES)
-    about = account.answers if whole else (name for name in account.answers if name in MODES)
-    proofs = account.proofs(name for name in about if name in LABELS)
-    named = (0, 1, 2) if whole else (0, 2)  # files are named on a page alone
-    lines = tuple(tuple(row[k] for k in named) for row in (PROOFS, *proofs))
-    told = (Table(PROVED, lines[0], lines[1:]),) if proofs else ()
+    proofs = account.proofs(LABELS if whole else MODES)
+    told = (Table(PROVED, PROOFS, proofs),) if proofs else ()
     return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *told)
 
 
@@ -67,6 +64,7 @@ def parameter_latex(account: ParametricAccount) -> str:
     for name in account.detailed():
         rows = ((where, "; ".join(filter(None, rest))) for where, *rest in account.rows(name))
         lines.append(rf"\[ {array(rows)} \]")
-    if proofs := account.proofs(name for name in account.answers if name in MODES):
-        lines += [escaped(PROVED), rf"\[ {array((about, line) for about, _, line in proofs)} \]"]
+    if proofs := account.proofs(MODES):
+        rows = ((about, "; ".join(rest)) for about, *rest in proofs)
+        lines += [escaped(PROVED), rf"\[ {array(rows)} \]"]
     return "\n".join(lines) + "\n"

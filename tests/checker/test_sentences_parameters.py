@@ -64,6 +64,12 @@ PLANTS = {
         assume={"t": ("3/2", 2)},
     ),
 }
+PLANTS["two"] = ParametricSystem(
+    [[1, "a"], ["b", 2]], IDENTITY, [[[1, 0]], [[0, 1]]], parameters=["a", "b"]
+)
+PLANTS["two, stuck"] = ParametricSystem(
+    [["a", 0], [0, "b"]], [[[1], [0]]] * 2, [[[0, "1/a"]]] * 2, parameters=["a", "b"]
+)
 WITHIN_RANGES = {"near": [*say.WITHIN_RANGES]}
 """The plants that are also asked about all values within ranges."""
 TEMPLATES = list(templates(say))
@@ -91,7 +97,7 @@ def asked(questions: tuple[str, ...], known: dict[str, Document]) -> list[str]:
 @pytest.mark.parametrize("name", PLANTS)
 def test_a_rule_implies_its_sentence_exactly_where_it_is_said(name: str, tmp_path: Path) -> None:
     known = evidence(name)
-    told = {each.template.key for each in account(name).sentences}
+    told = {each.template.key for each in account(name).proved.sentences}
     listed = [
         sentence(each.key, *asked(premises_of(each, PARAMETERS), known), evidence=known)
         for each in TEMPLATES
@@ -102,7 +108,7 @@ def test_a_rule_implies_its_sentence_exactly_where_it_is_said(name: str, tmp_pat
 
 
 def test_every_sentence_is_said_of_some_plant() -> None:
-    told = {each.template.key for name in PLANTS for each in account(name).sentences}
+    told = {each.template.key for name in PLANTS for each in account(name).proved.sentences}
     assert told == {each.key for each in TEMPLATES}
 
 
@@ -267,7 +273,7 @@ def test_every_rule_has_a_sentence() -> None:
 
 
 def test_what_holds_within_ranges_of_several_parameters_has_a_manifest(tmp_path: Path) -> None:
-    """Proofs along lines are about other plants, and beside it."""
+    """Certificates along lines, and about ranges, are about one plant and in one manifest."""
     plant = ParametricSystem(
         [["a", 1], [0, "b"]],
         [[[1], [0]], [[0], [1]]],
@@ -279,13 +285,20 @@ def test_what_holds_within_ranges_of_several_parameters_has_a_manifest(tmp_path:
     for name, text in found.files().items():
         (tmp_path / name).write_text(text)
     assert {path.stem for path in tmp_path.iterdir()} >= {"manifest", "fixed_spectrum_1"}
-    first, second, third = said(tmp_path)
-    assert {each.verdict for each in (first, second, third)} == {"IMPLIED"}
+    verdicts = [*said(tmp_path)]
+    assert {each.verdict for each in verdicts} == {"IMPLIED"}
+    rules = [each["rule"] for each in found.manifest()["sentences"]]
+    assert rules == [each["rule"] for each in found.as_json()["sentences"]]
+    first, second, third = (
+        verdict
+        for verdict, key in zip(verdicts, rules, strict=True)
+        if key.startswith("parametric-ranges-")
+    )
     ranges = "from 3/2 to 2 and of the parameter b from 3 to 7/2"
     assert f"for all real values of the parameter a {ranges}, there is no mode" in first.statement
     assert "; each of these plants is stabilized by some decentralized" in second.statement
     assert 'the channels {"1", "2"} together control every mode' in third.statement
-    assert [each["rule"] for each in found.as_json()["sentences"]] == [
+    assert [key for key in rules if "ranges" in key] == [
         f"parametric-ranges-{way}" for way in ("nothing-fixed", "stabilizable", "controllable")
     ]
 
@@ -355,3 +368,54 @@ def test_what_several_certificates_imply_is_about_the_values_that_all_are_about(
         assert {value for value, word in words.items() if word in conclusion} == outside
     graph = [known[f"transfer_graph_{k}.json"]["claim"]["outside"] for k in range(1, 5)]
     assert len({json.dumps(each) for each in graph}) > 1
+
+
+LINES: list[tuple[str, str, list[str], str]] = [
+    ("two, stuck", "parametric-almost-nothing-fixed", ["fixed_spectrum_1"], "claim is different"),
+    ("two, stuck", "parametric-almost-setpoint", ["setpoint_1"], "claim is different"),
+    ("two, stuck", "parametric-almost-complete", ["fixed_spectrum_1", "transfer_graph_1"], "claim"),
+    ("two, stuck", "parametric-almost-controllable", ["fixed_spectrum_1"], "expected a premise"),
+    ("two, stuck", "parametric-modes-some", ["fixed_spectrum_1"], "expected a premise"),
+    ("two, stuck", "parametric-complete-never", ["fixed_spectrum_1", "transfer_graph_1"], "expect"),
+    ("two", "parametric-almost-complete", ["fixed_spectrum_1", "transfer_graph_1"], "different"),
+    ("two", "parametric-almost-graph", ["setpoint_1"], "not about the inputs of a channel"),
+    ("two", "parametric-almost-setpoint", ["transfer_graph_1"], "not about equilibria"),
+    ("two", "parametric-almost-observable", ["joint_controllability_1"], "expected a premise"),
+    ("two", "parametric-line-graph", ["setpoint_1"], "claim is different"),
+    ("two", "parametric-setpoint-always", ["setpoint_1"], "expected a premise"),
+    ("two", "parametric-graph-lost", ["transfer_graph_1"], "expected a premise"),
+]
+
+
+@pytest.mark.parametrize("name", ["two", "two, stuck"])
+def test_a_line_implies_no_more_than_what_a_point_of_it_shows(name: str, tmp_path: Path) -> None:
+    known = evidence(name)
+    rows = [row for row in LINES if row[0] == name]
+    listed = [sentence(key, *premises, evidence=known) for _, key, premises, _ in rows]
+    verdicts = said(write(tmp_path, known, manifest(known, listed)))
+    for (_, key, _, reason), verdict in zip(rows, verdicts, strict=True):
+        assert verdict.verdict == "INVALID" and reason in verdict.message, (key, verdict)
+
+
+@pytest.mark.parametrize("name", ["two", "two, stuck"])
+def test_all_certificates_along_lines_are_in_the_manifest(name: str, tmp_path: Path) -> None:
+    found = account(name)
+    for file, text in found.files().items():
+        (tmp_path / file).write_text(text)
+    verdicts = [*said(tmp_path)]
+    assert {each.verdict for each in verdicts} == {"IMPLIED"}
+    told = found.manifest()["sentences"]
+    on_lines = {e[0] for each in told if "-line-" in each["rule"] for e in each["because"]}
+    assert on_lines == found.certificates.keys()
+    for each, verdict in zip(told, verdicts, strict=True):
+        if each["rule"].startswith("parametric-almost-"):
+            assert "so for almost all complex values of the parameters a, b, " in verdict.statement
+
+
+def test_a_restriction_to_some_channels_says_nothing_of_all_on_a_line(tmp_path: Path) -> None:
+    known = dict(evidence("two"))
+    known["joint_controllability_1"] = known["channel_controllability_1"]
+    keys = ["parametric-almost-controllable", "parametric-line-controllable"]
+    listed = [sentence(key, "joint_controllability_1", evidence=known) for key in keys]
+    for verdict in said(write(tmp_path, known, manifest(known, listed))):
+        assert verdict.verdict == "INVALID" and "expected a premise" in verdict.message

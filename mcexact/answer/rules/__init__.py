@@ -12,13 +12,14 @@ from mcexact.answer.rules import (
     links,
     parameters,
     refusals,
+    several_parameters,
     sharing,
 )
 from mcexact.answer.sentence import Rulebook
 
 ANALYSIS = Rulebook([*analysis.RULES, *sharing.RULES, *details.RULES])
 ALLOCATION = allocation.RULES
-PARAMETERS = parameters.RULES
+PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 LINKS = links.RULES
 DESIGN, VERDICT = design.DESIGN, design.VERDICT
 REFUSALS = refusals.RULES

@@ -127,3 +127,51 @@ SETPOINT = (
         "set-points",
     ),
 )
+
+# With several parameters: what a certificate along a line implies, and what it says itself.
+
+
+def _almost(stem: str, said: str, theorem: str = "") -> Template:
+    text = f"For almost all values of {{parameters:words}} {said}."
+    return Template(f"parametric-almost-{stem}", text, theorem)
+
+
+ALMOST = {
+    "fixed_spectrum": _almost("nothing-fixed", "no mode is fixed"),
+    "joint_controllability": _almost(
+        "controllable", "all channels together control every mode", _HAUTUS
+    ),
+    "joint_observability": _almost(
+        "observable", "all channels together observe every mode", _HAUTUS
+    ),
+    "channel_controllability": _almost(
+        "channel-controllable", "the channel controls every mode", _HAUTUS
+    ),
+    "channel_observability": _almost(
+        "channel-observable", "the channel observes every mode", _HAUTUS
+    ),
+    "transfer_graph": _almost("graph", "the transfer graph has these edges: {edges:edges}"),
+    "completeness": _almost("complete", "the plant is complete"),
+    "setpoint": _almost("setpoint", "every set-point has an equilibrium", _RANK),
+}
+
+
+def _on_line(stem: str, label: str) -> Template:
+    return Template(f"parametric-line-{stem}", "{line:words} | {found:words}", label=label)
+
+
+ON_LINE = {
+    "fixed_spectrum": _on_line("modes", "fixed modes"),
+    "joint_controllability": _on_line("controllable", "modes that no channel controls"),
+    "joint_observability": _on_line("observable", "modes that no channel observes"),
+    "controllability_indices": _on_line("controllability-indices", "ranks of [B, AB, …]"),
+    "observability_indices": _on_line("observability-indices", "ranks of [C; CA; …]"),
+    "transfer_graph": _on_line("graph", "edges of the transfer graph"),
+    "setpoint": _on_line("setpoint", "rank of the matrix of equilibria"),
+    "channel_controllability": _on_line(
+        "channel-controllable", "modes that the channel does not control"
+    ),
+    "channel_observability": _on_line(
+        "channel-observable", "modes that the channel does not observe"
+    ),
+}
