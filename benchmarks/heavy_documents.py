@@ -2,8 +2,9 @@
 
 Run as ``python -m benchmarks.heavy_documents``.  Every document of ``tests/checker/heavy.py`` is
 checked by a copied-out checker in a process of its own, at the default limits.  Prints for each the
-bytes, the seconds, the MiB at most, and the start of the verdict; the last line has the largest of
-each.  `tests/checker/test_work.py` holds the same documents to the work that is counted.
+bytes, the seconds, the MiB at most, the loop that it aims at where this is one of the rules about
+parameters and boxes, and the start of the verdict; the last line has the largest of each.
+`tests/checker/test_work.py` holds the same documents to the work that is counted.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from pathlib import Path
 
 import mcexact.checker
 from tests.checker import heavy
+from tests.checker.heavy_parameters import LOOPS
 
 _MEASURED = Path(__file__).with_name("measured.py")
 
@@ -30,7 +32,10 @@ def main() -> int:
             Path(folder, "heavy.json").write_bytes(data)
             seconds, mebibytes, line = measured(folder)
             slowest, largest = max(slowest, seconds), max(largest, mebibytes)
-            print(f"{len(data):6} B {seconds:6.2f} s {mebibytes:5.0f} MiB  {name}: {line[:60]}")
+            loop = f" [{LOOPS[name][0]}]" if name in LOOPS else ""
+            print(
+                f"{len(data):6} B {seconds:6.2f} s {mebibytes:5.0f} MiB  {name}{loop}: {line[:60]}"
+            )
     print(f"at most {slowest:.2f} s and {largest:.0f} MiB")
     return int(slowest >= 5 or largest >= 300)
 

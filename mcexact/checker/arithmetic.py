@@ -96,7 +96,7 @@ class Matrix:
 
     def is_zero(self) -> bool:
         """Whether every entry is 0."""
-        spend(self.nrows * (8 + self.ncols))
+        spend(budget.STEP + self.nrows * (8 + self.ncols))
         return not any(map(any, self.rows))
 
     def equals(self, other: Matrix) -> bool:
@@ -111,7 +111,9 @@ class Matrix:
 
     def at(self, rows: Iterable[int]) -> Matrix:
         """The submatrix of these rows."""
-        return Matrix([self.rows[i] for i in rows], self.ncols, self.denominator)
+        chosen = list(rows)
+        spend(budget.STEP + 8 * len(chosen))
+        return Matrix([self.rows[i] for i in chosen], self.ncols, self.denominator)
 
     def modulo(self, ell: int) -> Rows:
         """The residues modulo ℓ; the denominator must be a unit."""
@@ -250,11 +252,13 @@ def poly_product(a: Polynomial, b: Polynomial) -> Polynomial:
     """The product a·b."""
     modular = _modular(a, b)
     (first, d), (second, e) = ((a, 1), (b, 1)) if modular else (cleared(a), cleared(b))
-    spend(_terms(len(a) * len(b), first, second, 1))
+    nonzero = sum(map(bool, first))
+    spend(_terms(nonzero * len(b), first, second, 1))
     result = [0] * (len(a) + len(b) - 1)
     for i, f in enumerate(first):
-        for k, g in enumerate(second):
-            result[i + k] += f * g
+        if f:
+            for k, g in enumerate(second):
+                result[i + k] += f * g
     if modular:
         return result
     longest = budget.limbs(result)
@@ -279,10 +283,10 @@ def poly_divide(a: Polynomial, b: Polynomial, ell: int = 0) -> tuple[Polynomial,
 
 def _terms(number: int, a: Polynomial, b: Polynomial, turns: int) -> int:
     """The units of so many products of coefficients, which grow in every turn."""
-    units = 100 + len(a) + len(b)
+    units = 200 + 10 * (len(a) + len(b))
     if _modular(a, b):
         longest = max(budget.limbs(a), budget.limbs(b))
-        return units + budget.reductions(number, longest) + budget.inversions(1, longest)
+        return units + 2 * budget.reductions(number, longest) + budget.inversions(1, longest)
     # sums have the common denominator, which may be longer than each
     first, second = (max(budget.limbs(c), budget.limbs([d])) for c, d in map(cleared, (a, b)))
     return units + budget.fractions(number, first + second * turns)

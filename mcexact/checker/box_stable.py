@@ -93,12 +93,14 @@ def _require_growth(value: Json, pencil: Pencil, R: Fraction) -> None:
     """
     n, place = pencil.dynamic, "witness.growth"
     most = sum(map(absolute, pencil.tied), absolute(pencil.Z) + pencil.D)
-    longest = 4 * (most.limbs + budget.limbs_of([R]))
-    budget.spend(budget.fractions(2 * most.nrows * most.nrows, longest))
     sizes = [Fraction(row[0]) for row in read_weights(value, place, n).rows]
     for row in most.rows[n:]:
         # the signals before it, of which such a row computes the next one
+        longest = 2 * (most.limbs + budget.limbs_of(sizes))
+        budget.spend(budget.fractions(2 * len(sizes), longest))
         sizes.append(sum(map(mul, row, sizes), Fraction(0)) / most.denominator)
+    longest = 2 * (most.limbs + budget.limbs_of([*sizes, R]))
+    budget.spend(budget.fractions(2 * n * len(sizes), longest))
     R *= most.denominator
     slower = all(sum(map(mul, most.rows[i], sizes)) < R * sizes[i] for i in range(n))
     require(slower, "growth", place, "does not exclude all eigenvalues beyond the last point")

@@ -15,10 +15,14 @@ from typing import Any, TypeVar
 
 GRANTED = 4 * 10**7
 PER_BYTE = 4000
-MORE = 10
+MORE = 4
 """Plants with a parameter are small, and long to compute with."""
 LIMB = 30
 """The bits of a limb."""
+STEP = 400
+"""What a step takes besides its numbers, as it does where there are none."""
+LOOK = 50
+"""What it takes to look how long a rational is."""
 MOST = 10**30
 """More than any machine can do; no more is named."""
 
@@ -164,8 +168,9 @@ def limbs(numbers: Iterable[int]) -> int:
     return max(map(int.bit_length, numbers), default=0) // LIMB + 1
 
 
-def limbs_of(p: Iterable[Any]) -> int:
-    """The limbs of the longest numerator or denominator of rationals."""
+def limbs_of(p: Sequence[Any]) -> int:
+    """The limbs of the longest numerator or denominator of rationals; looking takes units, too."""
+    spend(LOOK * len(p))
     return max((limbs((c.numerator, c.denominator)) for c in p), default=1)
 
 
@@ -196,4 +201,4 @@ def build(nrows: int, ncols: int, a: int, b: int = 0, terms: int = 1) -> None:
 
 def table(nrows: int, ncols: int, a: int = 0) -> int:
     """The bytes of a table of new numbers of a limbs; without a, of numbers that exist."""
-    return nrows * (64 + ncols * (36 + 4 * a if a else 8))
+    return STEP + nrows * (64 + ncols * (36 + 4 * a if a else 8))

@@ -4,7 +4,7 @@ The line is VALID, the SHA-256 of the statement that the certificate proves, and
 INVALID, MALFORMED or INCOMPLETE, a code and a place.  With several files it names its file.  A file
 named manifest.json is read as a manifest.  With --controller there is nothing else in the loop
 unless --expect says so.  Work is limited by default to 40,000,000 units and 4,000 for each byte,
-ten times as many if the plant has a parameter.
+four times as many if the plant has a parameter.
 """
 
 import argparse

@@ -45,14 +45,20 @@ def common_divisor(a: Polynomial, b: Polynomial) -> Polynomial:
     """The monic greatest common divisor of a and b ≠ 0 over Q."""
     while a:
         a, b = poly_divide(b, a)[1], a
-    return [c / b[-1] for c in b]
+    return _over(b, b[-1])
+
+
+def _over(p: Polynomial, number: Fraction) -> Polynomial:
+    """The polynomial divided by a number."""
+    spend(fractions(len(p), 2 * limbs_of([*p, number])))
+    return [c / number for c in p]
 
 
 def in_lowest_terms(top: Polynomial, bottom: Polynomial) -> Function:
     """The quotient by bottom ≠ 0 without common factors, with a monic denominator."""
     g = common_divisor(top, bottom)
     top, bottom = poly_divide(top, g)[0], poly_divide(bottom, g)[0]
-    return [c / bottom[-1] for c in top], [c / bottom[-1] for c in bottom]
+    return _over(top, bottom[-1]), _over(bottom, bottom[-1])
 
 
 class Reader(ABC, Generic[P]):
@@ -67,6 +73,7 @@ class Reader(ABC, Generic[P]):
     def whole(self) -> tuple[P, P]:
         """All of the text, or the number that it is."""
         text, place = self.value, self.place
+        spend(200 + 10 * len(self.parameters))
         if type(text) is not str or system_matrices.NUMBER.fullmatch(text):
             found = Fraction(system_matrices.number(text, place, self.limits))
             return self.number(found), self.number(Fraction(1))
@@ -206,7 +213,7 @@ class _OneParameter(Reader[Polynomial]):
         return poly_product(a, b) if a and b else []
 
     def plus(self, a: Polynomial, b: Polynomial, sign: str) -> Polynomial:
-        spend(fractions(len(b), limbs_of(a) + limbs_of(b)))
+        spend(fractions(len(a) + len(b), limbs_of(a) + limbs_of(b)))
         b = [-c for c in b] if sign == "-" else b
         return stripped([x + y for x, y in zip_longest(a, b, fillvalue=Fraction(0))])
 

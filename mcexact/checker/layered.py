@@ -13,9 +13,10 @@ def product(P: Layers, Q: Layers, q: Polynomial | None = None) -> Layers:
     Open: see ``proofs/OPEN.md``.
     """
     result = [Matrix.zeros(P[0].nrows, Q[0].ncols) for _ in range(len(P) + len(Q) - 1)]
+    some = [(j, right) for j, right in enumerate(Q) if not right.is_zero()]
     for i, left in counted([*enumerate(P)]):
-        for j, right in enumerate(Q):
-            if not left.is_zero() and not right.is_zero():
+        if not left.is_zero():
+            for j, right in some:
                 result[i + j] = result[i + j] + left @ right
     return reduced(result, q)
 

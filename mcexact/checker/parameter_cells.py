@@ -1,7 +1,9 @@
 """Boxes of parameters, cut into cells, and the plants within a cell; ``proofs/boxes.md``."""
 
 from fractions import Fraction
+from itertools import chain
 from math import comb, lcm, prod
+from operator import add
 
 from . import budget
 from .arithmetic import Matrix
@@ -14,6 +16,8 @@ from .system import System
 
 Cell = list[tuple[Fraction, Fraction]]
 """The least and the largest value of each parameter."""
+Exponents = tuple[int, ...]
+ZERO = Fraction(0)
 
 
 def cells_of(cuts: Json, place: str, plant: FunctionSystem) -> list[Cell]:
@@ -27,7 +31,7 @@ def cells_of(cuts: Json, place: str, plant: FunctionSystem) -> list[Cell]:
     for k, cut in enumerate(items(cuts, place)):
         require(bool(left), "cuts", f"{place}[{k}]", "no cell is left")
         cell = left.pop()
-        budget.spend(100 * len(cell) + budget.fractions(4, budget.limbs_of(sum(cell, ()))))
+        budget.spend(100 * len(cell) + budget.fractions(4, budget.limbs_of([*chain(*cell)])))
         if cut is None:
             found.append(cell)
             continue
@@ -50,10 +54,11 @@ def box_of_cell(plant: FunctionSystem, cell: Cell) -> Box:
     """
     center = [(low + high) / 2 for low, high in cell]
     widths = [(high - low) / 2 for low, high in cell]
+    units = _units(len(cell))
     layers: list[list[Matrix]] = []
     for k, (rows, ncols) in enumerate(plant.tables):
         where = "A" if not k else f"channels[{(k - 1) // 2}].{'BC'[(k - 1) % 2]}"
-        forms = [[_form(plant.terms(e), center, widths, where) for e in row] for row in rows]
+        forms = [[_form(plant.terms(e), center, widths, units, where) for e in row] for row in rows]
         parts = range(len(cell) + 2)
         layers.append([_matrix([[form[i] for form in row] for row in forms], ncols) for i in parts])
 
@@ -66,8 +71,18 @@ def box_of_cell(plant: FunctionSystem, cell: Cell) -> Box:
     return Box(**vars(middle), radii=rest, tied=tuple(slopes))
 
 
+def _units(number: int) -> list[Exponents]:
+    """The exponents of the parameters themselves."""
+    budget.spend(budget.table(number, number))
+    return [tuple(int(i == k) for i in range(number)) for k in range(number)]
+
+
 def _form(
-    entry: Quotient, center: list[Fraction], widths: list[Fraction], where: str
+    entry: Quotient,
+    center: list[Fraction],
+    widths: list[Fraction],
+    units: list[Exponents],
+    where: str,
 ) -> list[Fraction]:
     """The value f_0, the largest rest, and each f_k times its width, of f_0 + Σ f_k h_k + rest.
 
@@ -75,29 +90,48 @@ def _form(
     N − (f_0 + Σ f_k h_k) D, whose terms are of degree 2 and more.
     """
     N, D = (_shifted(p, center) for p in entry)
-    units = [tuple(int(i == k) for i in range(len(center))) for k in range(len(center))]
     zero = (0,) * len(center)
-    moved = sum(abs(c) * prod(map(pow, widths, e)) for e, c in D.items() if e != zero)
-    least = abs(D[zero]) - moved
+    least = 2 * abs(D[zero]) - _largest(D, widths)
     require(least > 0, "undefined", where, "a denominator may be 0 in the range")
-    value = N.get(zero, Fraction(0)) / D[zero]
-    slopes = [(N.get(u, Fraction(0)) - value * D.get(u, Fraction(0))) / D[zero] for u in units]
+    longest = budget.limbs_of([*N.values(), *D.values()])
+    budget.spend(budget.fractions(3 * len(center), 3 * longest))
+    value = N.get(zero, ZERO) / D[zero]
+    slopes = [N.get(u, ZERO) - (value * D[u] if u in D else ZERO) for u in units]
+    slopes = [slope / D[zero] if slope else ZERO for slope in slopes]
     rest = dict(N)
     for step, slope in zip([zero, *units], [value, *slopes], strict=True):
-        for e, c in D.items():
-            key = tuple(map(sum, zip(e, step, strict=True)))
-            rest[key] = rest.get(key, Fraction(0)) - slope * c
-    over = sum((abs(c) * prod(map(pow, widths, e)) for e, c in rest.items()), Fraction(0))
-    return [value, over / least, *(f * w for f, w in zip(slopes, widths, strict=True))]
+        if slope:
+            budget.spend(budget.fractions(len(D) * (len(center) // 4 + 4), 4 * longest))
+            for e, c in D.items():
+                key = tuple(map(add, e, step))
+                rest[key] = rest.get(key, ZERO) - slope * c
+    over = _largest(rest, widths) / least
+    budget.spend(budget.fractions(len(center) + 1, longest + budget.limbs_of([*widths, over])))
+    return [value, over, *(f * w if f else ZERO for f, w in zip(slopes, widths, strict=True))]
+
+
+def _largest(p: Terms, widths: list[Fraction]) -> Fraction:
+    """The sum of the largest absolute values of all terms."""
+    turns = sum(map(sum, p)) + len(p) * (len(widths) // 4 + 2)
+    highest = max(map(sum, p), default=0)
+    longest = highest * budget.limbs_of(widths) + budget.limbs_of(list(p.values()))
+    budget.spend(budget.fractions(turns, longest))
+    parts = (
+        abs(c) * prod(w**k for w, k in zip(widths, e, strict=True) if k) for e, c in p.items() if c
+    )
+    return sum(parts, ZERO)
 
 
 def _shifted(p: Terms, center: list[Fraction]) -> Terms:
     """The terms in powers of the differences from a center."""
     for k, c in enumerate(center):
         found: Terms = {}
+        budget.spend(20 * len(p))
+        if not any(e[k] for e in p):
+            continue
         for e, factor in p.items():
             longest = (e[k] + 1) * budget.limbs_of([c]) + budget.limbs_of([factor]) + e[k]
-            budget.spend(budget.fractions(4 * (e[k] + 1), longest))
+            budget.spend(budget.fractions((4 + len(e) // 8) * (e[k] + 1), longest))
             for j in range(e[k] + 1):
                 key = (*e[:k], j, *e[k + 1 :])
                 found[key] = found.get(key, Fraction(0)) + factor * comb(e[k], j) * c ** (e[k] - j)
@@ -108,9 +142,12 @@ def _shifted(p: Terms, center: list[Fraction]) -> Terms:
 def _matrix(rows: list[list[Fraction]], ncols: int) -> Matrix:
     """A matrix of fractions."""
     entries = [x for row in rows for x in row]
-    budget.spend(budget.fractions(2 * len(entries), 2 * budget.limbs_of(entries)))
-    d = lcm(*(x.denominator for x in entries))
-    return Matrix([[int(x * d) for x in row] for row in rows], ncols, d)
+    longest, different = budget.limbs_of(entries), {x.denominator for x in entries}
+    whole = sum(budget.limbs([d]) for d in different)
+    budget.spend(budget.fractions(len(different), whole))
+    budget.build(len(rows), ncols, longest, min(whole, longest * len(different)))
+    d = lcm(*different)
+    return Matrix([[x.numerator * (d // x.denominator) for x in row] for row in rows], ncols, d)
 
 
 def ranges_text(plant: FunctionSystem) -> str:

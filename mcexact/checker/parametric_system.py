@@ -26,6 +26,8 @@ Table = tuple[list[list[Any]], int]
 Entries = Callable[[Json, str, Limits | None], Any]
 """How an entry is read, at a place."""
 ONE = [Fraction(1)]
+HASHES = 150
+"""What a rational costs as a part of a key."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -282,6 +284,8 @@ def least_denominator(denominators: list[Polynomial]) -> Polynomial:
 def _cleared(table: Table) -> tuple[Layers, Polynomial]:
     """The layers of M, and δ, with M/δ the matrix and δ the least common denominator."""
     rows, ncols = table
+    # a hash of a rational takes the inverse of its denominator modulo a prime
+    budget.spend(sum(HASHES * (1 + len(bottom)) for row in rows for _, bottom in row))
     different = dict.fromkeys(tuple(bottom) for row in rows for _, bottom in row)
     delta = least_denominator([*map(list, different)])
     factors = {bottom: poly_divide(delta, [*bottom])[0] for bottom in different}
@@ -290,11 +294,22 @@ def _cleared(table: Table) -> tuple[Layers, Polynomial]:
         for row in rows
     ]
     values = [c for row in above for entry in row for c in entry]
-    d = math.lcm(*(c.denominator for c in values))
+    longest = budget.limbs_of(values)
+    d = _least_multiple(values)
     length = max((len(entry) for row in above for entry in row), default=1)
     layers = []
     for k in range(max(length, 1)):
-        budget.build(len(rows), ncols, budget.limbs_of(values), budget.limbs([d]))
-        layer = [[int(e[k] * d) if k < len(e) else 0 for e in row] for row in above]
+        budget.build(len(rows), ncols, longest, budget.limbs([d]))
+        layer = [
+            [e[k].numerator * (d // e[k].denominator) if k < len(e) else 0 for e in row]
+            for row in above
+        ]
         layers.append(Matrix(layer, ncols, d))
     return layers, delta
+
+
+def _least_multiple(values: list[Fraction]) -> int:
+    """The least common denominator."""
+    different = {c.denominator for c in values}
+    budget.spend(budget.fractions(len(different), sum(budget.limbs([d]) for d in different)))
+    return math.lcm(*different)

@@ -155,7 +155,9 @@ def fields(value: Json, place: str, *names: str, optional: tuple[str, ...] = ())
 
 def by_name(value: Json, place: str, known: Sequence[str]) -> list[tuple[str, int, Json]]:
     """The entries of an object, perhaps left out, by some of these names, with their positions."""
-    given = fields({} if value is None else value, place, optional=tuple(known))
+    if value is None or value == {}:
+        return []
+    given = fields(value, place, optional=tuple(known))
     return [(known[j], j, entry) for j, entry in enumerate(given) if entry is not None]
 
 

@@ -60,7 +60,8 @@ def _degrees_of_roots(f: Bivariate) -> list[tuple[Fraction | float, int]]:
 
 
 def _at(f: Residues, t: int, ell: int) -> Polynomial:
-    budget.spend(budget.reductions(sum(map(len, f)), budget.limbs([ell])))
+    a = budget.limbs([ell])
+    budget.spend(budget.STEP + budget.reductions(sum(map(len, f)) + 2 * len(f) + degree(f), a))
     powers = [1]
     for _ in range(degree(f)):
         powers.append(powers[-1] * t % ell)
@@ -72,9 +73,12 @@ def _of_values(f: Polynomial, g: Polynomial, ell: int) -> int:
 
     Res(f, g) = (−1)^(deg f · deg g) b^(deg f − deg r) Res(g, r) / c^(deg g).
     """
-    top = bottom = 1
+    top, bottom, a = 1, 1, budget.limbs([ell])
+    budget.spend(budget.inversions(2, a) + budget.reductions(20, a))
     while len(g) > 1:
         rest, power, b = _remainder(f, g, ell)
+        # a power modulo ℓ, by the square and multiply method, of a number or of its inverse
+        budget.spend(budget.inversions(1, a) + budget.reductions(20, a))
         # one b more above and below: the last inverse tells whether every b is a unit
         top, lost = top * b, (len(f) - len(rest)) - power * (len(g) - 1)
         bottom = bottom * pow(b, 1 - lost, ell) % ell
@@ -90,7 +94,7 @@ def _remainder(f: Polynomial, g: Polynomial, ell: int) -> tuple[Polynomial, int,
     """The remainder of b^k f by g, k ≥ 2, with k and b, the leading coefficient of g."""
     rest, b, k = [*f, *[0] * (len(g) + 1 - len(f))], g[-1], 2
     turns = len(rest) - len(g)
-    budget.spend(100 + budget.reductions(turns * len(rest) + 16, budget.limbs([ell])))
+    budget.spend(100 + 2 * budget.reductions(turns * len(rest) + 16, budget.limbs([ell])))
     while len(rest) > len(g) + 1:
         last, k = rest.pop(), k + 1
         shifted = [*[0] * (len(rest) + 1 - len(g)), *g]
@@ -110,6 +114,8 @@ def integer_resultant(f: Bivariate, g: Bivariate, moduli: list[int]) -> list[int
     than twice this.
     """
     (c, first), (d, second) = map(_multiple, (f, g))
+    a, b = budget.limbs([first, c]) * (len(g) - 1), budget.limbs([second, d]) * (len(f) - 1)
+    budget.spend(budget.products(8, a + b + 1, a + b + 1))
     size = first ** (len(g) - 1) * second ** (len(f) - 1)
     factor, product, found = c ** (len(g) - 1) * d ** (len(f) - 1), 1, [0]
     for ell in budget.counted(moduli):
@@ -129,5 +135,6 @@ def integer_resultant(f: Bivariate, g: Bivariate, moduli: list[int]) -> list[int
 
 def _multiple(f: Bivariate) -> tuple[int, int]:
     """The least d ≥ 1 that makes d·f integer, and the sum of the absolute values of d·f."""
+    budget.spend(10 * sum(map(len, f)))
     numbers, d = cleared([c for part in f for c in part])
     return d, sum(map(abs, numbers))

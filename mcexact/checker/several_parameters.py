@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 from .budget import fractions, limbs_of, spend
@@ -35,7 +36,7 @@ def quotient_text(value: Quotient, parameters: tuple[str, ...]) -> Json:
 
 def terms_text(p: Terms, parameters: tuple[str, ...]) -> str:
     """A polynomial, its terms in decreasing lexicographic order of the exponents."""
-    spend(fractions(len(p), limbs_of(list(p.values()))))
+    spend(fractions(len(p) * _keys(parameters), limbs_of(list(p.values()))))
     words = []
     for exponents, c in sorted(p.items(), reverse=True):
         powers = zip(parameters, exponents, strict=True)
@@ -44,6 +45,11 @@ def terms_text(p: Terms, parameters: tuple[str, ...]) -> str:
         words += ["-" if c < 0 else "+", "*".join(size + factors)]
     sign = "-" if words[0] == "-" else ""
     return sign + " ".join(words[1:])
+
+
+def _keys(parameters: Sequence[str]) -> int:
+    """How many times as long as with few parameters it takes to make a key, its exponents."""
+    return len(parameters) // 8 + 1
 
 
 class _SeveralParameters(Reader[Terms]):
@@ -56,10 +62,11 @@ class _SeveralParameters(Reader[Terms]):
         return {tuple(int(name == other) for other in self.parameters): Fraction(1)}
 
     def degree(self, p: Terms) -> int:
+        spend(10 * len(p) * len(self.parameters))
         return max(map(sum, p), default=0)
 
     def times(self, a: Terms, b: Terms) -> Terms:
-        turns = len(a) * len(b) * (len(self.parameters) + 8) // 8
+        turns = (len(a) * len(b) + 2) * _keys(self.parameters)
         longest = limbs_of(list(a.values())) + limbs_of(list(b.values()))
         spend(fractions(turns, 2 * longest))
         result: Terms = {}
@@ -70,7 +77,8 @@ class _SeveralParameters(Reader[Terms]):
         return {key: c for key, c in result.items() if c}
 
     def plus(self, a: Terms, b: Terms, sign: str) -> Terms:
-        spend(fractions(len(a) + len(b), limbs_of([*a.values(), *b.values()])))
+        turns = (len(a) + len(b)) * _keys(self.parameters)
+        spend(fractions(turns, limbs_of([*a.values(), *b.values()])))
         one = -1 if sign == "-" else 1
         found = {key: a.get(key, Fraction(0)) + one * b.get(key, 0) for key in {**a, **b}}
         return {key: c for key, c in found.items() if c}
@@ -83,10 +91,11 @@ class _SeveralParameters(Reader[Terms]):
             lead = {(0,) * len(self.parameters): bottom[max(bottom)]}
             return divided(top, lead, self), divided(bottom, lead, self)
         [(below, d)] = bottom.items()
+        turns = (3 * len(top) + 3) * _keys(self.parameters)
+        spend(fractions(turns, limbs_of([*top.values(), d])))
         common = [min(each) for each in zip(below, *top, strict=True)] if top else below
 
         def without(exponents: tuple[int, ...]) -> tuple[int, ...]:
             return tuple(e - g for e, g in zip(exponents, common, strict=True))
 
-        spend(fractions(len(top), limbs_of([*top.values(), d])))
         return {without(e): c / d for e, c in top.items()}, {without(below): Fraction(1)}

@@ -12,6 +12,9 @@ from .statement import channel_set, denied, edge_set
 from .subspaces import zero_transfer
 from .system import System
 
+PAIRS = 100
+"""What a pair of channels costs where every pair is looked at."""
+
 
 def check(claim: Json, witness: Json, system: System) -> None:
     """Check a power for each edge, no path or a zero transfer for other pairs, and the components.
@@ -26,7 +29,7 @@ def check(claim: Json, witness: Json, system: System) -> None:
     triples = read_arcs(joined, "claim.arcs", system)
     require_arcs(system, triples, modulus(number, "witness.modulus"))
     arcs = [(j, i) for j, i, _ in triples]
-    spend(20 * system.m**2)
+    spend(PAIRS * system.m**2)
     missing = {(j, i) for j in range(system.m) for i in range(system.m)} - set(arcs)
     for k, entry in enumerate(items(zeros, "witness.zeros")):
         sources, X = zero_transfer(entry, f"witness.zeros[{k}]", system)

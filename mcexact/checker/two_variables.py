@@ -1,7 +1,9 @@
 """Polynomials in x whose coefficients are polynomials in a parameter t."""
 
+from operator import mul
+
 from . import budget, reading
-from .arithmetic import Matrix, Polynomial, poly_divide, stripped
+from .arithmetic import Matrix, Polynomial, Rows, poly_divide, stack, stripped
 from .arithmetic import poly_product as times
 from .characteristic_polynomial import characteristic_polynomial, characteristic_polynomial_modulo
 from .interpolation import interpolated
@@ -49,6 +51,8 @@ def modulo(f: Bivariate, q: Polynomial | None) -> Bivariate:
 def divide(f: Bivariate, g: Bivariate, q: Polynomial | None = None) -> tuple[Bivariate, Bivariate]:
     """Quotient and remainder of f by g, monic in x, with coefficients reduced modulo q."""
     rest, quotient = list(f), []
+    turns = max(len(f) - len(g) + 1, 0)
+    budget.spend(budget.STEP + 10 * (len(f) + turns * len(g)))
     for _ in budget.counted(range(len(f) - len(g) + 1)):
         top = rest.pop()
         quotient.append(top)
@@ -68,7 +72,7 @@ def difference(f: Bivariate, g: Bivariate) -> Bivariate:
 
 
 def _less(a: Polynomial, b: Polynomial) -> Polynomial:
-    budget.spend(budget.fractions(len(b), budget.limbs_of(a) + budget.limbs_of(b)))
+    budget.spend(budget.fractions(len(a) + len(b), budget.limbs_of(a) + budget.limbs_of(b)))
     length = max(len(a), len(b))
     a, b = ([*p, *[0] * (length - len(p))] for p in (a, b))
     return stripped([x - y for x, y in zip(a, b, strict=True)])
@@ -115,31 +119,36 @@ def _characteristic_values(A: Layers, ell: int) -> list[Polynomial]:
             characteristic_polynomial_modulo(_at(rows, t, ell), ell)
             for t in budget.counted(range(many))
         ]
+    above = stack(A, n)
+    rows, d = [above.rows[k * n : (k + 1) * n] for k in range(len(A))], above.denominator
     values = []
     for t in budget.counted(range(many)):
-        total = Matrix.zeros(n, n)
-        for layer in reversed(A):
-            total = total.times(t) + layer
-        values.append(characteristic_polynomial(total))
+        budget.build(n, n, above.limbs, budget.limbs([t]) * len(A), len(A))
+        values.append(characteristic_polynomial(Matrix(_values(rows, t), n, d)))
     return values
 
 
 def _length(A: Layers, i: int, column: bool) -> int:
     """The largest degree of an entry of a row or of a column."""
-    budget.spend(len(A) * A[0].nrows)
+    budget.spend(len(A) * (20 + 4 * A[0].nrows))
     return max(
         k * any(row[i] for row in layer.rows) if column else k * any(layer.rows[i])
         for k, layer in enumerate(A)
     )
 
 
-def _at(rows: list[list[list[int]]], t: int, ell: int) -> list[list[int]]:
-    budget.build(len(rows[0]), len(rows[0]), budget.limbs([ell]), 1, len(rows))
-    powers = [pow(t, k, ell) for k in range(len(rows))]
+def _at(rows: list[Rows], t: int, ell: int) -> Rows:
+    budget.spend(budget.reductions(len(rows), budget.limbs([ell])))
+    budget.build(len(rows[0]), len(rows[0]), budget.limbs([ell]), 1, 2 * len(rows))
+    return [[entry % ell for entry in row] for row in _values(rows, t, ell)]
+
+
+def _values(rows: list[Rows], t: int, ell: int = 0) -> Rows:
+    """The values of entries at t, whose powers may be reduced modulo ℓ."""
+    powers = [1]
+    for _ in rows[1:]:
+        powers.append(powers[-1] * t % ell if ell else powers[-1] * t)
     return [
-        [
-            sum(c * power for c, power in zip(cell, powers, strict=True)) % ell
-            for cell in zip(*row, strict=True)
-        ]
+        [sum(map(mul, cell, powers)) for cell in zip(*row, strict=True)]
         for row in zip(*rows, strict=True)
     ]

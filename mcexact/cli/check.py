@@ -65,7 +65,7 @@ from mcexact.cli.failures import INTERRUPTED
     type=click.IntRange(min=1, max=10**30),
     metavar="N",
     help="Units of work that the check of a file may take, or that of a manifest with its "
-    "certificates; by default 40,000,000 and 4,000 for each byte, ten times as many if the plant "
+    "certificates; by default 40,000,000 and 4,000 for each byte, four times as many if the plant "
     "has a parameter.",
 )
 @options.file_limits

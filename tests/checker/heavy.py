@@ -6,6 +6,7 @@ import json
 from math import prod
 from typing import Any
 
+from tests.checker import heavy_parameters
 from tests.checker.handmade import certificate, layers, matrix, plant
 
 Ports = tuple[Any, Any]
@@ -253,6 +254,7 @@ HEAVY: dict[str, dict[str, Any]] = {
         {"arcs": [], "components": [], "strongly_connected": False},
         {"modulus": 7, "powers": [], "zeros": []},
     ),
+    **heavy_parameters.HEAVY,
 }
 """Certificates of at most 10,000 bytes, by what is heavy in them."""
 
@@ -266,6 +268,7 @@ EXPECTED = {
     "10 discs of very many digits": ("INVALID", "disc"),
     "channels without anything": ("INVALID", "claim"),
     "a sequence of a million states": ("INVALID", "partition"),
+    **heavy_parameters.EXPECTED,
 }
 """The verdicts and codes of those that the default decides; the others are INCOMPLETE."""
 

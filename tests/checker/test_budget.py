@@ -25,8 +25,8 @@ def asked(given: Budget, units: int, after: int = 0) -> int:
 def test_what_is_granted_is_what_the_documents_say() -> None:
     told = f"{GRANTED:,} units and {PER_BYTE:,} for each byte"
     assert told == "40,000,000 units and 4,000 for each byte"
-    assert MORE == 10
-    more = f"{told}, ten times as many if the plant has a parameter"
+    assert MORE == 4
+    more = f"{told}, four times as many if the plant has a parameter"
     assert more in " ".join((command.__doc__ or "").split())
     assert Budget() == Budget(None, GRANTED, 0, [], False, 0, 1)
 
@@ -178,9 +178,9 @@ def units_of(place: Callable[[Polynomial], bool], p: Polynomial) -> int:
 @pytest.mark.parametrize(
     ("p", "bound"),
     [
-        ([comb(30, k) * Fraction(3) ** k for k in range(31)], 42_000),
-        ([Fraction(comb(15, k // 2) * (k % 2 == 0)) for k in range(31)], 8_200),
-        ([Fraction(3)], 600),
+        ([comb(30, k) * Fraction(3) ** k for k in range(31)], 44_000),
+        ([Fraction(comb(15, k // 2) * (k % 2 == 0)) for k in range(31)], 11_500),
+        ([Fraction(3)], 2_400),
     ],
     ids=["(3x + 1)^30", "(x^2 + 1)^15", "3"],
 )

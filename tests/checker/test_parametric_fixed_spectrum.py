@@ -505,7 +505,7 @@ def test_what_is_not_as_the_format_says_is_malformed(name: str) -> None:
     assert found.verdict == "MALFORMED", found.line()
 
 
-def test_ten_times_as_much_work_is_granted() -> None:
+def test_more_work_is_granted_where_there_is_a_parameter() -> None:
     spent, size = checked(PAPER).spent, PER_BYTE * len(json.dumps(PAPER))
     with limited(Budget(usual=spent // 2 - size)):
         assert checked(PAPER).verdict == "VALID"

@@ -28,7 +28,7 @@ from mcexact.checker.arithmetic import (
     rank,
     stack,
 )
-from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, current, limited
+from mcexact.checker.budget import GRANTED, MORE, PER_BYTE, Budget, current, limited
 from mcexact.checker.characteristic_polynomial import characteristic_polynomial
 from mcexact.checker.characteristic_polynomial import (
     characteristic_polynomial_modulo as char_modulo,
@@ -72,7 +72,8 @@ def test_a_heavy_document_is_small_and_gets_the_verdict_for_it(name: str) -> Non
     assert len(data) <= 10_000
     found = check_document(data)
     assert (found.verdict, found.code) == (verdict, code), found.line()
-    assert found.spent <= GRANTED + PER_BYTE * len(data)
+    times = MORE if b'"parameters"' in data else 1
+    assert found.spent <= times * (GRANTED + PER_BYTE * len(data))
 
 
 @pytest.mark.parametrize("name", heavy.HEAVY)
@@ -396,7 +397,8 @@ def test_short_moduli_are_charged_for_by_the_length_of_the_denominators() -> Non
             require_spectrum(Matrix([[1]], 1, d), [Fraction(-1, d), Fraction(1)], "", moduli)
         spent.append(allowed.spent)
     # the matrix and the polynomial take 3/2 units for each limb, and the denominators 1/4
-    assert 160 * budget.limbs([d]) < spent[1] - spent[0] < 200 * budget.limbs([d])
+    steps = 2 * 100 * budget.STEP
+    assert 160 * budget.limbs([d]) < spent[1] - spent[0] - steps < 200 * budget.limbs([d])
 
 
 def test_long_numbers_are_charged_by_the_square_of_their_length() -> None:
