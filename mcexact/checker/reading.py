@@ -67,6 +67,8 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Json] | None 
     if len(data) > limits.bytes:
         incomplete("size", "file", f"more than {limits.bytes} bytes (Limits.bytes)")
     spend(40 * len(data))
+    if decimal_of is not None:  # of files that users write, some editors mark the encoding
+        data = data.removeprefix(b"\xef\xbb\xbf")
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:

@@ -7,6 +7,7 @@ import os
 import re
 import stat
 import sys
+import time
 from collections.abc import Collection, Iterable, Iterator
 from decimal import Decimal
 from typing import Any
@@ -18,6 +19,9 @@ from mcexact.model.names import nearest, quoted
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 # Integers of up to this many characters are converted here, longer numbers by the number grammar.
 _SHORT = 18
+WAIT_FOR_WRITER = 5.0
+"""The seconds after which a pipe that no program writes to is refused."""
+_BLOCK = 2**20
 REMEMBERED = 10_000
 """The number of different numbers that are kept to be recognized when they occur again."""
 _MANY = 20
@@ -55,13 +59,15 @@ def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     Raises
     ------
     InputError
-        If it is missing, unreadable, a folder, or too large.
+        If it is missing, unreadable, a folder, too large, or a pipe that no program writes to.
     """
     try:
         if os.fspath(path) == "-":
             if sys.stdin is None:
                 raise InputError("cannot be read: standard input is closed")
             data = sys.stdin.buffer.read(limits.bytes + 1)
+        elif hasattr(os, "mkfifo") and stat.S_ISFIFO(os.stat(path).st_mode):
+            data = _from_pipe(path, limits)
         else:
             with open(path, "rb") as stream:
                 status = os.fstat(stream.fileno())
@@ -79,6 +85,32 @@ def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     if len(data) > limits.bytes:
         raise _too_large(limits)
     return data
+
+
+def _from_pipe(path: str | os.PathLike[str], limits: Limits) -> bytes:
+    """Read a named pipe, which without a program that writes to it would be waited for without end.
+
+    Raises
+    ------
+    InputError
+        If no program has opened it for writing after some seconds.
+    """
+    pipe = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    with open(pipe, "rb", buffering=0) as stream:
+        end, first = time.monotonic() + WAIT_FOR_WRITER, b""
+        # Nothing is read as long as nobody writes, and None while somebody may.
+        while first is not None and not (first := stream.read(_BLOCK)):
+            if time.monotonic() > end:
+                raise InputError(
+                    f"no program has written to this pipe within {WAIT_FOR_WRITER:g} s: start the "
+                    "program that writes to it first, or name a file"
+                )
+            time.sleep(0.01)
+        os.set_blocking(pipe, True)
+        found = [first or b""]
+        while sum(map(len, found)) <= limits.bytes and (block := stream.read(_BLOCK)):
+            found.append(block)
+    return b"".join(found)
 
 
 def _advice(text: str, error: json.JSONDecodeError) -> str:
@@ -106,9 +138,18 @@ def require_start(data: bytes | str, hint: str) -> None:
     """
     text = data.encode() if isinstance(data, str) else data
     start = text.lstrip(b" \t\r\n")[:1]
-    if start not in (b"", b"{", b"[", _BYTE_ORDER_MARK[:1]):
+    if start not in (b"", b"{", b"[", _BYTE_ORDER_MARK[:1]) and not _is_scalar(text):
         shown = ascii(start.decode("ascii")) if start.isascii() else f"the byte 0x{start.hex()}"
         raise InputError(f"not JSON: found {shown} at the beginning; {hint}")
+
+
+def _is_scalar(text: bytes) -> bool:
+    """Whether a text is a value of JSON, such as null, which is no system but JSON."""
+    try:
+        json.loads(text.decode("utf-8"), parse_int=str, parse_float=str)
+    except (ValueError, RecursionError):
+        return False
+    return True
 
 
 def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
@@ -117,7 +158,7 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
     Parameters
     ----------
     data : bytes or str
-        UTF-8 without a byte order mark.
+        UTF-8, with or without a byte order mark.
     limits : Limits
 
     Returns
@@ -182,10 +223,8 @@ def _decoded(data: bytes, limits: Limits) -> str:
     """Decode UTF-8."""
     if len(data) > limits.bytes:
         raise _too_large(limits)
-    if data.startswith(_BYTE_ORDER_MARK):
-        raise InputError("starts with a byte order mark; save it as UTF-8 without one")
     try:
-        return data.decode("utf-8")
+        return data.removeprefix(_BYTE_ORDER_MARK).decode("utf-8")
     except UnicodeDecodeError as error:
         raise InputError(
             f"not UTF-8 text: byte {error.start} is 0x{data[error.start]:02x}"

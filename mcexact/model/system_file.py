@@ -47,7 +47,9 @@ M = TypeVar("M")
 
 FORMAT = "mcexact-system/1"
 _REQUIRED = ("format", "time", "A", "channels")
-_OPTIONAL = ("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty")
+_OPTIONAL = (
+    *("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty", "parameters"),
+)
 
 
 def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiChannelSystem:

@@ -72,6 +72,13 @@ def test_delays_without_links_are_refused() -> None:
         digest_of(json.dumps({**plain, "delays": {}}))
 
 
+def test_one_byte_order_mark_says_nothing() -> None:
+    text = json.dumps(BASE)
+    assert digest_of("\ufeff" + text) == digest_of(text)
+    with pytest.raises(Refused):
+        digest_of("\ufeff\ufeff" + text)
+
+
 def test_what_no_claim_depends_on_is_not_in_the_digest() -> None:
     sampled = {
         **BASE,

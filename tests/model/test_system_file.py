@@ -7,6 +7,8 @@ import os
 import random
 import stat
 import sys
+import threading
+import time
 from fractions import Fraction
 from typing import Any
 
@@ -25,7 +27,7 @@ from mcexact.derived.extended import extended_system
 from mcexact.errors import FloatRefused, InputError, NotWritten
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Limits
-from mcexact.model import gallery
+from mcexact.model import gallery, json_text
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical, numbers_of_any_length
 from mcexact.model.formats.files import load_system, save_system
@@ -206,7 +208,7 @@ def test_long_integers_are_read_and_written():
     [
         (b"", "found an empty file"),
         (b"  \n", "found an empty file"),
-        (b"\xef\xbb\xbf{}", "byte order mark"),
+        (b"\xef\xbb\xbf\xef\xbb\xbf{}", "not JSON: .* BOM"),
         (base64.b64decode("iVBORw0KGgo="), "not UTF-8 text: byte 0 is 0x89"),
         (json.dumps(document())[:200], "not JSON: .* at line 1, column"),
         (json.dumps(document()).encode() + b"\0", "not JSON: Extra data"),
@@ -245,7 +247,8 @@ def test_bytes_that_are_no_json_object_are_refused(data, message):
         ({"format": "x"}, "format: expected \"mcexact-system/1\", found 'x'"),
         ({"format": 1}, "format: .* found a value of type int"),
         ({"chanels": []}, r"unknown key 'chanels' \(did you mean 'channels'\?\)"),
-        ({"zzz": []}, "unknown key 'zzz'; known are 'format', "),
+        ({"zzz": []}, "unknown key 'zzz'; known are 'format', .*'parameters'"),
+        ({"paramters": {}}, r"unknown key 'paramters' \(did you mean 'parameters'\?\)"),
         ({"time": None}, "the key 'time' is missing"),
         ({"time": "sampled"}, 'time: expected "continuous" or "discrete", found \'sampled\''),
         ({"time": 3}, 'time: expected "continuous" or "discrete"'),
@@ -487,3 +490,30 @@ def test_sparse_arrays_of_floats_and_of_a_wrong_shape_are_refused():
     assert system.A == Matrix.identity(3)
     with pytest.raises(InputError, match=r"B\[0\]: expected 3 rows, found 2"):
         MultiChannelSystem(eye.astype(int), [eye.astype(int).tocsr()[:2]], [[[1] * 3]])  # type: ignore[misc]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
+def test_a_pipe_is_read_when_somebody_writes_to_it(tmp_path, monkeypatch):
+    path, text = tmp_path / "pipe.json", json.dumps(document())
+    os.mkfifo(path)
+    for first, second in ((text, ""), (text[:50], text[50:])):
+
+        def write(first=first, second=second):
+            with path.open("w") as stream:
+                time.sleep(0.05)
+                print(first, end="", file=stream, flush=True)
+                time.sleep(0.05)
+                stream.write(second)
+
+        writer = threading.Thread(target=write)
+        writer.start()
+        assert load_system(path) == read_system(text)
+        writer.join()
+    monkeypatch.setattr(json_text, "WAIT_FOR_WRITER", 0.05)
+    with pytest.raises(InputError, match="no program has written to this pipe within"):
+        load_system(path)
+    writer = threading.Thread(target=path.write_text, args=(text,))
+    writer.start()
+    with pytest.raises(InputError, match="at most 20 bytes"):
+        load_system(path, limits=Limits(bytes=20))
+    writer.join()
