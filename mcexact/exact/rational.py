@@ -191,7 +191,9 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     kind = type(entry)
     if isinstance(entry, bool) or kind.__name__ in ("bool_", "bool"):
         raise InputError(f"expected a number, found the Boolean {entry!r}", where=where)
-    if isinstance(entry, complex) or is_inexact(entry):
+    if isinstance(entry, complex) or getattr(getattr(entry, "dtype", None), "kind", "") == "c":
+        raise InputError(f"expected a real number, found the complex number {entry}", where=where)
+    if is_inexact(entry):
         raise FloatRefused(TWO_WAYS_IN, where=where)
     if isinstance(entry, Decimal):
         return _from_decimal(entry, where)

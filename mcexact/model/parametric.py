@@ -14,7 +14,7 @@ from mcexact.errors import InputError, LimitReached
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.location import require_time
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import as_fraction, written
+from mcexact.exact.rational import as_fraction, rational_text, written
 from mcexact.exact.rational_function import RationalFunction
 from mcexact.model.channel import ByChannel, Channel, channels_of
 from mcexact.model.expression import checked_parameter
@@ -387,7 +387,21 @@ def _checked_ranges(
         if len(bounds) != 2:
             raise InputError(f"expected two ends, found {len(bounds)}", where=where)
         low, high = (None if end is None else as_fraction(end, where=where) for end in bounds)
-        if low is not None and high is not None and low > high:
-            raise InputError(f"expected an interval, found {low} above {high}", where=where)
+        require_ascending(low, high, where)
         ranges.append((low, high))
     return tuple(ranges)
+
+
+def require_ascending(low: Fraction | None, high: Fraction | None, where: str) -> None:
+    """Refuse ends of a range of which the first is above the second.
+
+    Raises
+    ------
+    InputError
+        If it is; None has no bound.
+    """
+    if low is not None and high is not None and low > high:
+        raise InputError(
+            f"expected an interval, found {rational_text(low)} above {rational_text(high)}",
+            where=where,
+        )

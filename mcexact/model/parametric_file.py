@@ -20,7 +20,7 @@ from mcexact.model.json_text import (
     require_short_numbers,
 )
 from mcexact.model.matrix_json import Entries, read_number
-from mcexact.model.parametric import ParametricSystem
+from mcexact.model.parametric import ParametricSystem, require_ascending
 from mcexact.model.system_file import FORMAT, texts_of, unread_plant
 
 _REQUIRED = ("format", "time", "parameters", "A", "channels")
@@ -95,6 +95,7 @@ def _range(value: Any, where: str, limits: Limits) -> tuple[Fraction | None, Fra
     if len(ends) != 2:
         raise InputError(f"expected two ends, found {len(ends)}", where=where)
     low, high = (None if end is None else read_number(end, where, limits) for end in ends)
+    require_ascending(low, high, where)
     return low, high
 
 

@@ -124,13 +124,15 @@ class Record(Shown):
 
 
 def read_records(path: str | os.PathLike[str]) -> dict[str, Record]:
-    """Read the last record of each key from a file; a missing file has no records.
+    """Read the last record of each key from a file; a missing file has none, and a stream neither.
 
     Raises
     ------
     InputError
         If it cannot be read, or is not a file of records.
     """
+    if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+        return {}  # a stream, such as /dev/null
     try:
         with open(path, "rb") as stream:
             return dict(_records(stream.read(), os.fspath(path)))

@@ -245,6 +245,8 @@ def _on_graphs(
     strongly_connected: bool | None,
     longest_delay: int,
 ) -> Drawn:
+    if strongly_connected is False:  # one agent alone is strongly connected
+        base = base.filter(lambda each: each.system.m > 1)
     found = draw(base)
     graph = draw(_graphs(found.system.names, strongly_connected, longest_delay))
     return printed(draw, replace(found, system=found.system.with_neighbors(graph)))
@@ -264,6 +266,7 @@ def systems_on_graphs(
         Where the systems come from; `jointly_controllable_systems` by default, in discrete time if
         there are delays.
     strongly_connected : bool, optional
+        Any graph by default.  False leaves out systems of one channel.
     longest_delay : int
     """
     if base is None:

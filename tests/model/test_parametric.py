@@ -205,6 +205,7 @@ BROKEN: list[tuple[dict[str, Any], str]] = [
     ({"parameters": {}}, "at least one"),
     ({"parameters": {"t": {"from": 1}}}, "unknown key 'from'"),
     ({"parameters": {"t": {"range": [1]}}}, "two ends"),
+    ({"parameters": {"t": {"range": [1, 0]}}}, r"^parameters\[t\]\.range: .* 1 above 0"),
     ({"parameters": {"t": {"range": ["t", 1]}}}, "range"),
     ({"parameters": {"x": {}}}, "another name"),
     ({"A": [["t", 1]]}, "square"),

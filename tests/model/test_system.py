@@ -72,6 +72,13 @@ def test_floats_are_refused_with_the_two_ways_in(A, where):
     assert caught.value.where == where
 
 
+@pytest.mark.parametrize("entry", [1j, 0.5 + 0j, np.complex128(1j), np.complex64(2)])
+def test_complex_numbers_are_called_so(entry):
+    with pytest.raises(InputError, match="found the complex number") as caught:
+        MultiChannelSystem([[entry]], [[[1]]], [[[1]]])
+    assert caught.value.where == "A[0][0]" and not isinstance(caught.value, FloatRefused)
+
+
 class Lying(list[Any]):
     """A list whose length is not what it says."""
 
@@ -89,7 +96,7 @@ class Lying(list[Any]):
         ([[1, 2], [3]], r"A\[1\]: expected 2 entries as in row 0, found 1"),
         ([[1, 2]], "A: expected a square matrix, found 1 × 2"),
         ([[True]], r"A\[0\]\[0\]: expected a number, found the Boolean True"),
-        ([[1 + 2j]], r"A\[0\]\[0\]: a float is not exact"),
+        ([[1 + 2j]], r"A\[0\]\[0\]: expected a real number, found the complex number"),
         (np.array([[True]]), "A: expected an array of integers or of exact objects, found bool"),
         (np.array([1]), "A: expected a two-dimensional array, found 1 dimensions"),
         (np.array([[1j]]), "A: expected an array of integers"),

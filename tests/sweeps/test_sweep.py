@@ -359,3 +359,12 @@ def test_a_plant_outside_of_the_radii_shows_no_failure() -> None:
     assert not record.answers and record.error is not None and record.error["status"] == 70
     [record] = sweep([far], ["box_controllability"], work=forged, executor=ThreadPoolExecutor(1))
     assert record.error is not None and record.error["status"] == 70
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no full device")
+def test_a_stream_keeps_no_records_and_is_not_read() -> None:
+    """Reading the device, which has no end, took all memory."""
+    assert read_records("/dev/full") == {}
+    assert len(list(sweep(DRAWS[:1], results="/dev/null"))) == 1
+    with pytest.raises(InputError, match="/dev/full: cannot be written"):
+        list(sweep(DRAWS[:1], results="/dev/full"))

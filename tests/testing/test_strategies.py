@@ -53,6 +53,11 @@ def test_degree_and_time_are_as_asked_for(drawn):
     assert drawn.fixed_mode.degree == 2 and drawn.system.time == "discrete"
 
 
+@given(testing.systems_on_graphs(strongly_connected=False))
+def test_systems_on_graphs_that_are_not_strongly_connected_have_several_agents(drawn):
+    assert drawn.system.m > 1 and not drawn.system.neighbors.is_strongly_connected()
+
+
 @given(testing.sparse_systems(max_states=2, max_channels=2))
 def test_sizes_are_as_asked_for(drawn):
     assert drawn.system.n <= 2 and drawn.system.m <= 2
