@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: absence boxes hypersurfaces members parameters cluster corpus coverage digits package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence boxes damaged-files hypersurfaces members parameters cluster corpus coverage digits package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -110,6 +110,12 @@ weakened-checker: $(STAMP)
 readers: $(STAMP)
 	$(BIN)/python -m tests.campaigns.grammar 100000
 	$(BIN)/python -m tests.campaigns.controller_grammar 20000
+
+# So many damaged files of each format, .mat, .npz, CSV, YAML and JSON, in processes with limits: none
+# ends one, is not refused in words, or takes five seconds: ten minutes.  The same command continues
+# after an interruption; FIRST=200 draws other files, in batches of 100.
+damaged-files: $(STAMP)
+	$(BIN)/python -m tests.campaigns.damaged_files $(or $(N),20000) $(or $(FIRST),0)
 
 # Every line and branch of the checker is run by the tests of its own folder: minutes.
 coverage: $(STAMP)

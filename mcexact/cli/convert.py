@@ -64,9 +64,11 @@ def command(file: str, output: Path | None, **given: Any) -> None:
     from mcexact.cli.output import emit
     from mcexact.cli.running import Run
     from mcexact.model.formats.csv_folder import MARK
-    from mcexact.model.formats.files import is_folder
+    from mcexact.model.formats.files import is_folder, require_suffix
 
     run = Run(given)
+    if output is not None:
+        require_suffix(output)
     require_other(output, file)
     if output is not None and is_folder(output):
         require_replaceable(output, MARK)

@@ -18,6 +18,7 @@ def main(
     usual_file: Path,
     examined: Callable[[int], Examined],
     wrong_are: str,
+    one: str = "system",
 ) -> int:
     """Examine the drawn systems that are not in the file yet; print what was found in all.
 
@@ -31,6 +32,8 @@ def main(
         What was found of the system with a number.
     wrong_are : str
         What is printed of the number of things that are wrong.
+    one : str
+        What is printed in front of the number of one of them.
     """
     number_of, first_of, file_of, *_ = [
         *arguments,
@@ -54,6 +57,6 @@ def main(
         total.update(done[number]["seen"])
         total[wrong_are] += len(done[number]["wrong"])
         for what in done[number]["wrong"]:
-            print(f"system {number}: {what}")
+            print(f"{one} {number}: {what}")
     print(", ".join(f"{value} {key}" for key, value in total.items()))
     return int(total[wrong_are] > 0)

@@ -138,3 +138,9 @@ def test_values_make_it_a_system_of_every_kind(tmp_path: Path, name: str) -> Non
 def test_values_that_do_not_fit_are_refused(file: str, at: list[str], said: str) -> None:
     status, _, err = call("convert", file, *(f"--at={each}" for each in at))
     assert status in (2, 3) and said in err
+
+
+def test_a_file_of_an_unknown_kind_is_not_written(tmp_path: Path) -> None:
+    status, _, said = call("convert", TANKS, "-o", str(tmp_path / "plant.xlsx"))
+    assert status == 2 and "ends in '.xlsx': choose .json" in said
+    assert not list(tmp_path.iterdir())

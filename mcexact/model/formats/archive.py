@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import io
 import zipfile
-import zlib
 
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
+from mcexact.model.names import quoted
 
 
 def members(data: bytes, limits: Limits) -> dict[str, bytes]:
@@ -23,10 +23,15 @@ def members(data: bytes, limits: Limits) -> dict[str, bytes]:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             for member in archive.infolist():
-                if member.is_dir():
+                if member.filename.endswith("/"):
                     continue
+                if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                    raise InputError(
+                        f"the file {quoted(member.filename)} of the archive is compressed in a way "
+                        "that is not read: expected 'deflate' or none"
+                    )
                 if member.filename in found:
-                    raise InputError(f"the archive has two files {member.filename!a}")
+                    raise InputError(f"the archive has two files {quoted(member.filename)}")
                 with archive.open(member) as stream:
                     content = stream.read(limits.bytes + 1 - size)
                 size += len(content)
@@ -36,6 +41,9 @@ def members(data: bytes, limits: Limits) -> dict[str, bytes]:
                         "found more"
                     )
                 found[member.filename] = content
-    except (zipfile.BadZipFile, zlib.error, EOFError, OSError, RuntimeError) as error:
-        raise InputError(f"the archive is damaged: {error}") from None
+    except InputError:
+        raise
+    except Exception as error:  # of zipfile, which raises all kinds for a damaged archive
+        said = ascii(str(error))[1:-1][:200] or type(error).__name__
+        raise InputError(f"the archive is damaged: {said}") from None
     return found

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
+from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError
-from mcexact.exact.floats import Rounding, matrix_from_float, matrix_to_float
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.floats import Rounding, from_float, matrix_from_float, matrix_to_float
+from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.exact.rational import Limits, decimal_or_quotient
 from mcexact.exact.rows import common_width, is_sparse_array
+from mcexact.exact.tables import is_mostly_zero
 from mcexact.model.formats.reading import Reading
 from mcexact.model.matrix_entry import as_matrix, require_shape
 from mcexact.model.matrix_json import LONGEST_SIDE, read_number
@@ -17,7 +21,8 @@ HOW = (
     "a float is not exact: choose how it is rounded, such as by "
     "'mcexact convert FILE --rounding decimal -o plant.json'"
 )
-_WHOLE = 2**53
+WHOLE = 2**53
+"""Floats hold every integer up to here."""
 
 
 def require_sides(sides: Any, where: str) -> None:
@@ -37,6 +42,33 @@ def require_sides(sides: Any, where: str) -> None:
     if min(sides) < 0 or max(sides) > LONGEST_SIDE:
         raise InputError(
             f"expected 0 to {LONGEST_SIDE} rows and columns, found {shape}", where=where
+        )
+
+
+def require_entries(values: Iterable[Any], limits: Limits) -> None:
+    """Refuse arrays that have more entries than a file of numbers of 64 bits can have.
+
+    A compressed file can claim many more than it has bytes, and each takes time to convert; zeros
+    take none.
+
+    Raises
+    ------
+    InputError
+        If there are too many, texts and numbers that are not 0.
+    """
+    import numpy as np
+
+    most, count = limits.bytes // 8, 0
+    for value in values:
+        if is_sparse_array(value):
+            count += value.nnz
+        elif hasattr(value, "dtype"):
+            count += value.size if value.dtype.kind == "U" else int(np.count_nonzero(value))
+        elif isinstance(value, list):
+            count += sum(len(row) - row.count("0") for row in value)
+    if count > most:
+        raise InputError(
+            f"expected at most {most} entries that are not 0 (Limits.bytes), found {count}"
         )
 
 
@@ -74,32 +106,62 @@ def exact_matrix(
 
 
 def _of_texts(rows: list[list[str]], where: str, limits: Limits) -> Matrix:
-    """Read numbers in the grammar of system files."""
+    """Read numbers in the grammar of system files; each text is read once."""
     width = common_width(rows, where)
-    return Matrix.from_rows(
-        [
-            [read_number(entry, f"{where}[{i}][{j}]", limits) for j, entry in enumerate(row)]
-            for i, row in enumerate(rows)
-        ],
-        width or 0,
-        where=where,
-    )
+    known: dict[str, int] = {}
+    exact: list[Fraction] = []
+    places: list[list[int]] = []
+    for i, row in enumerate(rows):
+        for entry in sorted(set(row) - known.keys(), key=row.index):
+            known[entry] = len(exact)
+            exact.append(read_number(entry, f"{where}[{i}][{row.index(entry)}]", limits))
+        places.append(list(map(known.__getitem__, row)))
+    return _of_distinct(exact, places, width or 0)
+
+
+def _of_distinct(exact: list[Fraction], places: list[list[int]], width: int) -> Matrix:
+    """The matrix of rows of positions in a list of numbers, most of which can occur often."""
+    denominator = math.lcm(*{number.denominator for number in exact})
+    numerators = [number.numerator * (denominator // number.denominator) for number in exact]
+    rows = [tuple(map(numerators.__getitem__, row)) for row in places]
+    return Matrix.from_integers(rows, denominator, width)
 
 
 def _of_numbers(value: Any, where: str, reading: Reading) -> Matrix:
     """Convert an array of numbers; integers are exact in every form."""
+    import numpy as np
+
     kind = value.dtype.kind
     if kind == "b":
-        value = value.astype(int)
+        value = value.astype("u1")
     elif kind == "f" and reading.rounding is not None:
-        return matrix_from_float(value, reading.rounding, where=where)
+        if is_sparse_array(value):
+            return matrix_from_float(value, reading.rounding, where=where)
+        _require_finite(value.ravel(), where)
+        distinct, places = np.unique(value, return_inverse=True)
+        exact = [from_float(number, reading.rounding, where=where) for number in distinct]
+        return _of_distinct(exact, places.reshape(value.shape).tolist(), value.shape[1])
     elif kind == "f":
         _require_integers(value, where)
-        return matrix_from_float(value, "dyadic", where=where)
+        value = value.astype("i8")
     elif kind not in "iu":
         found = {"c": "complex numbers", "O": "objects"}.get(kind, f"entries of type {value.dtype}")
         raise InputError(f"expected real numbers, found {found}", where=where)
+    if is_sparse_array(value):
+        return as_matrix(value, where)
+    cells = np.flatnonzero(value)
+    if is_mostly_zero(value.size, cells.size):
+        return from_cells(value.shape, cells.tolist(), value.ravel()[cells].tolist())
     return as_matrix(value, where)
+
+
+def _require_finite(entries: Any, where: str) -> None:
+    """Refuse an infinity and NaN."""
+    import numpy as np
+
+    wrong = entries[~np.isfinite(entries)]
+    if wrong.size:
+        raise InputError(f"expected finite numbers, found {wrong[0]}", where=where)
 
 
 def _require_integers(value: Any, where: str) -> None:
@@ -107,12 +169,10 @@ def _require_integers(value: Any, where: str) -> None:
     import numpy as np
 
     entries = value.data if is_sparse_array(value) else value.ravel()
-    wrong = entries[~(np.abs(entries) <= _WHOLE) | (entries != np.round(entries))]
+    wrong = entries[~(np.abs(entries) <= WHOLE) | (entries != np.round(entries))]
     if not wrong.size:
         return
-    if not np.all(np.isfinite(wrong)):
-        found = wrong[~np.isfinite(wrong)][0]
-        raise InputError(f"expected finite numbers, found {found}", where=where)
+    _require_finite(wrong, where)
     raise InputError(f"found {wrong[0]!s}: {HOW}", where=where)
 
 

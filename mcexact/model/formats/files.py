@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from pathlib import Path
 
-from mcexact.errors import InputError, NotWritten, UsageError, place_of
+from mcexact.errors import InputError, UsageError, place_of
 from mcexact.exact.floats import Rounding
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.model.atomic import write_bytes, write_text
-from mcexact.model.formats.csv_folder import csv_texts
+from mcexact.model.atomic import write_bytes
+from mcexact.model.formats.csv_folder import csv_texts, write_csv_files
 from mcexact.model.formats.mat import mat_bytes
 from mcexact.model.formats.npz import npz_bytes
 from mcexact.model.formats.parts import parts_of
 from mcexact.model.formats.reading import Reading
 from mcexact.model.formats.recognize import read_any, read_input, read_plant
+from mcexact.model.names import quoted
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
+
+SUFFIXES = (".json", ".yaml", ".yml", ".mat", ".npz")
+"""The ends of the names of files that systems are written to."""
 
 
 def load_system(
@@ -39,7 +42,7 @@ def load_system(
     limits : Limits, optional
     rounding : {"decimal", "dyadic"}, optional
         How the floats of .mat and .npz files become exact, as in `MultiChannelSystem.from_float`;
-        without it, only integers are accepted among floats.
+        by default as the file says, or else only integers are accepted among floats.
     inputs, outputs : sequences of int, optional
         The numbers of inputs and outputs of the channels, where the file has stacked B and C and
         does not say.
@@ -107,10 +110,10 @@ def save_system(
         written as JSON, which YAML is too, and `load_parametric_system` reads it.
     path : path
         Its end says the kind: .json, .mat, .npz, .yaml or .yml; a name without one is a folder for
-        .csv files.  Other ends are JSON.
+        .csv files, in which those of another system are replaced.
     rounding : {"decimal", "dyadic"}, optional
-        For .mat and .npz: numbers are written as floats from which `load_system` with the same
-        rounding makes them again.
+        For .mat and .npz: numbers are written as floats from which this rounding makes them again.
+        The file names it, so that `load_system` needs none.
     nearest : bool
         Whether other numbers are written as the nearest floats.
 
@@ -120,17 +123,14 @@ def save_system(
         If the file cannot be written.
     InputError
         If it would not hold the numbers of the system.
+    UsageError
+        If the end of the name is none of these.
     """
     made = system_files(system, path, rounding=rounding, nearest=nearest)
     if isinstance(made, bytes):
         write_bytes(path, made)
-        return
-    try:
-        os.makedirs(path, exist_ok=True)
-    except OSError as error:
-        raise NotWritten(f"cannot write: {error.strerror}", where=os.fspath(path)) from None
-    for name, text in made.items():
-        write_text(Path(path) / name, text)
+    else:
+        write_csv_files(path, made)
 
 
 def system_files(
@@ -146,8 +146,11 @@ def system_files(
     ------
     InputError
         If it would not hold the numbers of the system.
+    UsageError
+        If the end of the name is that of no system file.
     """
     place_of(path)
+    require_suffix(path)
     suffix = os.path.splitext(path)[1].lower()
     if isinstance(system, ParametricSystem):
         if suffix in (".mat", ".npz") or is_folder(path):
@@ -170,6 +173,23 @@ def system_files(
     else:
         return system_text(system).encode("ascii")
     return made
+
+
+def require_suffix(path: str | os.PathLike[str]) -> None:
+    """Refuse to write a system to a file of a kind that is not known.
+
+    Raises
+    ------
+    UsageError
+        If the end of the name is that of no system file.
+    """
+    suffix = os.path.splitext(path)[1]
+    if suffix and suffix.lower() not in SUFFIXES:
+        raise UsageError(
+            f"no system is written to a file that ends in {quoted(suffix)}: choose "
+            f"{', '.join(SUFFIXES)}, or a folder for .csv files, whose name has no end",
+            where=os.fspath(path),
+        )
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import sys
 import zipfile
 from collections.abc import Mapping
 from typing import Any
@@ -12,7 +13,7 @@ from mcexact.exact.floats import Rounding
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Limits, decimal_or_quotient
 from mcexact.model.formats.arrays import floats_of, integers_or_none, require_sides
-from mcexact.model.formats.parts import TEXTS, Parts, require_known
+from mcexact.model.formats.parts import ROUNDING, TEXTS, Parts, require_known
 
 
 def read_npz(files: Mapping[str, bytes], limits: Limits) -> Parts:
@@ -66,6 +67,8 @@ def _array(data: bytes, name: str) -> Any:
         raise InputError("the version of this array is unknown", where=name) from None
     except Exception:  # the header is a Python literal, of which anything can be wrong
         raise InputError("the array is damaged: it has no header of numpy", where=name) from None
+    if any(type(side) is not int for side in shape):  # numpy takes true for 1, not everywhere
+        raise InputError("the array is damaged: its shape is not of integers", where=name)
     if dtype.hasobject or dtype.names is not None:
         raise InputError(
             "expected numbers or texts, found objects, which would have to be unpickled", where=name
@@ -84,6 +87,8 @@ def _array(data: bytes, name: str) -> Any:
             "entries",
             where=name,
         )
+    if dtype.kind == "U" and np.any(np.frombuffer(rest, dtype.byteorder + "u4") > sys.maxunicode):
+        raise InputError("the array is damaged: it has a character that is none", where=name)
     return np.frombuffer(rest, dtype).reshape(shape, order="F" if by_columns else "C")
 
 
@@ -112,6 +117,8 @@ def npz_bytes(parts: Parts, rounding: Rounding | None, *, nearest: bool) -> byte
     arrays = {name: array(M, name) for name, M in parts.tables.items()}
     arrays |= {name: np.array(text) for name, text in parts.texts.items()}
     arrays["names"] = np.array(parts.names)
+    if any(value.dtype.kind == "f" for value in arrays.values()):
+        arrays[ROUNDING] = np.array(rounding or "dyadic")
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, value in arrays.items():

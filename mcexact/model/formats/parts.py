@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, cast, get_args
 
+from mcexact.arguments import one_of
 from mcexact.errors import InputError
+from mcexact.exact.floats import Rounding
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
-from mcexact.model.formats.arrays import exact_matrix
+from mcexact.model.formats.arrays import exact_matrix, require_entries
 from mcexact.model.formats.reading import Reading
 from mcexact.model.names import nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.stacked import split_by_sizes
 from mcexact.model.system import MultiChannelSystem
 
-TEXTS = ("time", "name", "source")
+ROUNDING = "rounding"
+"""How the floats of a file are read where the caller does not say."""
+TEXTS = ("time", "name", "source", ROUNDING)
 TABLES = ("neighbors", "delays", "inputs", "outputs", "sample_time")
 KEYS = ("A", "B", "C", "D", *TABLES, *TEXTS, "names")
 NUMBERED = re.compile(r"([BC])_([1-9][0-9]{0,5})")
@@ -71,6 +75,12 @@ def system_of(parts: Parts, reading: Reading) -> MultiChannelSystem:
         If a part is missing, or is not as expected.
     """
 
+    if ROUNDING in parts.texts:
+        written = parts.texts[ROUNDING]
+        one_of(written, get_args(Rounding), ROUNDING, InputError)
+        reading = replace(reading, rounding=reading.rounding or cast(Rounding, written))
+    require_entries(parts.tables.values(), reading.limits)
+
     def matrix(name: str, nrows: int | None, ncols: int | None) -> Matrix:
         return exact_matrix(parts.tables[name], name, reading, nrows, ncols)
 
@@ -109,7 +119,7 @@ def _channels(
     """Read B_i and C_i, which are given one by one or stacked."""
     found = {(m[1], int(m[2])) for name in parts.tables if (m := NUMBERED.fullmatch(name))}
     if not found:
-        return _stacked(parts, matrix, n, sizes)
+        return _stacked(parts, matrix, n, _sizes(parts, matrix, sizes))
     if "B" in parts.tables or "C" in parts.tables:
         raise InputError("both stacked matrices and matrices of channels are given: keep one kind")
     count = max(k for _, k in found)
@@ -117,8 +127,27 @@ def _channels(
         for letter in "BC":
             if (letter, k) not in found:
                 raise InputError(f"the matrix {letter}_{k} is missing; it may be empty")
-    B = [matrix(f"B_{k}", n, None) for k in range(1, count + 1)]
-    return B, [matrix(f"C_{k}", None, n) for k in range(1, count + 1)]
+    columns, rows = (
+        [None] * count if each is None else each for each in _sizes(parts, matrix, sizes)
+    )
+    for name, each in (("inputs", columns), ("outputs", rows)):
+        if len(each) != count:
+            raise InputError(
+                f"expected the sizes of {count} channels, found {len(each)}", where=name
+            )
+    B = [matrix(f"B_{k}", n, width) for k, width in enumerate(columns, start=1)]
+    return B, [matrix(f"C_{k}", height, n) for k, height in enumerate(rows, start=1)]
+
+
+def _sizes(parts: Parts, matrix: Read, sizes: Sizes) -> Sizes:
+    """The numbers of inputs and of outputs of the channels, as the caller or the file says."""
+    first, second = (
+        each
+        if each is not None or name not in parts.tables
+        else _integers(matrix(name, None, None), name)
+        for name, each in zip(("inputs", "outputs"), sizes, strict=True)
+    )
+    return first, second
 
 
 def _stacked(
@@ -132,14 +161,12 @@ def _stacked(
     for name, letter, given in zip(("inputs", "outputs"), "BC", sizes, strict=True):
         if letter not in parts.tables:
             raise InputError(f"the matrix {letter} is missing: give {letter}, or {letter}_1, …")
-        if given is None and name not in parts.tables:
+        if given is None:
             raise InputError(
                 f"{letter} is stacked, and '{name}' is missing, the number of {name} of each "
                 f"channel; add it, or write 'mcexact convert FILE --{name} 1,1 -o plant.json'"
             )
-        split.append(
-            list(given) if given is not None else _integers(matrix(name, None, None), name)
-        )
+        split.append(list(given))
     B = matrix("B", n, sum(split[0]))
     C = matrix("C", sum(split[1]), n)
     return split_by_sizes(B, C, split[0], split[1])

@@ -17,8 +17,8 @@ class Reading:
     ----------
     limits : Limits
     rounding : {"decimal", "dyadic"}, optional
-        How floats become exact numbers, as in `MultiChannelSystem.from_float`; without it, a float
-        is accepted only if it is an integer.
+        How floats become exact numbers, as in `MultiChannelSystem.from_float`; without it as the
+        file says, or else a float is accepted only if it is an integer.
     inputs, outputs : sequences of int, optional
         The numbers of inputs and outputs of the channels, where B and C are stacked and the file
         does not say.

@@ -42,6 +42,29 @@ def array(
     return struct.pack("<II", 14, len(body)) + body
 
 
+def element(kind: int, content: bytes, size: int | None = None) -> bytes:
+    """One element of a MATLAB file, with a type and a size as they are told."""
+    told = struct.pack("<II", kind, len(content) if size is None else size)
+    return told + content + bytes(-len(content) % 8)
+
+
+def variable(name: str, sides: tuple[int, ...], *contents: bytes, kind: int = 6) -> bytes:
+    """One variable of a MATLAB file with these elements after its header."""
+    head = array(name, sides, b"", kind)[8:-8]
+    return element(14, head + b"".join(contents))
+
+
+def sparse(rows: list[int], starts: list[int], values: list[float], **told: int) -> bytes:
+    """A sparse matrix A of two rows and two columns, with positions as they are told."""
+    ints = [struct.pack(f"<{len(each)}i", *each) for each in (rows, starts)]
+    floats = struct.pack(f"<{len(values)}d", *values)
+    kinds = {"first": 5, "last": 9} | told
+    parts = [element(kinds["first"], ints[0]), element(5, ints[1])]
+    return mat_of(
+        variable("A", (2, 2), *parts, *[element(kinds["last"], floats)] * bool(values), kind=5)
+    )
+
+
 def cells(name: str, sides: tuple[int, ...], *elements: bytes) -> bytes:
     """A cell array of a MATLAB file."""
     empty = array(name, sides, b"", kind=1)[8:-8]
@@ -89,6 +112,13 @@ def shaped(shape: str, content: bytes = b"", descr: str = "'<f8'") -> bytes:
     return archive({"A.npy": npy(header, content)})
 
 
+def shifted(data: bytes) -> bytes:
+    """An archive whose first member is said to begin before the file."""
+    end = data.rindex(b"PK\x05\x06")
+    (directory,) = struct.unpack_from("<I", data, end + 16)
+    return data[: end + 16] + struct.pack("<I", directory + 5000) + data[end + 20 :]
+
+
 def csv(**changed: str | bytes) -> dict[str, bytes]:
     """The files of a folder with some changed, or left out if they are empty."""
     files = {"A": "0,1\n2,3\n", "B_1": "1\n0\n", "C_1": "1,0\n"} | changed
@@ -123,7 +153,62 @@ MAT: dict[str, tuple[bytes, str]] = {
     ),
     "three dimensions": (mat(A=np.zeros((2, 2, 2))), "A: expected a matrix, found 3 dimensions, 2"),
     "3 GB": (mat_of(compressed(struct.pack("<II", 14, 2**31) + bytes(2**20))), "when decompressed"),
-    "3 GB claimed": (mat_of(array("A", (20000, 20000), EIGHT)), "cannot reshape array"),
+    "3 GB claimed": (mat_of(array("A", (20000, 20000), EIGHT)), "1 numbers do not fill 20000 × "),
+    "a type that no element has": (
+        mat_of(variable("A", (1, 1), element(41, EIGHT))), "A: .* found an element of type 41"
+    ),
+    "half a number": (mat_of(variable("A", (1, 1), element(9, EIGHT[:4]))), "4 bytes are no numb"),
+    "two elements of numbers": (
+        mat_of(variable("A", (1, 1), element(9, EIGHT), element(9, EIGHT))), "found 2"
+    ),
+    "floats as integers": (
+        mat_of(variable("A", (1, 1), element(9, EIGHT), kind=12)), "class 12 does not hold"
+    ),
+    "integers beyond their class": (
+        mat_of(variable("A", (1, 1), element(5, struct.pack("<i", 300)), kind=8)), "class 8 does"
+    ),
+    "a float beyond its precision": (
+        mat_of(variable("A", (1, 1), element(9, struct.pack("<d", 0.1)), kind=7)), "class 7 does"
+    ),
+    "a size beyond the file": (mat_of(variable("A", (1, 1), element(9, EIGHT, 2**31))), "it ends"),
+    "a short element that is long": (
+        mat_of(variable("A", (1, 1), struct.pack("<HHI", 9, 8, 0))), "at most 4 bytes in a short"
+    ),
+    "flags of another type": (
+        mat_of(element(14, element(5, bytes(8)) * 3)), "an array has no flags or no shape"
+    ),
+    "a name of another type": (
+        mat_of(element(14, element(6, bytes(8)) + element(5, bytes(8)) + element(9, EIGHT))),
+        "a name is of type 9"
+    ),
+    "version 2 in the header": (mat()[:124] + b"\0\2IM" + mat()[128:], "expected version 1 in"),
+    "an incomplete compressed variable": (
+        mat_of(element(15, zlib.compress(array("A", (1, 1), EIGHT))[:-9])), "variable is incomplete"
+    ),
+    "names as a matrix": (mat(names=np.eye(2)), "names: expected a cell array of texts"),
+    "a text of two lines": (mat(time=np.array(["ab", "cd"])), "time: expected a text of one line"),
+    "a text of numbers": (
+        mat_of(variable("time", (1, 1), element(9, EIGHT), kind=4)), "time: .* no characters"
+    ),
+    "a text that is too short": (
+        mat_of(variable("time", (1, 9), element(4, b"a\0"), kind=4)), "1 characters do not fill 9"
+    ),
+    "half a character": (mat_of(variable("time", (1, 1), element(16, b"\xc3"), kind=4)), "damaged"),
+    "a sparse matrix without entries": (sparse([0], [0, 1, 1], []), "matrix is incomplete"),
+    "positions as floats": (sparse([0, 1], [0, 1, 2], [1, 1], first=9), "positions are of type 9"),
+    "columns that go back": (sparse([0, 1], [0, 2, 1], [1, 1]), "have no positions"),
+    "too few columns": (sparse([0, 1], [0, 2], [1, 1]), "have no positions"),
+    "fewer entries than positions": (sparse([0, 1], [0, 1, 3], [1, 1]), "fewer entries than"),
+    "a row outside": (sparse([0, 7], [0, 1, 2], [1, 1]), "outside or not in order"),
+    "a row twice": (sparse([1, 1], [0, 2, 2], [1, 1]), "outside or not in order"),
+    "an unknown rounding": (mat(rounding="up"), "rounding: expected"),
+    "sizes of other channels": (
+        mat(B=cell(np.ones((2, 1))), C=cell(np.ones((1, 2))), inputs=[1.0, 1.0]),
+        "inputs: expected the sizes of 1 channels, found 2"
+    ),
+    "too many entries": (
+        mat(A=np.ones((400, 400), dtype=np.int8)), "at most 131072 entries that are not 0"
+    ),
     "complex": (mat(A=np.array([[1j]])), "A: expected real numbers, found complex numbers"),
     "a struct": (mat(A={"x": 1}), "A: expected a matrix, found a struct"),
     "a text": (mat(A="hello"), "A: expected a matrix of numbers, found another class"),
@@ -164,6 +249,7 @@ NPZ: dict[str, tuple[bytes, str]] = {
     "NaN": (npz(A=np.array([[np.nan]])), "A: expected finite numbers, found nan"),
     "negative sides": (shaped("(-3, 2)", EIGHT * 2), "A: expected 0 to 1048576 rows"),
     "3 GB claimed": (shaped("(20000, 20000)", EIGHT), "8 bytes do not hold 20000 × 20000 entries"),
+    "true as a side": (shaped("(True, 1)", EIGHT), "A: .* its shape is not of integers"),
     "nothing, often": (shaped("(1000000000, 1000000000)", b"", "'<U0'"), "bytes do not hold"),
     "many columns of nothing": (shaped("(0, 1000000000)"), "A: expected 0 to 1048576 rows"),
     "three dimensions": (npz(A=np.zeros((1, 1, 1))), "A: expected a matrix, found 3 dimensions"),
@@ -179,6 +265,11 @@ NPZ: dict[str, tuple[bytes, str]] = {
     "half an archive": (npz()[:200], "the archive is damaged"),
     "half of numpy's and half of others": (
         archive({"A.npy": b"", "B.txt": b""}), "an archive, but not one of .npy or .csv files"
+    ),
+    "a negative position": (shifted(npz()), "the archive is damaged: negative"),
+    "a way to compress": (archive({"A.npy": b""}, zipfile.ZIP_BZIP2), "in a way that is not read"),
+    "no character": (
+        shaped("(1, 1)", struct.pack("<I", 0x110000), "'<U1'"), "A: .* has a character that is none"
     ),
     "a spreadsheet": (archive({"xl/workbook.xml": b""}), "an archive, but not one of"),
     "a single array": (npy("{}"), "a single array: put A, B_1, C_1"),
@@ -203,6 +294,12 @@ CSV: dict[str, tuple[dict[str, bytes], str]] = {
     "time as a table": (csv(time="discrete"), "time.csv: write it into system.csv"),
     "a setting too many": (csv(system="colour,red\n"), "system.csv: expected time, sample_time"),
     "a setting twice": (csv(system="time,discrete\ntime,discrete\n"), "each at most once"),
+    "a long key": (csv(system=f"{'x' * 9000},1\n"), "system.csv: .* found 'x{40}'…"),
+    "a sample time twice": (csv(system="sample_time,1\nsample_time,2\n"), "each at most once"),
+    "a rounding": (csv(rounding="decimal"), "rounding.csv: leave it out"),
+    "a rounding as a setting": (csv(system="rounding,decimal\n"), "expected time, sample_time"),
+    "sizes of other channels": (csv(inputs="1,1\n"), "inputs: expected the sizes of 1 channels"),
+    "another size": (csv(outputs="2\n"), "C_1: expected 2 rows, found 1"),
     "a setting of three": (csv(system="time,a,b\n"), "expected lines 'key,value', found 3 entries"),
     "an unknown time": (csv(system="time,now\n"), "now"),
     "two names on a line": (csv(names="a,b\n"), "names.csv: expected one name on each line"),
@@ -222,6 +319,8 @@ YAML: dict[str, tuple[str, str]] = {
     "a tab": ("A:\n\t- 1\n", "not YAML: .* at line 2, column 1"),
     "an empty file": ("# nothing\n", "expected an object, found an empty file"),
     "deep": ("[" * 40 + "]" * 40, "expected at most 16 nested levels"),
+    "base 8 or 10": ("a: [1, 010]\n", "the number 010 at line 1"),
+    "a list of a sign": ("a:\n- -007.5\n", "the number -007.5 at line 2"),
     "two documents": ("a: 1\n---\nb: 2\n", "not YAML: .* at line"),
     "another format": ("format: other/1\n", "expected \"mcexact-system/1\", found 'other/1'"),
     "noise": ("\x01", "not YAML"),
@@ -240,4 +339,6 @@ TEXTS: dict[str, tuple[bytes, str]] = {
     "a picture": (b"\x89PNG\r\n\x1a\n", "not JSON: found the byte 0x89 at the beginning"),
     "a missing value": (b'{"A": ,}', "not JSON: expected a value at line 1, column 7"),
     "an empty file": (b"", "expected a JSON object, found an empty file"),
+    "null": (b" null\n", 'expected a JSON object with "format": .*, found null'),
+    "a text": (b'"A"', "expected a JSON object with .*, found the string 'A'"),
 }
