@@ -239,7 +239,8 @@ def test_drawn_matrices_of_matlab_are_those_that_scipy_reads(seed: int) -> None:
     M = scipy.sparse.csc_array(M) if kind == "sparse" else M.astype(kind)
     data = hostile.mat(compressed=bool(rng.integers(2)), A=M)
     found = mat.read_mat(data, Limits()).tables["A"]
-    expected = scipy.io.loadmat(io.BytesIO(data))["A"]
+    stream: Any = io.BytesIO(data)
+    expected = scipy.io.loadmat(stream)["A"]
     if kind == "sparse":
         found, expected = found.toarray(), expected.toarray()
     assert found.shape == expected.shape and np.array_equal(found, expected)
