@@ -15,7 +15,7 @@ import pytest
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer import codec
 from mcexact.derived.drawn.draw import Draw, drawn_system
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError, NotWritten, UsageError
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery
 from mcexact.model.box import Box
@@ -366,5 +366,5 @@ def test_a_stream_keeps_no_records_and_is_not_read() -> None:
     """Reading the device, which has no end, took all memory."""
     assert read_records("/dev/full") == {}
     assert len(list(sweep(DRAWS[:1], results="/dev/null"))) == 1
-    with pytest.raises(InputError, match="/dev/full: cannot be written"):
+    with pytest.raises(NotWritten, match="/dev/full: cannot be written"):
         list(sweep(DRAWS[:1], results="/dev/full"))
