@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: absence boxes damaged-files hypersurfaces members parameters cluster corpus coverage digits package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage digits package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -94,6 +94,12 @@ hypersurfaces: $(STAMP)
 # and segments: an hour.  The same command continues after an interruption.
 members: $(STAMP)
 	$(BIN)/python -m tests.campaigns.boxes $(or $(N),3000) $(or $(FIRST),0)
+
+# Every sentence about 500 drawn plants and designs, judged by an oracle of its own from the plant
+# alone, and which rules were never met: a quarter of an hour.  The same command continues after an
+# interruption.
+judged-sentences: $(STAMP)
+	$(BIN)/python -m tests.campaigns.sentences $(or $(N),500) $(or $(FIRST),0)
 
 # So many mutants and forgeries of certificates, judged by an oracle that is written from FORMAT.md
 # alone: N=500000 takes minutes, N=5000000 an hour.  KINDS='parametric_fixed_spectrum

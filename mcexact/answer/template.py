@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import string
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,21 +25,26 @@ class Sentence(str):
         The place given by a rule.
     because : tuple of Premise
         The premises: the claims that the rule has read.
+    values : mapping
+        The values that fill the fields of the template, by their names.
     """
 
     template: Template
     cells: tuple[str, ...]
     place: str = ""
     because: tuple[Premise, ...] = ()
+    values: Mapping[str, Any]
 
-    def __new__(cls, text: str, template: Template, cells: tuple[str, ...]) -> Sentence:
+    def __new__(
+        cls, text: str, template: Template, cells: tuple[str, ...], values: Mapping[str, Any]
+    ) -> Sentence:
         made = super().__new__(cls, text)
-        made.template, made.cells = template, cells
+        made.template, made.cells, made.values = template, cells, values
         return made
 
     def bound(self, place: str, because: tuple[Premise, ...]) -> Sentence:
         """Return the sentence with its place and premises."""
-        made = Sentence(str(self), self.template, self.cells)
+        made = Sentence(str(self), self.template, self.cells, self.values)
         made.place, made.because = place, because
         return made
 
@@ -79,11 +84,18 @@ class Template:
     label: str = ""
     claims: bool = True
 
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The names of its fields, each once."""
+        named = (name for _, name, _, _ in string.Formatter().parse(self.text) if name)
+        return tuple(dict.fromkeys(named))
+
     def __call__(self, **values: Any) -> Sentence:
         """Make the sentence with some values."""
         cells = tuple(_Writer().vformat(part, (), values) for part in self.text.split(" | "))
         labeled = (self.label, *cells) if self.label else cells
-        return Sentence(" | ".join(cells), self, labeled)
+        used = {name: values[name] for name in self.fields}
+        return Sentence(" | ".join(cells), self, labeled, used)
 
 
 class _Writer(string.Formatter):

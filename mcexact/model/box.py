@@ -144,6 +144,8 @@ class Box(Shown):
     def part(self) -> Fraction | None:
         """The part of the modulus of each entry that its radius is; None if these differ.
 
+        It is 0 where all entries and all radii are 0.
+
         Examples
         --------
         >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[0]]])
@@ -159,6 +161,7 @@ class Box(Shown):
             if not radii.keys() <= values.keys():
                 return None
             found |= {radii.get(place, Fraction(0)) / x for place, x in values.items()}
+        found = found or {Fraction(0)}
         return found.pop() if len(found) == 1 else None
 
     @property

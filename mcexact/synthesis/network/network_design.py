@@ -13,6 +13,7 @@ from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
 from mcexact.errors import InputError, LimitReached
+from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.synthesis.design import Design, Method, designed
@@ -189,11 +190,25 @@ def network_design(
     controller controls and observes the network.
     """
     made = designed(method, request, network.given, network.graph, proposals)
+    network_keeps = made.parts["kept"].degree > 0
     certificates = {**made.certificates, "fixed_spectrum": made.parts["fixed_spectrum"]}
+    made = replace(made, parts={**made.parts, "kept": _left_in_loop(made, network)})
     blocks, gains = made.parts.get("blocks", ()), made.parts.get("gains", ())
-    if len(blocks) == 1 and made.parts["kept"].degree < 1:
+    if len(blocks) == 1 and not network_keeps:
         reach = single_channel_gains(
             network.system, blocks[0].agent, cyclic=True, draw=lambda *_: gains
         )
         certificates["single_channel_gains"] = reach
     return replace(made, certificates=certificates)
+
+
+def _left_in_loop(made: Design, network: DerivedNetwork) -> Polynomial:
+    """The fixed modes of the network that are in the loop, too.
+
+    A network with delays has modes of messages under way, 0, and no loop has those of messages
+    that no agent uses.
+    """
+    kept: Polynomial = made.parts["kept"]
+    if network.graph is None or not network.graph.delays or kept.degree < 1:
+        return kept
+    return kept.gcd(characteristic_polynomial(made.loop.matrix))

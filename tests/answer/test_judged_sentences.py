@@ -1,0 +1,107 @@
+"""What sentences say is true, by an oracle that knows the plant and the sentence alone."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+
+from mcexact.answer.listing import everything
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.setpoint import design_setpoint
+from tests.campaigns.sentences import caught, drawn, examined
+from tests.oracle.sentences import JUDGES, UNJUDGED, Case, Said, plant_of, said, verdict
+from tests.oracle.sentences.cases import Region, plain
+from tests.oracle.sentences.designs import document_of, tracks
+from tests.oracle.sentences.falsified import OLD_STEADY_STATE
+
+FAST = [number for number in range(600, 675) if number % 10 in {0, 2, 5, 8}]
+"""Analyses, allocations and boxes, which take little; designs and parameters are slow tests."""
+SLOW = range(630, 730, 10)
+
+
+def test_every_rule_has_a_judge_or_a_reason_why_it_has_none() -> None:
+    rules = [template.key for template in everything()]
+    assert sorted([*JUDGES, *UNJUDGED]) == sorted(rules)
+
+
+@pytest.mark.parametrize("number", FAST)
+def test_every_sentence_about_a_drawn_plant_is_true(number: int) -> None:
+    wrong, _ = examined(number)
+    assert wrong == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", SLOW)
+def test_every_sentence_about_more_drawn_plants_is_true(first: int) -> None:
+    for number in range(first, first + 10):
+        wrong, _ = examined(number)
+        assert wrong == []
+
+
+@pytest.fixture(scope="module")
+def tracking() -> Iterator[tuple[Said, Case]]:
+    """A design that holds two outputs, and what it says of them."""
+    plant = MultiChannelSystem([[0, 1], [1, -2]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    made = design_setpoint(plant, rate="1/2")
+    document = document_of(json.loads(json.dumps(made.controller.document(), default=str)))
+    asked = {"region": plain(made.region), "network": "decentralized"}
+    rows = [said(each) for each in made.account.sentences]
+    [held] = [row for row in rows if row.rule == "design-steady-state"]
+    yield held, Case(plant_of(plant), asked, document, rows)
+
+
+def test_outputs_tend_to_set_points_that_are_all_constant(tracking: tuple[Said, Case]) -> None:
+    held, case = tracking
+    assert verdict(held, case)
+    assert tracks(case, [False, False])
+
+
+def test_an_output_moves_with_the_set_point_of_another_agent(tracking: tuple[Said, Case]) -> None:
+    held, case = tracking
+    assert not tracks(case, [False, True], disturbed=False)
+    assert verdict(replace(held, text=OLD_STEADY_STATE), case) is False
+
+
+def test_outputs_of_a_loop_without_its_controller_are_not_held(tracking: tuple[Said, Case]) -> None:
+    held, case = tracking
+    assert case.controller is not None
+    idle = {"shared_update": {}, "private_update": {}, "input": {}}
+    agents = [{**agent, **idle} for agent in case.controller["agents"]]
+    assert verdict(held, replace(case, controller={**case.controller, "agents": agents})) is False
+    assert not Region("continuous").contains(plain_of(case))
+
+
+def plain_of(case: Case) -> object:
+    """The spectrum of the loop without a controller: that of the plant and of idle states."""
+    return case.own.chi
+
+
+def test_modes_of_messages_that_no_agent_uses_do_not_remain_in_the_loop() -> None:
+    plant = MultiChannelSystem([[0]], [[[0]], [[2]]], [[[0]], []], time="discrete")
+    graph = NeighborGraph.from_names(plant.names, {"2": ["1"]}, {"2": {"1": 2}})
+    made = design_extended(plant.with_neighbors(graph), radius="1/2", arithmetic="float")
+    [told] = [each for each in made.account.sentences if each.template.key == "design-kept"]
+    assert made.controller.order == 0
+    assert told.values["p"] == characteristic_polynomial(made.loop.matrix) == Polynomial.of(0, 1)
+
+
+UNTRIED = {"lifted-nothing-fixed", "subsystem-no-zeros", "subsystem-zero"}
+"""Rules without values of which these cases are no counterexample."""
+
+
+@pytest.mark.slow
+def test_judges_deny_what_was_made_false() -> None:
+    met: set[str] = set()
+    denied: set[str] = set()
+    for number in (900, 902, 905, 908, 910, 912, 915, 918, 920, 922):
+        met |= {sentence.rule for sentence, _ in drawn(number) if sentence.rule in JUDGES}
+        denied |= caught(number, met - denied)
+    assert len(met) > 60
+    assert met - denied <= UNTRIED
