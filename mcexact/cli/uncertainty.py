@@ -177,6 +177,7 @@ def loops(
         The search that found the radii of the system.
     """
     from mcexact.exact.rational import written
+    from mcexact.exact.shortened import percent
     from mcexact.model.box import radii_in_words
     from mcexact.model.loop import closed_loop
     from mcexact.synthesis.every_loop import failing_plant, known_within
@@ -184,7 +185,7 @@ def loops(
     if system.uncertainty is None and gains is None:
         return Loops()
     said = [] if system.uncertainty is None else [("plant", radii_in_words(system))]
-    said += [] if gains is None else [("gains", f"within {float(100 * gains):g} %")]
+    said += [] if gains is None else [("gains", f"within {percent(gains)}")]
     proof, failing, region = None, None, _of_boxes(found)
     unproved = [region]
     if found.stable:

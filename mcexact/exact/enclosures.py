@@ -190,6 +190,36 @@ def _disjoint(discs: list[_GridDisc]) -> bool:
     )
 
 
+def root_above(square: Fraction, bits: int = 64) -> Fraction:
+    """Return a rational number that is at least √square, and at most 2^(2−bits) of it larger.
+
+    Parameters
+    ----------
+    square : Fraction
+        At least 0, of any size.
+    bits : int
+
+    Raises
+    ------
+    InputError
+        The number is negative.
+
+    Examples
+    --------
+    >>> root_above(Fraction(9, 4)), root_above(Fraction(2)) ** 2 > 2
+    (Fraction(3, 2), True)
+    >>> root_above(Fraction(1, 10**400)) * 10**200 - 1 < Fraction(1, 2**60)
+    True
+    """
+    if square < 0:
+        raise InputError(f"expected a number that is not negative, found {square}")
+    scale = bits - (square.numerator.bit_length() - square.denominator.bit_length()) // 2
+    scaled = square * Fraction(4) ** scale
+    whole = -(-scaled.numerator // scaled.denominator)
+    root = math.isqrt(whole)
+    return (root if root * root == whole else root + 1) * Fraction(2) ** -scale
+
+
 def decimal(value: int, digits: int) -> str:
     """The decimal value / 10^digits without zeros at its end.
 

@@ -106,6 +106,37 @@ def to_float(q: Fraction | int | str) -> float:
     return float(q) if isinstance(q, str) else _quotient(q.numerator, q.denominator)
 
 
+def float_above(q: Fraction) -> float:
+    """Return the least float that is at least a rational number, and so is its printed decimal.
+
+    Beyond the range of floats this is infinity.
+
+    Examples
+    --------
+    >>> float_above(Fraction(1, 3)), float_above(Fraction(1, 10**400)), float_above(Fraction(1, 4))
+    (0.33333333333333337, 5e-324, 0.25)
+    >>> float_above(Fraction(0.1)), 0.1 < Fraction(0.1)
+    (0.10000000000000002, False)
+    """
+    found = to_float(q)
+    if found == -math.inf:
+        found = math.nextafter(found, 0.0)
+    while math.isfinite(found) and min(Fraction(found), Fraction(repr(found))) < q:
+        found = math.nextafter(found, math.inf)
+    return found
+
+
+def float_below(q: Fraction) -> float:
+    """Return the largest float that is at most a rational number, as is its printed decimal.
+
+    Examples
+    --------
+    >>> float_below(Fraction(1, 3)), float_below(Fraction(-1, 10**400))
+    (0.3333333333333333, -5e-324)
+    """
+    return -float_above(-q)
+
+
 def _quotient(p: int, q: int) -> float:
     try:
         return p / q

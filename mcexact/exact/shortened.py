@@ -75,6 +75,42 @@ def three_digits(x: Fraction, *, up: bool = False) -> str:
         return f"{(Decimal(x.numerator) / Decimal(x.denominator)).normalize():f}"
 
 
+def digits_outward(x: Fraction, *, up: bool, digits: int = 4) -> str:
+    """Format a rational number of any size with some digits, rounded down, or up.
+
+    Parameters
+    ----------
+    x : Fraction
+    up : bool
+        Whether what is written is at least x, and otherwise at most x.
+    digits : int
+
+    Examples
+    --------
+    >>> digits_outward(Fraction(2, 3), up=False), digits_outward(Fraction(-2, 3), up=False)
+    ('0.6666', '-0.6667')
+    >>> digits_outward(Fraction(1, 3 * 10**160), up=True), digits_outward(Fraction(40), up=True)
+    ('3.334e-161', '40')
+    """
+    rounding = ROUND_CEILING if up else ROUND_FLOOR
+    with localcontext(prec=digits, rounding=rounding, Emax=MAX_EMAX, Emin=MIN_EMIN):
+        found = (Decimal(x.numerator) / Decimal(x.denominator)).normalize()
+    return f"{found:f}" if -5 <= found.adjusted() <= 5 else f"{found:e}"
+
+
+def power_of_ten_above(x: Fraction) -> int:
+    """Return the least k with x ≤ 10^k, for x > 0.
+
+    Examples
+    --------
+    >>> [power_of_ten_above(Fraction(each)) for each in ("1e-400", "1.1e-13", "10", "10.1")]
+    [-400, -12, 1, 2]
+    """
+    with localcontext(prec=2, rounding=ROUND_CEILING, Emax=MAX_EMAX, Emin=MIN_EMIN):
+        above = Decimal(x.numerator) / Decimal(x.denominator)
+    return above.adjusted() + (above.normalize().as_tuple().digits != (1,))
+
+
 def percent(part: Fraction, *, up: bool = False) -> str:
     """Format a part as a percentage with three digits, rounded down, or up.
 

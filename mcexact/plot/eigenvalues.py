@@ -14,6 +14,7 @@ from mcexact.exact.enclosures import root_discs
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.shortened import power_of_ten_above
 from mcexact.plot.canvas import BLUE, GRAY, LIGHT, RED, legend_below, one_axis
 
 _WIDE, _POWERS, _TICKS = 100.0, 3, 5
@@ -32,14 +33,14 @@ class Point:
     Attributes
     ----------
     place : complex
-    radius : float
+    radius : Fraction
         Of the disc that is proved to contain it; 0 if it is exact or nothing is proved.
     multiplicity : int or None
         The number of times it is a root, if that is proved.
     """
 
     place: complex
-    radius: float = 0.0
+    radius: Fraction = Fraction(0)
     multiplicity: int | None = None
 
 
@@ -58,11 +59,10 @@ def points_of(found: Any) -> tuple[Point, ...]:
 
     Examples
     --------
-    >>> points_of(Polynomial.from_roots([-1, -1, 2]))
-    (Point(place=(-1+0j), radius=0.0, multiplicity=2), Point(place=(2+0j), radius=0.0, \
-multiplicity=1))
+    >>> [(each.place, each.multiplicity) for each in points_of(Polynomial.from_roots([-1, -1, 2]))]
+    [((-1+0j), 2), ((2+0j), 1)]
     >>> points_of([1j])
-    (Point(place=1j, radius=0.0, multiplicity=None),)
+    (Point(place=1j, radius=Fraction(0, 1), multiplicity=None),)
     """
     polynomial = found if isinstance(found, Polynomial) else getattr(found, "polynomial", None)
     if isinstance(polynomial, Polynomial):
@@ -72,7 +72,11 @@ multiplicity=1))
             factors = polynomial.factor()
             parts = [(root_discs(each), count) for each, count in factors if each.degree]
         points = [
-            Point(complex(to_float(disc.re), to_float(disc.im)), to_float(disc.radius), count)
+            Point(
+                complex(to_float(disc.re), to_float(disc.im)),
+                Fraction(disc.radius),
+                count,
+            )
             for discs, count in parts
             for disc in discs
         ]
@@ -271,10 +275,10 @@ def _draw_discs(axis: Any, points: Sequence[Point]) -> None:
     for each in proved:
         if each.radius > _SEEN * (right - left):
             center = (each.place.real, each.place.imag)
-            axis.add_patch(Circle(center, each.radius, color=RED, alpha=0.3))
+            axis.add_patch(Circle(center, to_float(each.radius), color=RED, alpha=0.3))
     largest = max(each.radius for each in proved)
     if largest:
-        digits = math.ceil(math.log10(largest))
+        digits = power_of_ten_above(largest)
         axis.plot([], [], "x", color=BLUE, label=f"located within $10^{{{digits}}}$, with proof")
     else:
         axis.plot([], [], "x", color=BLUE, label="exact")

@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Protocol
 
-from mcexact.exact.floats import to_float
+from mcexact.exact.floats import float_above, float_below, to_float
 from mcexact.exact.location import StabilityRegion, is_discrete
+from mcexact.exact.shortened import digits_outward
 from mcexact.plot.canvas import (
     GRAY,
     NAMED,
@@ -41,9 +42,9 @@ class Bounds(Protocol):
     """Proved bounds on a trajectory: a value at rest and a size for each output."""
 
     @property
-    def outputs(self) -> Sequence[tuple[float, float]]: ...
+    def outputs(self) -> Sequence[tuple[Fraction, Fraction]]: ...
     @property
-    def state(self) -> Sequence[tuple[float, float]]: ...
+    def state(self) -> Sequence[tuple[Fraction, Fraction]]: ...
     @property
     def bound(self) -> Fraction: ...
     def decay(self, times: Sequence[Fraction]) -> list[float]: ...
@@ -118,11 +119,11 @@ def _draw_bounds(axis: Any, run: Run, envelope: Bounds) -> None:
     low, high = axis.get_ylim()
     # Bounds that are much wider than the curves would make these flat.
     low, high = low - 0.15 * (high - low), high + 0.15 * (high - low)
-    shrinking = envelope.decay(run.times)
+    shrinking = [Fraction(d) for d in envelope.decay(run.times)]
     seen = False
     for k, (rest, size) in enumerate(envelope.outputs):
-        for sign in (1, -1):
-            values = [rest + sign * size * d for d in shrinking]
+        above = [float_above(rest + size * d) for d in shrinking]
+        for values in (above, [float_below(rest - size * d) for d in shrinking]):
             if any(low <= value <= high for value in values):
                 label = None if seen else "proved bounds"
                 _draw(axis, run, values, f"C{k}", label, linestyle=":", linewidth=1)
@@ -162,7 +163,7 @@ def decay(
     matplotlib.figure.Figure
     """
     axis = one_axis(ax)
-    rest = None if envelope is None else [each for each, _ in envelope.state]
+    rest = None if envelope is None else [to_float(each) for each, _ in envelope.state]
     away = rest is not None and any(rest)
     what = "distance of the state from rest" if away else "largest entry of the state"
     curves = {"largest entry of x": run.state_norms(rest)}
@@ -184,10 +185,11 @@ def decay(
         if line:
             axis.plot(times, line, "k--", linewidth=1, label=label)
     if shown and envelope is not None and not errors:
-        largest = max((size for _, size in envelope.state), default=0.0)
-        bound = [largest * d or math.nan for d in envelope.decay(run.times)]
+        largest = max((size for _, size in envelope.state), default=Fraction(0))
+        bound = [float_above(largest * Fraction(d)) or math.nan for d in envelope.decay(run.times)]
         axis.plot(times, bound, color=GRAY, linewidth=1.4, label="proved bound")
-        axis.set_ylim(top=max(3 * max(shown), min(2 * largest, 1000 * max(shown))))
+        top = min(2 * float_above(largest), 1000 * max(shown))
+        axis.set_ylim(top=max(3 * max(shown), top))
     axis.margins(x=0)
     axis.grid(visible=True, which="major", alpha=0.3)
     return finished(axis, what, elapsed_label(run.time))
@@ -216,8 +218,9 @@ def _slope(
 
 
 def rate_text(time: str, spectrum: Located) -> str:
-    """The certified end of the enclosure of the rate."""
+    """The certified end of the enclosure of the rate, rounded to the safe side."""
     if spectrum.rate is None:
         return ""
-    end = spectrum.rate.upper if is_discrete(time) else spectrum.rate.lower
-    return f"{StabilityRegion(time).word} {to_float(end):.4g}"
+    discrete = is_discrete(time)
+    end = Fraction(spectrum.rate.upper if discrete else spectrum.rate.lower)
+    return f"{StabilityRegion(time).word} {digits_outward(end, up=discrete)}"

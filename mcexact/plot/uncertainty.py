@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from mcexact.errors import UsageError
-from mcexact.exact.floats import to_float
+from mcexact.exact.floats import float_above, float_below
 from mcexact.plot.canvas import BLUE, GRAY, RED, finished, one_axis
 
 _RANGE = 1e6
@@ -34,8 +34,8 @@ def uncertainty(found: Any, ax: Any = None) -> Any:
     """
     axis = one_axis(ax, 5.4, 1.8)
     scale = 100 if found.relative else 1
-    low = scale * to_float(found.lower)
-    high = None if found.upper is None else scale * to_float(found.upper)
+    low = float_below(scale * found.lower)
+    high = None if found.upper is None else float_above(scale * found.upper)
     ends = [end for end in (low, high) if end]
     right = 2 * max(ends, default=1.0)
     left = min(ends) / 4 if low and high else 0.0
@@ -82,8 +82,8 @@ def uncertainty_shares(found: Sequence[Any], ax: Any = None) -> Any:
         raise UsageError("expected plants, all with one property and in one unit", where="found")
     axis = one_axis(ax, 5.4, 3.6)
     scale = 100 if found[0].relative else 1
-    lower = [scale * to_float(each.lower) for each in found]
-    upper = [scale * to_float(each.upper) for each in found if each.upper is not None]
+    lower = [float_below(scale * each.lower) for each in found]
+    upper = [float_above(scale * each.upper) for each in found if each.upper is not None]
     ends = sorted({end for end in (*lower, *upper) if end})
     left, right = (max(ends[0] / 4, ends[-1] / _RANGE), 2 * ends[-1]) if ends else (0.1, 10.0)
     steps = [left, *(end for end in ends if end > left), right]

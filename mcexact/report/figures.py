@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import io
 import math
+from fractions import Fraction
 
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.exact.floats import to_float
+from mcexact.exact.shortened import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import PANEL, empty_figure, one_axis
 from mcexact.plot.eigenvalues import eigenvalues
@@ -137,9 +139,13 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
     figure = eigenvalues(spectrum, one_axis(None, *PANEL), time=time, title=title)
     told = ", ".join(_point(disc.re, disc.im) for disc in spectrum.discs[:20])
     told += ", …" if len(spectrum.discs) > 20 else ""
-    largest = max((to_float(disc.radius) for disc in spectrum.discs), default=0.0)
+    largest = max((Fraction(disc.radius) for disc in spectrum.discs), default=Fraction(0))
     verdict = "all in the stability region" if spectrum.stable else "not all stable"
-    sure = f"in a certified disc of radius at most {largest:.1e}" if largest else "known exactly"
+    sure = (
+        f"in a certified disc of radius at most {digits_outward(largest, up=True, digits=2)}"
+        if largest
+        else "known exactly"
+    )
     words = f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each is {sure}."
     return Picture(figure, title, words)
 

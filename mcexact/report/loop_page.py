@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from mcexact.answer.account import Account
-from mcexact.exact.floats import to_float
+from mcexact.exact.shortened import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import NAMED, PANEL, one_axis
 from mcexact.plot.eigenvalues import circle_near
@@ -78,14 +78,15 @@ def _eigenvalues(curves: LoopCurves) -> Picture:
 def _edges(curves: LoopCurves) -> list[str]:
     """What bounds the region that was asked for, as it is drawn."""
     region = curves.region
-    edge, limits = to_float(region.edge), region.limits
+    limits = region.limits
     if region.discrete:
-        return [f"the dashed circle of radius {edge:.4g}"]
-    found = [f"the dashed line at {0.0 - edge:.3g}"]
+        return [f"the dashed circle of radius {digits_outward(region.edge, up=True)}"]
+    found = [f"the dashed line at {digits_outward(-region.edge, up=True)}"]
     if "damping" in limits:
-        found.append(f"the dashed lines of the damping ratio {to_float(limits['damping']):.3g}")
+        ratio = digits_outward(limits["damping"], up=False)
+        found.append(f"the dashed lines of the damping ratio {ratio}")
     if "largest_modulus" in limits:
-        circle = f"circle of radius {to_float(limits['largest_modulus']):.4g}"
+        circle = f"circle of radius {digits_outward(limits['largest_modulus'], up=True)}"
         near = circle_near(curves.eigenvalues, limits)
         found.append(f"the dashed {circle}" if near else f"the {circle}, beyond the picture")
     return found

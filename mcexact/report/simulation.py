@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
-from mcexact.exact.floats import finite, to_float
+from mcexact.exact.floats import finite, float_above, to_float
 from mcexact.exact.location import is_discrete
 from mcexact.exact.rational import rational_text
+from mcexact.exact.shortened import digits_outward
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.figures import simulation_pictures, simulation_png
 from mcexact.report.plant import shown_plant
@@ -19,7 +21,7 @@ from mcexact.simulation.trajectory import SIGNALS, as_float
 
 _COLUMNS = 8
 """The largest number of signals with a column of their own."""
-_TITLES = ("At some times", "Proved bounds: |y(t) − rest| is at most size d(t)")
+_TITLES = ("At some times", "Proved bounds: |y(t) − rest| is at most size d(t) + rounding")
 """The titles of the tables on the page."""
 
 
@@ -104,19 +106,20 @@ class SimulationReport:
         if envelope is None or not envelope.outputs:
             return ()
         names = self.done.run.values("outputs")
-        decay = f"d(t) = {to_float(envelope.bound):.4g}^t"
+        decay = f"d(t) = {_radius(envelope.bound)}^t"
         if not is_discrete(envelope.time):
-            decay = f"d(t) = exp(-{to_float(envelope.bound):.4g} t)"
+            decay = f"d(t) = exp(-{digits_outward(envelope.bound, up=False)} t)"
         rows = [
-            (name, f"{rest:.4g}", f"{size:.4g}")
+            (name, *_bounds_in_digits(rest, size))
             for name, (rest, size) in zip(names, envelope.outputs, strict=True)
         ]
         more = len(rows) - 2 * _COLUMNS
         note = f"{decay}; of the exact trajectory, by a certificate of stability"
         if more > 0:
             rows, note = rows[: 2 * _COLUMNS], f"{note}; {more} more in the JSON document"
-        title = "Proved bounds: |y(t) - rest| is at most size d(t)"
-        return (Table(title, ("output", "rest", "size"), tuple(rows), note=note),)
+        title = "Proved bounds: |y(t) - rest| is at most size d(t) + rounding"
+        columns = ("output", "rest", "size", "rounding")
+        return (Table(title, columns, tuple(rows), note=note),)
 
     def as_json(self) -> dict[str, Any]:
         """Return the whole trajectory as plain data; numbers are floats unless fractions are asked.
@@ -153,7 +156,7 @@ class SimulationReport:
             else {
                 "bound": str(envelope.bound),
                 "outputs": [
-                    {"name": name, "rest": finite(rest), "size": finite(size)}
+                    {"name": name, **_bounds_in_floats(rest, size)}
                     for name, (rest, size) in zip(
                         run.values("outputs"), envelope.outputs, strict=True
                     )
@@ -197,3 +200,28 @@ class SimulationReport:
             ),
             plant=shown_plant(done.run.loop.given),
         )
+
+
+def _radius(bound: Fraction) -> str:
+    """A radius below 1, rounded up to at least four digits, and to a number below 1."""
+    digits = 4
+    while Fraction(told := digits_outward(bound, up=True, digits=digits)) >= 1:
+        digits += 2
+    return told
+
+
+def _bounds_in_digits(rest: Fraction, size: Fraction) -> tuple[str, str, str]:
+    """The value at rest, rounded, the size, rounded up, and at least the error of the former."""
+    told = digits_outward(rest, up=rest < 0, digits=6)
+    off = abs(rest - Fraction(told))
+    return told, digits_outward(size, up=True), digits_outward(off, up=True, digits=2)
+
+
+def _bounds_in_floats(rest: Fraction, size: Fraction) -> dict[str, float | None]:
+    """The same as floats for JSON; None for what exceeds these."""
+    near = finite(to_float(rest))
+    off = None
+    if near is not None:
+        # A reader may take the float, or the decimal that the document has for it.
+        off = finite(float_above(max(abs(rest - Fraction(each)) for each in (near, repr(near)))))
+    return {"rest": near, "size": finite(float_above(size)), "rounding": off}

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from mcexact.exact.rational import written
-from mcexact.exact.shortened import percent
+from mcexact.exact.rational import decimal_or_quotient, written
 from mcexact.model.properties import PROPERTIES
 from mcexact.plot.uncertainty import uncertainty_shares
 from mcexact.report.picture import Picture
@@ -46,7 +45,7 @@ def tolerance_tables(documents: Sequence[Document], questions: Sequence[str]) ->
     rows = tuple(
         (
             PROPERTIES[each["question"]],
-            percent(Fraction(each["part"])),
+            f"{decimal_or_quotient(100 * Fraction(each['part']))} %",
             str(each["proved"]),
             str(each["failing"]),
             str(each["plants"] - each["proved"] - each["failing"]),

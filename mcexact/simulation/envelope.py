@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,7 +12,8 @@ from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.answer.stability import LyapunovMethod, StabilityVerdict
 from mcexact.errors import InputError, McexactError
 from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.floats import to_float
+from mcexact.exact.enclosures import root_above
+from mcexact.exact.exponential import exponential_above, power_above
 from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.location import StabilityRegion, is_discrete, steady_point
 from mcexact.exact.matrix import Matrix
@@ -36,28 +36,27 @@ class Envelope:
     time : {"continuous", "discrete"}
     bound : Fraction
         The rate r, so that d(t) = e^(−rt), or the radius ρ, so that d(t) = ρ^t.
-    outputs, state : tuple of (float, float)
-        For every output, and for every entry of x, its value at rest and c_k = √(c P⁻¹ cᵀ V(0)),
-        rounded up.
+    outputs, state : tuple of (Fraction, Fraction)
+        For every output, and for every entry of x, its exact value at rest ȳ_k, and a number that
+        is at least c_k = √(c P⁻¹ cᵀ V(0)) and at most 2⁻⁶² of it larger.
 
     Notes
     -----
-    The certificate is exact, and so are V(0) and c P⁻¹ cᵀ; the square root is rounded up, and the
-    drawn curve is rounded.  The bound is about the exact solution.
+    The certificate is exact, and so are the value at rest, V(0) and c P⁻¹ cᵀ; the square root of
+    this fraction is rounded up, and `decay` is.  The bound is about the exact solution.
     """
 
     proof: StabilityVerdict
     time: str
     bound: Fraction
-    outputs: tuple[tuple[float, float], ...]
-    state: tuple[tuple[float, float], ...]
+    outputs: tuple[tuple[Fraction, Fraction], ...]
+    state: tuple[tuple[Fraction, Fraction], ...]
 
     def decay(self, times: Sequence[Fraction]) -> list[float]:
-        """d(t) at these times."""
-        speed = to_float(self.bound)
+        """Return d(t) at these times, rounded up."""
         if is_discrete(self.time):
-            return [speed ** to_float(t) for t in times]
-        return [math.exp(-speed * to_float(t)) for t in times]
+            return [power_above(self.bound, int(t)) for t in times]
+        return [exponential_above(-self.bound * t) for t in times]
 
     def __str__(self) -> str:
         return f"proved: {StabilityRegion(self.time, self.bound)}"
@@ -87,8 +86,8 @@ def proved_envelope(run: Trajectory, spectrum: LoopSpectrum | None = None) -> En
     >>> from mcexact.simulation.trajectory import simulate
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> found = proved_envelope(simulate(plant, local_controllers(plant, [[[-3]]]), initial=[4]))
-    >>> found.bound, [round(size, 9) for _, size in found.outputs]
-    (Fraction(9, 5), [4.0])
+    >>> found.bound, [(int(rest), int(size)) for rest, size in found.outputs]
+    (Fraction(9, 5), [(0, 4)])
     >>> proved_envelope(simulate(plant, local_controllers(plant, [[[0]]]))) is None
     True
     """
@@ -150,7 +149,7 @@ def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Mat
     V = (distance.T @ P @ distance)[0, 0]
     x = loop.pick("x")
 
-    def bounds(rows: Matrix) -> tuple[tuple[float, float], ...]:
+    def bounds(rows: Matrix) -> tuple[tuple[Fraction, Fraction], ...]:
         spread = solve_nonsingular(P, rows.T)
         if spread is None:
             return ()
@@ -159,7 +158,7 @@ def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Mat
         for k in range(rows.nrows):
             size = sum((rows[k, j] * spread[j, k] for j in range(rows.ncols)), Fraction(0))
             first = _first(run, rows, k)
-            found.append((to_float(first - at_start[k, 0]), _root_above(size * V)))
+            found.append((first - at_start[k, 0], root_above(size * V)))
         return tuple(found)
 
     bound = proof.region.edge
@@ -169,9 +168,3 @@ def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Mat
 def _first(run: Trajectory, rows: Matrix, k: int) -> Fraction:
     """The value of a row of the state at the start; all rows are about x alone."""
     return sum((rows[k, j] * entry for j, entry in enumerate(run.start.plant)), Fraction(0))
-
-
-def _root_above(value: Fraction) -> float:
-    """A float that is at least the square root of a number."""
-    root = math.sqrt(max(to_float(value), 0.0))
-    return math.nextafter(math.nextafter(root, math.inf), math.inf)

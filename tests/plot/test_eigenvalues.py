@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -105,3 +107,11 @@ def test_infinities_are_left_out() -> None:
 def test_what_has_no_eigenvalues_is_refused() -> None:
     with pytest.raises(UsageError, match=r"expected a polynomial.*found int"):
         eigenvalues(3)
+
+
+@pytest.mark.parametrize(("radius", "power"), [("0.001", -3), ("0.00100000000000000000001", -2)])
+def test_the_power_of_ten_of_the_discs_is_at_least_every_radius(radius: str, power: int) -> None:
+    disc = SimpleNamespace(re="0", im="0", radius=radius)
+    found = SimpleNamespace(polynomial=Polynomial.of("1/10000", 1), discs=(disc,))
+    legend = eigenvalues(found).axes[0].get_legend()
+    assert f"10^{{{power}}}" in legend.get_texts()[0].get_text()

@@ -52,3 +52,13 @@ def test_shares_are_those_of_plants_that_are_proved_or_fail_within_a_part() -> N
 def test_shares_are_those_of_one_property(found: list[SimpleNamespace]) -> None:
     with pytest.raises(UsageError, match="all with one property and in one unit"):
         uncertainty_shares(found)
+
+
+def test_bars_end_on_the_safe_side_of_what_is_known() -> None:
+    lower, upper = Fraction(2, 3), Fraction(4, 5) + Fraction(1, 10**30)
+    found = SimpleNamespace(lower=lower, upper=upper, relative=True, wanted="no fixed mode")
+    known, _, fails = uncertainty(found).axes[0].patches
+    assert Fraction(known.get_x()) + Fraction(known.get_width()) <= 100 * lower + Fraction(
+        1, 10**12
+    )
+    assert Fraction(fails.get_x()) >= 100 * upper

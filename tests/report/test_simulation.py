@@ -88,7 +88,7 @@ def test_few_signals_have_a_column_each() -> None:
     assert [row[:3] for row in table.rows] == [
         ("0", "1", "-0.5"), ("2", "0.25", "-0.125"), ("4", "0.0625", "-0.03125")
     ]  # fmt: skip
-    assert bounds.rows == (("y 1", "0", "1"),) and "d(t) = 0.55^t" in bounds.note
+    assert bounds.rows == (("y 1", "0", "1", "0"),) and "d(t) = 0.55^t" in bounds.note
 
 
 def test_many_signals_are_summed_up_by_the_largest() -> None:
