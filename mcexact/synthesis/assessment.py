@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from math import isfinite
+from math import isfinite, isnan
 from typing import Any, Literal
 
 import numpy as np
 
-from mcexact.answer.formats import count
+from mcexact.answer.formats import count, listed
 from mcexact.exact.floats import finite
 from mcexact.exact.location import StabilityRegion
 from mcexact.shown import Shown, fitting
@@ -158,7 +158,7 @@ class Assessment(Shown):
             return [f"the loop does not satisfy {self.region}"]
         if self.within_radii == "refuted":
             return [_REFUTED]
-        if not seen.margin > 0:
+        if seen.margin <= 0:
             return ["in double precision the computed loop is not even stable"]
         if seen.margin < _NO_MARGIN:
             return [
@@ -169,8 +169,14 @@ class Assessment(Shown):
 
     def _cares(self) -> list[str]:
         seen, central, told = self.figures, self.central, list[str]()
-        if not seen.margin > 0:
+        if seen.margin <= 0:
             return []
+        unknown = [name for name in ("margin", "peak", "cost") if isnan(getattr(seen, name))]
+        if unknown:
+            told.append(
+                f"the {listed(unknown)} of the loop {'is' if len(unknown) == 1 else 'are'} not "
+                "known: the loop is too sensitive for double precision"
+            )
         if self.certified and self.within_radii == "open":
             told.append(_OPEN)
         if _NO_MARGIN <= seen.margin < MARGIN:
@@ -307,9 +313,11 @@ def _numbers(figures: Figures) -> dict[str, float | None]:
 
 def shown(value: float) -> str:
     """Three digits, without an exponent where that is short."""
+    if isnan(value):
+        return "not known"
     return f"{value:.3g}" if not 1000 <= abs(value) < 1e6 else f"{value:.0f}"
 
 
 def _finite(value: float) -> str:
     """A number, or a dash where a loop that is not stable has none."""
-    return shown(value) if isfinite(value) else "–"
+    return shown(value) if isfinite(value) or isnan(value) else "–"

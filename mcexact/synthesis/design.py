@@ -24,6 +24,7 @@ from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.gate import CertifiedLoop, Proposal, first_certified
+from mcexact.synthesis.optimum.loop_figures import bound_of_eigenvalues
 from mcexact.synthesis.request import Arithmetic, Request
 
 if TYPE_CHECKING:
@@ -104,6 +105,9 @@ class Design(ShownByAccount):
         found = {"largest_gain": to_float(self.controller.largest_entry())}
         if all(map(isfinite, M.ravel())):
             found |= vars(loop_margins(M, self.region.time))
+            known = bound_of_eigenvalues(self.loop.matrix, discrete=self.region.discrete)
+            if known is not None:
+                found["spectral"] = known
         return {name: finite(figure) for name, figure in found.items()}
 
     @property

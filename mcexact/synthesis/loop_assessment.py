@@ -21,12 +21,13 @@ from mcexact.synthesis.integrated_plant import integrated_plant
 from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.optimum.aims import MARGIN, Aims
 from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed
-from mcexact.synthesis.optimum.figures import Figures, figures_of, step_peak
+from mcexact.synthesis.optimum.figures import Figures, figures_of
 from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.loop_figures import (
     digits_that_suffice,
-    figures_of_loop,
     integrators_of,
+    step_peak,
+    sure_figures,
 )
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape
@@ -132,7 +133,7 @@ def assessed_loop(
         about, weighed = integrated_plant(given), weighed.with_integrators(given)
     known = diagnosis or diagnosed(about, region, weighed)
     with quiet_floats():
-        figures = figures_of_loop(loop, weighed, places)
+        figures = sure_figures(loop, weighed, places)
         alone = None if places else _uncontrolled(given, weighed)
         if certified and alone is not None and alone.cost <= _HARDLY * figures.cost:
             notes = (*notes, _hardly(alone, figures, region))
@@ -153,6 +154,8 @@ def assessed_loop(
 
 def _kept(margin: float) -> float:
     """What rounding has to leave of a margin: enough not to be fragile, or else nearly all."""
+    if np.isnan(margin):
+        return 0.0
     return MARGIN if margin >= MARGIN else _NEARLY * margin
 
 

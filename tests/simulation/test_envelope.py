@@ -98,7 +98,7 @@ def expected(
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
 @pytest.mark.parametrize("scale", SCALES)
 def test_no_bound_is_too_small_at_any_scale(time: str, scale: str) -> None:
-    given = {"arithmetic": "exact"}
+    given: dict[str, object] = {"arithmetic": "exact"}
     if time == "continuous":
         given = {"arithmetic": "multiprecision", "points": 1, "digits": 20}
     for reference in ("0", SCALES[-1 - SCALES.index(scale)]):

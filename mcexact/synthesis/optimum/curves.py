@@ -14,9 +14,11 @@ from mcexact.model.loop import ClosedLoop
 from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.loop_figures import (
     boundary_points,
+    even_powers,
     input_response,
     input_rows,
     integrators_of,
+    loop_eigenvalues,
 )
 from mcexact.synthesis.optimum.sensitivity import norm
 from mcexact.synthesis.optimum.spectrum import SchurForm
@@ -91,14 +93,19 @@ def curves_of(loop: ClosedLoop, region: StabilityRegion) -> Curves | None:
         if form is None or not form.bound < (1.0 if region.discrete else 0.0):
             return None
         response, U = input_response(loop), input_rows(loop)
-        points = boundary_points(response, discrete=region.discrete)
+        values = loop_eigenvalues(loop.matrix, discrete=region.discrete)
+        values = form.eigenvalues if values is None else values
+        points = boundary_points(values, discrete=region.discrete)
         places = np.abs(np.angle(points)) if region.discrete else points.imag
         order = np.argsort(places)
         times, step = _times(M, form)
-        powers = [power[:, :n] for power in _powers(step, len(times))]
+        interval = 0.0 if region.discrete else float(times[1])
+        powers = even_powers(loop.matrix, n, interval, len(times))
+        if powers is None:
+            powers = [power[:, :n] for power in _powers(step, len(times))]
         return Curves(
             region,
-            form.eigenvalues.tolist(),
+            values.tolist(),
             places[order].tolist(),
             response.sizes(points[order]).tolist(),
             times.tolist(),

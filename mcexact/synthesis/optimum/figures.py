@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 from scipy.linalg import expm
 
 from mcexact.derived.merged import merged
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion, is_discrete
-from mcexact.model.loop import ClosedLoop
+from mcexact.exact.floats import to_float
+from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.optimum.cost import quadratic_costs
@@ -24,7 +24,7 @@ from mcexact.synthesis.optimum.spectrum import SchurForm
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
 _FREQUENCIES = 200
-_STEPS = 400
+STEPS = 400
 _BEYOND_SENSE = 1e30
 
 
@@ -84,7 +84,7 @@ def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Fig
         1 / largest if largest else np.inf,
         peak_of_state(M, problem.n, form) if peak else np.nan,
         cost,
-        *damping_and_fastest(form),
+        *damping_and_fastest(form.eigenvalues, discrete=form.discrete),
     )
 
 
@@ -92,13 +92,23 @@ def unstable_figures(order: int, gain: float, form: SchurForm | None) -> Figures
     """The figures of a loop that is not stable, or whose numbers overflow."""
     if form is None:
         return Figures(order, gain, np.inf, 0.0, np.inf, np.inf)
-    return Figures(order, gain, form.bound, 0.0, np.inf, np.inf, *damping_and_fastest(form))
+    return Figures(
+        order,
+        gain,
+        form.bound,
+        0.0,
+        np.inf,
+        np.inf,
+        *damping_and_fastest(form.eigenvalues, discrete=form.discrete),
+    )
 
 
-def damping_and_fastest(form: SchurForm) -> tuple[float, float]:
+def damping_and_fastest(
+    eigenvalues: npt.NDArray[np.complex128], *, discrete: bool
+) -> tuple[float, float]:
     """The least damping ratio and the largest modulus of an eigenvalue."""
-    largest = float(np.max(np.abs(form.eigenvalues), initial=0.0))
-    return least_damping(form.eigenvalues, discrete=form.discrete), largest
+    largest = float(np.max(np.abs(eigenvalues), initial=0.0))
+    return least_damping(eigenvalues, discrete=discrete), largest
 
 
 def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
@@ -113,48 +123,14 @@ def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
     return max(1.0, max((norm(E[:n, :n]) for E in _powers(M, form)), default=1.0))
 
 
-def step_peak(loop: ClosedLoop) -> float:
-    """Compute the largest output of a loop while one set-point steps from 0 to 1.
-
-    Parameters
-    ----------
-    loop : ClosedLoop
-        Stable, with integrators.
-
-    Examples
-    --------
-    >>> from mcexact.model.loop import closed_loop
-    >>> from mcexact.synthesis.setpoint import design_setpoint
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], neighbors={"1": []})
-    >>> controller = design_setpoint(plant, rate=1).controller
-    >>> 1 <= step_peak(closed_loop(plant, controller)) < 10
-    True
-    """
-    M, R = matrix_to_float(loop.matrix), matrix_to_float(loop.reference)
-    C = matrix_to_float(loop.given.output_matrix())
-    form = SchurForm.of(M, discrete=is_discrete(loop.given.time))
-    if form is None:
-        return np.inf
-    at_rest = np.eye(len(M)) if form.discrete else np.zeros(M.shape)
-    moved = np.linalg.solve(at_rest - M, R)
-    reached = C @ moved[: loop.given.n]
-    peak = float(np.max(np.abs(reached), initial=0.0))
-    for E in _powers(M, form):
-        seen = reached - C @ (E @ moved)[: loop.given.n]
-        peak = max(peak, float(np.max(np.abs(seen), initial=0.0)))
-        if not peak < _BEYOND_SENSE:
-            return np.inf
-    return peak
-
-
 def _powers(M: Floats, form: SchurForm) -> Iterator[Floats]:
     """Yield exp(Mt) or M^t at the times that `peak_of_state` tells; ends where numbers overflow."""
     if form.discrete:
         power = np.eye(len(M))
-        for _ in range(_STEPS):
+        for _ in range(STEPS):
             power = M @ power
             yield power
-        step, elapsed, start = np.linalg.matrix_power(M, _STEPS // 8), _STEPS / 8, 1.0
+        step, elapsed, start = np.linalg.matrix_power(M, STEPS // 8), STEPS / 8, 1.0
         slowest = -float(np.log(max(form.bound, 1e-300)))
     else:
         start = 0.05 / float(np.max(np.abs(form.eigenvalues), initial=1e-9))
