@@ -78,6 +78,7 @@ class Analysis(Asking):
                 "neighbors", "the information 'outputs' is about messages between neighbors"
             )
         self._refuted: dict[str, Answer | None] = {}
+        self._by_default = questions is None
         self._ask(questions, timeout, progress)
 
     def _too_long(self, question: Question) -> str:
@@ -95,8 +96,11 @@ class Analysis(Asking):
     @cached_property
     def system(self) -> MultiChannelSystem:
         """Return the plant, or the plant with the outputs that the agents receive."""
-        if self.information == "own":
-            return self.plant
+        return self.plant if self.information == "own" else self.linked
+
+    @cached_property
+    def linked(self) -> MultiChannelSystem:
+        """Return the plant with the outputs that the agents receive."""
         from mcexact.derived.augmented_outputs import augmented_outputs
 
         return augmented_outputs(self.plant)
@@ -128,6 +132,15 @@ class Analysis(Asking):
             if other in self._asked and not isinstance(self._answer(other), LimitReached):
                 reused[key] = self._answer(other)
         return arguments, reused
+
+    def _outcomes(self) -> dict[str, Any]:
+        """The same, with what the links that are there change about modes that are fixed."""
+        graph, asked = self.plant.neighbors, self._by_default and "fixed_spectrum" in self._asked
+        if asked and self.information == "own" and graph is not None and graph.edges():
+            spectrum = self._answer("fixed_spectrum")
+            if not isinstance(spectrum, LimitReached) and not spectrum.empty:
+                self._asked.add("linked_fixed_spectrum")
+        return super()._outcomes()
 
     def decided(self) -> dict[str, Any]:
         """Return the answers to all questions asked, with several answers to one numbered."""

@@ -22,9 +22,10 @@ class Question:
         Module of `mcexact.analysis` and function, separated by a colon.
     help : str
         A clause that says what is decided.
-    about : {"system", "plant", "lifted", "held"}
+    about : {"system", "plant", "linked", "lifted", "held"}
         The plant; the system of the agents, which is the plant or the plant with the outputs that
-        they receive; or the plant with sub-states shared over links with delays.
+        they receive; the latter in any case; or the plant with sub-states shared over links with
+        delays.
     needs : {"", "neighbors", "uncertainty", "subset", "channel", "channels"}
         What the question needs: a neighbor graph, radii of entries, a set of channels or a channel.
         The last three values name the function's second argument; ``channels`` is a list of one
@@ -143,6 +144,15 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "fixed_modes.fixed_spectrum:fixed_spectrum",
             "which modes no linear time-invariant decentralized control moves",
             for_all_values=True,
+        ),
+        "linked_fixed_spectrum": Question(
+            "fixed_modes.fixed_spectrum:fixed_spectrum",
+            "which modes stay fixed where each agent also feeds back the outputs of its neighbors; "
+            "by default if some mode is fixed without these",
+            about="linked",
+            needs="neighbors",
+            unbidden=False,
+            kind="fixed_spectrum",
         ),
         "completeness": Question(
             "fixed_modes.completeness:completeness",

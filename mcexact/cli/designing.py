@@ -12,6 +12,7 @@ from mcexact.cli import aiming, options
 
 if TYPE_CHECKING:
     from mcexact.answer.protocol import Answer
+    from mcexact.exact.location import StabilityRegion
     from mcexact.exact.rational import Limits
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.text import Table
@@ -131,15 +132,31 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         raise Impossible(f"{done['impossible']}{done['advice']}")
 
 
-def _advice(name: str, file: str, proof: Answer, system: MultiChannelSystem) -> str:
-    """What to ask where agents that share nothing have no controller, and all together may."""
+def _advice(
+    name: str, file: str, proof: Answer, system: MultiChannelSystem, region: StabilityRegion
+) -> str:
+    """What to ask where agents that share nothing have no controller, and all together may.
+
+    Over the links that the plant has a controller may exist, which then is what is named.
+    """
+    from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
     from mcexact.answer.fixed_spectrum import FixedSpectrum
+    from mcexact.derived.augmented_outputs import augmented_outputs
+    from mcexact.exact.rational import written
 
     if name != "decentralized" or not isinstance(proof, FixedSpectrum):
         return ""
     if all(len(factor.channels) in (0, system.m) for factor in proof.factors):
         return ""
-    return f"; `mcexact allocate {file} --links` says whether links between agents change this"
+    links = "links between agents change"
+    if system.neighbors is not None and system.neighbors.edges():
+        left = fixed_spectrum(augmented_outputs(system)).factors
+        if all(region.contains_roots_of(factor.polynomial) for factor in left):
+            asked = "" if region.bound is None else f" --{region.word} {written(region.bound)}"
+            command = f"mcexact design extended {file}{asked}"
+            return f"; over the links of this plant, `{command}` designs one"
+        links = "more links between agents change"
+    return f"; `mcexact allocate {file} --links` says whether {links} this"
 
 
 def _designed(
@@ -163,6 +180,7 @@ def _designed(
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
     from mcexact.errors import Impossible, InputError
+    from mcexact.exact.location import StabilityRegion
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
@@ -194,11 +212,12 @@ def _designed(
         raise error.within(place) from None
     except Impossible as refused:
         reason, proof = refused.message, refused.certificate
+        region = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
         said = Sentences([reason] if isinstance(reason, Sentence) else [])
         account = Account({proof.kind: proof}, Given(system), said)
         return told(account, system_by_digest) | {
             "impossible": str(refused),
-            "advice": _advice(name, plant[0], proof, system),
+            "advice": _advice(name, plant[0], proof, system, region),
             "json": account.as_json(design=name, possible=False, reason=reason),
         }
     _require_readable(found, Limits(**limits))

@@ -298,3 +298,47 @@ def test_a_view_about_observability_does_not_speak_of_controllability() -> None:
     assert views[0]["uncontrollable_polynomial"] == [1]
     unobservable = found.joint_observability.uncontrollable_polynomial
     assert views[1]["unobservable_polynomial"] == [*unobservable.coefficients]
+
+
+def canal(neighbors: dict[str, list[str]] | None) -> MultiChannelSystem:
+    """A pond that the gate fills and only the farm observes."""
+    return MultiChannelSystem(
+        [["-1/2", 0, 0], ["1/10", 0, 0], [0, "1/20", "-1/5"]],
+        [[["1/2"], [0], [0]], [[0], [0], ["1/10"]]],
+        [[[1, 0, 0]], [[0, 1, 0], [0, 0, 1]]],
+        names=["gate", "farm"],
+        neighbors=neighbors,
+    )
+
+
+@pytest.mark.parametrize(
+    ("neighbors", "rules"),
+    [
+        (None, ["not-stabilizable"]),
+        ({"gate": [], "farm": []}, ["not-stabilizable"]),
+        ({"gate": ["farm"]}, ["nothing-fixed", "not-stabilizable"]),
+        ({"farm": ["gate"]}, ["not-stabilizable", "not-stabilizable"]),
+    ],
+)
+def test_what_the_links_of_a_plant_change_about_fixed_modes_leads(
+    neighbors: dict[str, list[str]] | None, rules: list[str], tmp_path: Path
+) -> None:
+    found = analyze(canal(neighbors))
+    said = found.sentences.at("answer")
+    assert [each.template.key for each in said] == rules
+    linked = len(rules) > 1
+    assert ("linked_fixed_spectrum" in found.decided()) == linked
+    if linked:
+        assert {name for name, *_ in said[0].because} == {"linked_fixed_spectrum.json"}
+        other = analyze(canal(neighbors), information="outputs").fixed_spectrum
+        assert found.linked_fixed_spectrum.polynomial == other.polynomial
+    found.save(tmp_path)
+    verdicts = list(manifest_verdicts(str(tmp_path), Expectation(), Limits()))
+    assert {verdict.verdict for _, verdict in verdicts} <= {"VALID", "IMPLIED"}
+
+
+def test_links_are_not_asked_about_where_nothing_is_fixed_or_questions_are_chosen() -> None:
+    free = MultiChannelSystem([[1]], [[[1]], [[1]]], [[[1]], [[1]]], neighbors={"1": ["2"]})
+    assert "linked_fixed_spectrum" not in analyze(free).decided()
+    chosen = analyze(canal({"gate": ["farm"]}), ["fixed_spectrum"])
+    assert list(chosen.decided()) == ["fixed_spectrum"]

@@ -181,3 +181,29 @@ def test_help_is_in_groups_and_hides_the_limits_on_files() -> None:
 def test_radii_are_asked_of_the_loop() -> None:
     asked = run("certify", "--help").stdout.partition("Limits and help:")[0]
     assert "--uncertainty PART" in asked and "--gains PART" in asked
+
+
+@pytest.mark.parametrize(
+    ("neighbors", "advised"),
+    [
+        ({}, "mcexact allocate {} --links"),
+        ({"neighbors": {"b": ["a"]}}, "mcexact allocate {} --links"),
+        ({"neighbors": {"a": ["b"]}}, "mcexact design extended {} --rate 1/10"),
+    ],
+)
+def test_a_link_that_the_plant_has_is_used_and_not_advised(
+    neighbors: dict[str, object], advised: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "plant.json"
+    document = {
+        "format": "mcexact-system/1",
+        "time": "continuous",
+        "A": [[-1, 0], [1, 0]],
+        "channels": [
+            {"name": "a", "B": [[1], [0]], "C": [[1, 0]]},
+            {"name": "b", "B": [[0], [0]], "C": [[0, 1]]},
+        ],
+    }
+    path.write_text(json.dumps({**document, **neighbors}), encoding="utf-8")
+    done = run("design", "decentralized", str(path), "--rate", "1/10")
+    assert done.status == 1 and f"`{advised.format(path)}`" in done.stderr

@@ -45,6 +45,23 @@ def _heading(given: Given) -> Said:
     )
 
 
+@rule(
+    "answer",
+    say.NOTHING_FIXED,
+    say.STABLE,
+    say.UNSTABLE,
+    about={"linked": "linked_fixed_spectrum"},
+)
+def _linked(linked: Claim, given: Given) -> Said:
+    """What the agents can do over the links that are there, which leads."""
+    over = "links" if control(linked, given) == "outputs" else "undelayed"
+    if empty(linked):
+        yield say.NOTHING_FIXED(control=over)
+    else:
+        told = say.STABLE if linked.stabilizable else say.UNSTABLE
+        yield told(control=over, slowest=slowest(linked, given))
+
+
 @rule("answer", say.NOTHING_FIXED)
 def _nothing_fixed(fixed_spectrum: Claim, given: Given) -> Said:
     if empty(fixed_spectrum):
@@ -70,7 +87,10 @@ def _assigned(
 def _stabilized(fixed_spectrum: Claim, given: Given) -> Said:
     if not empty(fixed_spectrum):
         told = say.STABLE if fixed_spectrum.stabilizable else say.UNSTABLE
-        yield told(control=control(fixed_spectrum, given), slowest=slowest(fixed_spectrum, given))
+        by = control(fixed_spectrum, given)
+        if by == "own" and given.neighbors is not None and given.neighbors.edges():
+            by = "alone"
+        yield told(control=by, slowest=slowest(fixed_spectrum, given))
 
 
 def fewest(links: Claim) -> bool:
