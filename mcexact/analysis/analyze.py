@@ -135,11 +135,14 @@ class Analysis(Asking):
 
     def _outcomes(self) -> dict[str, Any]:
         """The same, with what the links that are there change about modes that are fixed."""
-        graph, asked = self.plant.neighbors, self._by_default and "fixed_spectrum" in self._asked
-        if asked and self.information == "own" and graph is not None and graph.edges():
-            spectrum = self._answer("fixed_spectrum")
-            if not isinstance(spectrum, LimitReached) and not spectrum.empty:
-                self._asked.add("linked_fixed_spectrum")
+        found, graph = super()._outcomes(), self.plant.neighbors
+        spectrum = found.get("fixed_spectrum")
+        linked = self.information == "own" and graph is not None and graph.edges()
+        if not self._by_default or not linked or "linked_fixed_spectrum" in found:
+            return found
+        if spectrum is None or isinstance(spectrum, LimitReached) or spectrum.empty:
+            return found
+        self._asked.add("linked_fixed_spectrum")
         return super()._outcomes()
 
     def decided(self) -> dict[str, Any]:

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from mcexact.cli.supervision import Reporting
     from mcexact.model.system import MultiChannelSystem
 
-_LINES_OF_WORDS = 5
+_LINES_OF_WORDS, _WITH_LINKS = 5, 8
+"""The most lines of sentences before the tables, also where links of the plant are told about."""
 _MODES = 6
 _FIXED = ("factors", "generic", "exceptional", "hypersurfaces")
 """What the fixed spectrum says of modes, without and with parameters."""
@@ -232,6 +233,7 @@ def _answer(
         found.know(question_about(uncertain[2]), largest.proof)
     known.resume(found, report)
     account = found.account
+    lines = _WITH_LINKS if "linked_fixed_spectrum" in account.answers else _LINES_OF_WORDS
     page = None
     if with_page:
         from mcexact.report.account_page import account_page
@@ -249,7 +251,7 @@ def _answer(
         )
     return told(account, system_by_digest and system is given) | {
         "json": found.to_dict() | uncertainty.view(largest),
-        "words": uncertainty.lead(account, largest) + in_lines(account.sentences, _LINES_OF_WORDS),
+        "words": uncertainty.lead(account, largest) + in_lines(account.sentences, lines),
         "tables": (
             *uncertainty.tables(largest),
             *tables(account.sentences, most_modes=_MODES),
