@@ -79,9 +79,10 @@ def require_agreement(said: dict[str, str], t: Fraction, found: Any) -> None:
     assert set(found.transfer_graph.arcs) == edges - gone, (said, t)
 
 
-@pytest.mark.parametrize("number", [1, 6, 19])
+@pytest.mark.parametrize("number", [1, 6, 19, 300])
 def test_words_about_small_plants_hold_at_points_on_and_off_what_they_name(number: int) -> None:
-    """In 6 denominators divide the modes, in 19 a line meets two hypersurfaces at one point."""
+    """In 6 denominators divide the modes, in 19 a line meets two hypersurfaces
+    at one point, in 300 one of them and a pole."""
     wrong, seen = examined(number)
     assert wrong == [] and seen["points"] >= 3
 

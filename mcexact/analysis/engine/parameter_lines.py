@@ -59,6 +59,8 @@ def confirming_lines(
             continue
         at = points_of(line)
         met = {h: _values(h, at) for h in candidates}
+        if any(values & {*line.poles} for values in met.values()):
+            continue  # nothing is said where an entry is undefined
         answer = decide(line)
         found = _confirmed(answer, met)
         if found is None or not is_generic(answer):
