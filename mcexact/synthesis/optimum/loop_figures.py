@@ -121,7 +121,7 @@ def sure_figures(loop: ClosedLoop, weights: Weights, integrators: Sequence[int] 
     >>> loop = closed_loop(plant, local_controllers(plant, [[[0]]]))
     >>> found = sure_figures(loop, Weights.unit(plant))
     >>> found.bound, found.damping, round(found.peak, 3)
-    (-1.0, 1.0, 3.427)
+    (-1.0, 1.0, 3.351)
     """
     M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.given.time)
     order, gain = loop.controller.order, to_float(loop.controller.largest_entry())
