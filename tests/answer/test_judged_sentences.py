@@ -17,7 +17,7 @@ from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.campaigns.sentences import caught, drawn, examined
 from tests.oracle.sentences import JUDGES, UNJUDGED, Case, Said, plant_of, said, verdict
-from tests.oracle.sentences.cases import Region, plain
+from tests.oracle.sentences.cases import plain
 from tests.oracle.sentences.designs import document_of, tracks
 from tests.oracle.sentences.falsified import OLD_STEADY_STATE
 
@@ -75,12 +75,6 @@ def test_outputs_of_a_loop_without_its_controller_are_not_held(tracking: tuple[S
     idle = {"shared_update": {}, "private_update": {}, "input": {}}
     agents = [{**agent, **idle} for agent in case.controller["agents"]]
     assert verdict(held, replace(case, controller={**case.controller, "agents": agents})) is False
-    assert not Region("continuous").contains(plain_of(case))
-
-
-def plain_of(case: Case) -> object:
-    """The spectrum of the loop without a controller: that of the plant and of idle states."""
-    return case.own.chi
 
 
 def test_modes_of_messages_that_no_agent_uses_do_not_remain_in_the_loop() -> None:

@@ -386,7 +386,7 @@ def loop(rng: random.Random) -> Iterator[Judged]:
     controller = local_controllers(nominal, [[[gain]], [[gain / 2]]])
     document = document_of(json.loads(json.dumps(controller.document(), default=str)))
     key, value = ("radius", "9/10") if discrete else ("rate", "1/8")
-    options = rng.choice([{}, {key: value}])
+    options: Any = rng.choice([{}, {key: value}])
     gains = rng.choice([None, Fraction(1, 100)])
     plant = Box.relative(nominal, rng.choice(["1/20", "1/5"])).system
     if rng.random() < 0.5:
@@ -403,19 +403,19 @@ def loop(rng: random.Random) -> Iterator[Judged]:
     else:
         account = account_of_verdict(found, every_loop=every, gains=gains)
         yield from _cases(rows_of(account.sentences), case)
-    plant = ParametricSystem([[own, "a"], ["b", own]], *ports, parameters=["a", "b"], time=time,
+    family = ParametricSystem([[own, "a"], ["b", own]], *ports, parameters=["a", "b"], time=time,
                              assume={"a": (0, a), "b": (b / 2, b)})  # fmt: skip
     try:
-        wide = largest_loop_ranges(plant, controller, gains=gains, effort=2, **options)
+        wide = largest_loop_ranges(family, controller, gains=gains, effort=2, **options)
     except LimitReached:
         return
     if wide.proof is not None and wide.lower == 1:
         given = Given(
-            plant, {"parameters": ", ".join(plant.parameters_in_words), "part_of_gains": gains}
+            family, {"parameters": ", ".join(family.parameters_in_words), "part_of_gains": gains}
         )
         answers = {"box_stability": wide.proof}
         account = Account(answers, given, EVERY_LOOP.sentences(answers, given))
-        case = Case(plant_of(plant.at({"a": 0, "b": b})), {}, document, (), family_of(plant))
+        case = Case(plant_of(family.at({"a": 0, "b": b})), {}, document, (), family_of(family))
         yield from _cases(rows_of(account.sentences), case)
 
 

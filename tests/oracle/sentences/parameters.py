@@ -513,3 +513,44 @@ def _setpoint_unless(said: Said, case: Case) -> bool:
 @judge("parametric-setpoint-never")
 def _setpoint_never(said: Said, case: Case) -> bool:
     return as_told(said, case, [], lambda facts, at: not _solvable(facts, at))
+
+
+# Almost all values of several parameters.
+
+
+def _almost(stem: str, holds: Holds) -> None:
+    @judge(f"parametric-almost-{stem}")
+    def _decides(said: Said, case: Case) -> bool:
+        family = case.parametric
+        named = said.values["parameters"] in (family.words(), ", ".join(family.parameters))
+        points = plants(family, generic_points(family))
+        return named and all(holds(facts, point) for point, facts in points)
+
+
+_almost("nothing-fixed", lambda facts, _: facts.stays.degree() == 0)
+_almost("controllable", lambda facts, _: not facts.uncontrolled())
+_almost("observable", lambda facts, _: not facts.unobserved())
+_almost("complete", _is_complete)
+_almost("setpoint", _solvable)
+
+
+@judge("parametric-almost-channel-controllable", "parametric-almost-channel-observable")
+def _almost_channel(said: Said, case: Case) -> bool:
+    """The channel that was asked about controls, or observes, everything at drawn values."""
+    family, chosen = case.parametric, _channel(case)
+    named = said.values["parameters"] in (family.words(), ", ".join(family.parameters))
+    seen = said.rule.endswith("observable")
+    found = plants(family, generic_points(family))
+    return named and not any(
+        facts.unobserved(chosen) if seen else facts.uncontrolled(chosen) for _, facts in found
+    )
+
+
+@judge("parametric-almost-graph")
+def _almost_graph(said: Said, case: Case) -> bool:
+    family = case.parametric
+    told = {tuple(edge) for edge in said.values["edges"]}
+    named = said.values["parameters"] in (family.words(), ", ".join(family.parameters))
+    return named and all(
+        _edges(facts) == told for _, facts in plants(family, generic_points(family))
+    )
