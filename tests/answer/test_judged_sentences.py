@@ -27,7 +27,7 @@ SLOW = range(630, 730, 10)
 
 
 def test_every_rule_has_a_judge_or_a_reason_why_it_has_none() -> None:
-    rules = [template.key for template in everything()]
+    rules = {template.key for template in everything()}
     assert sorted([*JUDGES, *UNJUDGED]) == sorted(rules)
 
 
