@@ -30,7 +30,7 @@ from mcexact.answer.listing import everything
 from mcexact.answer.rules.design import EVERY_LOOP
 from mcexact.answer.sentence import Given
 from mcexact.answer.template import Sentence
-from mcexact.errors import Impossible, LimitReached, UsageError
+from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
@@ -278,7 +278,7 @@ def judged_design(
     limits = {name: options[name] for name in ("rate", "radius") if name in options}
     try:
         made = make(plant, **options)
-    except (LimitReached, UsageError):  # such as a spectrum that violates the region
+    except (InputError, LimitReached, UsageError):  # such as a spectrum that violates the region
         return
     except Impossible as refused:
         region = StabilityRegion.of(plant.time, **limits)

@@ -106,7 +106,17 @@ def control(said: Said, case: Case) -> bool:
     """Whether the words for the control fit the information and the delays of links."""
     own = case.asked.get("information", "own") == "own"
     heard = "instant" if case.plant.delays else "outputs"
-    return bool(said.values.get("control", "own" if own else heard) == ("own" if own else heard))
+    told = said.values.get("control", "own" if own else heard)
+    if told in {"links", "undelayed"}:
+        return (told == "undelayed") == bool(case.plant.delays)
+    return bool(told == ("own" if own else heard) or (told == "alone" and own))
+
+
+def facts_of(said: Said, case: Case) -> Facts:
+    """The plant with what the control that is named lets agents send: all that helps over links."""
+    if said.values.get("control") in {"links", "undelayed"}:
+        return case.extended([case.plant.n] * case.plant.m, "outputs+states")
+    return case.subject
 
 
 @judge("nothing-fixed", "fixed-none", "latex-nothing-fixed", "any-rate")
@@ -136,17 +146,17 @@ def stable(facts: Facts) -> bool:
 
 @judge("table-stabilizable")
 def _stabilizable(said: Said, case: Case) -> bool:
-    return stable(case.subject) and control(said, case)
+    return stable(facts_of(said, case)) and control(said, case)
 
 
 @judge("table-not-stabilizable")
 def _not_stabilizable(said: Said, case: Case) -> bool:
-    return not stable(case.subject) and control(said, case)
+    return not stable(facts_of(said, case)) and control(said, case)
 
 
 @judge("stabilizable")
 def _stabilized(said: Said, case: Case) -> bool:
-    return bool(case.subject.fixed) and _stabilizable(said, case) and _slowest(said, case)
+    return _stabilizable(said, case) and _slowest(said, case)
 
 
 @judge("not-stabilizable")
@@ -158,7 +168,7 @@ def _unstable(said: Said, case: Case) -> bool:
 def _slowest(said: Said, case: Case) -> bool:
     """The slowest fixed mode lies in the enclosure, and the text says how it behaves."""
     time, low, high, is_stable = said.values["slowest"]
-    facts = case.subject
+    facts = facts_of(said, case)
     if not facts.fixed or time != case.plant.time or is_stable != stable(facts):
         return False
     roots = [z for p in facts.fixed for z in roots_of(p)]

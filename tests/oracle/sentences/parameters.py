@@ -279,6 +279,7 @@ def _names_values(every: str, family: Family) -> bool:
     if not every:
         return True
     named = re.sub(r"^(almost )?(every value|all values) of ", "", every)
+    named = named.partition(" with ")[0]  # the values where an entry has no pole
     return named in (family.words(), ", ".join(family.parameters))
 
 
