@@ -7,7 +7,7 @@ more is INCOMPLETE.  Units say nothing of the claim.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -168,7 +168,7 @@ def limbs(numbers: Iterable[int]) -> int:
     return max(map(int.bit_length, numbers), default=0) // LIMB + 1
 
 
-def limbs_of(p: Sequence[Any]) -> int:
+def limbs_of(p: Collection[Any]) -> int:
     """The limbs of the longest numerator or denominator of rationals; looking takes units, too."""
     spend(LOOK * len(p))
     return max((limbs((c.numerator, c.denominator)) for c in p), default=1)

@@ -184,7 +184,8 @@ def _cases(rows: list[Said], case: Case) -> Iterator[Judged]:
 
 def analysis(rng: random.Random) -> Iterator[Judged]:
     """Everything that `analyze` says of a plant."""
-    plant, asked = drawn_plant(rng), {}
+    plant = drawn_plant(rng)
+    asked: dict[str, Any] = {}
     if rng.random() < 0.2:
         plant = _single(rng, plant.time)
     options = ["links"] * (plant.m <= 3)

@@ -19,10 +19,11 @@ from mcexact.checker import (
 )
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.budget import Budget, limited
+from mcexact.checker.common_factors import Terms
 from mcexact.checker.expressions import common_divisor, function
 from mcexact.checker.parametric_system import ONE, cleared_tables, read_parametric
 from mcexact.checker.regular_discs import Pencil
-from mcexact.checker.several_parameters import Terms, quotient, quotient_text
+from mcexact.checker.several_parameters import quotient, quotient_text
 from tests.checker import heavy_parameters as heavy
 
 MANY = heavy.MANY

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import expm
 
+from mcexact.analysis.stability.stability import POLYNOMIAL_LIMIT
+from mcexact.exact.balls import even_powers
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.loop import ClosedLoop
 from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.loop_figures import (
     boundary_points,
-    even_powers,
     input_response,
     input_rows,
     integrators_of,
@@ -100,7 +101,9 @@ def curves_of(loop: ClosedLoop, region: StabilityRegion) -> Curves | None:
         order = np.argsort(places)
         times, step = _times(M, form)
         interval = 0.0 if region.discrete else float(times[1])
-        powers = even_powers(loop.matrix, n, interval, len(times))
+        powers = None
+        if len(M) <= POLYNOMIAL_LIMIT:
+            powers = even_powers(loop.matrix, n, interval, len(times))
         if powers is None:
             powers = [power[:, :n] for power in _powers(step, len(times))]
         return Curves(

@@ -9,20 +9,19 @@ there, so that all processors show the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from decimal import Context, Decimal
 from fractions import Fraction
 
-import flint
 import numpy as np
 import numpy.typing as npt
 from scipy.linalg import matrix_balance
 
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.stability.stability import POLYNOMIAL_LIMIT
+from mcexact.exact.balls import response, states_at_doubling_steps
 from mcexact.exact.blocks import vstack
-from mcexact.exact.enclosures import PRECISION
 from mcexact.exact.floats import matrix_from_float, matrix_to_float, to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial, solve_nonsingular
 from mcexact.exact.location import StabilityRegion, is_discrete, steady_point
@@ -43,8 +42,7 @@ from mcexact.synthesis.optimum.spectrum import SchurForm
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
 _FREQUENCIES, _NEAR = 200, 60
-_SAME, _ACCURACY = 0.005, 1e-9
-_BITS, _MOST_BITS, _RESPONSE_BITS = 192, 4096, 1024
+_SAME = 0.005
 _MOST_EXACT_RESPONSES = 24
 """The most states of a loop whose response is computed in ball arithmetic at all frequencies."""
 MOST_DIGITS = 16
@@ -230,110 +228,15 @@ def _balanced(M: Floats) -> Floats:
 
 def _moved(
     M: Matrix, start: Matrix, values: Complexes, rows: int, *, discrete: bool
-) -> Iterator[Floats] | None:
-    """The first rows of exp(Mt) or M^t times a matrix, at the times of `peak_of_state`, as floats.
-
-    None if 4096 bits do not suffice for an accuracy of 1e-9 of the largest entry.
-    """
-    bits = _BITS
-    while bits <= _MOST_BITS:
-        found = _moved_with(M, start, values, rows, bits, discrete=discrete)
-        if found is not None:
-            return iter(found)
-        bits *= 2
-    return None
-
-
-def _moved_with(
-    M: Matrix, start: Matrix, values: Complexes, rows: int, bits: int, *, discrete: bool
 ) -> list[Floats] | None:
-    """The same in ball arithmetic with some bits; None if these are too few."""
-    found = list[Floats]()
+    """The first rows of exp(Mt) or M^t times a matrix, at the times of `peak_of_state`."""
     bound = _bound_of(values, discrete=discrete)
-    with PRECISION, flint.ctx.workprec(bits):
-        state, matrix = _ball_matrix(start), _ball_matrix(M)
-
-        def seen(moved: flint.arb_mat) -> bool:
-            shown = _floats_of(moved, rows)
-            if shown is not None:
-                found.append(shown)
-            return shown is not None
-
-        if discrete:
-            moved = state
-            for _ in range(STEPS):
-                moved = matrix * moved
-                if not seen(moved):
-                    return None
-            step, elapsed = matrix ** (STEPS // 8), STEPS / 8
-            end = 8 / max(-float(np.log(max(bound, 1e-300))), 1e-300)
-        else:
-            first = 0.05 / float(np.max(np.abs(values), initial=1e-9))
-            step, elapsed = (matrix * flint.arb(first)).exp(), 1.0
-            end = 8 / max(-bound, 1e-300) / first
-        while elapsed < end:
-            moved = state
-            for _ in range(8):
-                moved = step * moved
-                if not seen(moved):
-                    return None
-            step, elapsed = step * step, 2 * elapsed
-    return found
-
-
-def even_powers(M: Matrix, columns: int, interval: float, count: int) -> list[Floats] | None:
-    """Return the first columns of I, X, X², … with X = exp(M·interval), or M for an interval of 0.
-
-    Parameters
-    ----------
-    M : Matrix, N × N
-    columns, count : int
-    interval : float
-
-    Returns
-    -------
-    list of ndarray, N × columns, or None
-        Accurate to 1e-9 of the largest entry of each; None beyond 40 states.
-
-    Examples
-    --------
-    >>> found = even_powers(Matrix.from_rows([[-1, 1], [0, -1]]), 2, 1.0, 3)
-    >>> [float(each[0, 1].round(6)) for each in found]
-    [0.0, 0.367879, 0.270671]
-    """
-    if M.nrows > POLYNOMIAL_LIMIT:
-        return None
-    bits = _BITS
-    while bits <= _MOST_BITS:
-        with PRECISION, flint.ctx.workprec(bits):
-            step = _ball_matrix(M)
-            if interval:
-                step = (step * flint.arb(interval)).exp()
-            moved = _ball_matrix(Matrix.identity(M.nrows).take(cols=range(columns)))
-            found = list[Floats]()
-            while len(found) < count and (shown := _floats_of(moved, M.nrows)) is not None:
-                found.append(shown)
-                moved = step * moved
-        if len(found) == count:
-            return found
-        bits *= 2
-    return None
-
-
-def _ball_matrix(M: Matrix) -> flint.arb_mat:
-    """Balls around the entries of a matrix, in the precision that is set."""
-    entries = [flint.arb(flint.fmpq(x.numerator, x.denominator)) for row in M.rows() for x in row]
-    return flint.arb_mat(M.nrows, M.ncols, entries)
-
-
-def _floats_of(moved: flint.arb_mat, rows: int) -> Floats | None:
-    """The first rows as floats; None if they are not accurate."""
-    balls = [[moved[i, j] for j in range(moved.ncols())] for i in range(rows)]
-    middle = np.array([[float(x.mid()) for x in row] for row in balls]).reshape(rows, -1)
-    error = np.array([[float(x.rad()) for x in row] for row in balls]).reshape(rows, -1)
-    size = max(1.0, float(np.max(np.abs(middle), initial=0.0)))
-    known = np.all(np.isfinite(middle)) and np.max(error, initial=0.0) <= _ACCURACY * size
-    return middle if known else None
+    if discrete:
+        first, whole, end = 0.0, STEPS, 8 / max(-float(np.log(max(bound, 1e-300))), 1e-300)
+    else:
+        first = 0.05 / float(np.max(np.abs(values), initial=1e-9))
+        whole, end = 0, 8 / max(-bound, 1e-300) / first
+    return states_at_doubling_steps(M, start, rows, first=first, whole=whole, end=end)
 
 
 def _sure_peak(loop: ClosedLoop, values: Complexes) -> float:
@@ -408,23 +311,8 @@ def _ball_response(loop: ClosedLoop, z: complex) -> float:
     N, n = loop.dimension, loop.given.n
     entering = loop.given.input_matrix()
     B = vstack([entering, Matrix.zeros(N - n, entering.ncols)], ncols=entering.ncols)
-    with PRECISION, flint.ctx.workprec(_RESPONSE_BITS):
-        at = flint.acb_mat(_ball_matrix(Matrix.identity(N))) * flint.acb(z.real, z.imag)
-        try:
-            solved = (at - flint.acb_mat(_ball_matrix(loop.matrix))).solve(
-                flint.acb_mat(_ball_matrix(B))
-            )
-        except ZeroDivisionError:
-            return np.nan
-        T = flint.acb_mat(_ball_matrix(_inputs(loop))) * solved
-        parts = [_floats_of(each, T.nrows()) for each in (_part(T, "real"), _part(T, "imag"))]
-    re, im = parts
-    return np.nan if re is None or im is None else norm(re + 1j * im)
-
-
-def _part(T: flint.acb_mat, name: str) -> flint.arb_mat:
-    entries = [getattr(T[i, j], name) for i in range(T.nrows()) for j in range(T.ncols())]
-    return flint.arb_mat(T.nrows(), T.ncols(), entries)
+    T = response(loop.matrix, B, _inputs(loop), z)
+    return np.nan if T is None else norm(T)
 
 
 def plain_figures(loop: ClosedLoop) -> Figures:

@@ -1,0 +1,167 @@
+"""Trajectories and responses of linear systems in ball arithmetic, as accurate floats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import flint
+import numpy as np
+import numpy.typing as npt
+
+from mcexact.exact.enclosures import PRECISION
+from mcexact.exact.matrix import Matrix
+
+Floats = npt.NDArray[np.floating]
+_BITS, _MOST_BITS, _RESPONSE_BITS = 192, 4096, 1024
+_ACCURACY = 1e-9
+"""The largest error of an entry, as a part of the largest entry or of 1."""
+
+
+def states_at_doubling_steps(
+    M: Matrix, start: Matrix, rows: int, *, first: float, whole: int, end: float
+) -> list[Floats] | None:
+    """Return the first rows of X^k times a matrix, at times whose steps double after every eighth.
+
+    Parameters
+    ----------
+    M : Matrix, N × N
+    start : Matrix, N × k
+    rows : int
+    first : float
+        X = exp(M·first), or X = M if this is 0.
+    whole : int
+        So many single powers come first; then the step is an eighth of this, and at least 1.
+    end : float
+        The power at which the doubling ends.
+
+    Returns
+    -------
+    list of ndarray, rows × k, or None
+        Each accurate to 1e-9 of its largest entry or of 1; None if 4,096 bits do not suffice.
+
+    Examples
+    --------
+    >>> start = Matrix.identity(1)
+    >>> found = states_at_doubling_steps(start * 2, start, 1, first=0, whole=0, end=2)
+    >>> [int(each[0, 0]) for each in found]
+    [2, 4, 8, 16, 32, 64, 128, 256]
+    """
+
+    def states(seen: Callable[[flint.arb_mat], bool]) -> bool:
+        state, step = _balls(start), _step(M, first)
+        moved = state
+        for _ in range(whole):
+            moved = step * moved
+            if not seen(moved):
+                return False
+        elapsed = max(whole // 8, 1)
+        step = step**elapsed
+        while elapsed < end:
+            moved = state
+            for _ in range(8):
+                moved = step * moved
+                if not seen(moved):
+                    return False
+            step, elapsed = step * step, 2 * elapsed
+        return True
+
+    return _accurate(states, rows)
+
+
+def even_powers(M: Matrix, columns: int, interval: float, count: int) -> list[Floats] | None:
+    """Return the first columns of I, X, X², … with X = exp(M·interval), or M for an interval of 0.
+
+    Parameters
+    ----------
+    M : Matrix, N × N
+    columns, count : int
+    interval : float
+
+    Returns
+    -------
+    list of ndarray, N × columns, or None
+        Each accurate to 1e-9 of its largest entry or of 1; None if 4,096 bits do not suffice.
+
+    Examples
+    --------
+    >>> found = even_powers(Matrix.from_rows([[-1, 1], [0, -1]]), 2, 1.0, 3)
+    >>> [float(each[0, 1].round(6)) for each in found]
+    [0.0, 0.367879, 0.270671]
+    """
+
+    def states(seen: Callable[[flint.arb_mat], bool]) -> bool:
+        step = _step(M, interval)
+        moved = _balls(Matrix.identity(M.nrows).take(cols=range(columns)))
+        for _ in range(count):
+            if not seen(moved):
+                return False
+            moved = step * moved
+        return True
+
+    return _accurate(states, M.nrows)
+
+
+def response(A: Matrix, B: Matrix, C: Matrix, z: complex) -> npt.NDArray[np.complexfloating] | None:
+    """Return C (zI − A)⁻¹ B at a point; None if 1,024 bits do not give it to 1e-9, or at a pole.
+
+    Examples
+    --------
+    >>> one = Matrix.identity(1)
+    >>> response(one, one, one, 3 + 0j), response(one, one, one, 1 + 0j)
+    (array([[0.5+0.j]]), None)
+    """
+    with PRECISION, flint.ctx.workprec(_RESPONSE_BITS):
+        at = flint.acb_mat(_balls(Matrix.identity(A.nrows))) * flint.acb(z.real, z.imag)
+        try:
+            solved = (at - flint.acb_mat(_balls(A))).solve(flint.acb_mat(_balls(B)))
+        except ZeroDivisionError:
+            return None
+        T = flint.acb_mat(_balls(C)) * solved
+        re, im = (_floats(_part(T, name), T.nrows()) for name in ("real", "imag"))
+    return None if re is None or im is None else re + 1j * im
+
+
+def _accurate(
+    states: Callable[[Callable[[flint.arb_mat], bool]], bool], rows: int
+) -> list[Floats] | None:
+    """The floats of all matrices that a computation shows, with as many bits as they need."""
+    bits = _BITS
+    while bits <= _MOST_BITS:
+        found = list[Floats]()
+
+        def seen(moved: flint.arb_mat, found: list[Floats] = found) -> bool:
+            shown = _floats(moved, rows)
+            if shown is not None:
+                found.append(shown)
+            return shown is not None
+
+        with PRECISION, flint.ctx.workprec(bits):
+            if states(seen):
+                return found
+        bits *= 2
+    return None
+
+
+def _step(M: Matrix, interval: float) -> flint.arb_mat:
+    return (_balls(M) * flint.arb(interval)).exp() if interval else _balls(M)
+
+
+def _balls(M: Matrix) -> flint.arb_mat:
+    """Balls around the entries of a matrix, in the precision that is set."""
+    entries = [flint.arb(flint.fmpq(x.numerator, x.denominator)) for row in M.rows() for x in row]
+    return flint.arb_mat(M.nrows, M.ncols, entries)
+
+
+def _floats(moved: flint.arb_mat, rows: int) -> Floats | None:
+    """The first rows as floats; None if they are not accurate."""
+    balls = [[moved[i, j] for j in range(moved.ncols())] for i in range(rows)]
+    middle = np.array([[float(x.mid()) for x in row] for row in balls]).reshape(rows, -1)
+    error = np.array([[float(x.rad()) for x in row] for row in balls]).reshape(rows, -1)
+    size = max(1.0, float(np.max(np.abs(middle), initial=0.0)))
+    known = np.all(np.isfinite(middle)) and np.max(error, initial=0.0) <= _ACCURACY * size
+    return middle if known else None
+
+
+def _part(T: flint.acb_mat, name: str) -> flint.arb_mat:
+    entries = [getattr(T[i, j], name) for i in range(T.nrows()) for j in range(T.ncols())]
+    return flint.arb_mat(T.nrows(), T.ncols(), entries)
