@@ -11,7 +11,7 @@ import numpy.typing as npt
 from mcexact.exact.enclosures import PRECISION
 from mcexact.exact.matrix import Matrix
 
-Floats = npt.NDArray[np.floating]
+Floats = npt.NDArray[np.float64]
 _BITS, _MOST_BITS, _RESPONSE_BITS = 192, 4096, 1024
 _ACCURACY = 1e-9
 """The largest error of an entry, as a part of the largest entry or of 1."""
@@ -101,7 +101,7 @@ def even_powers(M: Matrix, columns: int, interval: float, count: int) -> list[Fl
     return _accurate(states, M.nrows)
 
 
-def response(A: Matrix, B: Matrix, C: Matrix, z: complex) -> npt.NDArray[np.complexfloating] | None:
+def response(A: Matrix, B: Matrix, C: Matrix, z: complex) -> npt.NDArray[np.complex128] | None:
     """Return C (zI − A)⁻¹ B at a point; None if 1,024 bits do not give it to 1e-9, or at a pole.
 
     Examples

@@ -223,8 +223,9 @@ class Facts:
     @cached_property
     def parts(self) -> list[int]:
         """The degrees of the irreducible factors of a drawn loop, as few as drawn gains reach."""
-        found = [[p.degree() for p, e in irreducible(A.charpoly()) for _ in range(e)]
-                 for A in self.loops]  # fmt: skip
+        found: list[list[int]] = [
+            [p.degree() for p, e in irreducible(A.charpoly()) for _ in range(e)] for A in self.loops
+        ]
         return sorted(min(found, key=len))
 
     @cached_property
