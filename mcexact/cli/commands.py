@@ -4,28 +4,30 @@ from __future__ import annotations
 
 import difflib
 import importlib
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import click
 
-# The order is that of the help text; each command is the module of that name in this package.
-COMMANDS = (
-    "analyze",
-    "check",
-    "allocate",
-    "design",
-    "certify",
-    "crosscheck",
-    "simulate",
-    "reproduce",
-    "demo",
-    "gallery",
-    "sample",
-    "convert",
-    "c2d",
-    "schema",
-    "sweep",
-)
+COMMANDS = {
+    "analyze": "mcexact.cli.analyze:command",
+    "check": "mcexact.cli.check:command",
+    "allocate": "mcexact.cli.allocate:command",
+    "design": "mcexact.cli.design:command",
+    "certify": "mcexact.cli.certify:command",
+    "crosscheck": "mcexact.cli.crosscheck:command",
+    "simulate": "mcexact.cli.simulate:command",
+    "reproduce": "mcexact.cli.reproduce:command",
+    "demo": "mcexact.cli.demo:command",
+    "gallery": "mcexact.cli.gallery:command",
+    "sample": "mcexact.cli.sample:command",
+    "convert": "mcexact.cli.convert:command",
+    "c2d": "mcexact.cli.c2d:command",
+    "schema": "mcexact.cli.schema:command",
+    "sweep": "mcexact.cli.sweep:command",
+}
+"""The commands in the order of the help text, each with its module and its name there."""
 
 
 class NoCommand(click.UsageError):
@@ -69,24 +71,21 @@ class GroupedCommand(click.Command):
 
 
 class Commands(click.Group):
-    """A group whose commands are modules of this package, each imported when it is named.
+    """A group whose commands are each imported when they are named.
 
     Parameters
     ----------
-    names : tuple of str
-        The commands, in the order in which help lists them.
-    prefix : str
-        The prefix of a command's name in the name of its module.
+    names : mapping of str
+        The module and the name of each command, in the order in which help lists them.
     **attributes
         Arguments of `click.Group`.
     """
 
     def __init__(
-        self, *, names: tuple[str, ...] = COMMANDS, prefix: str = "", **attributes: Any
+        self, *, names: Mapping[str, str] = MappingProxyType(COMMANDS), **attributes: Any
     ) -> None:
         super().__init__(**attributes)
         self.names = names
-        self.prefix = prefix
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the commands in the order of help."""
@@ -96,10 +95,10 @@ class Commands(click.Group):
         """Return the command with a name, or None."""
         if cmd_name not in self.names:
             return None
-        module = importlib.import_module(f"mcexact.cli.{self.prefix}{cmd_name}")
-        command = module.command
+        home, _, name = self.names[cmd_name].partition(":")
+        command = getattr(importlib.import_module(home), name)
         if not isinstance(command, click.Command):
-            raise TypeError(f"{module.__name__}.command is not a command")
+            raise TypeError(f"{self.names[cmd_name]} is not a command")
         return command
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:

@@ -10,8 +10,12 @@ from mcexact.cli.commands import Commands
 @click.group(
     name="design",
     cls=Commands,
-    names=("decentralized", "observer", "extended", "setpoint"),
-    prefix="design_",
+    names={
+        "decentralized": "mcexact.cli.design_decentralized:command",
+        "observer": "mcexact.cli.design_observer:command",
+        "extended": "mcexact.cli.design_extended:command",
+        "setpoint": "mcexact.cli.design_setpoint:command",
+    },
     short_help="Design a controller and prove its closed loop.",
 )
 def command() -> None:
