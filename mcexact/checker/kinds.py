@@ -4,9 +4,37 @@ import json
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from importlib import import_module
 from typing import NoReturn, TypeVar
 
+from . import (
+    assignability,
+    box_controllable,
+    box_fixed,
+    box_stable,
+    closed_loop_spectrum,
+    common_dimension,
+    communication,
+    complementary_subsystem,
+    completeness,
+    controllability,
+    controllability_indices,
+    deficiency,
+    distributed_observer,
+    exceptional_gains,
+    fixed_spectrum,
+    neighbor_graph,
+    parametric_box_controllable,
+    parametric_box_fixed,
+    parametric_box_stable,
+    parametric_fixed_spectrum,
+    parametric_rank,
+    pencil_rank,
+    setpoint,
+    shared_dimensions,
+    single_channel_gains,
+    stability,
+    transfer_graph,
+)
 from .arithmetic import NotAUnit
 from .budget import MORE, current, limited
 from .expectation import Expectation
@@ -18,25 +46,61 @@ from .statement import described, digest_of
 FORMAT = "mcexact-certificate/1"
 T = TypeVar("T")
 
-# fmt: off
-STEMS = (
-    "assignability", "box_controllable", "box_fixed", "box_stable", "closed_loop_spectrum",
-    "common_dimension", "communication", "complementary_subsystem", "completeness",
-    "controllability", "controllability_indices", "deficiency", "distributed_observer",
-    "exceptional_gains", "fixed_spectrum", "neighbor_graph", "parametric_box_controllable",
-    "parametric_box_fixed", "parametric_box_stable", "parametric_fixed_spectrum",
-    "parametric_rank", "pencil_rank", "setpoint", "shared_dimensions", "single_channel_gains",
-    "stability", "transfer_graph",
-)
-# fmt: on
+
+@dataclass(frozen=True)
+class Rule:
+    """The rule of one kind of certificates.
+
+    Attributes
+    ----------
+    check : callable
+        ``check(claim, witness, system)`` stops unless the witness proves the claim.
+    statement : callable
+        ``statement(claim, system)`` says the claim in words, from the claim and the subject alone.
+    """
+
+    check: Callable[..., None]
+    statement: Callable[..., str]
 
 
-KINDS = {stem: import_module(f".{stem}", __package__) for stem in STEMS}
-"""The file of each kind.
-
-Its ``check(claim, witness, system)`` stops unless the witness proves the claim, and its
-``statement(claim, system)`` says the claim in words, from the claim and the subject alone.
-"""
+KINDS = {
+    "assignability": Rule(assignability.check, assignability.statement),
+    "box_controllable": Rule(box_controllable.check, box_controllable.statement),
+    "box_fixed": Rule(box_fixed.check, box_fixed.statement),
+    "box_stable": Rule(box_stable.check, box_stable.statement),
+    "closed_loop_spectrum": Rule(closed_loop_spectrum.check, closed_loop_spectrum.statement),
+    "common_dimension": Rule(common_dimension.check, common_dimension.statement),
+    "communication": Rule(communication.check, communication.statement),
+    "complementary_subsystem": Rule(
+        complementary_subsystem.check, complementary_subsystem.statement
+    ),
+    "completeness": Rule(completeness.check, completeness.statement),
+    "controllability": Rule(controllability.check, controllability.statement),
+    "controllability_indices": Rule(
+        controllability_indices.check, controllability_indices.statement
+    ),
+    "deficiency": Rule(deficiency.check, deficiency.statement),
+    "distributed_observer": Rule(distributed_observer.check, distributed_observer.statement),
+    "exceptional_gains": Rule(exceptional_gains.check, exceptional_gains.statement),
+    "fixed_spectrum": Rule(fixed_spectrum.check, fixed_spectrum.statement),
+    "neighbor_graph": Rule(neighbor_graph.check, neighbor_graph.statement),
+    "parametric_box_controllable": Rule(
+        parametric_box_controllable.check, parametric_box_controllable.statement
+    ),
+    "parametric_box_fixed": Rule(parametric_box_fixed.check, parametric_box_fixed.statement),
+    "parametric_box_stable": Rule(parametric_box_stable.check, parametric_box_stable.statement),
+    "parametric_fixed_spectrum": Rule(
+        parametric_fixed_spectrum.check, parametric_fixed_spectrum.statement
+    ),
+    "parametric_rank": Rule(parametric_rank.check, parametric_rank.statement),
+    "pencil_rank": Rule(pencil_rank.check, pencil_rank.statement),
+    "setpoint": Rule(setpoint.check, setpoint.statement),
+    "shared_dimensions": Rule(shared_dimensions.check, shared_dimensions.statement),
+    "single_channel_gains": Rule(single_channel_gains.check, single_channel_gains.statement),
+    "stability": Rule(stability.check, stability.statement),
+    "transfer_graph": Rule(transfer_graph.check, transfer_graph.statement),
+}
+"""The rule of each kind."""
 STATUSES = dict.fromkeys(("VALID", "IMPLIED", "REMARK", "COUNTED"), 0)
 STATUSES |= {"INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
 

@@ -6,6 +6,7 @@ import io
 import json
 import re
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -212,8 +213,9 @@ def test_an_exception_inside_the_checker_is_never_valid(monkeypatch: pytest.Monk
     def broken(*_: object) -> None:
         raise RecursionError("on purpose\nwith two lines")
 
+    rule = kinds.KINDS["fixed_spectrum"]
     for part in ("check", "statement"):
-        monkeypatch.setattr(kinds.KINDS["fixed_spectrum"], part, broken)
+        monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", replace(rule, **{part: broken}))
         verdict = checked(FREE)
         assert (verdict.verdict, verdict.status, verdict.statement) == ("ERROR", 70, "")
         assert "\n" not in verdict.line()

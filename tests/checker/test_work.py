@@ -7,6 +7,7 @@ import json
 import re
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from math import comb
 from pathlib import Path
@@ -285,7 +286,8 @@ def test_memory_that_is_not_there_leaves_a_check_open(monkeypatch: pytest.Monkey
     def exhausted(*arguments: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr(kinds.KINDS["fixed_spectrum"], "check", exhausted)
+    rule = replace(kinds.KINDS["fixed_spectrum"], check=exhausted)
+    monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", rule)
     found = check_document(FIXED)
     assert (found.verdict, found.code) == ("INCOMPLETE", "memory")
 
