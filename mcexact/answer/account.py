@@ -15,7 +15,6 @@ from mcexact.answer.sentence import MANIFEST, Given, Sentences, manifest
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.shown import Shown
 
 FORMAT = "mcexact-analysis/1"
@@ -79,9 +78,9 @@ class Account(Shown):
         """
         texts = self.certificates
         if system_by_digest:
-            own = digest(self.given.system)
+            own = self.given.system.digest()
             texts = {
-                f"{name}.json": codec.encode(answer, system_by_digest=digest(answer.about) == own)
+                f"{name}.json": codec.encode(answer, system_by_digest=answer.about.digest() == own)
                 for name, answer in self.answers.items()
             }
         return texts | {MANIFEST: canonical(self._manifest(texts)) + "\n"}

@@ -92,14 +92,13 @@ fixed_spectrum(system), or the name of a certificate file, found dict
     from mcexact.model.canonical import plain
     from mcexact.model.parametric import ParametricSystem
     from mcexact.model.system import MultiChannelSystem
-    from mcexact.model.system_file import canonical_text
 
     tell = telling(progress)
     if timeout is not None:
         require_seconds(timeout, "timeout")
     if system is not None and not isinstance(system, ParametricSystem):
         InputError.require(system, MultiChannelSystem, "system")
-    wanted = Expectation() if system is None else about_plant(canonical_text(system))
+    wanted = Expectation() if system is None else about_plant(system.canonical_text())
     if system is not None and system.subject:
         wanted = replace(wanted, subject=json.loads(json.dumps(plain(system.subject))))
     if controller is not None:

@@ -14,7 +14,6 @@ from mcexact.answer.protocol import Answer
 from mcexact.errors import InputError
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import plain, text_of
-from mcexact.model.system_file import canonical_text, digest
 
 FORMAT = "mcexact-certificate/1"
 
@@ -51,9 +50,9 @@ def encode(answer: Answer, *, system_by_digest: bool = False) -> str:
         "format": text_of(FORMAT),
         "kind": text_of(answer.kind),
         "subject": text_of(answer.subject),
-        "system": text_of(digest(answer.about))
+        "system": text_of(answer.about.digest())
         if system_by_digest
-        else canonical_text(answer.about),
+        else answer.about.canonical_text(),
         "witness": text_of(answer.witness()),
     }
     return "{" + ",".join(f'"{key}":{text}' for key, text in parts.items()) + "}\n"

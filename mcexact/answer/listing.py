@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-from mcexact import answer
-from mcexact.answer import rules
+from mcexact.answer import box_controllable, box_fixed, common_dimension, rules
 from mcexact.answer.sentence import Rulebook
 from mcexact.answer.template import Template, templates
 from mcexact.answer.wording import (
@@ -22,18 +19,10 @@ from mcexact.answer.wording import (
     refusals,
 )
 
-_OWN = [
-    module
-    for info in pkgutil.iter_modules(answer.__path__)
-    if info.name != "listing"
-    and hasattr(module := importlib.import_module(f"mcexact.answer.{info.name}"), "RULES")
-]
-# These kinds of answers define their own sentences and rules.
-
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
-        Rulebook([*rules.ANALYSIS, *(rule for kind in _OWN for rule in kind.RULES)]),
-        (analysis, details, *_OWN),
+        Rulebook([*rules.ANALYSIS, *(rule for own in rules.OWN.values() for rule in own)]),
+        (analysis, details, box_controllable, box_fixed, common_dimension),
     ),
     "analyze, with parameters": (rules.PARAMETERS, (parameters,)),
     "allocate": (rules.ALLOCATION, (allocation,)),
@@ -41,6 +30,7 @@ TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "design, certify": (Rulebook([*rules.DESIGN, *rules.VERDICT]), (design,)),
     "design, if there is none": (rules.REFUSALS, (refusals,)),
 }
+"""The rules of each topic, and the modules that define their templates."""
 FILE = Path(__file__).with_name("SENTENCES.md")
 
 _INTRODUCTION = """\
@@ -61,8 +51,15 @@ claims, it has a theorem: machine-checked theorems of `proofs/`, or the authors 
 
 def everything() -> Iterator[Template]:
     """Return all templates, in the order of the list."""
-    for _, modules in TOPICS.values():
-        yield from templates(*modules)
+    for topic in TOPICS:
+        yield from templates_of(topic)
+
+
+def templates_of(topic: str) -> Iterator[Template]:
+    """Return the templates that the rules of a topic fill, in the order of their definition."""
+    rulebook, modules = TOPICS[topic]
+    filled = {template for rule in rulebook for template in rule.templates}
+    yield from (template for template in templates(*modules) if template in filled)
 
 
 def premises_of(template: Template, rulebook: Rulebook) -> tuple[str, ...]:
@@ -74,10 +71,10 @@ def premises_of(template: Template, rulebook: Rulebook) -> tuple[str, ...]:
 def listing() -> str:
     """Return the text of `SENTENCES.md`."""
     parts = [_INTRODUCTION]
-    for topic, (rulebook, modules) in TOPICS.items():
+    for topic, (rulebook, _) in TOPICS.items():
         parts.append(f"## {topic}\n")
         parts.append("| sentence | text | premises | theorem |\n|---|---|---|---|")
-        parts += [_row(template, rulebook) for template in templates(*modules)]
+        parts += [_row(template, rulebook) for template in templates_of(topic)]
         parts.append("")
     return "\n".join(parts)
 

@@ -21,7 +21,6 @@ from mcexact.answer.rules.several_parameters import sentences_of_several
 from mcexact.answer.sentence import Given, Sentences
 from mcexact.answer.wording.parameters import ON_LINE, WITHIN_RANGES
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.system_file import canonical_text
 from mcexact.shown import Shown, grid
 
 FORMAT = "mcexact-parametric-analysis/1"
@@ -145,7 +144,7 @@ class ParametricAccount(Shown):
     @property
     def about(self) -> str:
         """The plant of all certificates, as their object ``system``."""
-        return canonical_text(self.plant)
+        return self.plant.canonical_text()
 
     def rows(self, name: str) -> tuple[Row, ...]:
         """Where what holds by the answer to a question, and why."""

@@ -1,8 +1,8 @@
 """The protocol of answers: a claim about a system with a witness that proves it, declared once.
 
-A kind of answer is a frozen dataclass in a file of its own.  Each field is a claim or a piece of
-the witness, and everything else is a property of these.  The certificate, reading it back, the JSON
-view and all forms of display are derived from the fields.
+A kind of answer is a frozen dataclass in the module of its topic.  Each field is a claim or a part
+of the witness, and everything else is a property of these.  The certificate, reading it back, the
+JSON view and all forms of display are derived from the fields.
 """
 
 from __future__ import annotations
@@ -20,11 +20,42 @@ from mcexact.arguments import told
 from mcexact.errors import InputError, UsageError
 from mcexact.model.canonical import Document, text_of
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document, digest
 from mcexact.shown import Shown
 
 KINDS: dict[str, type[Answer]] = {}
-"""The kinds of answers whose files have been imported, by name."""
+"""The kinds of answers whose modules have been imported, by name."""
+HOMES = {
+    "assignability": "mcexact.answer.assignability",
+    "box_controllable": "mcexact.answer.box_controllable",
+    "box_fixed": "mcexact.answer.box_fixed",
+    "box_stable": "mcexact.answer.box_stable",
+    "closed_loop_spectrum": "mcexact.answer.closed_loop_spectrum",
+    "common_dimension": "mcexact.answer.common_dimension",
+    "communication": "mcexact.answer.communication",
+    "complementary_subsystem": "mcexact.answer.complementary_subsystem",
+    "completeness": "mcexact.answer.completeness",
+    "controllability": "mcexact.answer.controllability",
+    "controllability_indices": "mcexact.answer.controllability_indices",
+    "deficiency": "mcexact.answer.deficiency",
+    "distributed_observer": "mcexact.answer.distributed_observer",
+    "exceptional_gains": "mcexact.answer.exceptional_gains",
+    "fixed_spectrum": "mcexact.answer.fixed_spectrum",
+    "neighbor_graph": "mcexact.answer.neighbor_graph",
+    "parametric_box_controllable": "mcexact.answer.parametric_box_controllable",
+    "parametric_box_fixed": "mcexact.answer.parametric_box_fixed",
+    "parametric_box_stable": "mcexact.answer.parametric_box_stable",
+    "parametric_fixed_spectrum": "mcexact.answer.parametric_fixed_spectrum",
+    "parametric_rank": "mcexact.answer.parametric_rank",
+    "pencil_rank": "mcexact.answer.pencil_rank",
+    "setpoint": "mcexact.answer.setpoint",
+    "shared_dimensions": "mcexact.answer.shared_dimensions",
+    "single_channel_gains": "mcexact.answer.single_channel_gains",
+    "stability": "mcexact.answer.stability",
+    "transfer_graph": "mcexact.answer.transfer_graph",
+}
+"""The module of each kind of answer."""
+_EXPLAINED = "mcexact.answer.explaining", "explained"
+"""What says an answer in words, which knows the rules of all kinds."""
 
 AnyAnswer = TypeVar("AnyAnswer", bound="Answer")
 AnyFunction = TypeVar("AnyFunction", bound=Callable[..., Any])
@@ -150,7 +181,7 @@ class Answer(Shown):
     @property
     def system(self) -> Document:
         """The user's plant, as the canonical object of ``FORMAT.md``."""
-        return canonical_document(self.about)
+        return self.about.canonical_document()
 
     @property
     def subject(self) -> tuple[Document, ...]:
@@ -201,7 +232,7 @@ class Answer(Shown):
         return {"kind": self.kind, "system": self.about.name, **row}
 
     def _text(self) -> str:
-        return text_of([self.kind, digest(self.about), self.subject, self.document()])
+        return text_of([self.kind, self.about.digest(), self.subject, self.document()])
 
     def __eq__(self, other: object) -> bool:
         return self._text() == other._text() if isinstance(other, Answer) else NotImplemented
@@ -229,9 +260,9 @@ class Answer(Shown):
         An answer about which these have no sentence is stated as a theorem, in the words of the
         independent checker, which verifies it for this.
         """
-        from mcexact.answer.explaining import explained
-
-        return explained(self)
+        module, name = _EXPLAINED
+        said: str = getattr(importlib.import_module(module), name)(self)
+        return said
 
 
 def is_about_dual(subject: Sequence[Document]) -> bool:
@@ -246,7 +277,7 @@ def answer(kind: str) -> Callable[[type[AnyAnswer]], type[AnyAnswer]]:
     Parameters
     ----------
     kind : str
-        Its name in certificates, which its file and the checker's rule also have.
+        Its name in certificates, which the checker's rule also has.
     """
 
     def made(cls: type[AnyAnswer]) -> type[AnyAnswer]:
@@ -258,8 +289,14 @@ def answer(kind: str) -> Callable[[type[AnyAnswer]], type[AnyAnswer]]:
 
 
 def kind_named(name: str) -> type[Answer]:
-    """Return the class of a kind of answer, from the file of that name."""
-    importlib.import_module(f"{__package__}.{name}")
+    """Return the class of a kind of answer, whose module is imported.
+
+    Raises
+    ------
+    KeyError
+        If there is no such kind.
+    """
+    importlib.import_module(HOMES[name])
     return KINDS[name]
 
 

@@ -31,7 +31,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import Limits
-from mcexact.model import controller_file, parametric_file, system_file
+from mcexact.model import controller_file, parametric_file, system_file, system_forms
 from mcexact.model.canonical import canonical
 from mcexact.model.json_text import read_bytes
 from mcexact.model.loop import closed_loop
@@ -64,7 +64,7 @@ def load_certificate(
     if system is not None and not isinstance(system, ParametricSystem):
         InputError.require(system, MultiChannelSystem, "system")
     plant = None if system is None else system.plant
-    text = None if plant is None else system_file.canonical_text(plant)
+    text = None if plant is None else plant.canonical_text()
     verdict = checked(data, plant=text)
     if verdict.verdict != "VALID":
         raise InputError(f"the checker does not accept it ({verdict.line()})", where=str(path))
@@ -101,7 +101,7 @@ def constructed(system: Any, subject: Sequence[Mapping[str, Any]]) -> Any:
 
 
 def _plant(document: Mapping[str, Any]) -> Any:
-    text = canonical({"format": system_file.FORMAT, **document})
+    text = canonical({"format": system_forms.FORMAT, **document})
     if "parameters" in document:
         return parametric_file.read_parametric_system(text, limits=_roomy(text))
     return system_file.read_system(text, limits=_roomy(text))

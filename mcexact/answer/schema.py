@@ -7,8 +7,6 @@ the claims and what is shown besides.
 from __future__ import annotations
 
 import dataclasses
-import importlib
-import pkgutil
 import types
 import typing
 from collections.abc import Mapping, Sequence
@@ -16,8 +14,16 @@ from fractions import Fraction
 from functools import cache, cached_property
 from typing import Any, Literal, Union, get_args, get_origin
 
-from mcexact import answer
-from mcexact.answer.protocol import KINDS, Answer, Part, fields_of, is_optional, key_of, shown_of
+from mcexact.answer.protocol import (
+    HOMES,
+    Answer,
+    Part,
+    fields_of,
+    is_optional,
+    key_of,
+    kind_named,
+    shown_of,
+)
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
@@ -64,10 +70,7 @@ _PLAIN: dict[Any, Schema] = {
 @cache
 def kinds() -> dict[str, type[Answer]]:
     """Every kind of answer, by name."""
-    for info in pkgutil.iter_modules(answer.__path__):
-        if info.name not in ("listing", "schema"):
-            importlib.import_module(f"{answer.__name__}.{info.name}")
-    return dict(sorted(KINDS.items()))
+    return {name: kind_named(name) for name in sorted(HOMES)}
 
 
 def claim_schema(kind: type[Answer]) -> Schema:

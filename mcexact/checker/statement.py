@@ -7,18 +7,15 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from . import budget
 from .arithmetic import Matrix, Polynomial
 from .system import System, canonical
 from .system_matrices import rows_of
-
-if TYPE_CHECKING:
-    from .parametric_system import FunctionSystem
 
 FIXED = "fixed under linear time-invariant decentralized control"
 PENCIL = "[xI - A, B; C, 0]"
@@ -120,7 +117,22 @@ def suffixed(system: System, words: str, **parts: Any) -> System:
     return replace(system, words=f"{before} {words}", blocks=(), ports="", **parts)
 
 
-def described(system: System | FunctionSystem) -> str:
+class Described(Protocol):
+    """What a statement says of a system, of numbers or of functions."""
+
+    @property
+    def n(self) -> int: ...
+    @property
+    def m(self) -> int: ...
+    @property
+    def names(self) -> Sequence[str]: ...
+    @property
+    def time(self) -> str: ...
+    @property
+    def words(self) -> str: ...
+
+
+def described(system: Described) -> str:
     """The system a claim is about: what it was made from, its states, its channels, its time."""
     channels = f"channels {channel_set(system.names)}" if system.m else "no channels"
     told = f"{counted(system.n, 'state')}, {system.ports or channels}, {system.time} time"

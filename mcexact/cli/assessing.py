@@ -5,17 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from mcexact.answer.wording.design import EVERY_LOOP, EVERY_LOOP_PART
-
 if TYPE_CHECKING:
     from mcexact.answer.account import Account
     from mcexact.model.loop import ClosedLoop
     from mcexact.report.picture import EmbeddedPicture
     from mcexact.report.text import Table
     from mcexact.synthesis.assessment import Assessment
-
-
-ALL_LOOPS = (EVERY_LOOP, EVERY_LOOP_PART)
 
 
 def assessed(
@@ -31,7 +26,11 @@ def assessed(
     What is certified of all loops near this one follows the verdict; ``pictures`` come first on the
     page.
     """
-    said = [found.verdict, *(each.line for each in account.sentences if each.template in ALL_LOOPS)]
+    # Help loads every command, and must not load flint with the templates.
+    from mcexact.answer.wording.design import EVERY_LOOP, EVERY_LOOP_PART
+
+    all_loops = (EVERY_LOOP, EVERY_LOOP_PART)
+    said = [found.verdict, *(each.line for each in account.sentences if each.template in all_loops)]
     said += [f"warning: {each}" for each in found.warnings[1:]]
     said += [f"note: {each}" for each in found.notes]
     page = None

@@ -98,7 +98,6 @@ def _evidence(
     """The certificates: of the whole ranges, or of a part of them and of values that fail."""
     from mcexact.answer import codec
     from mcexact.cli.running import told
-    from mcexact.model.system_file import canonical_text
 
     if proved:
         return told(account, system_by_digest)
@@ -108,7 +107,7 @@ def _evidence(
     }
     known = {name: answer for name, answer in parts.items() if answer is not None}
     texts = {name: codec.encode(answer) for name, answer in known.items()}
-    plants = {name: canonical_text(answer.about.plant) for name, answer in known.items()}
+    plants = {name: answer.about.plant.canonical_text() for name, answer in known.items()}
     return {"certificates": texts, "files": texts, "plant": plants}
 
 

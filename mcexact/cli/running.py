@@ -32,16 +32,15 @@ def told(account: Account, system_by_digest: bool) -> dict[str, Any]:
         Whether the files name the plant by its digest.
     """
     from mcexact.answer import codec
-    from mcexact.model.system_file import canonical_text
 
     files, own = account.files(system_by_digest=system_by_digest), account.given.system
     refuted = {f"{name}_refuted.json": answer for name, answer in account.failing.items()}
     others = {name: codec.encode(answer) for name, answer in refuted.items()}
-    plants = {name: canonical_text(answer.about.plant) for name, answer in refuted.items()}
+    plants = {name: answer.about.plant.canonical_text() for name, answer in refuted.items()}
     return {
         "certificates": account.certificates | others,
         "files": files | others,
-        "plant": dict.fromkeys(files, canonical_text(own)) | plants,
+        "plant": dict.fromkeys(files, own.canonical_text()) | plants,
     }
 
 

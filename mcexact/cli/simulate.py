@@ -163,7 +163,6 @@ def _simulated(
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
-    from mcexact.model.system_file import canonical_text
     from mcexact.report.simulation import SimulationReport
     from mcexact.simulation.run import simulated_loop
     from mcexact.synthesis.certify import account_of_verdict
@@ -176,7 +175,7 @@ def _simulated(
     done = simulated_loop(system, controller, **wanted)
     report = SimulationReport(done, fractions)
     account = Account({}, Given(system), Sentences([]))
-    proved: dict[str, Any] = {"certificates": {}, "files": {}, "plant": canonical_text(system)}
+    proved: dict[str, Any] = {"certificates": {}, "files": {}, "plant": system.canonical_text()}
     if done.envelope is not None:
         account = account_of_verdict(done.envelope.proof, largest=False)
         proved = told(account, system_by_digest)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.picture import EmbeddedPicture
     from mcexact.report.text import Table
-    from mcexact.synthesis.assessment import WithinRadii
+    from mcexact.synthesis.every_loop import WithinRadii
 
 
 def of(

@@ -18,7 +18,6 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery as published
 from mcexact.model.names import nearest, quoted
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 
 
 @dataclass(frozen=True)
@@ -80,8 +79,8 @@ def shown(exhibit: Exhibit) -> Shown:
 
 def shown_in(found: CrossChecks) -> tuple[Shown, ...]:
     """Return the exhibits about the system of a table of cross-checks."""
-    asked = digest(found.system)
-    return tuple(_shown(each, found) for each in exhibits() if digest(each.make()) == asked)
+    asked = found.system.digest()
+    return tuple(_shown(each, found) for each in exhibits() if each.make().digest() == asked)
 
 
 def _shown(exhibit: Exhibit, found: CrossChecks) -> Shown:

@@ -22,7 +22,6 @@ from mcexact.exact.sparse_krylov import SparseLoop, stays_sparse
 from mcexact.model.canonical import canonical, plain, sha256
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 
 Gains = tuple[tuple[tuple[int, ...], ...], ...]
 """One p_i × q_i matrix of residues for each channel."""
@@ -90,7 +89,7 @@ def generator(system: MultiChannelSystem | ParametricSystem, kind: str) -> rando
     kind : str
         The kind of certificate for which the draws are used.
     """
-    text = canonical([digest(system.plant), plain(system.subject), kind])
+    text = canonical([system.plant.digest(), plain(system.subject), kind])
     return random.Random(int(sha256(text), 16))
 
 

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from mcexact.exact.rational import decimal_or_quotient, rational_text
 
-if TYPE_CHECKING:
-    from mcexact.exact.polynomial import Polynomial
+
+class Terms(Protocol):
+    """What is shortened term by term: a polynomial."""
+
+    @property
+    def degree(self) -> int: ...
+
+    def text(self, coefficient: Callable[[Fraction], str], /) -> str: ...
 
 
 def number(x: Fraction, limit: int = 24) -> str:
@@ -124,7 +131,7 @@ def percent(part: Fraction, *, up: bool = False) -> str:
     return f"{three_digits(100 * part, up=up)} %"
 
 
-def polynomial(p: Polynomial, limit: int = 60) -> str:
+def polynomial(p: Terms, limit: int = 60) -> str:
     """Format a polynomial: completely if that is short, otherwise its first and last terms.
 
     Examples
@@ -150,7 +157,7 @@ def polynomial(p: Polynomial, limit: int = 60) -> str:
     return f"{shown} + …{last}{tail}" if len(terms) > 2 else f"{shown} {terms[-1]}"
 
 
-def _terms(p: Polynomial) -> list[str]:
+def _terms(p: Terms) -> list[str]:
     """The terms, highest power first, each except the first with its sign."""
 
     def coefficient(c: Fraction) -> str:

@@ -15,7 +15,6 @@ from mcexact.model.matrix_json import matrix_json
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest_of_values
 from mcexact.shown import Shown, fitting, grid
 
 MAPS = ("shared_update", "private_update", "input")
@@ -229,7 +228,7 @@ class Controller(Shown):
         A controller can run on every plant with the same shapes, but it was designed for one of
         them, and for its nominal values where these are uncertain.
         """
-        found = digest_of_values(system)
+        found = system.digest_of_values()
         if self.system in ("", found):
             return ()
         return (

@@ -13,7 +13,6 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.matrix_entry import as_matrix, require_shape, require_square
 from mcexact.model.statespace import sampling
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest_of_values
 
 
 def local_controllers(
@@ -56,7 +55,7 @@ def local_controllers(
     agents = tuple(
         _program(system, i, part, f"parts[{i}]", rounding) for i, part in enumerate(parts)
     )
-    return Controller(system.time, digest_of_values(system), agents)
+    return Controller(system.time, system.digest_of_values(), agents)
 
 
 def _program(

@@ -195,9 +195,18 @@ class NeighborGraph(Shown):
 
     def to_dict(self) -> dict[str, Any]:
         """Return ``neighbors`` by names and, if there are any, ``delays``, as in a system file."""
-        from mcexact.model.system_file import graph_document
-
-        return graph_document(self)
+        names = self.names
+        document: dict[str, Any] = {
+            "neighbors": {
+                names[i]: [names[j] for j in self.neighborhood(i) if j != i] for i in range(self.m)
+            }
+        }
+        if self.delays:
+            rows: dict[str, dict[str, int]] = {}
+            for i, j, delay in self.delays:
+                rows.setdefault(names[i], {})[names[j]] = delay
+            document["delays"] = rows
+        return document
 
     @property
     def m(self) -> int:

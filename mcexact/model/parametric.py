@@ -16,6 +16,7 @@ from mcexact.exact.location import require_time
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction, rational_text, written
 from mcexact.exact.rational_function import RationalFunction
+from mcexact.model.canonical import canonical
 from mcexact.model.channel import ByChannel, Channel, channels_of
 from mcexact.model.expression import checked_parameter
 from mcexact.model.function_entry import as_function, as_functions
@@ -310,6 +311,12 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
             with InputError.inside(place):
                 found.append(part.mapped(function))
         return found
+
+    def _as_canonical_text(self) -> str:
+        return canonical(self.document())
+
+    def _own_document(self) -> dict[str, Any]:
+        return self.document()
 
     def document(self) -> dict[str, Any]:
         """The ``system`` object of a certificate, as plain data."""

@@ -21,7 +21,8 @@ from mcexact.model.json_text import (
 )
 from mcexact.model.matrix_json import Entries, read_number
 from mcexact.model.parametric import ParametricSystem, require_ascending
-from mcexact.model.system_file import FORMAT, texts_of, unread_plant
+from mcexact.model.system_file import texts_of, unread_plant
+from mcexact.model.system_forms import FORMAT
 
 _REQUIRED = ("format", "time", "parameters", "A", "channels")
 _OPTIONAL = ("name", "source")

@@ -15,8 +15,10 @@ from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.location import is_discrete, require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
+from mcexact.model.canonical import canonical
 from mcexact.model.channel import ByChannel, Channel, channels_of, listed_matrices
 from mcexact.model.matrix_entry import as_table, require_square
+from mcexact.model.matrix_json import canonical_matrix_text, number_json
 from mcexact.model.names import checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
 from mcexact.model.system_forms import SystemForms
@@ -324,6 +326,26 @@ class MultiChannelSystem(ByChannel[Matrix], SystemForms):
         other._fill(**{name: getattr(self, name) for name in self.__dataclass_fields__})
         other._fill(uncertainty=found)
         return other
+
+    def _as_canonical_text(self) -> str:
+        channels = ",".join(
+            f'{{"B":{canonical_matrix_text(channel.B)},"C":{canonical_matrix_text(channel.C)},'
+            f'"name":{canonical(channel.name)}}}'
+            for channel in self.channels
+        )
+        parts = [f'"A":{canonical_matrix_text(self.A)},"channels":[{channels}]']
+        graph = {} if self.neighbors is None else self.neighbors.to_dict()
+        parts += [f'"{key}":{canonical(graph[key])}' for key in sorted(graph)]
+        parts.append(f'"time":"{self.time}"')
+        if self.uncertainty is not None:
+            parts.append(f'"uncertainty":{canonical(self.uncertainty.document(self.names))}')
+        return "{" + ",".join(parts) + "}"
+
+    def _own_document(self) -> dict[str, Any]:
+        document = (as_plant(self) if self.subject else self).canonical_document()
+        if self.sample_time is not None:
+            document = {"sample_time": number_json(self.sample_time)} | document
+        return document
 
     def __repr__(self) -> str:
         shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")

@@ -12,7 +12,7 @@ from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.model.canonical import canonical, numbers_of_any_length, sha256
+from mcexact.model.canonical import numbers_of_any_length
 from mcexact.model.json_text import (
     expect_format,
     expect_integer,
@@ -27,7 +27,6 @@ from mcexact.model.json_text import (
 from mcexact.model.matrix_entry import Table, require_square
 from mcexact.model.matrix_json import (
     Entries,
-    canonical_matrix_text,
     json_text_of_number,
     matrix_json,
     number_json,
@@ -40,12 +39,12 @@ from mcexact.model.matrix_json import (
 from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.system import MultiChannelSystem, as_plant
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_forms import FORMAT
 from mcexact.model.uncertainty import read_radii
 
 M = TypeVar("M")
 
-FORMAT = "mcexact-system/1"
 _REQUIRED = ("format", "time", "A", "channels")
 _OPTIONAL = (
     *("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty", "parameters"),
@@ -210,115 +209,6 @@ def _mapping(value: Any, where: str) -> dict[str, Any]:
     return value
 
 
-def canonical_text(system: MultiChannelSystem | ParametricSystem) -> str:
-    """The plant of a system as the text of the ``system`` object of a certificate.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem or ParametricSystem
-        For a derived system, its plant is written.
-
-    Notes
-    -----
-    Keys are sorted; matrices are rows of reduced rationals, or list their entries if they are
-    large and sparse; name and source are left out.
-    """
-    if isinstance(system.plant, ParametricSystem):
-        return canonical(system.plant.document())
-    plant = system.plant
-    known: str | None = plant.__dict__.get("_canonical_text")
-    if known is not None:
-        return known
-    channels = ",".join(
-        f'{{"B":{canonical_matrix_text(channel.B)},"C":{canonical_matrix_text(channel.C)},'
-        f'"name":{canonical(channel.name)}}}'
-        for channel in plant.channels
-    )
-    parts = [f'"A":{canonical_matrix_text(plant.A)},"channels":[{channels}]']
-    graph = {} if plant.neighbors is None else graph_document(plant.neighbors)
-    parts += [f'"{key}":{canonical(graph[key])}' for key in sorted(graph)]
-    parts.append(f'"time":"{plant.time}"')
-    if plant.uncertainty is not None:
-        parts.append(f'"uncertainty":{canonical(plant.uncertainty.document(plant.names))}')
-    text = "{" + ",".join(parts) + "}"
-    # Systems are immutable, so the text is made once and shared by all certificates.
-    object.__setattr__(plant, "_canonical_text", text)
-    return text
-
-
-def canonical_document(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]:
-    """The plant of a system as the ``system`` object of a certificate, as plain data."""
-    with numbers_of_any_length():
-        document: dict[str, Any] = json.loads(canonical_text(system))
-    return document
-
-
-def graph_document(graph: NeighborGraph) -> dict[str, Any]:
-    """Return the keys ``neighbors`` and, if there are delays, ``delays``, by names."""
-    names = graph.names
-    document: dict[str, Any] = {
-        "neighbors": {
-            names[i]: [names[j] for j in graph.neighborhood(i) if j != i] for i in range(graph.m)
-        }
-    }
-    if graph.delays:
-        rows: dict[str, dict[str, int]] = {}
-        for i, j, delay in graph.delays:
-            rows.setdefault(names[i], {})[names[j]] = delay
-        document["delays"] = rows
-    return document
-
-
-def digest(system: MultiChannelSystem | ParametricSystem) -> str:
-    """Return the SHA-256 of the plant's canonical JSON, in lower-case hexadecimal.
-
-    Examples
-    --------
-    Names, order, graph and every number change the digest.  The form in which a number is written,
-    ``name`` and ``source`` do not:
-
-    >>> first = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], name="a")
-    >>> second = MultiChannelSystem([["0.50"]], [[[1]]], [[[1]]], source="b")
-    >>> digest(first) == digest(second)
-    True
-    """
-    plant = system.plant
-    known: str | None = plant.__dict__.get("_digest")
-    if known is None:
-        known = sha256(canonical_text(plant))
-        object.__setattr__(plant, "_digest", known)
-    return known
-
-
-def digest_of_values(system: MultiChannelSystem | ParametricSystem) -> str:
-    """Return the digest of the plant without radii, which controllers name as made for.
-
-    Examples
-    --------
-    >>> from mcexact.model.box import Box
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> digest_of_values(Box.relative(plant, "1/100").system) == digest(plant)
-    True
-    """
-    plant = system.plant
-    if isinstance(plant, ParametricSystem) or plant.uncertainty is None:
-        return digest(plant)
-    return digest(plant.with_uncertainty(None))
-
-
-def system_document(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]:
-    """Return the object of a system file as plain data, with quotients as strings."""
-    document: dict[str, Any] = {"format": FORMAT}
-    for key, value in (("name", system.name), ("source", system.source)):
-        if value is not None:
-            document[key] = value
-    if isinstance(system, ParametricSystem):
-        return document | system.document()
-    if system.sample_time is not None:
-        document["sample_time"] = number_json(system.sample_time)
-    return document | canonical_document(as_plant(system) if system.subject else system)
-
-
 def system_text(system: MultiChannelSystem | ParametricSystem) -> str:
     """Return the text of a system file, with one line for each row of a matrix."""
     head: list[tuple[str, str]] = [("format", json.dumps(FORMAT))]
@@ -333,9 +223,7 @@ def system_text(system: MultiChannelSystem | ParametricSystem) -> str:
     head.append(("A", _matrix_text(system.A, "  ")))
     head.append(("channels", _channels_text(system)))
     if system.neighbors is not None:
-        head.extend(
-            (key, json.dumps(value)) for key, value in graph_document(system.neighbors).items()
-        )
+        head.extend((key, json.dumps(value)) for key, value in system.neighbors.to_dict().items())
     if system.uncertainty is not None:
         document = system.uncertainty.document(system.names)
         with numbers_of_any_length():

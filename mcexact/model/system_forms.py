@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from typing import Any
 
 from mcexact.exact.location import is_discrete
 from mcexact.exact.rational import rational_text
+from mcexact.model.canonical import numbers_of_any_length, sha256
 from mcexact.shown import Shown, fitting, latex, table, words
 
+FORMAT = "mcexact-system/1"
 _MOST_CHANNELS = 12
 
 
@@ -60,14 +63,76 @@ class SystemForms(Shown):
         equations = r" \\ ".join(lines) + more
         return rf"\begin{{aligned}} {equations} \end{{aligned}}"
 
+    def canonical_text(self: Any) -> str:
+        """Return the plant of the system as the text of the ``system`` object of a certificate.
+
+        Notes
+        -----
+        Keys are sorted; matrices are rows of reduced rationals, or list their entries if they are
+        large and sparse; name and source are left out.  Systems are immutable, so the text is made
+        once and shared by all certificates.
+        """
+        plant = self.plant
+        known: str | None = plant.__dict__.get("_canonical_text")
+        if known is None:
+            known = plant._as_canonical_text()
+            object.__setattr__(plant, "_canonical_text", known)
+        return known
+
+    def canonical_document(self) -> dict[str, Any]:
+        """Return the plant as the ``system`` object of a certificate, as plain data."""
+        with numbers_of_any_length():
+            document: dict[str, Any] = json.loads(self.canonical_text())
+        return document
+
+    def digest(self: Any) -> str:
+        """Return the SHA-256 of the plant's canonical JSON, in lower-case hexadecimal.
+
+        Examples
+        --------
+        Names, order, graph and every number change the digest.  The form in which a number is
+        written, ``name`` and ``source`` do not:
+
+        >>> from mcexact import MultiChannelSystem
+        >>> first = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], name="a")
+        >>> second = MultiChannelSystem([["0.50"]], [[[1]]], [[[1]]], source="b")
+        >>> first.digest() == second.digest()
+        True
+        """
+        plant = self.plant
+        known: str | None = plant.__dict__.get("_digest")
+        if known is None:
+            known = sha256(plant.canonical_text())
+            object.__setattr__(plant, "_digest", known)
+        return known
+
+    def digest_of_values(self: Any) -> str:
+        """Return the digest of the plant without radii, which controllers name as made for.
+
+        Examples
+        --------
+        >>> from mcexact import Box, MultiChannelSystem
+        >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+        >>> Box.relative(plant, "1/100").system.digest_of_values() == plant.digest()
+        True
+        """
+        plant = self.plant
+        digest: str = (
+            plant if plant.uncertainty is None else plant.with_uncertainty(None)
+        ).digest()
+        return digest
+
     def to_dict(self: Any) -> dict[str, Any]:
         """Return the system as plain data, with quotients as strings; `read_system` reads it.
 
         A derived system is written with its own matrices, as a plant.
         """
-        from mcexact.model.system_file import system_document
-
-        return system_document(self)
+        document: dict[str, Any] = {"format": FORMAT}
+        for key, value in (("name", self.name), ("source", self.source)):
+            if value is not None:
+                document[key] = value
+        document |= self._own_document()
+        return document
 
 
 def _heading(system: Any) -> str:

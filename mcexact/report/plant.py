@@ -15,7 +15,6 @@ from mcexact.exact.shortened import approximated
 from mcexact.model.box import radii_in_words
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.report.mathml import matrix
 
 LARGEST, CUT = 12, 8
@@ -102,7 +101,7 @@ def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, st
         told = radii_in_words(system)
         rows.append(("uncertainty", f"{told}; the matrices are those of the nominal values"))
     rows.append(("source", system.source or "not stated in the system file"))
-    rows.append(("SHA-256 of the system", digest(system)))
+    rows.append(("SHA-256 of the system", system.digest()))
     return tuple(rows)
 
 

@@ -21,7 +21,6 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.report.figures import spectrum_picture
 from mcexact.reproduce.equations import positions, union_of_graphs
 from mcexact.reproduce.material import (
@@ -107,7 +106,7 @@ def _chain(plant: MultiChannelSystem, own: dict[str, Polynomial]) -> Controller:
         programs.append(
             AgentProgram(name, 0, 1, private_update=update, input=LinearMap(private=one))
         )
-    return Controller(plant.time, digest(plant), tuple(programs))
+    return Controller(plant.time, plant.digest(), tuple(programs))
 
 
 def parity(note: Notebook) -> None:

@@ -7,7 +7,6 @@ from mcexact.derived.feedback import feedback
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.reproduce.equations import driven, outputs, stacked
 from mcexact.reproduce.material import PAPER, Numbers, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
@@ -45,7 +44,7 @@ def discrete(note: Notebook) -> None:
         empty: tuple[tuple[()], ...] = ((),) * plant.m
         run = simulate(
             plant,
-            Controller("discrete", digest(plant), agents),
+            Controller("discrete", plant.digest(), agents),
             initial=InitialState(start, empty, empty),
             horizon=5,
         )

@@ -19,7 +19,7 @@ from mcexact.model.formats.reading import Reading
 from mcexact.model.formats.recognize import read_any
 from mcexact.model.properties import PROPERTIES
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest, system_text
+from mcexact.model.system_file import system_text
 from mcexact.sweeps.questions import KNOWN
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw | Variant
@@ -111,7 +111,7 @@ def decide(job: Job) -> Outcome:
         return failure(error)
     return left | {
         "system": {"n": system.n, "m": system.m, "time": system.time},
-        "digest": digest(system),
+        "digest": system.digest(),
         "seconds": round(time.perf_counter() - start, 6),
         "certificates": made,
     }

@@ -15,7 +15,7 @@ from mcexact.errors import InternalError, McexactError, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.box import Box
 from mcexact.model.formats.recognize import read_input
-from mcexact.model.system_file import FORMAT, digest
+from mcexact.model.system_forms import FORMAT
 from mcexact.sweeps.jobs import Job, Outcome, Reader, Source, decide, entries, failure
 from mcexact.sweeps.questions import WITHIN_RADII, answered, chosen, denied
 from mcexact.sweeps.records import Record, RecordFile
@@ -178,7 +178,7 @@ def _believed(number: int, job: Job, outcome: Outcome) -> Record:
     if not outcome.get("certificates"):
         return Record(number, job.name, key, error=left)
     try:
-        expected = outcome["digest"] if not isinstance(job.source, bytes) else digest(job.system())
+        expected = outcome["digest"] if not isinstance(job.source, bytes) else job.system().digest()
         answers = {
             name: _checked(name, text, expected, job)
             for name, text in outcome["certificates"].items()

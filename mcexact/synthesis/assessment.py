@@ -14,6 +14,7 @@ from mcexact.answer.formats import count, listed
 from mcexact.exact.floats import finite
 from mcexact.exact.location import StabilityRegion
 from mcexact.shown import Shown, fitting
+from mcexact.synthesis.every_loop import WithinRadii
 from mcexact.synthesis.optimum.aims import MARGIN
 from mcexact.synthesis.optimum.diagnosis import TIMES_THE_COST, Diagnosis
 from mcexact.synthesis.optimum.figures import Figures
@@ -23,7 +24,6 @@ from mcexact.synthesis.optimum.loop_figures import (
 from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape
 
 Install = Literal["yes", "with care", "no"]
-WithinRadii = Literal["proved", "open", "refuted"]
 
 BASIS = "computed in floating point, not certified"
 _COMPUTED = " (computed)"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any, Literal
 
 from mcexact.analysis.boxes.box_stable import StabilitySearch
 from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
@@ -23,9 +23,8 @@ from mcexact.model.box import Box
 from mcexact.model.loop import ClosedLoop
 from mcexact.shown import Shown
 
-if TYPE_CHECKING:
-    from mcexact.synthesis.assessment import WithinRadii
-
+WithinRadii = Literal["proved", "open", "refuted"]
+"""What is known of all loops within the radii."""
 SIX_DIGITS = Fraction(1, 100_000)
 """By so large a part rounding to six significant digits, up or down, changes a number at most."""
 _PARTS, _SURE = (0.9, 0.6, 0.3, 0.1), (0.3, 0.1)

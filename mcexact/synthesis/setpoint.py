@@ -29,7 +29,6 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.linked_system import with_links
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant
-from mcexact.model.system_file import digest_of_values
 from mcexact.synthesis.agreeing_observer import observers
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design, Method, designed
@@ -354,7 +353,7 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
                 agent.hold,
             )
         )
-    return Controller(controller.time, digest_of_values(system), tuple(programs))
+    return Controller(controller.time, system.digest_of_values(), tuple(programs))
 
 
 def _on_own_state(each: LinearMap, i: int, nrows: int, q: int, k: int) -> LinearMap:

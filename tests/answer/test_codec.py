@@ -27,7 +27,6 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.canonical import plain
-from mcexact.model.system_file import digest
 from tests.checker.handmade import FIXED
 
 PLANT = MultiChannelSystem(
@@ -119,7 +118,7 @@ def test_a_file_that_names_its_plant_by_digest_is_read_with_the_plant(tmp_path: 
     file = tmp_path / "certificate.json"
     found = fixed_spectrum(PLANT)
     codec.save_certificate(found, file, system_by_digest=True)
-    assert json.loads(file.read_text())["system"] == digest(PLANT)
+    assert json.loads(file.read_text())["system"] == PLANT.digest()
     assert {**json.loads(file.read_text()), "system": found.system} == codec.document(found)
     assert load_certificate(file, PLANT) == found
     whole, named = check(found), check(file, PLANT)

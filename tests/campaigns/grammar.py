@@ -21,7 +21,7 @@ from mcexact.checker import reading, statement
 from mcexact.checker import system as checker
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
-from mcexact.model import system_file
+from mcexact.model import system_file, system_forms
 from mcexact.model.canonical import canonical
 from tests.campaigns.grammar_tokens import (
     BYTES,
@@ -291,7 +291,7 @@ def compare(data: bytes, limits: Limits, tally: Tally, what: str) -> None:
     """Let both readers read one file."""
     theirs = reading.Limits(limits.bytes, limits.depth, limits.digits, limits.exponent)
     ours, reason = verdict_of(lambda: system_file.read_system(data, limits=limits), InputError)
-    ours_digest = None if ours is None else system_file.digest(ours)
+    ours_digest = None if ours is None else ours.digest()
     with any_integer():
         checked, other = verdict_of(lambda: checker.read_system_file(data, theirs), reading.Refused)
         its_digest = None if checked is None else statement.digest(checked)
@@ -314,13 +314,13 @@ def in_a_certificate(data: bytes, limits: Limits, ours: Any) -> str:
         document = None
     if ours is not None:
         with any_integer():
-            form = json.loads(canonical(system_file.canonical_document(ours)))
+            form = json.loads(canonical(ours.canonical_document()))
             found = statement.digest(checker.read_plant(form))
-        if found != system_file.digest(ours):
+        if found != ours.digest():
             return f"its canonical form has the digest {found}"
     if not isinstance(document, dict) or limits != Limits():
         return ""
-    if document.pop("format", None) != system_file.FORMAT:
+    if document.pop("format", None) != system_forms.FORMAT:
         return ""
     plant, reason = verdict_of(lambda: checker.read_plant(document), reading.Refused)
     expected = ours is not None and canonical(document) == canonical(form)

@@ -27,7 +27,6 @@ from mcexact.exact.size import largest_entry
 from mcexact.model.controller import Controller
 from mcexact.model.controller_file import controller_text
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
 from mcexact.simulation.start import InitialState
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
@@ -103,7 +102,7 @@ def one_design(seed: int) -> tuple[MultiChannelSystem, Design]:
 
 def loop_of(system: MultiChannelSystem, design: Design | Renamed) -> list[list[Fraction]]:
     """The matrix of the loop from the files alone."""
-    plant = json.loads(json.dumps(canonical_document(system)))
+    plant = json.loads(json.dumps(system.canonical_document()))
     return loop_rows(plant, controller_text(design.controller))
 
 

@@ -12,7 +12,7 @@ from mcexact.checker import Expectation, Limits
 from mcexact.checker.reading import Refused
 from mcexact.errors import InputError
 from mcexact.model.parametric_file import read_parametric_system
-from mcexact.model.system_file import digest, system_text
+from mcexact.model.system_file import system_text
 from tests.checker.handmade import changed, checked
 from tests.checker.parametric_plants import ALL, PAPER, RANGED
 
@@ -58,7 +58,7 @@ def test_the_system_of_a_certificate_is_canonical(name: str) -> None:
 @pytest.mark.parametrize("name", ALL)
 def test_the_digest_is_that_of_the_package(name: str) -> None:
     text = json.dumps({"format": "mcexact-system/1", **ALL[name]["system"]})
-    assert checked(ALL[name]).system_digest == digest(read_parametric_system(text))
+    assert checked(ALL[name]).system_digest == read_parametric_system(text).digest()
 
 
 FILE = {
@@ -101,10 +101,10 @@ def test_a_system_file_is_compared_with_the_certificate() -> None:
     system = changed(RANGED["system"], ("channels.1.C", {"shape": [0, 3], "entries": []}))
     wanted = about(FILE)
     assert wanted.plant == system
-    assert wanted.system == digest(read_parametric_system(json.dumps(FILE)))
+    assert wanted.system == read_parametric_system(json.dumps(FILE)).digest()
     assert checked(PAPER, expected=wanted).code == "system"
     plain = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    assert about(json.loads(system_text(plain))).system == digest(plain)
+    assert about(json.loads(system_text(plain))).system == plain.digest()
 
 
 @pytest.mark.parametrize(("place", "value"), BROKEN)
@@ -124,7 +124,7 @@ def test_what_is_no_system_file_is_refused(document: Any) -> None:
 
 def test_a_plant_may_be_named_by_its_digest() -> None:
     plant = ParametricSystem([["t"]], [[[1]]], [[[1]]], parameters=["t"])
-    assert len(digest(plant)) == 64
+    assert len(plant.digest()) == 64
     named = {**PAPER, "system": checked(PAPER).system_digest}
     assert checked(named).verdict == "INCOMPLETE"
     file = {"format": "mcexact-system/1", **PAPER["system"]}

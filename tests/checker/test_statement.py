@@ -22,7 +22,7 @@ from mcexact.checker.statement import canonical_json, described, polynomial_text
 from mcexact.checker.subject import CONSTRUCTIONS, read_subject
 from mcexact.checker.system import System, read_plant
 from mcexact.model.canonical import plain
-from mcexact.model.system_file import canonical_document, read_system
+from mcexact.model.system_file import read_system
 from tests.attack.draws.certificates import some_certificate
 from tests.attack.oracle.statement import statement as second
 from tests.attack.oracle.statement import system_words as second_words
@@ -72,7 +72,7 @@ def test_the_system_is_named_as_the_format_describes(name: str) -> None:
     rng = random.Random(name)
     for build in BUILDS[name] * 5:
         derived = build(rng, drawn_plant(rng, "discrete"))
-        document = certificate("x", canonical_document(derived), {}, {}, *plain(derived.subject))
+        document = certificate("x", derived.canonical_document(), {}, {}, *plain(derived.subject))
         assert subject_of(document).words == second_words(document)
 
 

@@ -25,7 +25,6 @@ from mcexact.derived.links import add_links
 from mcexact.derived.merged import merged
 from mcexact.derived.restricted import restricted
 from mcexact.exact.matrix import Matrix
-from mcexact.model import system_file
 from mcexact.model.canonical import plain
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.loop import closed_loop
@@ -152,7 +151,7 @@ def test_every_construction_is_built_as_the_finder_builds_it(name: str) -> None:
         for build in BUILDS[name]:
             domain = "discrete" if delayed else rng.choice(["continuous", "discrete"])
             derived = build(rng, drawn_plant(rng, domain))
-            document = system_file.canonical_document(derived)
+            document = derived.canonical_document()
             assert_same(read_subject(plain(derived.subject), read_plant(document)), derived)
 
 
@@ -160,7 +159,7 @@ def test_every_construction_is_built_as_the_finder_builds_it(name: str) -> None:
 def test_a_construction_has_its_own_arguments_and_no_others(name: str) -> None:
     for build in BUILDS[name]:
         derived = build(random.Random(name), drawn_plant(random.Random(name), "discrete"))
-        document = system_file.canonical_document(derived)
+        document = derived.canonical_document()
         (step,) = plain(derived.subject)
         read_subject([step], read_plant(document))
         fewer = [{key: step[key] for key in step if key != left_out} for left_out in step]
@@ -189,7 +188,7 @@ def test_constructions_are_applied_in_order() -> None:
         for name in rng.sample(["augmented_outputs", "extended", "integrators", "feedback"], 3):
             derived = BUILDS[name][0](rng, derived)
         derived = dual(derived)
-        document = system_file.canonical_document(derived)
+        document = derived.canonical_document()
         ours = read_subject(plain(derived.subject), read_plant(document))
         assert_same(ours, derived)
         assert ours.words.startswith("the dual of: ")
@@ -199,8 +198,8 @@ def test_the_digest_is_recomputed_independently() -> None:
     rng = random.Random(2)
     for _ in range(50):
         system = drawn_plant(rng, rng.choice(["continuous", "discrete"]))
-        document = system_file.canonical_document(system)
-        assert digest(read_plant(document)) == system_file.digest(system)
+        document = system.canonical_document()
+        assert digest(read_plant(document)) == system.digest()
 
 
 @pytest.mark.parametrize(
@@ -257,6 +256,6 @@ def test_a_subject_that_a_number_makes_huge_is_incomplete(huge: int) -> None:
 
 
 def test_delays_need_discrete_time() -> None:
-    plant = read_plant(system_file.canonical_document(drawn_plant(random.Random(3), "continuous")))
+    plant = read_plant(drawn_plant(random.Random(3), "continuous").canonical_document())
     with pytest.raises(Refused, match="discrete"):
         read_subject([{"construction": "held", "dimensions": [1] * plant.m}], plant)

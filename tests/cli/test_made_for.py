@@ -10,7 +10,6 @@ from mcexact.model.box import Box
 from mcexact.model.controller_file import load_controller, save_controller
 from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from tests.end_to_end.command_line import run
 
 WARNING = "mcexact: warning: the controller was made for another plant, of digest "
@@ -40,7 +39,7 @@ def test_only_a_controller_for_another_plant_is_warned_of(folder: Path, command:
     [message] = other.messages
     assert other.status == 0
     assert message.startswith(WARNING)
-    assert digest(plant("1"))[:12] in message and digest(plant("1/2"))[:12] in message
+    assert plant("1").digest()[:12] in message and plant("1/2").digest()[:12] in message
     assert message.endswith(json.loads(other.stdout)["warnings"][0])
     told = run(command, str(folder / "other.json"), controller)
     assert told.messages == [message]

@@ -24,7 +24,6 @@ from mcexact.derived.restricted import restricted
 from mcexact.exact.matrix import Matrix
 from mcexact.model.canonical import text_of
 from mcexact.model.loop import closed_loop
-from mcexact.model.system_file import canonical_document, digest
 from tests.model.test_controller import drawn_controller
 
 SHARES: tuple[Share, ...] = ("outputs+states", "states")
@@ -32,8 +31,8 @@ SHARES: tuple[Share, ...] = ("outputs+states", "states")
 
 def rebuilt(system):
     """Let the checker build the subject from what a certificate would hold; compare everything."""
-    plant = read_plant(json.loads(text_of(canonical_document(system))))
-    assert checked_digest(plant) == digest(system)
+    plant = read_plant(json.loads(text_of(system.canonical_document())))
+    assert checked_digest(plant) == system.digest()
     found = read_subject(json.loads(text_of(system.subject)), plant)
     assert plain(found.A) == system.A.rows()
     assert [plain(B) for B in found.B] == [channel.B.rows() for channel in system.channels]

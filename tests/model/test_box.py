@@ -26,13 +26,7 @@ from mcexact import (
 )
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.rational import Limits
-from mcexact.model.system_file import (
-    canonical_document,
-    canonical_text,
-    digest,
-    read_system,
-    system_text,
-)
+from mcexact.model.system_file import read_system, system_text
 from mcexact.model.uncertainty import typed_radii, typed_radius
 
 TYPED: dict[str, Any] = {
@@ -103,7 +97,7 @@ def test_radii_are_given_entry_by_entry_and_others_are_certain() -> None:
 @pytest.mark.parametrize("said", [{"absolute": {}}, {"relative": 0}, {"absolute": {"B": {}}}])
 def test_a_plant_of_which_every_entry_is_certain_has_no_radii(said: Any) -> None:
     plant = read(said)
-    assert plant.uncertainty is None and '"uncertainty"' not in canonical_text(plant)
+    assert plant.uncertainty is None and '"uncertainty"' not in plant.canonical_text()
     assert Box(plant).radii.is_zero() and Box(plant).nominal == plant
 
 
@@ -119,13 +113,13 @@ def test_the_digest_of_a_box_covers_values_and_radii() -> None:
     shorter = read_system(
         PLANT.replace("PLACE", '{"digits": "as typed"}').replace("0.10, ", "0.1, ")
     )
-    assert plain.A == shorter.A and digest(plain) != digest(shorter)
+    assert plain.A == shorter.A and plain.digest() != shorter.digest()
     assert plain != shorter and plain.with_uncertainty(None) == shorter.with_uncertainty(None)
-    assert digest(plain) != digest(plain.with_uncertainty(None))
+    assert plain.digest() != plain.with_uncertainty(None).digest()
 
 
 def test_a_box_is_written_with_the_radius_of_each_entry() -> None:
-    document = canonical_document(read({"relative": "1/2"}))["uncertainty"]
+    document = read({"relative": "1/2"}).canonical_document()["uncertainty"]
     assert document["absolute"]["A"]["entries"] == [[0, 0, "1/20"], [0, 1, "1/10"], [1, 1, "3/2"]]
     assert document["absolute"]["B"]["2"] == {"shape": [2, 1], "entries": [[0, 0, "1/2"]]}
     assert list(document["absolute"]["C"]) == ["1"]
@@ -135,7 +129,7 @@ def test_a_box_is_written_with_the_radius_of_each_entry() -> None:
 def test_what_is_written_is_read_back(drawn: testing.Drawn, part: Fraction) -> None:
     system = Box.relative(drawn.system, part).system
     copy = read_system(system_text(system))
-    assert copy == system and digest(copy) == digest(system)
+    assert copy == system and copy.digest() == system.digest()
     assert read_system(json.dumps(system.to_dict())) == system
 
 
@@ -242,7 +236,7 @@ def test_constructions_keep_the_radii_of_the_plant_alone() -> None:
     system = read({"relative": "1/10"})
     turned = dual(system)
     assert turned.uncertainty is None and turned.plant.uncertainty == system.uncertainty
-    assert canonical_text(turned) == canonical_text(system)
+    assert turned.canonical_text() == system.canonical_text()
 
 
 def test_a_box_where_a_system_is_expected_is_told_how_to_give_it() -> None:

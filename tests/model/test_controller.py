@@ -26,7 +26,6 @@ from mcexact.model.controller_file import (
 from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 
 
 def drawn_matrix(rng, r, c):
@@ -62,7 +61,7 @@ def drawn_controller(rng, system, references=False, holding=False):
                 hold,
             )
         )
-    return Controller(system.time, digest(system), tuple(agents))
+    return Controller(system.time, system.digest(), tuple(agents))
 
 
 def run_agents(system, controller, state, steps, reference):
@@ -134,7 +133,7 @@ def test_a_controller_file_gives_the_controller_and_the_loop_back(drawn, seed):
     system = drawn.system
     controller = drawn_controller(random.Random(seed), system, references=True, holding=True)
     copy = read_controller(controller_text(controller))
-    assert copy.document() == controller.document() and copy.system == digest(system)
+    assert copy.document() == controller.document() and copy.system == system.digest()
     assert closed_loop(system, copy).matrix == closed_loop(system, controller).matrix
     assert controller_text(copy) == controller_text(controller)
 
@@ -144,7 +143,7 @@ def test_a_controller_file_is_read_by_people():
     plant = MultiChannelSystem([[1]], [[[1, 1]]], [[[1], [1]]], names=["1/2"])
     F = Matrix.from_rows(gains)
     controller = Controller(
-        "continuous", digest(plant), (AgentProgram("1/2", 0, 0, input=LinearMap({0: F})),)
+        "continuous", plant.digest(), (AgentProgram("1/2", 0, 0, input=LinearMap({0: F})),)
     )
     text = controller_text(controller)
     assert '["-0.0104", "1/3"],\n' in text and f'[2, "1/{3**200}"]' in text
@@ -156,7 +155,7 @@ def test_static_programs_without_messages_are_decentralized_feedback():
     plant = MultiChannelSystem([[1, 2], [3, 4]], [[[1], [0]], [[0], [1]]], [[[1, 1]], [[0, 1]]])
     F = [Matrix.from_rows([[-5]]), Matrix.from_rows([["1/2"]])]
     agents = [AgentProgram(str(i + 1), 0, 0, input=LinearMap({i: F[i]})) for i in range(2)]
-    controller = Controller("continuous", digest(plant), tuple(agents))
+    controller = Controller("continuous", plant.digest(), tuple(agents))
     assert closed_loop(plant, controller).matrix == feedback(plant, F).A
     made = closed_loop(plant, controller).system
     assert made.m == 0 and made.plant == plant and made.plant.neighbors is None

@@ -39,13 +39,7 @@ from mcexact.model.matrix_json import (
 )
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import (
-    canonical_document,
-    canonical_text,
-    digest,
-    read_system,
-    system_text,
-)
+from mcexact.model.system_file import read_system, system_text
 
 
 def document(**changes):
@@ -87,7 +81,7 @@ names = st.text(min_size=1, max_size=5).filter(
 def test_what_is_written_is_read_back(drawn):
     system = drawn.system
     assert read_system(system_text(system)) == system
-    assert digest(read_system(system_text(system))) == digest(system)
+    assert read_system(system_text(system)).digest() == system.digest()
 
 
 @given(testing.jointly_controllable_systems(denominators=True, time="discrete"), names, names)
@@ -104,7 +98,7 @@ def test_names_sources_and_sample_times_are_carried(drawn, name, source):
     )
     copy = read_system(system_text(system))
     assert (copy.name, copy.source, copy.sample_time) == (name, source, Fraction(1, 30))
-    assert copy == system and digest(copy) == digest(found)
+    assert copy == system and copy.digest() == found.digest()
 
 
 @given(testing.systems(), st.randoms(use_true_random=False))
@@ -128,11 +122,11 @@ def test_the_digest_does_not_depend_on_how_the_file_is_written(drawn, rng):
         return value
 
     plain = rewritten(plain)
-    assert digest(read_system(json.dumps(plain, indent=rng.choice([None, 3])))) == digest(system)
+    assert read_system(json.dumps(plain, indent=rng.choice([None, 3]))).digest() == system.digest()
 
 
 def test_everything_that_matters_changes_the_digest():
-    base = digest(read_system(json.dumps(document())))
+    base = read_system(json.dumps(document())).digest()
     changes: list[dict[str, Any]] = [
         {"time": "continuous"},
         {"A": [[1, 0], ["1/3", 0]]},
@@ -142,17 +136,17 @@ def test_everything_that_matters_changes_the_digest():
         {"neighbors": {"u1": ["u2"], "u2": ["u1"]}},
         {"delays": {"u1": {"u2": 2}}},
     ]
-    digests = {digest(read_system(json.dumps(document(**change)))) for change in changes}
+    digests = {read_system(json.dumps(document(**change))).digest() for change in changes}
     assert len(digests) == len(changes) and base not in digests
     same: list[dict[str, Any]]
     same = [{"name": "a", "source": "b", "sample_time": 1}, {"delays": {"u1": {"u2": 1}, "u2": {}}}]
     for change in same:
-        assert digest(read_system(json.dumps(document(**change)))) == base
+        assert read_system(json.dumps(document(**change))).digest() == base
 
 
 def test_the_canonical_document_is_the_one_of_the_certificate_format():
     system = read_system(json.dumps(document(name="x", sample_time=1)))
-    assert canonical_document(system) == {
+    assert system.canonical_document() == {
         "time": "discrete",
         "A": [[1, 0], ["1/2", 0]],
         "channels": [
@@ -162,16 +156,16 @@ def test_the_canonical_document_is_the_one_of_the_certificate_format():
         "neighbors": {"u1": ["u2"], "u2": []},
         "delays": {"u1": {"u2": 1}},
     }
-    assert canonical_document(extended_system(system, [1, 1])) == canonical_document(system)
-    assert digest(extended_system(system, [1, 1])) == digest(system)
+    assert extended_system(system, [1, 1]).canonical_document() == system.canonical_document()
+    assert extended_system(system, [1, 1]).digest() == system.digest()
 
 
 def test_matrices_without_rows_say_their_shape():
     system = MultiChannelSystem([[1]], [[[1]]], [[]])
-    assert canonical_document(system)["channels"][0]["C"] == {"shape": [0, 1], "entries": []}
+    assert system.canonical_document()["channels"][0]["C"] == {"shape": [0, 1], "entries": []}
     system = MultiChannelSystem([], [read_matrix({"shape": [0, 2], "entries": []}, "B")], [[]])
     text = system_text(system)
-    assert read_system(text).p(0) == 2 and canonical_document(system)["A"] == []
+    assert read_system(text).p(0) == 2 and system.canonical_document()["A"] == []
 
 
 def test_every_gallery_file_survives_reading_and_writing():
@@ -447,9 +441,9 @@ def test_the_canonical_text_of_a_matrix_is_the_json_of_its_reduced_entries(rows)
 def test_the_canonical_text_of_a_system_is_the_json_of_its_document():
     for name in gallery.names():
         system = gallery.load(name)
-        assert canonical_text(system) == canonical(canonical_document(system))
+        assert system.canonical_text() == canonical(system.canonical_document())
     named = MultiChannelSystem([[1]], [[[1]]], [[[1]]], names=['ä "b"\\'])
-    assert canonical_text(named) == canonical(canonical_document(named))
+    assert named.canonical_text() == canonical(named.canonical_document())
 
 
 def test_an_unknown_gallery_system_is_refused():
@@ -476,10 +470,10 @@ def test_large_sparse_systems_stay_sparse_in_files():
         assert each.B(0).is_sparse
         assert each.C(0)[0, 0] * 3 == 1
     assert again == system
-    text = canonical_text(again)
+    text = again.canonical_text()
     assert text.startswith('{"A":{"entries":[[1,0,1],[2,1,2],')
     assert '"C":{"entries":[[0,0,"1/3"]],"shape":[1,3000]},"name":"first"' in text
-    assert digest(again) == "23c1fad59f8e329bb292e5eb48fcec12671f655c45332f9eb8a80a24c79c1fb3"
+    assert again.digest() == "23c1fad59f8e329bb292e5eb48fcec12671f655c45332f9eb8a80a24c79c1fb3"
 
 
 def test_sparse_arrays_of_floats_and_of_a_wrong_shape_are_refused():

@@ -13,7 +13,6 @@ from mcexact.exact import matrix_forms
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_text
 from mcexact.report.account import latex
 from mcexact.report.account_page import account_page
 from mcexact.report.graph_figures import graph_pictures
@@ -38,7 +37,7 @@ def hostile() -> MultiChannelSystem:
 def page_of(plant: MultiChannelSystem, **question: bool) -> str:
     """The page with all its evidence, checked, and the results as LaTeX."""
     account = account_of(plant, **question)
-    verdicts = recheck(account.certificates, canonical_text(plant))
+    verdicts = recheck(account.certificates, plant.canonical_text())
     return account_page(account).rendered(account.certificates, verdicts, latex(account))
 
 

@@ -8,7 +8,6 @@ import pytest
 
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.report.plant import CUT, LARGEST, shown_plant
 from mcexact.report.stamp import stamp
 
@@ -28,7 +27,7 @@ def test_small_matrices_are_shown_whole() -> None:
     assert str(shown["matrices"][0]).count("1/3") == 4
     rows = dict(shown["rows"])
     assert (rows["states"], rows["channels"], rows["source"]) == ("2", "1: 1", "a book")
-    assert rows["SHA-256 of the system"] == digest(plant)
+    assert rows["SHA-256 of the system"] == plant.digest()
 
 
 def test_a_large_matrix_is_cut_and_said_to_be() -> None:

@@ -14,7 +14,6 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.controller_file import controller_text
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
 from mcexact.simulation.arithmetic import ExactArithmetic
 from mcexact.simulation.network import Network, SignalNotReceived
 from mcexact.simulation.start import InitialState
@@ -34,7 +33,7 @@ discrete = testing.systems_on_graphs(
 def test_steps_are_powers_of_the_matrix_assembled_from_the_file(drawn, seed, holding):
     system, rng = drawn.system, random.Random(seed)
     controller = drawn_controller(rng, system, holding=holding)
-    matrix = loop_rows(canonical_document(system), controller_text(controller))
+    matrix = loop_rows(system.canonical_document(), controller_text(controller))
     initial = InitialState(
         tuple(Fraction(rng.randint(-3, 3)) for _ in range(system.n)),
         tuple(

@@ -22,7 +22,7 @@ from mcexact.model.box import Box
 from mcexact.model.canonical import canonical
 from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest, system_text
+from mcexact.model.system_file import system_text
 from mcexact.sweeps.jobs import Job, Outcome, decide
 from mcexact.sweeps.questions import QUESTIONS
 from mcexact.sweeps.records import Record, read_records
@@ -96,7 +96,7 @@ def test_every_question_is_answered_as_it_is_one_by_one() -> None:
     [record] = sweep([system], list(QUESTIONS))
     assert (record.system, record.digest) == (
         {"n": 3, "m": 3, "time": "continuous"},
-        digest(system),
+        system.digest(),
     )
     assert list(record.answers) == list(QUESTIONS)
     for name, question in QUESTIONS.items():
@@ -109,7 +109,7 @@ def test_every_question_is_answered_as_it_is_one_by_one() -> None:
 def test_draws_are_those_of_their_seeds_whoever_decides_them(workers: int) -> None:
     records = by_number(sweep(DRAWS, workers=workers))
     assert [record.name for record in records] == [f"seed {draw.seed}" for draw in DRAWS]
-    assert [record.digest for record in records] == [digest(drawn_system(draw)) for draw in DRAWS]
+    assert [record.digest for record in records] == [drawn_system(draw).digest() for draw in DRAWS]
     assert all(
         record.answers["fixed_spectrum"]["claim"]["factors"]
         for record, draw in zip(records, DRAWS, strict=True)
@@ -353,7 +353,7 @@ def test_a_plant_outside_of_the_radii_shows_no_failure() -> None:
     of_far = decide(Job("far", system_text(far).encode(), ("box_fixed_modes",)))
 
     def forged(job: Job) -> Outcome:
-        return of_far | {"digest": digest(near)}
+        return of_far | {"digest": near.digest()}
 
     [record] = sweep([near], ["box_fixed_modes"], work=forged, executor=ThreadPoolExecutor(1))
     assert not record.answers and record.error is not None and record.error["status"] == 70

@@ -17,7 +17,6 @@ from mcexact.derived.feedback import feedback, full_output
 from mcexact.errors import Impossible
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.distributed_observer import design_observer
@@ -46,7 +45,7 @@ def test_every_method_takes_a_plant_with_feedback(
     made = design(feedback(plant, [[[1]], [["1/2"]]]), rate=1, arithmetic=arithmetic, **options)
     for certificate in made.certificates.values():
         assert certificate.subject[0]["construction"] == "feedback"
-        verdict = check_document(encode(certificate).encode(), Expectation(system=digest(plant)))
+        verdict = check_document(encode(certificate).encode(), Expectation(system=plant.digest()))
         assert verdict.verdict == "VALID", verdict.line()
     require_implied(made.account, tmp_path)
 
@@ -95,5 +94,5 @@ def test_a_refusal_is_about_the_plant_too() -> None:
             design(feedback(plant, [[[0]], [[0]]]), rate=1)
         certificate = refusal.value.certificate
         assert certificate.subject[0]["construction"] == "feedback"
-        verdict = check_document(encode(certificate).encode(), Expectation(system=digest(plant)))
+        verdict = check_document(encode(certificate).encode(), Expectation(system=plant.digest()))
         assert verdict.verdict == "VALID", verdict.line()

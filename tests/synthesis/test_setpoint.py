@@ -20,7 +20,6 @@ from mcexact.model.controller_file import controller_text, read_controller
 from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.optimum.aims import Aims
@@ -142,7 +141,7 @@ def test_a_cut_of_the_graph_is_refused_with_evidence_about_the_plant(method: str
     with pytest.raises(Impossible) as refusal:
         design_setpoint(plant, rate=1, method=method)  # type: ignore[arg-type]
     verdict = check_document(
-        encode(refusal.value.certificate).encode(), Expectation(system=digest(plant))
+        encode(refusal.value.certificate).encode(), Expectation(system=plant.digest())
     )
     assert verdict.verdict == "VALID", verdict.line()
 

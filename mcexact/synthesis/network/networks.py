@@ -13,7 +13,6 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest_of_values
 from mcexact.synthesis.methods import ChannelController
 
 NetworkKind = Literal["decentralized", "extended", "lifted", "held"]
@@ -170,4 +169,4 @@ def network_programs(
                 given.names[i], network.dimensions[i], k, shared, update, inputs, network.holds(i)
             )
         )
-    return Controller(given.time, digest_of_values(given), tuple(programs))
+    return Controller(given.time, given.digest_of_values(), tuple(programs))

@@ -14,7 +14,6 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest_of_values
 from mcexact.synthesis.gate import Proposal
 from mcexact.synthesis.methods import (
     StateFeedback,
@@ -117,7 +116,7 @@ def _of_the_observable_part(
             "for the F_i that were found, no constant K_i, H_ij let one agent control and observe "
             "all errors of the observable part: try floating-point arithmetic"
         ) from None
-    controller = replace(made.controller, system=digest_of_values(system))
+    controller = replace(made.controller, system=system.digest_of_values())
     return Proposal(controller, parts=made.parts)
 
 

@@ -8,7 +8,6 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest_of_values
 from mcexact.synthesis.methods import ChannelController, loop_matrix
 
 
@@ -64,7 +63,7 @@ def observer_programs(
                 LinearMap(shared={i: feedback[i]}).without_zeros(),
             )
         )
-    return Controller(system.time, digest_of_values(system), tuple(programs))
+    return Controller(system.time, system.digest_of_values(), tuple(programs))
 
 
 def _innovation(

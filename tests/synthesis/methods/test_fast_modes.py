@@ -12,7 +12,6 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.methods.fast_modes import feedback_for_region, observable_part
 
@@ -71,7 +70,7 @@ def test_a_refusal_beside_an_unseen_mode_is_about_the_plant(B, C, kind):
         design_observer(system, rate=1)
     assert caught.value.certificate.kind == kind
     verdict = check_document(
-        encode(caught.value.certificate).encode(), Expectation(system=digest(system))
+        encode(caught.value.certificate).encode(), Expectation(system=system.digest())
     )
     assert verdict.verdict == "VALID", verdict.line()
 

@@ -16,7 +16,6 @@ from mcexact.exact.size import bit_length, largest_entry
 from mcexact.model.controller_file import controller_text, read_controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.methods.spectrum import spectrum_polynomial
 from tests.campaigns.observer import one_design
@@ -172,7 +171,7 @@ def test_a_derived_system_is_designed_for_like_a_plant(arithmetic):
     design = design_observer(loose, rate=1, arithmetic=arithmetic)
     certificate = design.loop.proof
     assert [each["construction"] for each in certificate.subject] == ["feedback", "closed_loop"]
-    verdict = check_document(encode(certificate).encode(), Expectation(system=digest(plant)))
+    verdict = check_document(encode(certificate).encode(), Expectation(system=plant.digest()))
     assert verdict.verdict == "VALID", verdict.line()
 
 
