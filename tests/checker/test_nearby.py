@@ -14,7 +14,7 @@ from mcexact.model.box import Box
 from mcexact.model.controller_file import controller_text
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest, system_text
+from mcexact.model.system_file import system_text
 from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.decentralized import design_decentralized
 from tests.checker.handmade import Document, changed
@@ -87,8 +87,8 @@ def test_the_distance_is_computed_from_both_plants(
     tmp_path: Path, given: MultiChannelSystem, rule: str, far: int
 ) -> None:
     found = verdicts(tmp_path, loop(given), loop(FAILS), rule)[-1]
-    assert f"of: the plant {digest(FAILS)}: not every eigenvalue" in found.statement
-    assert f"differs from that of the plant {digest(given)}" in found.statement
+    assert f"of: the plant {FAILS.digest()}: not every eigenvalue" in found.statement
+    assert f"differs from that of the plant {given.digest()}" in found.statement
     assert f"by at most {far} of the " in found.statement
 
 
@@ -107,7 +107,7 @@ def test_plants_nearby_alone_prove_nothing_of_the_plant(tmp_path: Path) -> None:
 
 def test_what_repeats_data_repeats_none_of_a_plant_nearby(tmp_path: Path) -> None:
     found = verdicts(tmp_path, loop(STABLE), loop(FAILS), "certify-states")[-1]
-    assert digest(STABLE) in found.statement and digest(FAILS) not in found.statement
+    assert STABLE.digest() in found.statement and FAILS.digest() not in found.statement
 
 
 BAD = [

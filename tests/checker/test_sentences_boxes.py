@@ -16,8 +16,6 @@ from mcexact.checker.uncertainty import pairs_of, radii_in_words
 from mcexact.model.box import Box
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest as system_digest
-from mcexact.model.system_file import digest_of_values as system_digest_of_values
 from tests.checker.box_maker import stable
 from tests.checker.box_plants import LOOP_STABLE, PART_CERTAIN, PART_STABLE, WAYS, proportional
 from tests.checker.handmade import checked, plant
@@ -113,7 +111,7 @@ def test_the_statement_of_a_box_names_the_plant_without_radii_and_the_part() -> 
     wide = Box.relative(MultiChannelSystem([[-1]], [[[1]]], [[[1]]]), "1/10").system
     loop = box_stability(wide, local_controllers(wide, [[["-1/2"]]]), gains="1/100")
     said, near = checked(document(loop)).statement, f"{OF_IT}s of the latter"
-    own, whole = system_digest_of_values(wide), system_digest(wide)
+    own, whole = wide.digest_of_values(), wide.digest()
     assert own != whole and f"of: the plant {whole} (1 state, 1 of the controlled system " in said
     assert f"for all plants whose entries differ from those of the plant {own} by at most" in said
     assert f" by at most 1/10 {near}, and for all controllers whose entries differ from" in said

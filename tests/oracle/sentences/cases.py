@@ -22,7 +22,6 @@ from flint import fmpq, fmpq_mat, fmpq_poly
 from mcexact.answer.template import Sentence
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.system_file import canonical_document
 from tests.attack.oracle.algebra import krylov
 from tests.attack.oracle.constructions import built
 from tests.attack.oracle.controllers import Loop, read_agents
@@ -226,7 +225,8 @@ class Facts:
         found: list[list[int]] = [
             [p.degree() for p, e in irreducible(A.charpoly()) for _ in range(e)] for A in self.loops
         ]
-        return sorted(min(found, key=len))
+        _, fewest = min((len(degrees), sorted(degrees)) for degrees in found)
+        return fewest
 
     @cached_property
     def arcs(self) -> list[tuple[int, int]]:
@@ -398,7 +398,7 @@ class Case:
 
 def plant_of(system: Any) -> System:
     """A plant of the package as the oracle of certificates reads it from JSON."""
-    return read_plant(json.loads(json.dumps(canonical_document(system))))
+    return read_plant(json.loads(json.dumps(system.canonical_document())))
 
 
 def index_ranks(A: fmpq_mat, B: fmpq_mat) -> list[int]:
