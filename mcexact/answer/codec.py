@@ -50,9 +50,9 @@ def encode(answer: Answer, *, system_by_digest: bool = False) -> str:
         "format": text_of(FORMAT),
         "kind": text_of(answer.kind),
         "subject": text_of(answer.subject),
-        "system": text_of(answer.about.digest())
+        "system": text_of(answer.about.plant.digest())
         if system_by_digest
-        else answer.about.canonical_text(),
+        else answer.about.plant.canonical_text(),
         "witness": text_of(answer.witness()),
     }
     return "{" + ",".join(f'"{key}":{text}' for key, text in parts.items()) + "}\n"

@@ -181,7 +181,7 @@ class Answer(Shown):
     @property
     def system(self) -> Document:
         """The user's plant, as the canonical object of ``FORMAT.md``."""
-        return self.about.canonical_document()
+        return self.about.plant.canonical_document()
 
     @property
     def subject(self) -> tuple[Document, ...]:
@@ -232,7 +232,7 @@ class Answer(Shown):
         return {"kind": self.kind, "system": self.about.name, **row}
 
     def _text(self) -> str:
-        return text_of([self.kind, self.about.digest(), self.subject, self.document()])
+        return text_of([self.kind, self.about.plant.digest(), self.subject, self.document()])
 
     def __eq__(self, other: object) -> bool:
         return self._text() == other._text() if isinstance(other, Answer) else NotImplemented
