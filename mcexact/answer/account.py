@@ -80,7 +80,9 @@ class Account(Shown):
         if system_by_digest:
             own = self.given.system.digest()
             texts = {
-                f"{name}.json": codec.encode(answer, system_by_digest=answer.about.plant.digest() == own)
+                f"{name}.json": codec.encode(
+                    answer, system_by_digest=answer.about.plant.digest() == own
+                )
                 for name, answer in self.answers.items()
             }
         return texts | {MANIFEST: canonical(self._manifest(texts)) + "\n"}

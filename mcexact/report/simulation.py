@@ -106,7 +106,7 @@ class SimulationReport:
         if envelope is None or not envelope.outputs:
             return ()
         names = self.done.run.values("outputs")
-        decay = f"d(t) = {_radius(envelope.bound)}^t"
+        decay = f"d(t) = {radius_text(envelope.bound)}^t"
         if not is_discrete(envelope.time):
             decay = f"d(t) = exp(-{digits_outward(envelope.bound, up=False)} t)"
         rows = [
@@ -202,11 +202,12 @@ class SimulationReport:
         )
 
 
-def _radius(bound: Fraction) -> str:
-    """A radius below 1, rounded up to at least four digits, and to a number below 1."""
-    digits = 4
-    while Fraction(told := digits_outward(bound, up=True, digits=digits)) >= 1:
+def radius_text(bound: Fraction) -> str:
+    """A radius, rounded up to at least four digits; if it is below 1, to a number below 1."""
+    digits, told = 4, digits_outward(bound, up=True)
+    while bound < 1 <= Fraction(told):
         digits += 2
+        told = digits_outward(bound, up=True, digits=digits)
     return told
 
 

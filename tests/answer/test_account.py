@@ -35,12 +35,12 @@ def test_every_answer_stands_under_its_name_and_names_its_certificate() -> None:
     assert {"text", "rule", "theorem"} == view["sentences"][0].keys()
 
 
-def test_polynomials_are_lists_of_strings_and_channels_are_names() -> None:
+def test_polynomials_are_lists_of_numbers_and_channels_are_names() -> None:
     plant = MultiChannelSystem(
         [["1/3", 0], [0, 2]], [[[1], [0]]] * 2, [[[1, 0]]] * 2, names=["left", "right"]
     )
     spectrum = view_of(plant)["fixed_spectrum"]
-    assert spectrum["polynomial"] == ["-2", "1"]
+    assert spectrum["polynomial"] == [-2, 1]
     (factor,) = spectrum["factors"]
     assert factor["channels"] == ["left", "right"]
     assert factor["roots"] == [{"re": "2", "im": "0", "radius": "0"}]
@@ -78,7 +78,7 @@ def test_a_subset_and_a_channel_are_answered_when_they_are_asked_about() -> None
     view = view_of(plant, subset=["2", "3"], channel="1", every_channel=True)
     subsystem = view["complementary_subsystem"]
     assert subsystem["normal_rank"] == 3
-    assert subsystem["remnant"] == ["-1", "1"]
+    assert subsystem["remnant"] == [-1, 1]
     assert view["channel_observability"]["controllable"] is True
     assert view["channel_gains_observable"]["indices"] == [[2]]
     assert view["channel_gains_both"]["exists"] is False

@@ -22,7 +22,7 @@ from mcexact.answer.fixed_spectrum import (
 )
 from mcexact.answer.reading import load_certificate
 from mcexact.checker.kinds import check_document
-from mcexact.errors import InputError
+from mcexact.errors import InputError, NotWritten
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
@@ -98,7 +98,7 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
         codec.save_certificate(with_modulus(7.5), target)
     assert target.read_text() == first
     assert list(tmp_path.iterdir()) == [target]
-    with pytest.raises(InputError, match="No such file"):
+    with pytest.raises(NotWritten, match="No such file"):
         codec.save_certificate(FIXED_SPECTRUM, tmp_path / "missing" / "certificate.json")
 
 

@@ -19,7 +19,15 @@ from mcexact import answer as home
 from mcexact.analysis.questions import QUESTIONS
 from mcexact.answer.codec import encode
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.answer.protocol import KINDS, Answer, Part, fields_of, key_of, kind_named
+from mcexact.answer.protocol import (
+    KINDS,
+    Answer,
+    Part,
+    fields_of,
+    is_about_dual,
+    key_of,
+    kind_named,
+)
 from mcexact.answer.reading import answer_of
 from mcexact.answer.showing import fitted
 from mcexact.checker.kinds import KINDS as RULES
@@ -131,7 +139,8 @@ def test_everything_that_is_shown_is_in_every_form(name: str) -> None:
     for _, found in about(name):
         entries = list(found.entries())
         assert list(json.loads(json.dumps(found.to_dict()))) == [key for key, _, _ in entries]
-        assert found.claim().keys() <= found.to_dict().keys()
+        renamed = found.dual_keys if is_about_dual(found.subject) else {}
+        assert {renamed.get(key, key) for key in found.claim()} <= found.to_dict().keys()
         html, latex = found._repr_html_(), found._repr_latex_()
         assert latex.startswith("$") and latex.endswith("$")
         labels = [label for _, label, _ in entries]

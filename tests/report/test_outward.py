@@ -16,6 +16,7 @@ from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.responses import rate_text
 from mcexact.report.figures import spectrum_picture
+from mcexact.report.simulation import radius_text
 from mcexact.report.tolerances import tolerance_tables
 from mcexact.synthesis.certify import certify_controller
 
@@ -35,6 +36,12 @@ def test_floats_and_digits_are_on_the_side_that_was_asked_for(x: Fraction) -> No
             assert side * Fraction(found) >= side * x <= side * Fraction(repr(found))
         else:
             assert (found > 0) == (side > 0) and abs(x) >= Fraction(2**1023)
+
+
+@pytest.mark.parametrize("x", ["1/2", "99999/100000", f"{10**30 - 1}/{10**30}", "1", "10/9"])
+def test_a_radius_below_one_is_written_below_one(x: str) -> None:
+    written = Fraction(radius_text(Fraction(x)))
+    assert Fraction(x) <= written and (written < 1) == (Fraction(x) < 1)
 
 
 @pytest.mark.parametrize("entry", ["-2/3", "-20001/30000", "-99995/100000", "1/3"])
