@@ -79,7 +79,7 @@ def test_a_subset_and_a_channel_are_answered_when_they_are_asked_about() -> None
     subsystem = view["complementary_subsystem"]
     assert subsystem["normal_rank"] == 3
     assert subsystem["remnant"] == [-1, 1]
-    assert view["channel_observability"]["controllable"] is True
+    assert view["channel_observability"]["observable"] is True
     assert view["channel_gains_observable"]["indices"] == [[2]]
     assert view["channel_gains_both"]["exists"] is False
     assert view["every_channel"]["exists"] is False
