@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from types import FunctionType
 from typing import Any
 
 from flint import fmpq_poly
@@ -35,16 +36,28 @@ JUDGES: dict[str, Judge] = {}
 
 
 def judge(*rules: str) -> Callable[[Judge], Judge]:
-    """Enter a judge of the sentences of some rules."""
+    """Enter a judge of the sentences of some rules.
+
+    A module that is run once more, as a collector of doctests does, enters its judges once more.
+    """
 
     def made(decides: Judge) -> Judge:
         for rule in rules:
-            if rule in JUDGES:
+            known = JUDGES.setdefault(rule, decides)
+            if known is not decides and not _run_again(known, decides):
                 raise ValueError(f"two judges of {rule}")
-            JUDGES[rule] = decides
         return decides
 
     return made
+
+
+def _run_again(known: Judge, decides: Judge) -> bool:
+    """Whether two judges are of one line of one file, which has been run twice."""
+    if not (isinstance(known, FunctionType) and isinstance(decides, FunctionType)):
+        return False
+    same = known.__code__.co_filename == decides.__code__.co_filename
+    lines = known.__code__.co_firstlineno == decides.__code__.co_firstlineno
+    return same and lines and known.__globals__ is not decides.__globals__
 
 
 # What is given.
