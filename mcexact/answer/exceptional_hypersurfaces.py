@@ -324,10 +324,14 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
         )
 
     @property
+    def divided(self) -> str:
+        """What the roots of the generic polynomials are divided by, in words behind them."""
+        return "" if self.scale.is_constant else f", divided by {self.scale}"
+
+    @property
     def modes(self) -> tuple[str, ...]:
         """The generic polynomials in words, with what their roots are divided by."""
-        divided = "" if self.scale.is_constant else f", divided by {self.scale}"
-        return tuple(mode_in_x(p) + divided for p in self.generic)
+        return tuple(mode_in_x(p) + self.divided for p in self.generic)
 
     def worth_a_row(self) -> tuple[str, ...]:
         """The polynomials in x whose roots are fixed, perhaps none."""

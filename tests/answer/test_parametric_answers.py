@@ -65,3 +65,14 @@ def test_questions_about_numbers_are_refused_for_letters() -> None:
         analyze(PLANT, ["assignability"])
     with pytest.raises(AttributeError, match="assignability"):
         _ = analyze(PLANT).assignability
+
+
+def test_modes_say_once_by_what_all_are_divided() -> None:
+    words = []
+    for names, bottom, gain in ((["t"], "t - 2", 1), (["s", "t"], "s - t", "t")):
+        A = [[f"1/({bottom})", 0, 0], [0, f"3/({bottom})", 0], [0, 0, 1]]
+        plant = ParametricSystem(A, [[[0], [0], [gain]]], [[[0, 0, 1]]], parameters=names)
+        found = [each for each in analyze(plant).explain().splitlines() if "divided" in each]
+        assert all(each.count(f", divided by {bottom}") == 1 for each in found)
+        words += found
+    assert len(words) == 8 and not any(",," in each or ",;" in each for each in words)

@@ -70,31 +70,32 @@ def scaled(given: Given) -> str:
     """What modes are divided by, where A has denominators."""
     if given.scale.degree < 1:
         return ""
-    return f", divided by {in_parameter(given.scale, given.parameter)},"
+    return f", divided by {in_parameter(given.scale, given.parameter)}"
 
 
 # Sentences from what was found, whatever proves it.
 
 
-def fixed(modes: Sequence[str], values: Values) -> Said:
+def fixed(modes: str, values: Values) -> Said:
     """Which modes are fixed for almost every value, and that others are at some."""
     if modes:
-        yield say.FIXED(modes=", ".join(modes), every=values.almost)
+        # What they are divided by is put in, between two commas.
+        yield say.FIXED(modes=modes + "," * (", divided by " in modes), every=values.almost)
     else:
         yield say.NOTHING_FIXED(every=values.almost)
 
 
-def another(modes: Sequence[str], values: Values) -> Said:
+def another(modes: str, values: Values) -> Said:
     """Where another mode is fixed."""
     if values.where:
         yield say.ANOTHER(another=bool(modes), where=values.where)
 
 
-def in_table(question: str, modes: Sequence[str], values: Values) -> Said:
+def in_table(question: str, modes: str, values: Values) -> Said:
     """The modes of a question, for every value or where they are others."""
     always, unless, some, more = say.MODES[question]
     told = (more if values.where else some) if modes else (unless if values.where else always)
-    yield told(modes=", ".join(modes), **values.given)
+    yield told(modes=modes, **values.given)
 
 
 def graph(columns: Sequence[tuple[Edge, int, Values]]) -> Said:
@@ -110,7 +111,7 @@ def graph(columns: Sequence[tuple[Edge, int, Values]]) -> Said:
 
 def complete(
     names: Sequence[str],
-    modes: Sequence[str],
+    modes: str,
     values: Values,
     columns: Sequence[tuple[Edge, int, Values]],
     t: str,
@@ -175,9 +176,10 @@ def heading(given: Given) -> Sentence:
     )
 
 
-def modes_of(spectrum: Claim, given: Given) -> list[str]:
-    """The generic modes of a certificate."""
-    return [mode_text(p, given.parameter) + scaled(given) for p in spectrum.generic]
+def modes_of(spectrum: Claim, given: Given) -> str:
+    """The generic modes of a certificate, with what all are divided by; nothing if it has none."""
+    modes = ", ".join(mode_text(p, given.parameter) for p in spectrum.generic)
+    return modes and modes + scaled(given)
 
 
 RANGES = Rulebook()

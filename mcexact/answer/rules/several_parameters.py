@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
-from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces
+from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces, mode_in_x
 from mcexact.answer.parameter_values import in_parameter, mode_text, value_text
 from mcexact.answer.rules.parameters import (
     RANGES,
@@ -169,8 +169,9 @@ def _row(name: str, answer: Any, answers: Mapping[str, Any], given: Given) -> Sa
         yield from indices(name.removesuffix("_indices"), ranks, values)
 
 
-def _modes(spectrum: Any) -> list[str]:
-    return [f"{p}," if ", divided" in p else p for p in spectrum.modes]
+def _modes(spectrum: Any) -> str:
+    modes = ", ".join(map(mode_in_x, spectrum.generic))
+    return modes and modes + spectrum.divided
 
 
 def _every(given: Given) -> str:

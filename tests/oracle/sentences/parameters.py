@@ -292,14 +292,9 @@ def size_of(point: Point) -> int:
 
 
 def listed_modes(told: str, family: Family) -> list[tuple[str, str]]:
-    """The polynomials in x of a sentence, each with what its roots are divided by."""
-    found = []
-    for part in re.split(
-        r",, |, (?!divided)", told.removesuffix(",") if told.endswith(",") else told
-    ):
-        polynomial, _, scale = part.partition(", divided by ")
-        found.append((polynomial, scale.rstrip(",") or "1"))
-    return [] if not told else found
+    """The polynomials in x of a sentence, each with what the roots of all are divided by."""
+    listed, _, scale = told.removesuffix(",").partition(", divided by ")
+    return [(each, scale or "1") for each in listed.split(", ")] if told else []
 
 
 def modes_at(told: str, point: Point, family: Family) -> set[str]:
