@@ -47,6 +47,7 @@ from tests.attack.draws.observers import drawn_observer
 from tests.attack.draws.subjects import drawn_subject
 from tests.checker import (
     test_complementary_subsystem,
+    test_nearby,
     test_sentences_design,
     test_setpoint,
     test_single_channel_gains,
@@ -377,6 +378,16 @@ def held_in_boxes() -> Iterator[Document]:
         yield plain(document(proof))
 
 
+def nearby() -> Iterator[tuple[str, list[Document]]]:
+    """Loops of plants with and without radii, and of plants nearby, not all of them stable."""
+    module = test_nearby
+    others = [module.plant(3), module.plant(2), module.plant(3, 1)]
+    for name, own in (("part", module.STABLE), ("radii", module.WIDE)):
+        yield f"nearby_{name}", [module.loop(each) for each in (own, *others)]
+    discrete = [module.plant(a, time="discrete") for a in (3, 4, 5, "7/2")]
+    yield "nearby_discrete", [module.loop(each) for each in discrete]
+
+
 def pool() -> Iterator[tuple[str, list[Document]]]:
     """Plants, each with certificates about it."""
     design = test_sentences_design
@@ -418,3 +429,4 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
         if system.n <= 4 and system.m <= 3:
             more = designs(system) if system.neighbors is not None and system.n <= 3 else iter(())
             yield f"drawn_{seed}", [*everything(system, seed), *more]
+    yield from nearby()

@@ -37,7 +37,9 @@ LONGEST = 4000
 WORDS = ("outputs", "states", "outputs+states", "controllable", "observable", "both")
 MANY = 8
 """How many texts of one rule are looked for, which differ in more than names and numbers."""
-WHOLE = ("design_", "tracking_")
+NEARBY = "nearby_"
+"""How a plant begins that has certificates about plants nearby, too; the first is about itself."""
+WHOLE = ("design_", "tracking_", NEARBY)
 """How plants begin of which every certificate is kept."""
 CORE = ("fixed_spectrum", "assignability")
 """Kinds of which every plant has a certificate."""
@@ -54,13 +56,18 @@ def world(name: str, documents: Iterable[Document], base: list[Any] | None = Non
     taken: dict[str, Document] = {}
     for found in documents:
         found = json.loads(json.dumps(found))
-        about = json.dumps([found[key] for key in ("kind", "subject", "claim")], sort_keys=True)
+        keys = ("kind", "subject", "claim", *["system"] * name.startswith(NEARBY))
+        about = json.dumps([found[key] for key in keys], sort_keys=True)
         if len(json.dumps(found)) <= LONGEST and check_document(found).verdict == "VALID":
             taken.setdefault(about, found)
     system = next(iter(taken.values()))["system"]
     same = [found for found in taken.values() if found["system"] == system]
-    made = World(name, system, base or [], sorted(same, key=lambda found: found["kind"]))
-    return made
+    listed = sorted(same, key=lambda found: found["kind"])
+    if name.startswith(NEARBY):
+        listed += [found for found in taken.values() if found["system"] != system]
+    # Only what is about another plant names its own.
+    own = [{k: v for k, v in each.items() if k != "system" or v != system} for each in listed]
+    return World(name, system, base or [], own)
 
 
 def text(made: World) -> str:
@@ -68,7 +75,8 @@ def text(made: World) -> str:
     rows: list[Any] = [[made.system, made.base]]
     for each, premise in zip(made.certificates, made.premises, strict=True):
         parts = [each[key] for key in ("kind", "subject", "claim", "witness")]
-        rows.append([*parts, premise.path, statement_mark(premise)])
+        nearby = [each["system"]] if "system" in each else []
+        rows.append([*parts, premise.path, statement_mark(premise), *nearby])
     return "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in rows)
 
 

@@ -48,7 +48,10 @@ def recorded_rules() -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class World:
-    """A plant, what the sentences are about, and certificates, in a fixed order."""
+    """A plant, what the sentences are about, and certificates, in a fixed order.
+
+    A certificate that has a ``system`` of its own is about that plant nearby.
+    """
 
     name: str
     system: dict[str, Any]
@@ -60,14 +63,16 @@ class World:
         """Read what ``text`` has written."""
         first, *lines = path.read_text(encoding="ascii").splitlines()
         system, base = json.loads(first)
-        keys = ("kind", "subject", "claim", "witness", "path", "statement")
-        listed = [dict(zip(keys, json.loads(line), strict=True)) for line in lines]
+        keys = ("kind", "subject", "claim", "witness", "path", "statement", "system")
+        rows = [json.loads(line) for line in lines]
+        listed = [dict(zip(keys[: max(len(row), 6)], row, strict=True)) for row in rows]
         return World(path.stem, system, base, listed)
 
     def document(self, k: int) -> dict[str, Any]:
         """A certificate as it stands in a file."""
         parts = {key: self.certificates[k][key] for key in ("kind", "subject", "claim", "witness")}
-        return {"format": FORMAT, "system": self.system, **parts}
+        plant = self.certificates[k].get("system", self.system)
+        return {"format": FORMAT, "system": plant, **parts}
 
     def file(self, k: int) -> str:
         """Its name."""
@@ -77,11 +82,13 @@ class World:
     def evidence(self) -> Evidence:
         """The certificates as the checker has them once it has found them VALID."""
         expected = Expectation(system=digest(read_plant(self.system)))
-        found = Evidence(lambda name: b"", self.base, Limits(), expected, Budget(10**15))
+        near = {self.file(k) for k, each in enumerate(self.certificates) if "system" in each}
+        found = Evidence(lambda name: b"", self.base, Limits(), expected, Budget(10**15), near)
         for k in range(len(self.certificates)):
-            name = self.file(k)
+            name, document = self.file(k), self.document(k)
             found.verdicts[name] = Verdict("VALID")
-            found.premises[name] = found._premise(name, self.document(k), expected.system)
+            own = digest(read_plant(document["system"])) if name in near else expected.system
+            found.premises[name] = found._premise(name, document, own)
         found.make_subject()
         return found
 
