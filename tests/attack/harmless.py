@@ -99,6 +99,9 @@ HARMLESS: dict[str, str] = {
     "system.py: _require_no_feedthrough: D is not None and (not read_matrix(D, place, None, None, limits).is_zero())": USERS,
     "system.py: read_system_file: not isinstance(document, dict) or document.get('format') != 'mcexact-system/1'": USERS,
     "exterior_discs.py: discs_of_gains: not found": RAISES,
+    "loop_pencil.py: loop_pencil: gain_radii is None": (
+        "the statement says of which controller the gains differ, and is refused if there is none"
+    ),
     "loop_pencil.py: _pencil: used <= reads.keys()": RAISES,
     "uncertainty.py: radii_form: part < 0": USERS,
     "fixed_spectrum.py: check: completion is None": UNREAD,

@@ -55,7 +55,6 @@ TRAPS: dict[str, Document] = {
         LOOP_STABLE,
         ("claim.gain_radii.agents.0.input.outputs.1", [["-1/100"]]),
     ),
-    "radii of gains without a loop": changed(STABLE, ("claim.gain_radii", GAIN_RADII)),
     "radii of gains in another time": changed(
         LOOP_STABLE, ("claim.gain_radii", {**GAIN_RADII, "time": "discrete"})
     ),
