@@ -219,7 +219,7 @@ def apart_from_poles(about: ParametricSystem) -> str:
     --------
     >>> plant = ParametricSystem([["1/(t^3 - t^2)"]], [[[1]]], [[[1]]], parameters=["t"])
     >>> apart_from_poles(plant)
-    ' with t ≠ 0 and t ≠ 1'
+    ' with t ≠ 1 and t ≠ 0'
     """
     [t], [bounds] = about.parameters, about.ranges
     apart = [

@@ -137,7 +137,7 @@ OPPOSITE = [
 ELSEWHERE = (*OF_DESIGNS, "parametric-")
 """How the rules begin that other files hold against certificates: of designs, of parameters."""
 ALWAYS = {
-    *("spectrum-moved", "spectrum-moved-between", "picture-transfer-graph", "complete"),
+    *("picture-transfer-graph", "complete"),
     *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),
     *("members-stabilizable", "members-setpoints"),
     *("allocate-proof", "allocate-cost-proof", "allocate-links-proof"),

@@ -15,7 +15,7 @@ import pytest
 from mcexact.checker import check_document
 from mcexact.checker.boxes import box_of
 from mcexact.checker.kinds import KINDS
-from mcexact.checker.moved_entries import looped
+from mcexact.checker.moved_entries import looped, moved
 from mcexact.checker.parametric_system import digest, plant_of
 from mcexact.checker.reading import Refused
 from mcexact.checker.statement import canonical_json, described, polynomial_text
@@ -83,7 +83,7 @@ def subject_of(document: Document) -> Any:
         named = replace(plant, words=f"the plant {digest(plant)}")
         if document["kind"].startswith("parametric_box_"):
             return looped(document["subject"], named)
-        return named
+        return moved(document["subject"], named)
     verdict = check_document({**document, "kind": "neighbor_graph", "claim": {}, "witness": {}})
     system = read_plant(document["system"])
     named = System(**{**vars(system), "words": f"the plant {verdict.system_digest}"})
