@@ -242,13 +242,22 @@ class Asking(ShownByAccount):
         return sorted({*super().__dir__(), *self.questions})
 
     def _answer(self, name: str) -> Any:
-        """Return the answer, or the limit that prevented it."""
+        """Return the answer, or the limit that prevented it.
+
+        A question that cannot be decided of this system was not asked: the others have answers.
+        """
+        asked_before = name in self._asked
         self._asked.add(name)
         if name not in self._found:
-            if self._left is None:
-                self._decide_here(name)
-            else:
-                self._decide_in_time([name])
+            try:
+                if self._left is None:
+                    self._decide_here(name)
+                else:
+                    self._decide_in_time([name])
+            except McexactError:
+                if not asked_before:
+                    self._asked.discard(name)
+                raise
         return self._found[name]
 
     def _decide_here(self, name: str) -> None:
