@@ -16,7 +16,6 @@ from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, Self, TypeVar, dataclass_transform
 
 from mcexact.answer import showing
-from mcexact.arguments import told
 from mcexact.errors import InputError, UsageError
 from mcexact.model.canonical import Document, text_of
 from mcexact.model.system import MultiChannelSystem
@@ -170,13 +169,11 @@ class Answer(Shown):
         """
         if found is None:
             return None
-        if not isinstance(found, cls):
-            raise InputError(
-                f"expected the answer {cls.__name__}, found {told(found)}", where=where
-            )
-        if _values(found.about) != _values(system):
+        InputError.require(found, cls, where)
+        answer: Self = found
+        if _values(answer.about) != _values(system):
             raise UsageError("expected it about this system, found it about another", where=where)
-        return found
+        return answer
 
     @property
     def system(self) -> Document:
