@@ -182,8 +182,9 @@ def loops(
     from mcexact.model.loop import closed_loop
     from mcexact.synthesis.every_loop import failing_plant, known_within
 
+    near = None if largest is None or not found.stable else largest.nearby
     if system.uncertainty is None and gains is None:
-        return Loops()
+        return Loops(failing=near)
     said = [] if system.uncertainty is None else [("plant", radii_in_words(system))]
     said += [] if gains is None else [("gains", f"within {percent(gains)}")]
     proof, failing, region = None, None, _of_boxes(found)
@@ -202,7 +203,7 @@ def loops(
     within: WithinRadii | None = known_within(proof, failing)
     if largest is not None and largest.proof is not None:
         within = _within_given(largest)
-    return Loops(tuple(said), proof, {"every_loop": view}, within, failing)
+    return Loops(tuple(said), proof, {"every_loop": view}, within, failing or near)
 
 
 def _within_given(largest: LargestUncertainty) -> WithinRadii | None:

@@ -197,6 +197,42 @@ def test_what_the_largest_radii_prove_is_certified_and_is_about_the_gains_as_the
     assert status == 2 and "leave out --gains" in err
 
 
+@pytest.mark.parametrize(
+    ("absolute", "rule"), [(False, "certify-failing-plant"), (True, "certify-failing-plant-radii")]
+)
+def test_the_plant_that_ends_the_search_is_certified(
+    gains: str, tmp_path: Path, absolute: bool, rule: str
+) -> None:
+    file, folder = str(tmp_path / "plant.json"), tmp_path / "proofs"
+    tenths = [["1/10", "1/10"], ["1/10", "1/10"]]
+    save_system(Box.absolute(PLANT, A=tenths).system if absolute else PLANT, file)
+    search = ("certify", file, gains, "--largest-uncertainty", "--effort", "1")
+    status, out, _ = call(*search, "--certificates", str(folder), "--json")
+    found = json.loads(out)
+    assert status == 0 and rule in {each["rule"] for each in found["sentences"]}
+    assert not faults("certify", found)
+    manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
+    assert manifest["nearby"] == ["failing_loop.json"]
+    certificate = json.loads((folder / "failing_loop.json").read_text("utf-8"))
+    assert certificate["claim"] == {"bound": None, "stable": False}
+    failing = read_system(json.dumps(found["largest_uncertainty"]["failing"]))
+    written = read_system(json.dumps({**certificate["system"], "format": "mcexact-system/1"}))
+    assert written == failing
+    assert call("check", "--manifest", str(folder), "--controller", gains)[0] == 0
+
+
+def test_a_plant_that_is_only_too_slow_is_certified_but_not_called_unstable(
+    plant: str, gains: str, tmp_path: Path
+) -> None:
+    search = ("certify", plant, gains, "--largest-uncertainty", "--effort", "1", "--rate", "1")
+    status, out, _ = call(*search, "--certificates", str(tmp_path / "proofs"))
+    assert status == 0 and "a loop is not stable" not in out
+    certificate = json.loads((tmp_path / "proofs/failing_loop.json").read_text("utf-8"))
+    assert certificate["claim"] == {"bound": 1, "stable": False}
+    checks = ("check", "--manifest", str(tmp_path / "proofs"), "--system", plant)
+    assert call(*checks, "--controller", gains)[0] == 0
+
+
 def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> None:
     status, out, err = call("certify", plant, gains, "--uncertainty", "1%", "--gains", "1%")
     assert status == 0 and "made for another plant" not in err
@@ -209,7 +245,7 @@ def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> N
     assert status == 0 and "Re λ < 0 is not proved" in out
     assert "Do not install: within the given uncertainty there is a plant whose loop" in out
     table = out.partition("closed loop")[2].partition("computed in floating point")[0]
-    assert "a loop is not stable" in table and "times the radii" in table
+    assert "a loop is not stable" in table and "of each entry" in table.partition("not stable")[2]
     status, out, _ = call("certify", plant, gains, "--uncertainty", "300%", "--json")
     found = json.loads(out)
     assert status == 0 and found["certified"] and not found["every_loop"]["certified"]
@@ -292,7 +328,7 @@ def test_a_design_is_certified_for_the_box_of_its_file_or_says_that_it_is_not(
         status, out, _ = call("design", "decentralized", path, "--rate", "1/10", *to)
         said = " ".join(out.split())
         assert status == 0 and (told in said or "for every plant within 1 % of each entry" in said)
-        assert size == "1/100" or "times the radii" in said
+        assert size == "1/100" or "of each entry" in said.partition("a loop is not stable")[2]
 
 
 @pytest.mark.slow

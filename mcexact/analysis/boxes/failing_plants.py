@@ -16,6 +16,7 @@ from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.uncertainty import Radii
 
@@ -50,9 +51,14 @@ class FailingPlant:
     def facts(self, system: MultiChannelSystem) -> dict[str, Any]:
         """What a sentence says of it: its distance from a plant, and in which unit.
 
-        Radii are the unit if the plant has some, and else the moduli of its entries.
+        Radii are the unit if the plant has some that are no part of the moduli of its entries, and
+        else these moduli.
         """
-        return {"fails_within": self.distance, "of_radii": system.uncertainty is not None}
+        if system.uncertainty is None:
+            return {"fails_within": self.distance, "of_radii": False}
+        part = Box(system).part
+        distance = self.distance if part is None else self.distance * part
+        return {"fails_within": distance, "of_radii": part is None}
 
 
 def tried_sets(m: int) -> list[tuple[int, ...]]:

@@ -83,6 +83,14 @@ class LargestUncertainty(Shown):
     def _unit(self) -> str:
         return " of each entry" if self.relative else " times the radii"
 
+    @property
+    def nearby(self) -> FailingPlant | None:
+        """The plant that fails, its distance in the radii with a proof, or in the given unit."""
+        if self.failing is None or self.upper is None:
+            return None
+        distance, channels = self.upper / (self.lower or 1), self.channels or ()
+        return FailingPlant(self.failing, distance, complex("nan"), channels, self.refutation)
+
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield labels and texts: the property, and up to where it is proved and where it fails."""
         unit = "" if self.relative else " times the radii"
