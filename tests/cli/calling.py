@@ -6,11 +6,11 @@ import io
 import pytest
 
 from mcexact.cli import main
-from tests.end_to_end.command_line import without_progress
+from tests.end_to_end.command_line import without_notes
 
 
 def call(*arguments: str) -> tuple[int, str, str]:
-    """Run the command line: status, standard output, standard error without progress."""
+    """Run the command line: status, standard output, standard error without notes."""
     out, err = io.StringIO(), io.StringIO()
     with (
         contextlib.redirect_stdout(out),
@@ -19,4 +19,4 @@ def call(*arguments: str) -> tuple[int, str, str]:
     ):
         main(arguments)
     code = ended.value.code
-    return int(code or 0), out.getvalue(), without_progress(err.getvalue())
+    return int(code or 0), out.getvalue(), without_notes(err.getvalue())

@@ -18,7 +18,7 @@ from mcexact.crosschecks.records import libraries_here
 from mcexact.model import gallery
 from mcexact.model.formats.files import load_system
 from tests.checker.manifests import write
-from tests.end_to_end.command_line import without_progress
+from tests.end_to_end.command_line import without_notes
 
 GALLERY = Path(gallery.__file__).parent
 TRIPLE = str(GALLERY / "hidden-triple-mode.json")
@@ -29,7 +29,7 @@ Call = Callable[..., tuple[int, str, str]]
 
 @pytest.fixture
 def call(capsys: pytest.CaptureFixture[str]) -> Call:
-    """Run the command line in this process: status, standard output, standard error."""
+    """Run the command line in this process: status, output, standard error without notes."""
 
     def run(*arguments: str) -> tuple[int, str, str]:
         with pytest.raises(SystemExit) as ended:
@@ -37,7 +37,7 @@ def call(capsys: pytest.CaptureFixture[str]) -> Call:
         code = ended.value.code
         assert isinstance(code, int)
         captured = capsys.readouterr()
-        return code, captured.out, without_progress(captured.err)
+        return code, captured.out, without_notes(captured.err)
 
     return run
 
@@ -250,7 +250,7 @@ def test_sample_plants_a_fixed_mode_of_the_degree_that_was_asked_for(
         file.write_text(out, encoding="utf-8")
         answer = json.loads(call("analyze", str(file), "--json")[1])
         assert answer["joint_controllability"]["controllable"]
-        assert answer["joint_observability"]["controllable"]
+        assert answer["joint_observability"]["observable"]
         degrees = [len(f["polynomial"]) - 1 for f in answer["fixed_spectrum"]["factors"]]
         assert int(degree) in degrees
 

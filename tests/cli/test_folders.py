@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mcexact.cli.folders import require_replaceable, write_folder
-from mcexact.errors import InputError
+from mcexact.errors import InputError, NotWritten
 
 
 def test_a_folder_replaces_the_earlier_one_and_leaves_nothing_beside_it(tmp_path: Path) -> None:
@@ -32,7 +32,7 @@ def test_what_stood_there_stays_if_the_new_one_cannot_take_its_place(
         return rename(path, target)
 
     monkeypatch.setattr(Path, "rename", failing)
-    with pytest.raises(InputError, match="No space left"):
+    with pytest.raises(NotWritten, match="No space left"):
         write_folder(folder, {"report.html": "2"})
     assert (folder / "report.html").read_text(encoding="utf-8") == "1"
     assert [path.name for path in tmp_path.iterdir()] == ["made"]

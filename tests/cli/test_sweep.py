@@ -21,7 +21,7 @@ from mcexact.model.local_controllers import local_controllers
 from mcexact.report.sweep_view import sweep_tables
 from mcexact.sweeps.questions import QUESTIONS
 from tests.effort import PATIENCE
-from tests.end_to_end.command_line import interruptible, without_progress
+from tests.end_to_end.command_line import interruptible, without_notes
 
 Call = Callable[..., tuple[int, str, str]]
 
@@ -35,7 +35,7 @@ def call(capsys: pytest.CaptureFixture[str]) -> Call:
             main(("sweep", *arguments))
         captured = capsys.readouterr()
         assert isinstance(ended.value.code, int)
-        return ended.value.code, captured.out, without_progress(captured.err)
+        return ended.value.code, captured.out, without_notes(captured.err)
 
     return run
 
@@ -154,7 +154,7 @@ def test_an_interrupted_sweep_says_so_and_goes_on(tmp_path: Path) -> None:
     os.killpg(begun.pid, signal.SIGINT)
     out, err = begun.communicate(timeout=PATIENCE)
     assert begun.returncode == 130 and not out
-    [line] = without_progress(err.decode()).splitlines()
+    [line] = without_notes(err.decode()).splitlines()
     assert line.startswith("mcexact: interrupted after ") and str(results) in line
     kept = len(results.read_bytes().splitlines())
     assert 0 < kept < 100_000

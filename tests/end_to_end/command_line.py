@@ -23,8 +23,8 @@ class Run:
 
     @property
     def messages(self) -> list[str]:
-        """The lines on standard error, without those that say what takes long."""
-        return without_progress(self.stderr).splitlines()
+        """The lines on standard error, without notes on the work and on files."""
+        return without_notes(self.stderr).splitlines()
 
 
 def run(
@@ -64,9 +64,13 @@ def run(
     return Run(done.returncode, done.stdout.decode(), done.stderr.decode())
 
 
-def without_progress(text: str) -> str:
-    """What is on standard error without the lines that say what takes long: here or elsewhere."""
-    return "".join(line for line in text.splitlines(True) if not line.endswith(" …\n"))
+def without_notes(text: str) -> str:
+    """What is on standard error without the lines that say what takes long, or what was written."""
+    return "".join(
+        line
+        for line in text.splitlines(True)
+        if not (line.endswith(" …\n") or line.startswith("mcexact: wrote "))
+    )
 
 
 def interruptible() -> None:
