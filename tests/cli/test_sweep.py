@@ -14,6 +14,7 @@ import pytest
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer import codec
 from mcexact.cli import main
+from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.model import gallery
 from mcexact.model.controller_file import save_controller
 from mcexact.model.formats.files import save_system
@@ -115,14 +116,11 @@ def test_what_cannot_be_read_is_named_and_the_rest_is_decided(call: Call, folder
     assert "no such file" in out and "c.json" in out and "decided           2" in out
 
 
-def test_a_limit_is_for_each_system_and_another_run_goes_on(
-    call: Call, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    results = str(tmp_path / "results.jsonl")
-    arguments = (str(folder / "a.json"), "-o", results)
-    with monkeypatch.context() as patched:  # the processes that decide are forked from this one
-        patched.setattr("mcexact.sweeps.jobs.decide", lambda job: time.sleep(PATIENCE))
-        status, out, _ = call(*arguments, "--timeout", "0.1")
+def test_a_limit_is_for_each_system_and_another_run_goes_on(call: Call, tmp_path: Path) -> None:
+    results, large = str(tmp_path / "results.jsonl"), tmp_path / "large.json"
+    save_system(drawn_system(Draw(1, states=120, channels=10, fixed_degree=1)), large)
+    arguments = (str(large), "-o", results)
+    status, out, _ = call(*arguments, "--timeout", "0.1")  # less than it takes
     assert status == 4 and "time limit of 0.1 s" in out
     status, out, _ = call(*arguments, "--timeout", str(PATIENCE), "--json")
     assert status == 0 and json.loads(out)["counts"]["decided"] == 1
