@@ -17,13 +17,7 @@ _LONG = "that a question was left out since it takes long claims nothing of the 
 _SEARCH = "that a search ended at its limit depends on the search"
 _TITLE = "a title claims nothing"
 _PROOF = "how long or by which method a proof is says nothing of the plant"
-_LINE = "what holds along one line is told in words that this oracle does not read yet"
-_ALONG = (
-    "modes", "controllable", "observable", "controllability-indices", "observability-indices",
-    "graph", "setpoint", "channel-controllable", "channel-observable",
-)  # fmt: skip
 UNJUDGED = {
-    **{f"parametric-line-{each}": _LINE for each in _ALONG},
     "controllability-indices-left-out": _LONG,
     "observability-indices-left-out": _LONG,
     "table-links-limit": _SEARCH,

@@ -85,7 +85,10 @@ def others(name: str, value: Any, case: Case) -> Iterator[Any]:
         bound = fmpq(1, 10**9) if value.time == "discrete" else fmpq(10**9)
         yield replace(value, bound=bound)
         yield replace(value, bound=fmpq(1) if value.time == "discrete" else fmpq(-(10**9)))
-    elif isinstance(value, str):
+    elif name == "found":  # along the line of a plant with several parameters
+        start, rank, _ = value.partition("rank ")
+        yield f"{start}rank 98765" if rank else "the roots of x - 98765/7"
+    elif isinstance(value, str) and name != "line":
         yield from OTHER_WORDS.get(value, ())
         if name in {"every", "parameters", "t"}:
             yield f"{value} and more"

@@ -11,7 +11,7 @@ import itertools
 import random
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -19,7 +19,7 @@ from typing import Any
 import sympy
 from flint import fmpq, fmpq_mat, fmpq_poly
 
-from tests.attack.oracle.algebra import identity
+from tests.attack.oracle.algebra import identity, krylov
 from tests.attack.oracle.systems import System
 from tests.oracle.sentences.analysis import judge
 from tests.oracle.sentences.cases import (
@@ -550,3 +550,105 @@ def _almost_graph(said: Said, case: Case) -> bool:
     return named and all(
         _edges(facts) == told for _, facts in plants(family, generic_points(family))
     )
+
+
+# One line of several parameters.
+
+
+def _line(said: Said, case: Case) -> Family:
+    """The plant along the line that a sentence names, in the parameter of the line."""
+    family = case.parametric
+    told = dict(part.split(" = ") for part in said.values["line"].split(", "))
+    if tuple(told) != family.parameters:
+        raise ValueError(f"a line of {tuple(told)}, not of {family.parameters}")
+    (name,) = {found for right in told.values() for found in re.findall("[A-Za-z_]\\w*", right)}
+    letters = {each: sympy.Symbol(each) for each in (*family.parameters, name)}
+    ways = {letters[each]: sympy.sympify(right, locals=letters) for each, right in told.items()}
+
+    def along(expression: str) -> str:
+        value = sympy.sympify(expression.replace("^", "**"), locals=letters)
+        return str(sympy.cancel(value.subs(ways, simultaneous=True)))
+
+    tables = tuple(
+        (tuple(tuple(map(along, row)) for row in rows), width) for rows, width in family.tables
+    )
+    return replace(family, parameters=(name,), ranges=((None, None),), tables=tables)
+
+
+def _denominator(family: Family) -> str:
+    """The least common denominator of the entries of A, monic."""
+    letters = sympy.symbols(family.parameters)
+    below = [under for row in family.fractions[0][0] for _, under in row]
+    found = sympy.Poly(1, *letters, domain="QQ")
+    for each in below:
+        found = sympy.lcm(found, each)
+    return str(found.monic().as_expr())
+
+
+def _modes_on_line(stem: str, lost: Lost) -> None:
+    @judge(f"parametric-line-{stem}")
+    def _decides(said: Said, case: Case) -> bool:
+        """Exactly the modes told are lost along the line, and at the conditions others, too."""
+        family = _line(said, case)
+        always, _, where = re.sub("; others, too,|, but", ";", said.values["found"]).partition(
+            "; where "
+        )
+        told = "" if always == "none" else always.removeprefix("the roots of ")
+        told = told.replace("the denominator of A", _denominator(family))
+
+        def here(facts: Facts) -> set[str]:
+            return {str(p) for p in lost(facts, case)}
+
+        return as_told(
+            replace(said, values={}),
+            replace(case, parametric=family),
+            where.split(" or ") if where else [],
+            lambda facts, point: here(facts) == modes_at(told, point, family),
+            lambda facts, point: here(facts) > modes_at(told, point, family),
+        )
+
+
+_modes_on_line("modes", _stays)
+_modes_on_line("controllable", lambda facts, _: facts.uncontrolled())
+_modes_on_line("observable", lambda facts, _: facts.unobserved())
+_modes_on_line("channel-controllable", lambda facts, case: facts.uncontrolled(_channel(case)))
+_modes_on_line("channel-observable", lambda facts, case: facts.unobserved(_channel(case)))
+
+
+def _rank_on_line(stem: str, rank: Callable[[Facts, Point, str], int]) -> None:
+    @judge(f"parametric-line-{stem}")
+    def _decides(said: Said, case: Case) -> bool:
+        """The rank told is that along the line, and at the conditions it is less."""
+        family = _line(said, case)
+        told, _, where = said.values["found"].partition(", less where ")
+        named, _, size = told.rpartition("rank ")
+        return as_told(
+            replace(said, values={}),
+            replace(case, parametric=family),
+            where.split(" or ") if where else [],
+            lambda facts, point: rank(facts, point, named) == int(size),
+            lambda facts, point: rank(facts, point, named) < int(size),
+        )
+
+
+def _krylov_rank(transposed: bool) -> Callable[[Facts, Point, str], int]:
+    def rank(facts: Facts, point: Point, named: str) -> int:
+        """The rank of so many blocks."""
+        A, B = facts.system.A, facts.system.inputs()
+        if transposed:
+            A, B = A.transpose(), facts.system.outputs().transpose()
+        return int(krylov(A, B, int(named.split(" ")[0])).rank()) // size_of(point)
+
+    return rank
+
+
+def _edge_rank(facts: Facts, _: Point, named: str) -> int:
+    """Whether there is an edge: its matrix is a column."""
+    left, right = named.removesuffix(": ").split(" -> ")
+    return int((left, right) in _edges(facts))
+
+
+_rank_on_line("controllability-indices", _krylov_rank(False))
+_rank_on_line("observability-indices", _krylov_rank(True))
+_rank_on_line("graph", _edge_rank)
+_rank_on_line("setpoint", lambda facts, point, _: facts.steady_rank() // size_of(point))
