@@ -139,7 +139,7 @@ def test_a_design_says_of_which_plant_nearby_the_loop_is_not_stable(
     tmp_path: Path, uncertain: bool
 ) -> None:
     given = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    given = Box.absolute(given, A=[["1/100"]]).system if uncertain else given
+    given = Box.absolute(given, A=[["1/100"]], B=[[["1/50"]]]).system if uncertain else given
     design = design_decentralized(given, rate="1/2")
     account = design.account_with(design.every_loop(1))
     rule = RADII if uncertain else PART
