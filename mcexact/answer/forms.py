@@ -222,9 +222,6 @@ FORMS: dict[str, Write] = {
     "control": choice(
         own="linear time-invariant decentralized control",
         alone="linear time-invariant decentralized control without communication",
-        links="linear time-invariant control over the links of the neighbor graph",
-        undelayed="linear time-invariant control over the links of the neighbor graph, if messages "
-        "took no time,",
         outputs="linear time-invariant control by the outputs of all neighbors",
         instant="linear time-invariant control by the outputs of all neighbors without delay",
     ),

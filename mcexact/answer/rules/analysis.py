@@ -54,12 +54,12 @@ def _heading(given: Given) -> Said:
 )
 def _linked(linked: Claim, given: Given) -> Said:
     """What the agents can do over the links that are there, which leads."""
-    over = "links" if control(linked, given) == "outputs" else "undelayed"
+    heard = control(linked, given)
     if empty(linked):
-        yield say.NOTHING_FIXED(control=over)
+        yield say.NOTHING_FIXED(control=heard)
     else:
         told = say.STABLE if linked.stabilizable else say.UNSTABLE
-        yield told(control=over, slowest=slowest(linked, given))
+        yield told(control=heard, slowest=slowest(linked, given))
 
 
 @rule("answer", say.NOTHING_FIXED)

@@ -120,21 +120,19 @@ def control(said: Said, case: Case) -> bool:
     own = case.asked.get("information", "own") == "own"
     heard = "instant" if case.plant.delays else "outputs"
     told = said.values.get("control", "own" if own else heard)
-    if told in {"links", "undelayed"}:
-        return (told == "undelayed") == bool(case.plant.delays)
-    return bool(told == ("own" if own else heard) or (told == "alone" and own))
+    return bool(told == heard or (own and told in {"own", "alone"}))
 
 
 def facts_of(said: Said, case: Case) -> Facts:
-    """The plant with what the control that is named lets agents send: all that helps over links."""
-    if said.values.get("control") in {"links", "undelayed"}:
-        return case.extended([case.plant.n] * case.plant.m, "outputs+states")
-    return case.subject
+    """The plant with what the control that is named lets agents feed back."""
+    told = said.values.get("control")
+    return case.subject if told is None else case.own if told in {"own", "alone"} else case.heard
 
 
 @judge("nothing-fixed", "fixed-none", "latex-nothing-fixed", "any-rate")
 def _nothing_fixed(said: Said, case: Case) -> bool:
-    return not case.subject.fixed and case.subject.stays.degree() == 0 and control(said, case)
+    facts = facts_of(said, case)
+    return not facts.fixed and facts.stays.degree() == 0 and control(said, case)
 
 
 @judge("fixed")
