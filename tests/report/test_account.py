@@ -236,8 +236,8 @@ def test_the_answer_says_who_does_not_control_a_mode_and_who_does_not_observe_it
         [[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors={"1": [], "2": ["1"]}
     )
     assert said(plant, minimal=True) == [
-        "The plant cannot be stabilized by linear time-invariant control over the links of the "
-        "neighbor graph: the slowest fixed mode grows at the rate 1.",
+        "The plant cannot be stabilized by linear time-invariant control by the outputs of all "
+        "neighbors: the slowest fixed mode grows at the rate 1.",
         "The plant cannot be stabilized by linear time-invariant decentralized control without "
         "communication: the slowest fixed mode grows at the rate 1.",
         "Over the neighbor graph, some mode is fixed however much the agents share.",
