@@ -110,9 +110,9 @@ def closed_loop(system: System, gains: Sequence[Matrix], ell: int) -> Rows:
     for F, C in zip(gains, system.C, strict=True):
         outputs = PackedRows(C.modulo(ell), n, ell)
         fed += [outputs.combined(row) for row in F.modulo(ell)]
-    moved, inputs = PackedRows(fed, n, ell), evidence.inputs(system, range(system.m)).modulo(ell)
+    moved, B = PackedRows(fed, n, ell), evidence.inputs(system, range(system.m)).modulo(ell)
     spend(budget.products(n * n, budget.limbs([ell]), 1))
     return [
         [(left + right) % ell for left, right in zip(row, moved.combined(u), strict=True)]
-        for row, u in zip(system.A.modulo(ell), inputs, strict=True)
+        for row, u in zip(system.A.modulo(ell), B, strict=True)
     ]

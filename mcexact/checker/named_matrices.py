@@ -52,8 +52,8 @@ def named_matrix(value: Json, system: ParametricSystem) -> Layers:
     j, i = (names([name], place, system.names)[0] for name in parts)
     row, columns = system.C[i], []
     for _ in counted(range(system.n)):
-        product = layered.product(row, system.B[j])
-        columns += [[layer.take(cols=[k]) for layer in product] for k in range(product[0].ncols)]
+        block = layered.product(row, system.B[j])
+        columns += [[layer.take(cols=[k]) for layer in block] for k in range(block[0].ncols)]
         row = layered.product(row, system.A)
     return _below_each_other(columns, 1)
 

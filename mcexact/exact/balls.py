@@ -12,7 +12,7 @@ from mcexact.exact.enclosures import PRECISION
 from mcexact.exact.matrix import Matrix
 
 Floats = npt.NDArray[np.float64]
-_BITS, _MOST_BITS, _RESPONSE_BITS = 192, 4096, 1024
+_STATE_BITS, _MOST_STATE_BITS, _RESPONSE_BITS = 192, 4096, 1024
 _ACCURACY = 1e-9
 """The largest error of an entry, as a part of the largest entry or of 1."""
 
@@ -125,8 +125,8 @@ def _accurate(
     states: Callable[[Callable[[flint.arb_mat], bool]], bool], rows: int
 ) -> list[Floats] | None:
     """The floats of all matrices that a computation shows, with as many bits as they need."""
-    bits = _BITS
-    while bits <= _MOST_BITS:
+    bits = _STATE_BITS
+    while bits <= _MOST_STATE_BITS:
         found = list[Floats]()
 
         def seen(moved: flint.arb_mat, found: list[Floats] = found) -> bool:

@@ -17,8 +17,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from mcexact.checker import reading, statement
-from mcexact.checker import system as checker
+from mcexact.checker import reading
+from mcexact.checker.statement import digest as checked_digest
+from mcexact.checker.system import read_plant, read_system_file
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
 from mcexact.model import system_file, system_forms
@@ -293,8 +294,8 @@ def compare(data: bytes, limits: Limits, tally: Tally, what: str) -> None:
     ours, reason = verdict_of(lambda: system_file.read_system(data, limits=limits), InputError)
     ours_digest = None if ours is None else ours.digest()
     with any_integer():
-        checked, other = verdict_of(lambda: checker.read_system_file(data, theirs), reading.Refused)
-        its_digest = None if checked is None else statement.digest(checked)
+        checked, other = verdict_of(lambda: read_system_file(data, theirs), reading.Refused)
+        its_digest = None if checked is None else checked_digest(checked)
     problem = "" if ours_digest == its_digest else f"{ours_digest} {reason} / {its_digest} {other}"
     problem = problem or in_a_certificate(data, limits, ours)
     if problem:
@@ -315,14 +316,14 @@ def in_a_certificate(data: bytes, limits: Limits, ours: Any) -> str:
     if ours is not None:
         with any_integer():
             form = json.loads(canonical(ours.canonical_document()))
-            found = statement.digest(checker.read_plant(form))
+            found = checked_digest(read_plant(form))
         if found != ours.digest():
             return f"its canonical form has the digest {found}"
     if not isinstance(document, dict) or limits != Limits():
         return ""
     if document.pop("format", None) != system_forms.FORMAT:
         return ""
-    plant, reason = verdict_of(lambda: checker.read_plant(document), reading.Refused)
+    plant, reason = verdict_of(lambda: read_plant(document), reading.Refused)
     expected = ours is not None and canonical(document) == canonical(form)
     if (plant is not None) != expected:
         return f"as the system of a certificate: {reason or 'accepted'}"

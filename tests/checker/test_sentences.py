@@ -26,9 +26,9 @@ from mcexact.answer.codec import document
 from mcexact.answer.listing import everything
 from mcexact.answer.template import Template
 from mcexact.checker import Expectation, Verdict
-from mcexact.checker.manifest import RULES, Evidence
+from mcexact.checker.manifest import Evidence
 from mcexact.checker.reading import Limits
-from mcexact.checker.sentence import Premise, Rule
+from mcexact.checker.sentence import RULES, Premise, Rule
 from mcexact.checker.sentences_design import DIMENSIONS
 from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.location import StabilityRegion

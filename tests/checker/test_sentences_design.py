@@ -12,7 +12,7 @@ from mcexact.analysis.structure.controllability import joint_controllability, jo
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import document
 from mcexact.checker import Verdict
-from mcexact.checker.manifest import RULES
+from mcexact.checker.sentence import RULES
 from mcexact.derived.error_system import error_system
 from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system

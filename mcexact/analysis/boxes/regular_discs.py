@@ -14,18 +14,17 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import isqrt, lcm
 from operator import mul
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from mcexact.answer.evidence import ComplexMatrix
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.matrix import Matrix
 
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
-    Complex = npt.NDArray[np.complexfloating[Any, Any]]
-    Floats = npt.NDArray[np.floating[Any]]
+Complex = npt.NDArray[np.complexfloating[Any, Any]]
+Floats = npt.NDArray[np.floating[Any]]
 
 Point = tuple[Fraction, Fraction]
 """The real and the imaginary part of a complex number."""

@@ -58,10 +58,10 @@ def values_of(claims: Iterable[Claim], given: Given) -> Values:
     """The exceptional values of certificates about one parameter."""
     where: dict[str, None] = {}
     every = f"every value of {given.parameter}{given.apart}"
-    for claim in claims:
-        if [each.value for each in claim.outside]:
+    for certified in claims:
+        if [each.value for each in certified.outside]:
             every = f"every value of {given.parameters}{given.apart}"
-        for each in claim.exceptional:
+        for each in certified.exceptional:
             where[value_text(each.value, [*each.roots], given.parameter)] = None
     return Values(every, tuple(where))
 

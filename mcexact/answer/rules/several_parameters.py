@@ -143,10 +143,10 @@ def sentences_of_several(answers: Mapping[str, Any], given: Given) -> Iterator[S
         modes, values = _modes(spectrum), _values(spectrum, given)
         for said in (*(fixed(modes, values) if modes else ()), *another(modes, values)):
             yield said.bound("answer", ())
-    for name, answer in answers.items():
+    for name, decided in answers.items():
         if name.startswith("box_"):  # it is about ranges, and not about almost all values
             continue
-        for said in _row(name, answer, answers, given):
+        for said in _row(name, decided, answers, given):
             yield said.bound("table", ())
 
 
