@@ -48,8 +48,8 @@ from mcexact.analysis.boxes.box_fixed import FixedModeSearch
 from mcexact.analysis.boxes.cover import Outside
 from mcexact.analysis.boxes.radii import radii_of
 from mcexact.answer.codec import encode
-from mcexact.derived.drawn.choices import SeededChoices
 from mcexact.derived.drawn.networks import network_system
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.errors import LimitReached
 

@@ -22,20 +22,18 @@ with warnings.catch_warnings():
     warnings.simplefilter("ignore")
     import control
 
-from mcexact.derived.merged import merged
+from mcexact.derived.constructions import merged
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.networks import decentralized_network
+from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum.figures import Figures, figures_of
-from mcexact.synthesis.optimum.kernel import quiet_floats
-from mcexact.synthesis.optimum.problem import FeedbackProblem
-from mcexact.synthesis.optimum.regulator import Model
+from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights, quiet_floats
 from mcexact.synthesis.optimum.starts import (
+    Model,
     Realization,
     local_regulators,
     localities,
     with_private_parts,
 )
-from mcexact.synthesis.optimum.weights import Weights
 
 
 def lqg(model: Model) -> Realization | None:

@@ -17,8 +17,8 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.fixed_spectrum import Row
-from mcexact.derived.drawn.draw import Draw, drawn_system
-from mcexact.model.formats.files import save_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
+from mcexact.model.files import save_system
 
 _MEASURED = Path(__file__).with_name("measured.py")
 _SECONDS = 300

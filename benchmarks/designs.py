@@ -22,11 +22,11 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from mcexact import design_decentralized, design_extended, design_setpoint, load_system
 from mcexact.errors import Impossible, LimitReached
-from mcexact.exact.location import is_discrete
+from mcexact.exact.roots import is_discrete
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.gate import Request
 from mcexact.synthesis.optimum.diagnosis import diagnosed
 from mcexact.synthesis.optimum.figures import step_peak
-from mcexact.synthesis.request import Request
 
 
 @dataclass(frozen=True)

@@ -44,9 +44,9 @@ from mcexact import (
     load_system,
 )
 from mcexact.errors import Impossible, LimitReached
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.safe_digits import safe_digits
+from mcexact.synthesis.certify import safe_digits
 
 EFFORT = 2.0
 MOST = 12

@@ -20,9 +20,8 @@ from pathlib import Path
 
 import mcexact.checker
 from mcexact.answer.codec import encode
-from mcexact.exact.floats import matrix_to_float
-from mcexact.exact.size import largest_entry
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.matrix import largest_entry, matrix_to_float
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.distributed_observer import design_observer
 

@@ -32,8 +32,8 @@ from benchmarks.design_page import PAGE, written
 from benchmarks.kept_rows import Row, chosen, kept, measured
 from mcexact import design_decentralized, design_extended
 from mcexact.errors import Impossible, LimitReached
-from mcexact.exact.location import is_discrete
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.roots import is_discrete
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.optimum.figures import Figures

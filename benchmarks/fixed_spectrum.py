@@ -18,7 +18,7 @@ from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.codec import encode
 from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem

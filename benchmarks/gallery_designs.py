@@ -25,10 +25,10 @@ from benchmarks.kept_rows import Row, chosen, kept, measured
 from mcexact import Aims, design_decentralized, design_extended, design_setpoint
 from mcexact.errors import Impossible, LimitReached, OutOfReach
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.integrated_plant import integrated_plant
-from mcexact.synthesis.loop_assessment import assess
+from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.networks import integrated_plant
 
 EFFORT = 10.0
 """Seconds for each search: a grid of 111 rows ends within the hour."""

@@ -8,7 +8,7 @@ from benchmarks.fixed_spectrum import Row, copied_out
 from benchmarks.measure import processor_seconds
 from mcexact import analyze
 from mcexact.answer.codec import encode
-from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
 
 
 def network_rows(network: str, n: int, m: int, found: float, checked: float = 0) -> Iterator[Row]:

@@ -15,12 +15,10 @@ from typing import Any
 import flint
 import numpy as np
 
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.linear_algebra import PolynomialMatrix, characteristic_polynomial
+from mcexact.exact.linear_algebra import field_rank as rank_over_field
+from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.modular import polynomial_residues, primes, residues
-from mcexact.exact.number_field import PolynomialMatrix
-from mcexact.exact.number_field import rank as rank_over_field
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
 

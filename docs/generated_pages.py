@@ -17,7 +17,7 @@ from mcexact.answer.formats import count
 from mcexact.cli import command_line
 from mcexact.crosschecks.gallery import exhibits, shown
 from mcexact.model import gallery
-from mcexact.model.published import published
+from mcexact.model.gallery import published
 
 ROOT = Path(__file__).parents[1]
 ROWS = ROOT / "benchmarks" / "rows"

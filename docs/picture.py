@@ -16,8 +16,8 @@ from matplotlib.patches import Circle, FancyArrowPatch
 from scipy.linalg import expm
 
 from mcexact import MultiChannelSystem, design_extended
-from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import closed_loop
+from mcexact.model.statespace import local_controllers
 
 RED, BLUE, GRAY = "#c44e1c", "#2a6fb0", "#777777"
 PLACES = {"gate": (-1.0, 0.0), "farm": (1.0, 0.0)}

@@ -11,7 +11,7 @@ from mcexact.analysis.structure.controllability import joint_controllability, jo
 from mcexact.answer.account import Account
 from mcexact.answer.rules import ALLOCATION, LINKS
 from mcexact.answer.sentence import Given
-from mcexact.derived.extended import Share
+from mcexact.derived.constructions import Share
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -101,21 +101,21 @@ class Analysis(Asking):
     @cached_property
     def linked(self) -> MultiChannelSystem:
         """Return the plant with the outputs that the agents receive."""
-        from mcexact.derived.augmented_outputs import augmented_outputs
+        from mcexact.derived.constructions import augmented_outputs
 
         return augmented_outputs(self.plant)
 
     @cached_property
     def lifted(self) -> MultiChannelSystem:
         """Return the plant with sub-states, as many as the bound, shared over links with delays."""
-        from mcexact.derived.delayed import lifted_system
+        from mcexact.derived.constructions import lifted_system
 
         return lifted_system(self.plant, self._shared("outputs_states"))
 
     @cached_property
     def held(self) -> MultiChannelSystem:
         """Return the plant with sub-states that are shared alone, and held for the delays."""
-        from mcexact.derived.delayed import held_system
+        from mcexact.derived.constructions import held_system
 
         return held_system(self.plant, self._shared("states"))
 

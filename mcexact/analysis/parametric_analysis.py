@@ -12,7 +12,7 @@ from mcexact.analysis.exceptional_hypersurfaces import exceptional_hypersurfaces
 from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.parametric_account import ParametricAccount
 from mcexact.errors import LimitReached
-from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rational_functions import RationalFunction
 from mcexact.model.parametric import ParametricSystem
 
 _MOST = 10

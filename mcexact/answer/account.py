@@ -12,9 +12,8 @@ from typing import Any
 from mcexact.answer import codec
 from mcexact.answer.members import leading
 from mcexact.answer.sentence import MANIFEST, Given, Sentences, manifest
-from mcexact.model.atomic import write_text
-from mcexact.model.canonical import canonical
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import canonical, write_text
 from mcexact.shown import Shown
 
 FORMAT = "mcexact-analysis/1"

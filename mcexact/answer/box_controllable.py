@@ -12,7 +12,7 @@ from mcexact.answer.formats import allowed
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.template import Sentence, Template
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 
 
 @dataclass(frozen=True)

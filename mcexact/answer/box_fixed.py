@@ -12,8 +12,8 @@ from mcexact.answer.formats import allowed
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.answer.sentence import Claim, Rulebook
 from mcexact.answer.template import Sentence, Template
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import StabilityRegion
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 from mcexact.answer.evidence import InverseFrame
 from mcexact.answer.protocol import Answer, answer, claim, witness
 from mcexact.answer.stability import LyapunovMethod, PolynomialMethod
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 
 
 @answer("box_stable")

@@ -89,9 +89,9 @@ def check(
     mcexact.errors.InputError: certificate: expected an answer, such as \
 fixed_spectrum(system), or the name of a certificate file, found dict
     """
-    from mcexact.model.canonical import plain
     from mcexact.model.parametric import ParametricSystem
     from mcexact.model.system import MultiChannelSystem
+    from mcexact.model.text import plain
 
     tell = telling(progress)
     if timeout is not None:
@@ -155,9 +155,8 @@ def _expected(expect: Any) -> bytes:
 
 def _controller(controller: Any) -> bytes:
     """The bytes of a controller's file."""
-    from mcexact.model.controller import Controller
-    from mcexact.model.controller_file import controller_text
-    from mcexact.model.json_text import read_bytes
+    from mcexact.model.controller import Controller, controller_text
+    from mcexact.model.text import read_bytes
 
     if isinstance(controller, Controller):
         return controller_text(controller).encode("ascii")
@@ -175,7 +174,7 @@ def about_plant(text: str) -> Expectation:
     text : str
         The plant as the ``system`` object of a certificate.
     """
-    from mcexact.model.canonical import numbers_of_any_length, sha256
+    from mcexact.model.text import numbers_of_any_length, sha256
 
     with numbers_of_any_length():
         plant = json.loads(text)
@@ -267,7 +266,7 @@ def checked(data: bytes, system_digest: str = "", plant: str | None = None) -> F
 def _text(certificate: Any) -> bytes:
     """Read the bytes of a certificate's file."""
     if isinstance(certificate, str | os.PathLike):
-        from mcexact.model.json_text import read_bytes
+        from mcexact.model.text import read_bytes
 
         with InputError.inside(place_of(certificate)):
             return read_bytes(certificate)

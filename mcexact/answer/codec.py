@@ -12,8 +12,7 @@ from typing import Any
 
 from mcexact.answer.protocol import Answer
 from mcexact.errors import InputError
-from mcexact.model.atomic import write_text
-from mcexact.model.canonical import plain, text_of
+from mcexact.model.text import plain, text_of, write_text
 
 FORMAT = "mcexact-certificate/1"
 

@@ -7,9 +7,9 @@ from functools import cached_property
 
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
-from mcexact.exact.enclosures import root_discs
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.roots import root_discs
 
 
 @dataclass(frozen=True)

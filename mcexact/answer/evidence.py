@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mcexact.answer.protocol import Part
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,11 @@ from typing import Any
 
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
-from mcexact.exact.enclosures import real_root_intervals
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import as_fraction
+from mcexact.exact.roots import real_root_intervals
 
 
 @dataclass(frozen=True)

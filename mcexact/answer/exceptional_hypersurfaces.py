@@ -20,10 +20,10 @@ from mcexact.answer.parametric_rank import (
     SignalMatrix,
     TransferColumn,
 )
-from mcexact.exact import several_variables
+from mcexact.exact import rational_functions
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_latex, rational_text
-from mcexact.exact.rational_function import RationalFunction, parameter_latex
+from mcexact.exact.rational_functions import RationalFunction, parameter_latex
 from mcexact.model.parametric import ParametricSystem
 from mcexact.shown import LINE, Shown, escaped, fitting
 
@@ -319,8 +319,8 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
     def scale(self) -> RationalFunction:
         """The denominator of A, by which the roots of the generic polynomials are divided."""
         names = self.about.parameters
-        return several_variables.in_parameters(
-            several_variables.cleared(self.about.A, names)[1], names
+        return rational_functions.in_parameters(
+            rational_functions.cleared(self.about.A, names)[1], names
         )
 
     @property

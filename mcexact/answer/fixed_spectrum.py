@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.shortened import number, polynomial
+from mcexact.exact.rational import number, polynomial
 
 
 def modes(p: Polynomial, limit: int = 30) -> str:

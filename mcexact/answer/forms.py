@@ -16,10 +16,8 @@ from mcexact.answer.formats import (
     name_set,
     name_text,
 )
-from mcexact.exact.enclosures import exact_decimal
-from mcexact.exact.location import TIMES, StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.shortened import (
+from mcexact.exact.rational import (
     decimal_number,
     number,
     percent,
@@ -27,6 +25,7 @@ from mcexact.exact.shortened import (
     rounded,
     three_digits,
 )
+from mcexact.exact.roots import TIMES, StabilityRegion, exact_decimal, is_discrete
 from mcexact.shown import escaped
 
 Write = Callable[[Any], str]

@@ -10,10 +10,9 @@ from typing import Any
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.mode_words import polynomial_in_x
 from mcexact.answer.protocol import Part
-from mcexact.exact.enclosures import exact_decimal, root_discs
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import rational_text
-from mcexact.exact.shortened import rounded
+from mcexact.exact.rational import rational_text, rounded
+from mcexact.exact.roots import exact_decimal, root_discs
 from mcexact.model.parametric import ParametricSystem, Range
 
 ModePolynomial = tuple[Polynomial, ...]
@@ -105,7 +104,7 @@ def value_text(q: Polynomial, roots: Sequence[RootDisc], t: str) -> str:
     --------
     >>> value_text(Polynomial.of("-1/2", 1), [], "t")
     't = 1/2'
-    >>> from mcexact.exact.enclosures import root_discs
+    >>> from mcexact.exact.roots import root_discs
     >>> q = Polynomial.of(-2, 0, 1)
     >>> value_text(q, [RootDisc(d.re, d.im, d.radius) for d in root_discs(q)], "t")
     't^2 - 2 = 0 (t about -1.41421, 1.41421)'

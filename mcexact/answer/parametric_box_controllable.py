@@ -12,7 +12,7 @@ from mcexact.answer.evidence import Cover, ExteriorDiscs
 from mcexact.answer.formats import allowed
 from mcexact.answer.parametric_box_fixed import Cuts
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
 
 

@@ -10,8 +10,8 @@ from mcexact.answer.evidence import InverseFrame
 from mcexact.answer.parametric_box_fixed import Cuts
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.answer.stability import LyapunovMethod, PolynomialMethod
-from mcexact.derived.parametric_loop import ParametricLoop
-from mcexact.exact.location import StabilityRegion
+from mcexact.derived.constructions import ParametricLoop
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
 
 

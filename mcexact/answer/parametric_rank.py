@@ -15,9 +15,9 @@ from mcexact.answer.parameter_values import (
     value_text,
 )
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.parametric import ParametricSystem
 
 

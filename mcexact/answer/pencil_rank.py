@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from mcexact.answer.protocol import Answer, answer, claim, witness
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 
 
 @answer("pencil_rank")

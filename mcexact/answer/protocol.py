@@ -17,8 +17,8 @@ from typing import Any, ClassVar, NoReturn, Self, TypeVar, dataclass_transform
 
 from mcexact.answer import showing
 from mcexact.errors import InputError, UsageError
-from mcexact.model.canonical import Document, text_of
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import Document, text_of
 from mcexact.shown import Shown
 
 KINDS: dict[str, type[Answer]] = {}

@@ -14,29 +14,35 @@ from typing import Any
 
 from mcexact.answer.check import checked
 from mcexact.answer.protocol import Answer, fields_of, is_optional, key_of, kind_named
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.delayed import held_system, lifted_system
-from mcexact.derived.dual import dual
-from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import feedback, full_output
-from mcexact.derived.integrators import setpoint_system
-from mcexact.derived.links import add_links
-from mcexact.derived.merged import merged
-from mcexact.derived.moved_entries import LINE, along_line, moved
-from mcexact.derived.parametric_loop import looped
-from mcexact.derived.restricted import restricted
+from mcexact.derived.constructions import (
+    LINE,
+    add_links,
+    along_line,
+    augmented_outputs,
+    dual,
+    error_system,
+    extended_system,
+    feedback,
+    full_output,
+    held_system,
+    lifted_system,
+    looped,
+    merged,
+    moved,
+    restricted,
+    setpoint_system,
+)
 from mcexact.errors import InputError, place_of
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import Limits
-from mcexact.model import controller_file, parametric_file, system_file, system_forms
-from mcexact.model.canonical import canonical
-from mcexact.model.json_text import read_bytes
+from mcexact.model import controller, system_file
+from mcexact.model import system as system_forms
 from mcexact.model.loop import closed_loop
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import canonical, read_bytes
 
 
 def load_certificate(
@@ -103,13 +109,13 @@ def constructed(system: Any, subject: Sequence[Mapping[str, Any]]) -> Any:
 def _plant(document: Mapping[str, Any]) -> Any:
     text = canonical({"format": system_forms.FORMAT, **document})
     if "parameters" in document:
-        return parametric_file.read_parametric_system(text, limits=_roomy(text))
+        return system_file.read_parametric_system(text, limits=_roomy(text))
     return system_file.read_system(text, limits=_roomy(text))
 
 
 def _closed_loop(system: MultiChannelSystem, given: Mapping[str, Any]) -> MultiChannelSystem:
-    text = canonical({"format": controller_file.FORMAT, "system": "", **given["controller"]})
-    return closed_loop(system, controller_file.read_controller(text, _roomy(text))).system
+    text = canonical({"format": controller.FORMAT, "system": "", **given["controller"]})
+    return closed_loop(system, controller.read_controller(text, _roomy(text))).system
 
 
 def _roomy(text: str) -> Limits:

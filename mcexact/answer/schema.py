@@ -24,9 +24,9 @@ from mcexact.answer.protocol import (
     kind_named,
     shown_of,
 )
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 
 Schema = dict[str, Any]
 Form = Literal["certificate", "view"]

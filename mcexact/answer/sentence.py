@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 from mcexact.answer.protocol import Answer
 from mcexact.answer.template import Sentence, Template
-from mcexact.model.canonical import plain, sha256
+from mcexact.model.text import plain, sha256
 from mcexact.shown import framed
 
 FORMAT = "mcexact-manifest/1"

@@ -5,9 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 from mcexact.answer.protocol import Answer, answer, claim, shown, witness
-from mcexact.exact.linear_algebra import row_echelon
+from mcexact.exact.linear_algebra import PolynomialMatrix, row_echelon
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 
 
 @answer("setpoint")

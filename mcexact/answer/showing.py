@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 from mcexact import shown
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import rational_text, written
-from mcexact.exact.shortened import polynomial
-from mcexact.model.canonical import plain
+from mcexact.exact.rational import polynomial, rational_text, written
+from mcexact.model.text import plain
 from mcexact.shown import LINE, Shown
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Literal
 
 from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import StabilityRegion
 
 
 @dataclass(frozen=True)

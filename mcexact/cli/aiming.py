@@ -11,7 +11,7 @@ import click
 from mcexact.cli import options
 
 if TYPE_CHECKING:
-    from mcexact.synthesis.optimum.aims import Aims
+    from mcexact.synthesis.optimum.figures import Aims
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -114,7 +114,7 @@ def aims(function: F) -> F:
 
 def aims_of(given: Mapping[str, Any], weighed: Mapping[str, Any] | None) -> Aims:
     """Return the aims that the options of `aims` and the content of a file of weights give."""
-    from mcexact.synthesis.optimum.aims import Aims
+    from mcexact.synthesis.optimum.figures import Aims
 
     chosen = {name: given[name] for name in AIMS}
     return Aims(weights=weighed, digits=chosen.pop("most_digits"), **chosen)
@@ -132,7 +132,7 @@ def read_weights(
     """
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.model.json_text import parse
+    from mcexact.model.text import parse
 
     if file is None:
         return None

@@ -13,7 +13,7 @@ from mcexact.cli.failures import DEFINITE_NO
 
 if TYPE_CHECKING:
     from mcexact.answer.account import Account
-    from mcexact.exact.location import StabilityRegion
+    from mcexact.exact.roots import StabilityRegion
 
 
 @click.command(name="allocate", short_help="Find the least that agents must share, and prove it.")
@@ -164,7 +164,7 @@ def _shares(account: Account) -> dict[str, Any]:
 def _region(time: str, rate: Fraction | None, radius: Fraction | None) -> StabilityRegion | None:
     """Return the region of the rate or the radius; a rate of 0 means stability."""
     from mcexact.errors import UsageError
-    from mcexact.exact.location import StabilityRegion
+    from mcexact.exact.roots import StabilityRegion
 
     own = StabilityRegion(time).word
     given = {"rate": rate, "radius": radius}

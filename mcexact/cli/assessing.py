@@ -36,7 +36,7 @@ def assessed(
     page = None
     if with_page:
         from mcexact.report.loop_page import loop_page
-        from mcexact.synthesis.optimum.curves import curves_of
+        from mcexact.synthesis.optimum.diagnosis import curves_of
 
         curves = curves_of(loop, found.region)
         page = loop_page(account, found.install, said, tables, curves, loop.controller)

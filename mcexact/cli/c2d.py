@@ -72,7 +72,7 @@ def _sampled(
 ) -> tuple[str, bool]:
     """Sample a system: its file's text, and whether the plant is certain, in the child process."""
     from mcexact.cli.files import system_in
-    from mcexact.model.sampled import c2d
+    from mcexact.model.statespace import c2d
     from mcexact.model.system_file import system_text
 
     system = system_in(*plant, limits)

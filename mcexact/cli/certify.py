@@ -154,21 +154,16 @@ def _certified(
     from mcexact.cli.files import plant_in
     from mcexact.cli.running import told
     from mcexact.errors import InputError
-    from mcexact.exact.location import StabilityRegion
     from mcexact.exact.rational import Limits
-    from mcexact.model.controller_file import controller_text, read_controller
+    from mcexact.exact.roots import StabilityRegion
+    from mcexact.model.controller import controller_text, read_controller
     from mcexact.model.loop import closed_loop
     from mcexact.model.parametric import ParametricSystem
     from mcexact.report.account import tables
     from mcexact.report.text import Table
-    from mcexact.synthesis.assessment import BASIS
-    from mcexact.synthesis.certify import (
-        account_of_verdict,
-        certify_controller,
-        enclosed_outside,
-    )
-    from mcexact.synthesis.loop_assessment import assessed_loop
-    from mcexact.synthesis.optimum.loop_figures import rounded_controller
+    from mcexact.synthesis.assessment import BASIS, assessed_loop
+    from mcexact.synthesis.certify import account_of_verdict, certify_controller, enclosed_outside
+    from mcexact.synthesis.optimum.diagnosis import rounded_controller
 
     gains, effort, at = wanted.pop("gains"), wanted.pop("effort"), dict(wanted.pop("at"))
     typed_plant = plant_in(*plant, limits, at)

@@ -200,7 +200,7 @@ def _plant_file(system: str) -> str:
 
     from mcexact.errors import InputError
     from mcexact.model import gallery
-    from mcexact.model.formats.recognize import GALLERY, is_foreign
+    from mcexact.model.files import GALLERY, is_foreign
 
     if system.startswith(GALLERY):
         name = gallery.require_name(system.removeprefix(GALLERY))

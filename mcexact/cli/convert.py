@@ -11,7 +11,7 @@ from mcexact.cli import options
 from mcexact.cli.parameters import at_values
 
 if TYPE_CHECKING:
-    from mcexact.exact.floats import Rounding
+    from mcexact.exact.matrix import Rounding
 
 
 def sizes(text: str) -> tuple[int, ...]:
@@ -63,8 +63,8 @@ def command(file: str, output: Path | None, **given: Any) -> None:
     from mcexact.cli.folders import require_replaceable, write_folder
     from mcexact.cli.output import emit
     from mcexact.cli.running import Run
-    from mcexact.model.formats.csv_folder import MARK
-    from mcexact.model.formats.files import is_folder, require_suffix
+    from mcexact.model.arrays import MARK
+    from mcexact.model.files import is_folder, require_suffix
 
     run = Run(given)
     if output is not None:
@@ -94,9 +94,8 @@ def _converted(
     """Read a system and return the contents of the output, in the child process."""
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.model.formats.files import system_files
-    from mcexact.model.formats.reading import Reading
-    from mcexact.model.formats.recognize import read_plant
+    from mcexact.model.arrays import Reading
+    from mcexact.model.files import read_plant, system_files
     from mcexact.model.parametric import ParametricSystem
 
     place, data = plant

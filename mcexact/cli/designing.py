@@ -12,12 +12,12 @@ from mcexact.cli import aiming, options
 
 if TYPE_CHECKING:
     from mcexact.answer.protocol import Answer
-    from mcexact.exact.location import StabilityRegion
     from mcexact.exact.rational import Limits
+    from mcexact.exact.roots import StabilityRegion
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.text import Table
     from mcexact.synthesis.design import Design
-    from mcexact.synthesis.every_loop import EveryLoop
+    from mcexact.synthesis.robustness import EveryLoop
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -141,7 +141,7 @@ def _advice(
     """
     from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
     from mcexact.answer.fixed_spectrum import FixedSpectrum
-    from mcexact.derived.augmented_outputs import augmented_outputs
+    from mcexact.derived.constructions import augmented_outputs
     from mcexact.exact.rational import written
 
     if name != "decentralized" or not isinstance(proof, FixedSpectrum):
@@ -180,15 +180,15 @@ def _designed(
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
     from mcexact.errors import Impossible, InputError
-    from mcexact.exact.location import StabilityRegion
     from mcexact.exact.rational import Limits
-    from mcexact.model.controller_file import controller_text
-    from mcexact.model.json_text import parse
+    from mcexact.exact.roots import StabilityRegion
+    from mcexact.model.controller import controller_text
+    from mcexact.model.text import parse
     from mcexact.report.account import measured, tables
-    from mcexact.synthesis.loop_assessment import assess
-    from mcexact.synthesis.methods.spectrum import require_numbers
-    from mcexact.synthesis.optimum.aims import Aims
-    from mcexact.synthesis.request import Warned
+    from mcexact.synthesis.assessment import assess
+    from mcexact.synthesis.gate import Warned
+    from mcexact.synthesis.optimum.figures import Aims
+    from mcexact.synthesis.state_feedback import require_numbers
 
     def progress(step: str) -> None:
         if isinstance(step, Warned):

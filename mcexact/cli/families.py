@@ -165,7 +165,7 @@ class Families:
             tolerance_variants,
         )
         from mcexact.errors import InputError, place_of
-        from mcexact.model.formats.files import load_parametric_system, load_system
+        from mcexact.model.files import load_parametric_system, load_system
 
         found: Iterator[Variant]
         if self._grid:

@@ -36,7 +36,7 @@ def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
         If the deadline passes.
     """
     from mcexact.exact.rational import Limits
-    from mcexact.model.formats.recognize import read_input
+    from mcexact.model.files import read_input
 
     place = place_of(file)
     with InputError.inside(place), deadline.interrupting(f"reading {place}"):
@@ -52,8 +52,8 @@ def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChanne
         If it is malformed.
     """
     from mcexact.exact.rational import Limits
-    from mcexact.model.formats.reading import Reading
-    from mcexact.model.formats.recognize import read_any
+    from mcexact.model.arrays import Reading
+    from mcexact.model.files import read_any
 
     with InputError.inside(place):
         return read_any(data, place, Reading(Limits(**limits)))
@@ -70,8 +70,8 @@ def plant_in(
         If it is malformed, or a value is that of no parameter.
     """
     from mcexact.exact.rational import Limits
-    from mcexact.model.formats.reading import Reading
-    from mcexact.model.formats.recognize import read_plant
+    from mcexact.model.arrays import Reading
+    from mcexact.model.files import read_plant
 
     with InputError.inside(place):
         return valued(read_plant(data, place, Reading(Limits(**limits))), at)
@@ -260,7 +260,7 @@ def write_result(path: Path, content: str | bytes) -> None:
     NotWritten
         If it cannot be written.
     """
-    from mcexact.model.atomic import write_bytes
+    from mcexact.model.text import write_bytes
 
     write_bytes(path, content if isinstance(content, bytes) else content.encode("utf-8"))
     say_written(path)

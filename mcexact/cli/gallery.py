@@ -18,7 +18,7 @@ def command(as_json: bool) -> None:
     from dataclasses import asdict
 
     from mcexact.cli.output import emit_json, emit_tables
-    from mcexact.model.published import published
+    from mcexact.model.gallery import published
     from mcexact.report.text import WIDE, Table, shorten
 
     plants = published()

@@ -44,7 +44,7 @@ def certified(
     """
     from mcexact.analysis.boxes.largest_loop_ranges import largest_loop_ranges
     from mcexact.errors import UsageError
-    from mcexact.exact.location import StabilityRegion
+    from mcexact.exact.roots import StabilityRegion
 
     if any(value for name, value in wanted.items() if name not in _ASKED):
         raise UsageError(

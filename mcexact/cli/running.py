@@ -202,7 +202,7 @@ class Run:
         """
         from mcexact.cli.files import directory, say_written
         from mcexact.cli.output import emit, emit_json
-        from mcexact.model.atomic import write_text
+        from mcexact.model.text import write_text
 
         line_follows = not self.as_json and show()
         checked = rechecked(

@@ -11,7 +11,7 @@ from mcexact.cli import options
 from mcexact.cli.options import FOLDER, as_json
 
 if TYPE_CHECKING:
-    from mcexact.derived.drawn.draw import Draw
+    from mcexact.derived.drawn.systems import Draw
 
 
 @click.command(name="sample", short_help="Draw systems with known structure.")
@@ -61,11 +61,11 @@ def command(
     from mcexact.cli.files import directory, require_writable, say_written
     from mcexact.cli.output import emit
     from mcexact.cli.supervision import supervised
-    from mcexact.derived.drawn.draw import Draw
-    from mcexact.model.atomic import write_text
+    from mcexact.derived.drawn.systems import Draw
+    from mcexact.model.text import write_text
 
     if template is not None:
-        from mcexact.model.template import template as starting_file
+        from mcexact.model.system_file import template as starting_file
 
         if output is not None or count > 1:
             raise click.UsageError("--template prints one file: leave out --output and --count")
@@ -94,7 +94,7 @@ def command(
 
 def _drawn(draw: Draw) -> str:
     """Draw a system and return its file's text, in the child process."""
-    from mcexact.derived.drawn.draw import drawn_system
+    from mcexact.derived.drawn.systems import drawn_system
     from mcexact.model.system_file import system_text
 
     return system_text(drawn_system(draw))

@@ -162,7 +162,7 @@ def _simulated(
     from mcexact.cli.running import told
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.model.controller_file import read_controller
+    from mcexact.model.controller import read_controller
     from mcexact.report.simulation import SimulationReport
     from mcexact.simulation.run import simulated_loop
     from mcexact.synthesis.certify import account_of_verdict

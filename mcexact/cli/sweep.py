@@ -109,7 +109,7 @@ def command(
         write_result,
     )
     from mcexact.cli.output import emit_json, emit_tables
-    from mcexact.derived.drawn.draw import Draw
+    from mcexact.derived.drawn.systems import Draw
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.report.sweep_view import skipped_table, sweep_page, sweep_tables, sweep_view
@@ -192,7 +192,7 @@ class _Listed:
 
     def __init__(self, files: tuple[str, ...]) -> None:
         from mcexact.errors import InputError
-        from mcexact.model.formats.csv_folder import MARK
+        from mcexact.model.arrays import MARK
 
         self.paths: list[str] = []
         self._found: set[int] = set()
@@ -274,7 +274,7 @@ def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[st
 def _read(path: str | os.PathLike[str], limits: Limits, timeout: float | None) -> bytes:
     """Read a file; waiting for a pipe is limited to the time allowed for a system."""
     from mcexact.cli.deadline import Deadline
-    from mcexact.model.formats.recognize import read_input
+    from mcexact.model.files import read_input
 
     if os.path.isfile(path):
         return read_input(path, limits)
@@ -287,7 +287,7 @@ def _write(folder: Path, record: Record, total: int) -> int:
 
     Returns how many these are.
     """
-    from mcexact.model.atomic import write_text
+    from mcexact.model.text import write_text
 
     number = str(record.number + 1).zfill(len(str(total)))
     path, _, member = record.name.partition(": ")

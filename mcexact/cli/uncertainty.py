@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from mcexact.answer.box_stable import BoxStability
     from mcexact.answer.protocol import Answer
     from mcexact.answer.stability import StabilityVerdict
-    from mcexact.exact.location import StabilityRegion
+    from mcexact.exact.roots import StabilityRegion
     from mcexact.model.controller import Controller
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.picture import EmbeddedPicture
     from mcexact.report.text import Table
-    from mcexact.synthesis.every_loop import WithinRadii
+    from mcexact.synthesis.robustness import WithinRadii
 
 
 def of(
@@ -176,11 +176,10 @@ def loops(
     largest : LargestUncertainty or None
         The search that found the radii of the system.
     """
-    from mcexact.exact.rational import written
-    from mcexact.exact.shortened import percent
+    from mcexact.exact.rational import percent, written
     from mcexact.model.box import radii_in_words
     from mcexact.model.loop import closed_loop
-    from mcexact.synthesis.every_loop import failing_plant, known_within
+    from mcexact.synthesis.robustness import failing_plant, known_within
 
     near = None if largest is None or not found.stable else largest.nearby
     if system.uncertainty is None and gains is None:
@@ -233,7 +232,7 @@ def _proof(
     from mcexact.analysis.boxes.box_stable import box_stability
     from mcexact.answer.box_stable import BoxStability
     from mcexact.errors import LimitReached
-    from mcexact.exact.location import StabilityRegion
+    from mcexact.exact.roots import StabilityRegion
 
     unproved = list[StabilityRegion]()
     for region in dict.fromkeys((asked, StabilityRegion(asked.time))):
@@ -257,7 +256,7 @@ def digits_of(
 ) -> Loops:
     """How many digits of the gains are safe, and how many are too few."""
     from mcexact.answer.formats import count
-    from mcexact.synthesis.safe_digits import safe_digits
+    from mcexact.synthesis.certify import safe_digits
 
     region = _of_boxes(found)
     given: dict[str, Any] = {region.word: region.bound}

@@ -9,7 +9,7 @@ from typing import Any
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.crosschecks.records import Libraries, libraries_here, libraries_of, recorded
-from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.matrix import matrix_to_float
 from mcexact.floating.controllability import controllability_rank
 from mcexact.floating.fixed_modes import rounded_fixed_modes
 from mcexact.model import gallery

@@ -16,8 +16,8 @@ from mcexact.exact.linear_algebra import inverse
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery as published
-from mcexact.model.names import nearest, quoted
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import nearest, quoted
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from mcexact.crosschecks.demonstration import floating_answers
 from mcexact.crosschecks.gallery import exhibits
 from mcexact.crosschecks.records import RECORDS, libraries_here
 from mcexact.crosschecks.table import crosscheck
-from mcexact.model.atomic import write_text
+from mcexact.model.text import write_text
 
 _PLACE = Path(__file__).with_name(RECORDS)
 

@@ -22,9 +22,9 @@ from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.crosschecks.records import Libraries, libraries_here
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import matrix_to_float
+from mcexact.exact.roots import StabilityRegion
 from mcexact.floating import anderson_clements, controllability, fixed_modes, margins
 from mcexact.floating.transfer_graph import transfer_edges
 from mcexact.model.system import MultiChannelSystem, as_plant

@@ -10,8 +10,7 @@ from mcexact.answer.mode_words import blame
 from mcexact.crosschecks.gallery import Shown, shown_in
 from mcexact.crosschecks.records import Libraries
 from mcexact.crosschecks.table import CrossChecks
-from mcexact.exact.rational import written
-from mcexact.exact.shortened import rounded
+from mcexact.exact.rational import rounded, written
 from mcexact.report.page import page
 from mcexact.report.plant import shown_plant
 from mcexact.report.text import Table

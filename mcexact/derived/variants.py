@@ -14,11 +14,11 @@ from functools import partial
 from typing import Any, Literal
 
 from mcexact.arguments import several
-from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.constructions import augmented_outputs
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import as_fraction, written
 from mcexact.model.box import Box
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem, as_plant
 

@@ -1,4 +1,12 @@
-"""Krylov sequences modulo primes so small that sums of products are exact in floating point.
+"""Krylov sequences modulo primes, dense and sparse, recurrences, and invariant subspaces.
+
+Linear recurrences modulo primes, and the proof that one of them is the least.
+
+The numbers s_0, s_1, … satisfy the recurrence d = Σ d_j x^j if Σ_j d_j s_{k+j} = 0 for all k.  The
+numerator of d is num = Σ_i x^i Σ_{j>i} d_j s_{j−i−1}, the polynomial part of d·Σ s_k x^{−k−1}; d is
+the least recurrence iff d and num are coprime.
+
+Krylov sequences modulo primes so small that sums of products are exact in floating point.
 
 A double holds every integer up to 2**53, and a single up to 2**24.  With n(ℓ/2)² below that, a
 product of n × n matrices of symmetric residues is exact for every order of its additions, and the
@@ -8,6 +16,12 @@ polynomial of M, so where it has degree n it is the characteristic polynomial.
 
 At n = 200, 400 and 800 a characteristic polynomial takes 0.5, 0.27 and 0.1 times as long as with
 flint.
+
+Krylov sequences of sparse matrices modulo primes, by products in floating point that are exact.
+
+A closed loop with few entries in each row is a compressed sparse array of symmetric residues, of at
+most ℓ/2 each.  As long as they are integers that floats represent exactly, products are reduced
+modulo ℓ after several steps only: modulo 7 with 6 entries a row after 5 steps in singles.
 """
 
 from __future__ import annotations
@@ -15,21 +29,87 @@ from __future__ import annotations
 import random
 from array import array
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
+from math import isqrt
 from typing import TYPE_CHECKING, Any
 
 import flint
 
-from mcexact.exact.blocks import offsets
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular_polynomial import ModularPolynomial
-from mcexact.exact.recurrence import least_recurrence
+from mcexact.errors import InternalError
+from mcexact.exact.matrix import Matrix, offsets
+from mcexact.exact.modular import (
+    ModularMatrix,
+    ModularPolynomial,
+    combine,
+    primes,
+    rationals,
+    require_prime,
+    vstack,
+)
+from mcexact.exact.modular import residues as modular_residues
+from mcexact.exact.tables import is_mostly_zero
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
     Floats = npt.NDArray[np.floating[Any]]
+    import scipy.sparse
+
+    Integers = scipy.sparse.csr_array[np.int64]
+    Residues = npt.NDArray[np.int64]
+
+
+# Linear recurrences modulo primes, and the proof that one of them is the least.
+
+
+def least_recurrence(sequence: Sequence[int], ell: int) -> ModularPolynomial:
+    """The monic recurrence of least degree L of residues modulo a prime; 2L of them determine it.
+
+    By flint's half-gcd.
+
+    Examples
+    --------
+    >>> least_recurrence([0, 1, 1, 2, 3, 5, 8, 13], 31).coefficients
+    (30, 30, 1)
+    """
+    require_prime(ell)
+    ring = flint.fmpz_mod_poly_ctx(flint.fmpz_mod_ctx(ell))
+    if not any(sequence):
+        return ModularPolynomial.from_coefficients([1], ell)
+    coefficients = list(map(int, ring.minpoly(list(sequence)).coeffs()))
+    found = ModularPolynomial(ell, flint.nmod_poly(coefficients, ell))
+    found.__dict__["coefficients"] = tuple(coefficients)
+    return found
+
+
+def cofactors(
+    recurrence: ModularPolynomial, sequence: Sequence[int]
+) -> tuple[ModularPolynomial, ModularPolynomial]:
+    """The a and e with a·num + e·d = 1, of degrees below those of d and num.
+
+    Parameters
+    ----------
+    recurrence : ModularPolynomial
+        d, of degree L, the least one.
+    sequence : sequence of int
+        s_0, …, s_{L−1}, and perhaps more.
+
+    Examples
+    --------
+    >>> a, e = cofactors(least_recurrence([0, 1, 1, 2], 31), [0, 1])
+    >>> a.coefficients, e.coefficients
+    ((1,), ())
+    """
+    ell, L = recurrence.modulus, recurrence.degree
+    reverse = flint.nmod_poly(list(sequence[:L])[::-1], ell)
+    numerator = (recurrence._poly * reverse).right_shift(L)
+    _, a, e = numerator.xgcd(recurrence._poly)
+    return ModularPolynomial(ell, a), ModularPolynomial(ell, e)
+
+
+# Krylov sequences modulo primes so small that sums of products are exact in floating point.
 
 _EXACT = 2**53
 _EXACT_IN_SINGLE = 2**24
@@ -291,3 +371,405 @@ def reduce(table: Floats, ell: int) -> Floats:
         quotient *= ell
         part -= quotient
     return table
+
+
+# Krylov sequences of sparse matrices modulo primes, by products in floating point that are exact.
+
+# So many numbers of a sequence are computed from what is seen of the vectors at once.
+_TOGETHER = 1024
+
+
+def stays_sparse(A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix]) -> bool:
+    """Whether A is sparse, and A + Σ B_i F_i C_i is for all F.
+
+    Examples
+    --------
+    >>> ring = Matrix.from_entries((99, 99), [(i, (i + 1) % 99, 1) for i in range(99)])
+    >>> stays_sparse(ring, [ring.take(cols=[0])], [ring.take(rows=[0])])
+    True
+    >>> stays_sparse(ring, [Matrix.column([1] * 99)], [Matrix.from_rows([[1] * 99])])
+    False
+    """
+    if not A.is_sparse:
+        return False
+    most = _entries(A) + sum(_entries(M) * _entries(N) for M, N in zip(B, C, strict=True))
+    return is_mostly_zero(A.nrows * A.ncols, most)
+
+
+def _entries(M: Matrix) -> int:
+    return sum(1 for _ in M.nonzero())
+
+
+class SparseLoop:
+    """A, B = [B_1 … B_m] and C = [C_1; …; C_m] modulo ℓ, as sparse arrays of integers.
+
+    Parameters
+    ----------
+    A : Matrix
+        n × n.
+    B, C : sequences of Matrix
+        n × p_i and q_i × n.
+    ell : int
+        A prime below 2**24, which divides no denominator.
+    """
+
+    def __init__(self, A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], ell: int) -> None:
+        self.ell, self.n = ell, A.nrows
+        self.inputs, self.outputs = offsets([M.ncols for M in B]), offsets([M.nrows for M in C])
+        self.A = _residues([(A, 0, 0)], A.shape, ell)
+        across = [(M, 0, j) for M, j in zip(B, self.inputs, strict=False)]
+        down = [(M, i, 0) for M, i in zip(C, self.outputs, strict=False)]
+        self.B = _residues(across, (self.n, self.inputs[-1]), ell)
+        self.C = _residues(down, (self.outputs[-1], self.n), ell)
+
+    def closed(self, gains: Sequence[Any]) -> Integers:
+        """A + Σ B_i F_i C_i, for p_i × q_i rows of integers."""
+        import numpy as np
+        import scipy.sparse
+
+        listed_gains = [
+            (self.inputs[i] + g, self.outputs[i] + h, x)
+            for i, rows in enumerate(gains)
+            for g, row in enumerate(rows)
+            for h, x in enumerate(row)
+        ]
+        places = np.array(listed_gains, dtype=np.int64).reshape(-1, 3)
+        shape = self.inputs[-1], self.outputs[-1]
+        F = scipy.sparse.csr_array((places[:, 2], (places[:, 0], places[:, 1])), shape=shape)
+        moved = self._reduced(self.B @ self._reduced(F @ self.C))
+        return self._reduced(self.A + moved)
+
+    def _reduced(self, M: Any) -> Integers:
+        """Symmetric residues, of which none is kept that is 0."""
+        import scipy.sparse
+
+        found = scipy.sparse.csr_array(M)
+        found.data = _symmetric(found.data, self.ell)
+        found.eliminate_zeros()
+        return found
+
+    def sequences(self, M: Integers, starts: Iterable[Start]) -> Iterator[list[int]] | None:
+        """The numbers y C_q Mᵏ B_q x modulo ℓ, k < 2n, for each (q, x, y).
+
+        None if not even one step of M is exact in floating point.
+        """
+
+        if not steps_at_once(M, self.ell, _EXACT):
+            return None
+        vectors = (
+            (
+                _symmetric(self._placed(y, self.outputs[q], self.outputs[-1]) @ self.C, self.ell),
+                _symmetric(self.B @ self._placed(x, self.inputs[q], self.inputs[-1]), self.ell),
+            )
+            for q, x, y in starts
+        )
+        return (sequence(M, row, column, self.ell, 2 * self.n) for row, column in vectors)
+
+    def _placed(self, entries: Sequence[int], start: int, size: int) -> Any:
+        import numpy as np
+
+        found = np.zeros(size, dtype=np.int64)
+        found[start : start + len(entries)] = entries
+        return found
+
+
+def steps_at_once(M: Integers, ell: int, exact: int) -> int:
+    """How many products with M keep residues below a number, so that a multiple of ℓ can go."""
+    return products_at_once(int(abs(M).sum(axis=1).max()), ell, exact) if M.nnz else 1
+
+
+def sequence(M: Integers, row: Any, column: Any, ell: int, length: int) -> list[int]:
+    """The numbers c Mᵏ b modulo ℓ for k below a length, one product with M for each.
+
+    Parameters
+    ----------
+    M : csr_array of symmetric residues
+        `steps_at_once` is at least 1.
+    row, column : arrays of symmetric residues
+        c and b.
+    """
+    import numpy as np
+
+    single = steps_at_once(M, ell, _EXACT_IN_SINGLE)
+    kind, exact = (np.float32, _EXACT_IN_SINGLE) if single > 1 else (np.float64, _EXACT)
+    step, steps = M.astype(kind), steps_at_once(M, ell, exact)
+    step.indices, step.indptr = step.indices.astype(np.int32), step.indptr.astype(np.int32)
+    where = np.flatnonzero(row)
+    v: Any = column.astype(kind)
+    found: list[int] = []
+    for start in range(0, length, _TOGETHER):
+        seen = np.empty((min(_TOGETHER, length - start), len(where)), dtype=np.int64)
+        for k in range(len(seen)):
+            seen[k] = v[where]
+            v = step @ v
+            if (start + k) % steps == steps - 1:
+                v = reduce(v, ell)
+        found += (seen % ell @ row[where] % ell).tolist()
+    return found
+
+
+def _residues(
+    parts: Sequence[tuple[Matrix, int, int]], shape: tuple[int, int], ell: int
+) -> Integers:
+    """The symmetric residues of rational matrices, each placed at its first row and column."""
+    import numpy as np
+    import scipy.sparse
+
+    found: list[tuple[int, int, int]] = []
+    for M, top, left in parts:
+        factor = pow(M.denominator, -1, ell)
+        found += [(top + i, left + j, x * factor % ell) for i, j, x in M.nonzero()]
+    table = np.array(found, dtype=np.int64).reshape(-1, 3)
+    values = _symmetric(table[:, 2], ell)
+    return scipy.sparse.csr_array((values, (table[:, 0], table[:, 1])), shape=shape)
+
+
+def _symmetric(values: Any, ell: int) -> Any:
+    """Integers less multiples of ℓ, between −ℓ/2 and ℓ/2."""
+    return (values + ell // 2) % ell - ell // 2
+
+
+# Polynomials of a sparse matrix modulo a prime, applied to vectors in exact floating point.
+
+
+class SparsePowers:
+    """An n × n sparse array M of symmetric residues modulo ℓ.
+
+    Parameters
+    ----------
+    M : csr_array of int64
+    ell : int
+        A prime for which `largest_prime` is not exceeded.
+    """
+
+    def __init__(self, M: Any, ell: int) -> None:
+        import numpy as np
+
+        self.M, self.ell, self.n = M.astype(np.float64), ell, M.shape[0]
+
+    def applied(self, p: ModularPolynomial, V: Any) -> Residues:
+        """p(M) V modulo ℓ, V n × k residues, by Horner's rule."""
+        import numpy as np
+
+        V = reduce(np.array(V, dtype=np.float64), self.ell)
+        found: Floats = np.zeros_like(V)
+        for c in reversed(p.coefficients):
+            factor = c - self.ell if 2 * c > self.ell else c
+            found = reduce(self.M @ found + factor * V, self.ell)
+        return self._residues(found)
+
+    def product(self, V: Any) -> Residues:
+        """M V modulo ℓ, V n × k residues."""
+        import numpy as np
+
+        return self._residues(reduce(self.M @ reduce(V.astype(np.float64), self.ell), self.ell))
+
+    def _residues(self, table: Floats) -> Residues:
+        import numpy as np
+
+        found: Residues = table.astype(np.int64) % self.ell
+        return found
+
+    def minimal_polynomial(self, rng: random.Random) -> ModularPolynomial:
+        """The least recurrence of the numbers c Mᵏ b, c and b drawn: a divisor, and mostly all."""
+        import numpy as np
+
+        small = max(1, _EXACT // (max(self.n, 1) * self.ell))
+        row = np.array([rng.randrange(small) for _ in range(self.n)], dtype=np.float64)
+        drawn = np.array([rng.randrange(self.ell) for _ in range(self.n)], dtype=np.float64)
+        v: Floats = reduce(drawn, self.ell)
+        numbers = []
+        for _ in range(2 * self.n):
+            numbers.append(int(row @ v) % self.ell)
+            v = reduce(self.M @ v, self.ell)
+        return least_recurrence(numbers, self.ell)
+
+
+def row_echelon(rows: Residues, ell: int) -> tuple[Residues, tuple[int, ...]]:
+    """The reduced row echelon form of residues, without rows of zeros, and its pivots."""
+    import numpy as np
+
+    left, pivots = np.array(rows, dtype=np.int64) % ell, []
+    found = 0
+    while found < len(left):
+        columns = np.flatnonzero(left[found:].any(axis=0))
+        if not len(columns):
+            break
+        column = int(columns[0])
+        at = found + int(np.flatnonzero(left[found:, column])[0])
+        left[[found, at]] = left[[at, found]]
+        left[found] = left[found] * pow(int(left[found, column]), -1, ell) % ell
+        for i in range(len(left)):
+            if i != found and left[i, column]:
+                left[i] = (left[i] - left[i, column] * left[found]) % ell
+        pivots.append(column)
+        found += 1
+    return left[:found], tuple(pivots)
+
+
+def largest_prime(n: int, terms: int) -> int:
+    """A bound for primes modulo which all sums are exact: of so many products and one more.
+
+    Examples
+    --------
+    >>> largest_prime(10**4, 8).bit_length()
+    26
+    """
+    return min(2**26, 2 * isqrt(_EXACT // (terms + 2)) - 8, 2**52 // max(n, 1))
+
+
+# The smallest A-invariant subspace that contains im B, exactly, from its residues.
+
+
+@dataclass(frozen=True)
+class InvariantSubspace:
+    """⟨A | B⟩ = im B + A im B + …, as the column space of X.
+
+    Attributes
+    ----------
+    X : Matrix
+        n × d in reduced column echelon form: the rows ``pivots`` form the identity,
+        AX = X (AX)[pivots] and B = X B[pivots].
+    pivots : tuple of int
+    modulus : int
+        A prime ℓ modulo which [B, AB, …] has rank d, too.
+    """
+
+    X: Matrix
+    pivots: tuple[int, ...]
+    modulus: int
+
+    @property
+    def dimension(self) -> int:
+        """d."""
+        return len(self.pivots)
+
+    @property
+    def free(self) -> tuple[int, ...]:
+        """The n − d rows that are not pivots."""
+        chosen = set(self.pivots)
+        return tuple(i for i in range(self.X.nrows) if i not in chosen)
+
+    def annihilator(self) -> Matrix:
+        """W, (n−d) × n with WX = 0, its columns ``free`` the identity."""
+        n, free = self.X.nrows, self.free
+        place = {pivot: k for k, pivot in enumerate(self.pivots)}
+        rows = []
+        for f in free:
+            row = [0] * n
+            for j in range(n):
+                if j in place:
+                    row[j] = -self.X.numerators[f][place[j]]
+            row[f] = self.X.denominator
+            rows.append(row)
+        return Matrix.from_integers(rows, self.X.denominator, ncols=n)
+
+
+def krylov_rows(A: Matrix, B: Matrix, ell: int) -> tuple[ModularMatrix, tuple[int, ...]]:
+    """The reduced row echelon form of a basis of ⟨A | B⟩', modulo a prime.
+
+    Parameters
+    ----------
+    A : Matrix
+        n × n.
+    B : Matrix
+        n × p.
+    ell : int
+        A prime that divides neither denominator.
+
+    Returns
+    -------
+    rows : ModularMatrix
+        d × n; its columns ``pivots`` form the identity.
+    pivots : tuple of int
+
+    Notes
+    -----
+    With S' a basis of im [B, …, A^{k−1}B], [S, A^k S] spans the first 2k blocks: at most 1 + log₂ n
+    products.  A doubling that adds nothing ends it.
+    """
+    n = A.nrows
+    span, pivots = _row_space(modular_residues(B.T, ell))
+    power = modular_residues(A.T, ell)
+    while 0 < span.nrows < n:
+        wider, found = _row_space(vstack([span, span @ power]))
+        if wider.nrows == span.nrows:
+            break
+        span, pivots = wider, found
+        if span.nrows < n:
+            power = power @ power
+    return span, pivots
+
+
+def _row_space(rows: ModularMatrix) -> tuple[ModularMatrix, tuple[int, ...]]:
+    """The nonzero rows of the reduced row echelon form, and its pivots."""
+    reduced, pivots = rows.rref()
+    return reduced.take(rows=range(len(pivots))), pivots
+
+
+def _usable_primes(A: Matrix, B: Matrix, rng: random.Random) -> Iterator[int]:
+    for ell in primes(rng.getrandbits(64)):
+        if (A.denominator * B.denominator) % ell:
+            yield ell
+
+
+def controllable_subspace(A: Matrix, B: Matrix, rng: random.Random) -> InvariantSubspace:
+    """Compute ⟨A | B⟩ exactly.
+
+    Parameters
+    ----------
+    A : Matrix
+        n × n.
+    B : Matrix
+        n × p.
+    rng : random.Random
+        Chooses the primes.
+
+    Notes
+    -----
+    The reduced echelon form is one matrix over Q; its residues modulo word-size primes are
+    combined until a rational matrix of the right pattern passes the exact test AX = X (AX)[pivots],
+    B = X B[pivots].  The test makes im X an invariant subspace that contains im B; that its
+    dimension is not too large is the rank modulo ℓ.  O(n³ log n) word operations for each prime.
+    """
+    n = A.nrows
+    best: tuple[int, list[int]] = (-1, [])
+    table: list[list[int]] = []
+    modulus, last, count = 1, 0, 0
+    for ell in _usable_primes(A, B, rng):
+        span, pivots = krylov_rows(A, B, ell)
+        if len(pivots) == n:
+            return InvariantSubspace(Matrix.identity(n), tuple(range(n)), ell)
+        if not pivots:
+            if B.is_zero():
+                return InvariantSubspace(Matrix.zeros(n, 0), (), ell)
+            continue
+        # Primes where the rank drops or the pivots move right are the bad ones.
+        pattern = (len(pivots), [-j for j in pivots])
+        if pattern < best:
+            continue
+        rows = span.rows()
+        if pattern > best:
+            best, table, modulus, count = pattern, [list(row) for row in rows], ell, 1
+        else:
+            table, modulus, count = combine(table, modulus, rows, ell), modulus * ell, count + 1
+        last = ell
+        if count & (count - 1) == 0:
+            found = _verified(A, B, table, modulus, tuple(pivots))
+            if found is not None:
+                return InvariantSubspace(found, tuple(pivots), last)
+    raise InternalError("the stream of primes is endless")
+
+
+def _verified(
+    A: Matrix, B: Matrix, table: list[list[int]], modulus: int, pivots: tuple[int, ...]
+) -> Matrix | None:
+    """The rational matrix with these residues, if im X is invariant and contains im B."""
+    found = rationals(table, modulus)
+    if found is None:
+        return None
+    X = Matrix.from_integers(found[0], found[1], ncols=A.nrows).T
+    AX = A @ X
+    if X @ AX.take(rows=pivots) != AX or X @ B.take(rows=pivots) != B:
+        return None
+    return X

@@ -1,24 +1,471 @@
-"""Rational matrices: integer numerators over one common denominator."""
+"""Rational matrices: entries, sizes, blocks, conversion from and to rows, floats, numpy."""
 
 from __future__ import annotations
 
 import math
+import sys
 from array import array
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, overload
+from html import escape
+from itertools import accumulate
+from typing import TYPE_CHECKING, Any, Literal, get_args, overload
 
 import flint
 
-from mcexact.errors import InputError
+from mcexact import shown
+from mcexact.arguments import one_of
+from mcexact.errors import FloatRefused, InputError, LimitReached
 from mcexact.exact import tables
-from mcexact.exact.matrix_forms import MatrixForms, pasted, row_of
-from mcexact.exact.matrix_sizes import require_positions, require_sides, require_sizes
-from mcexact.exact.rational import Entry, as_fraction, require_power
-from mcexact.exact.rows import common_width, rows_of
+from mcexact.exact.rational import (
+    TWO_WAYS_IN,
+    Entry,
+    as_fraction,
+    number,
+    rational_latex,
+    rational_text,
+    require_power,
+)
 from mcexact.exact.tables import DenseTable, SparseTable, Table
 from mcexact.exact.tables import Rows as Rows
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+
+# Forms of a rational matrix: lists, arrays of numpy, matrices of sympy, text, HTML and LaTeX.
+
+_LONGEST = 60
+MOST_SHOWN = 12
+"""The rows, and the columns, of the largest matrix that is shown completely."""
+_DOTS = {"⋱": r"\ddots", "⋮": r"\vdots", "…": r"\cdots"}
+_GAPS = {(True, True): "⋱", (True, False): "⋮", (False, True): "…"}
+
+
+class MatrixDisplay:
+    """The display of matrices of numbers and of functions."""
+
+    def __str__(self: Any) -> str:
+        return aligned(self)
+
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        printer.text(repr(self))
+
+    def _html(self: Any) -> str:
+        """The matrix as a piece of HTML."""
+        return html(self)
+
+    def _latex(self: Any) -> str:
+        """The matrix as a piece of LaTeX."""
+        return latex(self)
+
+    def _repr_html_(self) -> str:
+        return shown.framed(self._html())
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self._latex()}$"
+
+
+class MatrixForms(MatrixDisplay):
+    """The conversions of `Matrix`, which alone inherits them."""
+
+    def tolist(self: Any) -> list[list[Fraction]]:
+        """The rows as lists of Fractions."""
+        return lists_of(self)
+
+    def __array__(
+        self: Any, dtype: npt.DTypeLike | None = None, copy: bool | None = None
+    ) -> npt.NDArray[Any]:
+        if copy is False:
+            raise ValueError("numpy cannot use the memory of a matrix: leave out copy=False")
+        return array_for_caller(self, dtype)
+
+    def to_numpy(self: Any, dtype: npt.DTypeLike | None = None) -> npt.NDArray[Any]:
+        """The matrix as an array of numpy, in floats unless another dtype is given.
+
+        Parameters
+        ----------
+        dtype : dtype, optional
+            By default float64: each entry is rounded to the float nearest to it.  ``object`` keeps
+            the entries as Fractions, and integers stay integers.
+
+        Raises
+        ------
+        ValueError
+            Integers are asked for, and an entry is not one, or does not fit.
+
+        Examples
+        --------
+        >>> from mcexact.exact.matrix import Matrix
+        >>> M = Matrix.from_rows([[1, "1/3"]])
+        >>> M.to_numpy()
+        array([[1.        , 0.33333333]])
+        >>> M.to_numpy(object)
+        array([[Fraction(1, 1), Fraction(1, 3)]], dtype=object)
+        """
+        return array_of(self, dtype)
+
+    def to_sympy(self: Any) -> Any:
+        """The matrix as one of sympy, with equal entries; ``sympy.Matrix(M)`` gives the same.
+
+        Examples
+        --------
+        >>> from mcexact.exact.matrix import Matrix
+        >>> Matrix.from_rows([[1, "1/3"]]).to_sympy()
+        Matrix([[1, 1/3]])
+        """
+        return symbolic(self)
+
+    _sympy_ = to_sympy
+
+
+def row_of(M: Matrix, i: Any) -> tuple[Fraction, ...]:
+    """Return a row as a tuple.
+
+    Raises
+    ------
+    IndexError
+        If there is no such row.
+    TypeError
+        If it is not a position, such as a slice.
+    """
+    if not hasattr(i, "__index__"):
+        raise TypeError(
+            "expected the position of a row, or of a row and a column; "
+            "M.take(rows=[…], cols=[…]) gives a submatrix"
+        )
+    return M.take(rows=[i.__index__()]).rows()[0]
+
+
+def lists_of(M: Matrix) -> list[list[Fraction]]:
+    """Return the rows of a matrix as lists of Fractions."""
+    return [list(row) for row in M.rows()]
+
+
+def array_of(M: Matrix, dtype: npt.DTypeLike | None = None) -> npt.NDArray[Any]:
+    """Return a matrix as an array of numpy.
+
+    Parameters
+    ----------
+    M : Matrix
+    dtype : dtype, optional
+        By default float64: each entry becomes the float nearest to it.  The dtype ``object`` keeps
+        the entries as Fractions, and one of integers keeps integers.
+
+    Raises
+    ------
+    ValueError
+        If integers are asked for, and an entry is not one, or does not fit.
+    """
+    import numpy as np
+
+    kind = np.dtype(np.float64 if dtype is None else dtype)
+    if kind.kind not in "Oiu":
+        return matrix_to_float(M).astype(kind)
+    if kind.kind == "O":
+        exact = np.full(M.shape, Fraction(0), dtype=object)
+        for i, j, entry in M.nonzero():
+            exact[i, j] = Fraction(entry, M.denominator)
+        return exact
+    if M.denominator != 1:
+        raise ValueError("the matrix has entries that are not integers: leave out the dtype")
+    whole, limits = np.zeros(M.shape, dtype=kind), np.iinfo(kind)
+    for i, j, entry in M.nonzero():
+        if not limits.min <= entry <= limits.max:
+            raise ValueError(f"the matrix has entries that {kind} cannot hold")
+        whole[i, j] = entry
+    return whole
+
+
+def array_for_caller(M: Matrix, dtype: npt.DTypeLike | None, depth: int = 2) -> npt.NDArray[Any]:
+    """Return what ``__array__`` gives: floats to numpy, and the exact entries to sympy.
+
+    ``sympy.Matrix(M)`` calls ``M.__array__()`` itself and takes the entries one by one, so that
+    floats would lose what both sides can represent.  numpy's calls have no frame of numpy.
+    """
+    caller = sys._getframe(depth).f_globals.get("__name__", "")
+    if dtype is None and str(caller).partition(".")[0] == "sympy":
+        return array_of(M, object)
+    return array_of(M, dtype)
+
+
+def symbolic(M: Matrix) -> Any:
+    """Return a matrix as one of sympy, whose entries are equal."""
+    import sympy
+
+    entries = [sympy.Rational(x.numerator, x.denominator) for row in M.rows() for x in row]
+    return sympy.Matrix(*M.shape, entries)
+
+
+def pasted(M: Matrix) -> str:
+    """Return an expression that makes the matrix again, or a summary in one line if it is long."""
+    r, c = M.shape
+    if not (r and c):
+        return f"Matrix.zeros({r}, {c})"
+    if r * c <= shown.LINE:
+        rows = ", ".join("[" + ", ".join(map(_literal, row)) + "]" for row in M.rows())
+        if len(rows) + len("Matrix.from_rows([])") <= shown.LINE:
+            return f"Matrix.from_rows([{rows}])"
+    first = [number(x) for x in M.take(rows=[0], cols=range(min(c, 4))).rows()[0]]
+    left = ", … " + f"{c - len(first)} more" if c > len(first) else ""
+    below = f", … {r - 1} more" if r > 1 else ""
+    return f"<{r} × {c} matrix [[{', '.join(first)}{left}]{below}]>"
+
+
+def _literal(x: Fraction) -> str:
+    text = rational_text(x)
+    return repr(text) if "/" in text else text
+
+
+def shortened(M: Any) -> list[list[Any]]:
+    """Return the entries to show, with dots in the place of middle rows and columns."""
+    down, across = shown.kept(M.nrows, MOST_SHOWN), shown.kept(M.ncols, MOST_SHOWN)
+    rows, cols = [i for i in down if i is not None], [j for j in across if j is not None]
+    entries = iter(M.take(rows=rows, cols=cols).tolist())
+    found: list[list[Any]] = []
+    for i in down:
+        row: Any = iter(()) if i is None else iter(next(entries))
+        found.append([_GAPS[i is None, j is None] if None in (i, j) else next(row) for j in across])
+    return found
+
+
+def aligned(M: Any) -> str:
+    """Return the matrix as lines of text with columns that are aligned on the right."""
+    if not (M.nrows and M.ncols):
+        return f"[] ({M.nrows} × {M.ncols})"
+    table = [[_text(x) for x in row] for row in shortened(M)]
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    lines = [
+        "[" + "  ".join(x.rjust(width) for x, width in zip(row, widths, strict=True)) + "]"
+        for row in table
+    ]
+    elided = max(M.shape) > MOST_SHOWN
+    return "\n".join([*lines, f"({M.nrows} × {M.ncols})"] if elided else lines)
+
+
+def html(M: Any) -> str:
+    """Return the matrix as a piece of HTML, in brackets."""
+    if not (M.nrows and M.ncols):
+        return f"{M.nrows} × {M.ncols}, no entries"
+    rows = "".join(
+        "<tr>" + "".join(f"<td>{escape(_text(x))}</td>" for x in row) + "</tr>"
+        for row in shortened(M)
+    )
+    size = f"<div>{M.nrows} × {M.ncols}</div>" if max(M.shape) > MOST_SHOWN else ""
+    return f'<table class="matrix"><tbody>{rows}</tbody></table>{size}'
+
+
+def latex(M: Any, *, whole: bool = False) -> str:
+    r"""Return the matrix as LaTeX.
+
+    Parameters
+    ----------
+    M : Matrix or FunctionMatrix
+    whole : bool
+        Whether every entry is written, exactly; else a large matrix has dots in the place of middle
+        rows and columns, and long numbers are rounded.
+
+    Examples
+    --------
+    >>> from mcexact.exact.matrix import Matrix
+    >>> print(latex(Matrix.from_rows([["1/2", 0]])))
+    \begin{bmatrix} \tfrac{1}{2} & 0 \end{bmatrix}
+    """
+    rows = r" \\ ".join(
+        " & ".join(_DOTS[x] if isinstance(x, str) else _latex_of(x, whole) for x in row)
+        for row in (M.tolist() if whole else shortened(M))
+    )
+    return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
+
+
+def _text(x: Any) -> str:
+    """An entry, or the dots in its place."""
+    if isinstance(x, str):
+        return x
+    return number(x) if isinstance(x, Fraction) else shown.fitting(str(x), _LONGEST)
+
+
+def _latex_of(x: Any, whole: bool) -> str:
+    if not isinstance(x, Fraction):
+        return str(x.latex())
+    if whole or len(rational_text(x)) <= 24:
+        return rational_latex(x, "tfrac")
+    return rf"\text{{{number(x)}}}"
+
+
+# The sizes that matrices can have, and the positions in them.
+
+# 2 GiB of machine words
+_MOST_ENTRIES = 2**28
+
+
+def require_sides(nrows: int, ncols: int) -> None:
+    """Raise an error for numbers of rows and columns that no matrix has."""
+    for size, name in ((nrows, "rows"), (ncols, "columns")):
+        if type(size) is not int or size < 0:
+            raise InputError(f"expected a number of {name} that is at least 0, found {size!r}")
+    if max(nrows, ncols) > _MOST_ENTRIES:
+        raise _too_large(nrows, ncols)
+
+
+def require_sizes(nrows: int, ncols: int) -> None:
+    """Raise an error for sizes for which flint would abort, or that exceed the memory."""
+    require_sides(nrows, ncols)
+    if nrows * ncols > _MOST_ENTRIES:
+        raise _too_large(nrows, ncols)
+
+
+def _too_large(nrows: int, ncols: int) -> LimitReached:
+    return LimitReached(
+        f"a {nrows} × {ncols} matrix has more than {_MOST_ENTRIES} entries: too many for memory"
+    )
+
+
+def require_positions(
+    shape: tuple[int, int], rows: Sequence[int] | None, cols: Sequence[int] | None
+) -> None:
+    """Refuse rows and columns that a matrix of this shape does not have."""
+    for chosen, size, name in zip((rows, cols), shape, ("row", "column"), strict=True):
+        for k in chosen or ():
+            if not 0 <= k < size:
+                raise IndexError(f"no {name} {k} in a {shape[0]} × {shape[1]} matrix")
+
+
+# Conversion of matrix-like values to rows: nested lists, arrays, sparse and symbolic matrices.
+
+Row = tuple[Any, ...]
+
+
+def rows_of(value: Any, where: str | None = None, *, floats: bool = False) -> list[Row]:
+    """Copy a matrix-like value as tuples, so that the caller cannot change it.
+
+    Parameters
+    ----------
+    value : sequence of rows, numpy or scipy array, sympy matrix
+    where : str, optional
+        The place of the matrix, for messages.
+    floats : bool
+        Whether an array of floats is allowed.
+
+    Raises
+    ------
+    FloatRefused
+        If it is an array of floats, which is not allowed.
+    InputError
+        If the value is not a matrix.
+
+    Examples
+    --------
+    >>> rows_of([[1, "1/2"], [0, 3]])
+    [(1, '1/2'), (0, 3)]
+    """
+    if is_sparse_array(value):
+        value = value.toarray()
+    elif hasattr(value, "__array__") and not hasattr(value, "tolist"):
+        value = value.__array__()
+    _require_numbers(value, where, floats)
+    if hasattr(value, "tolist"):
+        value = [_scalars(row) for row in value] if _is_of_other_length(value) else value.tolist()
+    if not _is_sequence(value):
+        found = "a string" if isinstance(value, (str, bytes)) else type(value).__name__
+        raise InputError(
+            f"expected a matrix as a list of rows, found {found}; write [[1, 2], [3, 4]]",
+            where=where,
+        )
+    copied = []
+    # An iterator is used, since list() would reserve the length that a subclass claims to have.
+    for k, row in enumerate(iter(value)):
+        if not _is_sequence(row):
+            raise InputError(
+                f"expected a row as a list, found {type(row).__name__}; "
+                "write a column as [[1], [2]] and a row as [[1, 2]]",
+                where=f"{where or ''}[{k}]",
+            )
+        copied.append(tuple(row))
+    return copied
+
+
+def _require_numbers(value: Any, where: str | None, floats: bool) -> None:
+    """Refuse an array with entries of another kind, or with one dimension or three."""
+    dtype = getattr(value, "dtype", None)
+    if dtype is None or not hasattr(dtype, "kind"):
+        return
+    if dtype.kind == "f" and not floats:
+        raise FloatRefused(f"found an array of {dtype}: {TWO_WAYS_IN}", where=where)
+    if dtype.kind not in "fiuO":
+        kinds = "real numbers" if floats else "integers or of exact objects"
+        raise InputError(f"expected an array of {kinds}, found {dtype}", where=where)
+    if value.ndim != 2:
+        raise InputError(
+            f"expected a two-dimensional array, found {value.ndim} dimensions", where=where
+        )
+
+
+def _is_of_other_length(array: Any) -> bool:
+    """Whether it holds floats of another length than Python's, such as single precision."""
+    dtype: Any = getattr(array, "dtype", None)
+    return getattr(dtype, "kind", "") == "f" and dtype.itemsize != 8
+
+
+def _scalars(array: Any) -> list[Any]:
+    """The numbers of an array of one dimension; ``tolist`` would widen floats to Python's."""
+    found: list[Any] = list(array) if _is_of_other_length(array) else array.tolist()
+    return found
+
+
+def is_sparse_array(value: Any) -> bool:
+    """Whether a value is a sparse array or matrix of scipy."""
+    return hasattr(value, "tocoo") and hasattr(value, "shape")
+
+
+def entries_of(
+    value: Any, where: str | None = None, *, floats: bool = False
+) -> list[tuple[int, int, Any]]:
+    """List the row, the column and the value of each stored entry of a sparse array of scipy.
+
+    Values that are stored for the same position are added, as scipy does.
+
+    Raises
+    ------
+    FloatRefused
+        If it is an array of floats, which is not allowed.
+    InputError
+        If it is not a matrix of numbers.
+    """
+    _require_numbers(value, where, floats)
+    found: dict[tuple[int, int], Any] = {}
+    stored = value.tocoo()
+    for i, j, entry in zip(
+        stored.row.tolist(), stored.col.tolist(), _scalars(stored.data), strict=True
+    ):
+        found[i, j] = found[i, j] + entry if (i, j) in found else entry
+    return [(i, j, entry) for (i, j), entry in found.items()]
+
+
+def _is_sequence(value: Any) -> bool:
+    return hasattr(value, "__iter__") and not isinstance(value, (str, bytes, dict))
+
+
+def common_width(rows: Sequence[Sequence[Any]], where: str | None = None) -> int | None:
+    """Return the number of entries of each row; None if there are no rows.
+
+    Raises
+    ------
+    InputError
+        If they differ.
+    """
+    for k, row in enumerate(rows):
+        if len(row) != len(rows[0]):
+            raise InputError(
+                f"expected {len(rows[0])} entries as in row 0, found {len(row)}",
+                where=f"{where or ''}[{k}]",
+            )
+    return len(rows[0]) if rows else None
+
+
+# Rational matrices: integer numerators over one common denominator.
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -394,3 +841,423 @@ def _shapes_do_not_match(operation: str, a: Matrix, b: Matrix) -> InputError:
     return InputError(
         f"shapes do not match: {a.nrows} × {a.ncols} {operation} {b.nrows} × {b.ncols}"
     )
+
+
+# The bit length and the size of the entries of matrices.
+
+
+def bit_length(matrices: Iterable[Matrix]) -> int:
+    """Return the bits of the longest reduced numerator or denominator of the entries, or 0.
+
+    Examples
+    --------
+    >>> bit_length([Matrix.from_rows([["1/8", 3]]), Matrix.zeros(0, 2)])
+    4
+    """
+    longest = 0
+    for M in matrices:
+        d = M.denominator
+        for entry in {x for _, _, x in M.nonzero()}:
+            # For most entries the bound without cancellation is already small enough.
+            if max(entry.bit_length(), d.bit_length()) > longest:
+                p, q = Fraction(entry, d).as_integer_ratio()
+                longest = max(longest, p.bit_length(), q.bit_length())
+    return longest
+
+
+def largest_entry(matrices: Iterable[Matrix]) -> Fraction:
+    """Return the largest absolute value of the entries; 0 without entries.
+
+    Examples
+    --------
+    >>> largest_entry([Matrix.from_rows([["-3/2", 1]]), Matrix.identity(2)])
+    Fraction(3, 2)
+    """
+    return max(
+        (
+            Fraction(max((abs(x) for _, _, x in M.nonzero()), default=0), M.denominator)
+            for M in matrices
+        ),
+        default=Fraction(0),
+    )
+
+
+# Conversions between floats and rational numbers and matrices, for the whole package.
+
+Rounding = Literal["decimal", "dyadic"]
+_ROUNDINGS = get_args(Rounding)
+
+# Floats hold every integer up to here.
+_EXACT = 2**53
+
+
+def finite(number: float) -> float | None:
+    """The number; None for what JSON does not have, an infinity or NaN."""
+    return number if math.isfinite(number) else None
+
+
+def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fraction:
+    """Convert a float to a rational number.
+
+    Parameters
+    ----------
+    x : float
+        A finite float or numpy floating-point scalar.
+    rounding : {"decimal", "dyadic"}
+        "decimal" reads the shortest decimal that prints the float in its own precision (0.1 is
+        1/10, also in single precision), "dyadic" the binary fraction that is stored.
+
+    Raises
+    ------
+    InputError
+        The number is not finite, or the rounding is unknown.
+
+    Examples
+    --------
+    >>> from_float(0.1, "decimal")
+    Fraction(1, 10)
+    >>> from_float(0.1, "dyadic")
+    Fraction(3602879701896397, 36028797018963968)
+    >>> import numpy
+    >>> from_float(numpy.float32(0.1), "decimal"), from_float(numpy.float32(0.1), "dyadic")
+    (Fraction(1, 10), Fraction(13421773, 134217728))
+    """
+    one_of(rounding, _ROUNDINGS, "rounding", InputError)
+    shape = getattr(x, "shape", ())
+    if shape:
+        raise InputError(f"expected a number, found an array of shape {shape}", where=where)
+    # A numpy scalar stays as it is: Python's floats are longer than some and shorter than others.
+    value = x if hasattr(x, "as_integer_ratio") else float(x)
+    try:
+        # Python's and numpy's floats are printed with the fewest digits that tell them apart.
+        return Fraction(*value.as_integer_ratio()) if rounding == "dyadic" else Fraction(str(value))
+    except (OverflowError, ValueError):
+        raise InputError(f"expected a finite number, found {float(x)!r}", where=where) from None
+
+
+def as_requested(number: Any, *, where: str | None = None) -> Fraction:
+    """Convert a number by which a caller asks for something, such as a rate.
+
+    Parameters
+    ----------
+    number : int, Fraction, Decimal, str, float or scalar of numpy or sympy
+        A float stands for the shortest decimal that prints it, 0.1 for 1/10: it is a wish and not a
+        measurement, and what is certified in the end states the exact number.
+    where : str, optional
+        The place to name in an error.
+
+    Raises
+    ------
+    InputError
+        If it is not a finite rational number.
+
+    Examples
+    --------
+    >>> as_requested(0.1), as_requested("1/3"), as_requested(2)
+    (Fraction(1, 10), Fraction(1, 3), Fraction(2, 1))
+    """
+    if isinstance(number, float) or getattr(getattr(number, "dtype", None), "kind", "") == "f":
+        return from_float(number, "decimal", where=where)
+    return as_fraction(number, where=where)
+
+
+def to_float(q: Fraction | int | str) -> float:
+    """Convert a rational number, or the text of a decimal, to the nearest float.
+
+    A number beyond the range of floats becomes an infinity of its sign.
+
+    Examples
+    --------
+    >>> to_float(Fraction(1, 3))
+    0.3333333333333333
+    """
+    return float(q) if isinstance(q, str) else _quotient(q.numerator, q.denominator)
+
+
+def float_above(q: Fraction) -> float:
+    """Return the least float that is at least a rational number, and so is its printed decimal.
+
+    Beyond the range of floats this is infinity.
+
+    Examples
+    --------
+    >>> float_above(Fraction(1, 3)), float_above(Fraction(1, 10**400)), float_above(Fraction(1, 4))
+    (0.33333333333333337, 5e-324, 0.25)
+    >>> float_above(Fraction(0.1)), 0.1 < Fraction(0.1)
+    (0.10000000000000002, False)
+    """
+    found = to_float(q)
+    if found == -math.inf:
+        found = math.nextafter(found, 0.0)
+    while math.isfinite(found) and min(Fraction(found), Fraction(repr(found))) < q:
+        found = math.nextafter(found, math.inf)
+    return found
+
+
+def float_below(q: Fraction) -> float:
+    """Return the largest float that is at most a rational number, as is its printed decimal.
+
+    Examples
+    --------
+    >>> float_below(Fraction(1, 3)), float_below(Fraction(-1, 10**400))
+    (0.3333333333333333, -5e-324)
+    """
+    return -float_above(-q)
+
+
+def _quotient(p: int, q: int) -> float:
+    try:
+        return p / q
+    except OverflowError:
+        return math.inf if p > 0 else -math.inf
+
+
+def matrix_from_float(
+    M: Any, rounding: Rounding = "decimal", *, where: str | None = None
+) -> Matrix:
+    """Convert a matrix of floats to a rational matrix.
+
+    Parameters
+    ----------
+    M : array_like, r × c
+        A real two-dimensional array, a sparse array of scipy, or a list of rows of numbers.
+        Integers, Fractions and matrices of this package do not change.
+    rounding : {"decimal", "dyadic"}
+        See `from_float`.
+    where : str, optional
+        The place to name in an error.
+
+    Raises
+    ------
+    InputError
+        The array is not a real two-dimensional one, or holds an infinity or NaN.
+
+    Examples
+    --------
+    >>> matrix_from_float([[0.1, 2.0]]).rows()
+    ((Fraction(1, 10), Fraction(2, 1)),)
+    """
+    if isinstance(M, Matrix):
+        return M
+    if is_sparse_array(M):
+        entries = entries_of(M, where, floats=True)
+        return Matrix.from_entries(
+            M.shape,
+            ((i, j, _exact(x, rounding, f"{where or ''}[{i}][{j}]")) for i, j, x in entries),
+        )
+    exact = [
+        [_exact(entry, rounding, f"{where or ''}[{i}][{j}]") for j, entry in enumerate(row)]
+        for i, row in enumerate(rows_of(M, where, floats=True))
+    ]
+    ncols = None if exact else int(getattr(M, "shape", (0, 0))[1])
+    return Matrix.from_rows(exact, ncols=ncols, where=where)
+
+
+def _exact(entry: Any, rounding: Rounding, where: str) -> Fraction | int:
+    """Convert one entry; an integer of any length does not change."""
+    kind = getattr(getattr(entry, "dtype", None), "kind", "")
+    if isinstance(entry, float) or kind == "f":
+        return from_float(entry, rounding, where=where)
+    if hasattr(entry, "__index__") and not isinstance(entry, bool) and kind != "b":
+        return int(entry.__index__())
+    if isinstance(entry, Fraction):
+        return as_fraction(entry, where=where)
+    raise InputError(f"expected a real number, found {type(entry).__name__}", where=where)
+
+
+def dyadic_matrix(M: Any, bits: int = 52) -> Matrix:
+    """Round a matrix to multiples of 2^−bits times its largest entry, up to a factor of 2.
+
+    Parameters
+    ----------
+    M : ndarray of float, r × c
+    bits : int
+
+    Returns
+    -------
+    Matrix
+        Its denominator is a power of 2; symmetric if M is.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> dyadic_matrix(np.array([[0.3, 1.0]]), bits=4).rows()
+    ((Fraction(1, 4), Fraction(1, 1)),)
+    """
+    import numpy as np
+
+    largest = float(np.max(np.abs(M), initial=0.0))
+    if largest == 0.0:
+        return Matrix.zeros(*M.shape)
+    exponent = bits - int(np.frexp(largest)[1])
+    whole = [list(map(int, row)) for row in np.round(np.ldexp(M, exponent)).tolist()]
+    return Matrix.from_integers(whole, ncols=M.shape[1]) * (Fraction(2) ** -exponent)
+
+
+def matrix_to_float(M: Matrix) -> npt.NDArray[np.float64]:
+    """Convert a rational matrix to the array of the floats nearest to its entries.
+
+    Entries beyond the range of floats become infinities.
+
+    Examples
+    --------
+    >>> matrix_to_float(Matrix.from_rows([[1, "1/4"]]))
+    array([[1.  , 0.25]])
+    """
+    import numpy as np
+
+    try:
+        table = np.array(M.numerators, dtype=np.int64).reshape(M.shape)
+    except OverflowError:
+        table = None
+    if table is not None and max(M.denominator, int(np.abs(table).max(initial=0))) <= _EXACT:
+        return table / np.float64(M.denominator)
+    entries = [[_quotient(entry, M.denominator) for entry in row] for row in M.numerators]
+    return np.array(entries, dtype=np.float64).reshape(M.shape)
+
+
+# Assembly of rational matrices from blocks.
+
+
+def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
+    """Return the matrix [M1 M2 …].
+
+    Parameters
+    ----------
+    matrices : sequence of Matrix
+        All with the same number of rows.
+    nrows : int, optional
+        This number, which is required if there may be no matrices.
+
+    Examples
+    --------
+    >>> hstack([Matrix.identity(2), Matrix.column([5, 6])]).numerators
+    ((1, 0, 5), (0, 1, 6))
+    >>> hstack([], nrows=2).shape
+    (2, 0)
+    """
+    height = _common(matrices, [M.nrows for M in matrices], nrows, "rows", "hstack")
+    width = sum(M.ncols for M in matrices)
+    if any(M.is_sparse for M in matrices):
+        left = offsets(M.ncols for M in matrices)
+        return _placed((height, width), [(M, 0, j) for M, j in zip(matrices, left, strict=False)])
+    tables, denominator = _over_one_denominator(matrices)
+    rows = [[entry for table in tables for entry in table[i]] for i in range(height)]
+    return from_numerators(rows, denominator, width)
+
+
+def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
+    """Return the matrix [M1; M2; …].
+
+    Parameters
+    ----------
+    matrices : sequence of Matrix
+        All with the same number of columns.
+    ncols : int, optional
+        This number, which is required if there may be no matrices.
+
+    Raises
+    ------
+    InputError
+        If the numbers of columns differ, or there are no matrices and no number.
+
+    Examples
+    --------
+    >>> vstack([Matrix.identity(2), Matrix.from_rows([[5, "1/2"]])]).rows()[2]
+    (Fraction(5, 1), Fraction(1, 2))
+    """
+    width = _common(matrices, [M.ncols for M in matrices], ncols, "columns", "vstack")
+    if any(M.is_sparse for M in matrices):
+        top = offsets(M.nrows for M in matrices)
+        shape = sum(M.nrows for M in matrices), width
+        return _placed(shape, [(M, i, 0) for M, i in zip(matrices, top, strict=False)])
+    tables, denominator = _over_one_denominator(matrices)
+    return from_numerators([row for table in tables for row in table], denominator, width)
+
+
+def block(rows: Sequence[Sequence[Matrix]]) -> Matrix:
+    """Return the matrix assembled from rows of blocks.
+
+    At least one row of blocks, each with at least one block.
+
+    Examples
+    --------
+    >>> I = Matrix.identity(1)
+    >>> block([[I, 2 * I], [3 * I, 4 * I]]).numerators
+    ((1, 2), (3, 4))
+    """
+    if not rows:
+        raise InputError("block: expected at least one row of blocks")
+    return vstack([hstack(row) for row in rows])
+
+
+def block_diagonal(matrices: Sequence[Matrix]) -> Matrix:
+    """Return the matrix diag(M1, M2, …); blocks may have no rows or no columns.
+
+    Examples
+    --------
+    >>> block_diagonal([Matrix.identity(1), Matrix.zeros(0, 2), Matrix.identity(1)]).numerators
+    ((1, 0, 0, 0), (0, 0, 0, 1))
+    """
+    top, left = offsets(M.nrows for M in matrices), offsets(M.ncols for M in matrices)
+    shape = sum(M.nrows for M in matrices), sum(M.ncols for M in matrices)
+    return _placed(shape, list(zip(matrices, top, left, strict=False)))
+
+
+def kronecker(A: Matrix, B: Matrix) -> Matrix:
+    """Return the Kronecker product, the block matrix of all a_ij B.
+
+    Examples
+    --------
+    >>> kronecker(Matrix.from_rows([[1, 2]]), Matrix.identity(2)).numerators
+    ((1, 0, 2, 0), (0, 1, 0, 2))
+    """
+    shape = A.nrows * B.nrows, A.ncols * B.ncols
+    small = list(B.nonzero())
+    found = {
+        (i * B.nrows + k) * shape[1] + j * B.ncols + l: a * b
+        for i, j, a in A.nonzero()
+        for k, l, b in small
+    }
+    cells = sorted(found)
+    return from_cells(shape, cells, map(found.__getitem__, cells), A.denominator * B.denominator)
+
+
+def _placed(shape: tuple[int, int], parts: Sequence[tuple[Matrix, int, int]]) -> Matrix:
+    """The matrix with each part at the place where its first row and column go, and zeros."""
+    require_sides(*shape)
+    denominator = math.lcm(*(M.denominator for M, _, _ in parts))
+    found = {
+        (top + i) * shape[1] + left + j: x * (denominator // M.denominator)
+        for M, top, left in parts
+        for i, j, x in M.nonzero()
+    }
+    cells = sorted(found)
+    return from_cells(shape, cells, map(found.__getitem__, cells), denominator)
+
+
+def offsets(sizes: Iterable[int]) -> list[int]:
+    """Where parts of these sizes begin, one after the other, and where the last one ends.
+
+    Examples
+    --------
+    >>> offsets([2, 0, 3])
+    [0, 2, 2, 5]
+    """
+    return [0, *accumulate(sizes)]
+
+
+def _common(
+    matrices: Sequence[Matrix], sizes: list[int], given: int | None, name: str, caller: str
+) -> int:
+    found = set(sizes) | (set() if given is None else {given})
+    if not found:
+        raise InputError(f"{caller}: expected at least one matrix, or the number of {name}")
+    if len(found) > 1:
+        raise InputError(f"{caller}: expected equal numbers of {name}, found {sorted(found)}")
+    return found.pop()
+
+
+def _over_one_denominator(matrices: Sequence[Matrix]) -> tuple[list[Rows], int]:
+    denominator = math.lcm(*(M.denominator for M in matrices))
+    return [(M * denominator).numerators for M in matrices], denominator

@@ -1,23 +1,221 @@
-"""Matrices modulo word-size primes, with which every exact decision computes first."""
+"""Matrices and polynomials modulo word-size primes, and rational reconstruction from residues."""
 
 from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from math import isqrt
 from typing import Any
 
 import flint
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.matrix_sizes import require_positions, require_sizes
-from mcexact.exact.modular_polynomial import ModularPolynomial as ModularPolynomial
-from mcexact.exact.modular_polynomial import polynomial_residues as polynomial_residues
-from mcexact.exact.prime_field import divides_denominator, require_prime
-from mcexact.exact.prime_field import primes as primes
-from mcexact.exact.prime_field import residue as residue
+from mcexact.exact.matrix import Matrix, require_positions, require_sizes
+from mcexact.exact.polynomial import Polynomial
+
+# Word-size primes, and rational numbers modulo them.
+
+# A product of two residues below 2**30 has two digits of a Python integer, so the checker, which
+# has # no library, is fast at such moduli; flint is fast at any modulus below 2**63.
+_BITS = 30
+
+
+@lru_cache(maxsize=1024)
+def _is_prime(ell: int) -> bool:
+    return bool(flint.fmpz(ell).is_prime())
+
+
+def require_prime(ell: int) -> None:
+    """Raise an error for a modulus for which flint would abort."""
+    if type(ell) is not int or not 2 <= ell < 2**63 or not _is_prime(ell):
+        raise InputError(f"expected a prime modulus below 2**63, found {ell!r}")
+
+
+def primes(seed: int, bits: int = _BITS) -> Iterator[int]:
+    """Yield primes with exactly this many bits, drawn from a seed, without end.
+
+    Parameters
+    ----------
+    seed : int
+        The same seed gives the same primes, on every machine.
+    bits : int
+        From 8 to 63.
+
+    Examples
+    --------
+    >>> stream = primes(7)
+    >>> all(2**29 < next(stream) < 2**30 for _ in range(5))
+    True
+    """
+    if not 8 <= bits <= 63:
+        raise InputError(f"expected primes of 8 to 63 bits, found {bits}")
+    rng = random.Random(seed)
+    while True:
+        candidate = rng.getrandbits(bits) | 1 << bits - 1 | 1
+        if flint.fmpz(candidate).is_prime():
+            yield candidate
+
+
+def long_prime(rng: random.Random, bits: int) -> int:
+    """Draw a prime with exactly this many bits, more than a machine word has."""
+    while True:
+        candidate = rng.getrandbits(bits) | 1 << bits - 1 | 1
+        if flint.fmpz(candidate).is_probable_prime() and flint.fmpz(candidate).is_prime():
+            return candidate
+
+
+def residue(q: Fraction | int, ell: int) -> int:
+    """A rational number modulo a prime that does not divide its denominator.
+
+    Examples
+    --------
+    >>> residue(Fraction(1, 2), 7)
+    4
+    """
+    if q.denominator % ell == 0:
+        raise divides_denominator(ell)
+    return q.numerator * pow(q.denominator, -1, ell) % ell
+
+
+def divides_denominator(ell: int) -> InputError:
+    return InputError(f"the modulus {ell} divides a denominator; draw another")
+
+
+# Polynomials modulo word-size primes.
+
+
+@dataclass(frozen=True, eq=False)
+class ModularPolynomial:
+    """A polynomial over the field with ℓ elements.
+
+    Attributes
+    ----------
+    modulus : int
+        A prime ℓ below 2**63.
+
+    Examples
+    --------
+    >>> p = ModularPolynomial.from_coefficients([-1, 0, 1], 7)
+    >>> p.degree, p.roots(), p.gcd(ModularPolynomial.from_coefficients([1, 1], 7)).coefficients
+    (2, [1, 6], (1, 1))
+    """
+
+    modulus: int
+    _poly: flint.nmod_poly
+
+    @classmethod
+    def from_coefficients(cls, coefficients: Iterable[int], modulus: int) -> ModularPolynomial:
+        """The polynomial with integer coefficients, constant term first, reduced modulo ℓ."""
+        require_prime(modulus)
+        return cls(modulus, flint.nmod_poly([int(c) % modulus for c in coefficients], modulus))
+
+    @cached_property
+    def coefficients(self) -> tuple[int, ...]:
+        """Residues from 0 to ℓ − 1, constant term first, the last one not 0."""
+        return tuple(map(int, self._poly.coeffs()))
+
+    @property
+    def degree(self) -> int:
+        """The degree; −1 for 0."""
+        return int(self._poly.degree())
+
+    def __call__(self, value: int) -> int:
+        """The value at a residue."""
+        return int(self._poly(value % self.modulus))
+
+    def _same(self, other: ModularPolynomial) -> None:
+        if self.modulus != other.modulus:
+            raise InputError(f"moduli do not match: {self.modulus} and {other.modulus}")
+
+    def __add__(self, other: ModularPolynomial) -> ModularPolynomial:
+        self._same(other)
+        return ModularPolynomial(self.modulus, self._poly + other._poly)
+
+    def __sub__(self, other: ModularPolynomial) -> ModularPolynomial:
+        self._same(other)
+        return ModularPolynomial(self.modulus, self._poly - other._poly)
+
+    def __mul__(self, other: ModularPolynomial) -> ModularPolynomial:
+        self._same(other)
+        return ModularPolynomial(self.modulus, self._poly * other._poly)
+
+    def __divmod__(self, other: ModularPolynomial) -> tuple[ModularPolynomial, ModularPolynomial]:
+        self._same(other)
+        if other.degree < 0:
+            raise ZeroDivisionError("division by the zero polynomial")
+        quotient, remainder = divmod(self._poly, other._poly)
+        return (
+            ModularPolynomial(self.modulus, quotient),
+            ModularPolynomial(self.modulus, remainder),
+        )
+
+    def __floordiv__(self, other: ModularPolynomial) -> ModularPolynomial:
+        return divmod(self, other)[0]
+
+    def __mod__(self, other: ModularPolynomial) -> ModularPolynomial:
+        return divmod(self, other)[1]
+
+    def gcd(self, other: ModularPolynomial) -> ModularPolynomial:
+        """The monic greatest common divisor; 0 only of two zeros."""
+        self._same(other)
+        return ModularPolynomial(self.modulus, self._poly.gcd(other._poly))
+
+    def inverse_modulo(self, other: ModularPolynomial) -> ModularPolynomial | None:
+        """The inverse modulo another polynomial; None if they have a common factor."""
+        self._same(other)
+        divisor, inverse, _ = self._poly.xgcd(other._poly)
+        return ModularPolynomial(self.modulus, inverse) if divisor.degree() == 0 else None
+
+    def divides(self, other: ModularPolynomial) -> bool:
+        """Whether other is a multiple of this polynomial."""
+        if self.degree < 0:
+            return other.degree < 0
+        return (other % self).degree < 0
+
+    def multiplicity_in(self, other: ModularPolynomial) -> int:
+        """The largest e with this polynomial, of degree ≥ 1, to the e dividing other, not 0."""
+        if self.degree < 1 or other.degree < 0:
+            raise InputError("expected a divisor of degree at least 1 and a nonzero polynomial")
+        count = 0
+        quotient, remainder = divmod(other, self)
+        while remainder.degree < 0:
+            count += 1
+            quotient, remainder = divmod(quotient, self)
+        return count
+
+    def roots(self) -> list[int]:
+        """The distinct roots in the field with ℓ elements, ascending."""
+        if self.degree < 0:
+            raise InputError("expected a nonzero polynomial: every residue is a root of 0")
+        if self.degree == 0:
+            return []
+        return sorted(int(root) for root, _ in self._poly.roots())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ModularPolynomial):
+            return NotImplemented
+        return self.modulus == other.modulus and self.coefficients == other.coefficients
+
+    def __hash__(self) -> int:
+        return hash((self.modulus, self.coefficients))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return ModularPolynomial.from_coefficients, (self.coefficients, self.modulus)
+
+    def __repr__(self) -> str:
+        return f"ModularPolynomial({list(self.coefficients)}, modulus={self.modulus})"
+
+
+def polynomial_residues(p: Polynomial, ell: int) -> ModularPolynomial:
+    """A rational polynomial modulo a prime that divides no denominator of its coefficients."""
+    return ModularPolynomial.from_coefficients([residue(c, ell) for c in p.coefficients], ell)
+
+
+# Matrices modulo word-size primes, with which every exact decision computes first.
 
 
 @dataclass(frozen=True, eq=False)
@@ -325,3 +523,99 @@ def low_rank_update(
     if not B.ncols or not C.nrows:
         return A
     return A + (B @ F) @ C if B.ncols > C.nrows else A + B @ (F @ C)
+
+
+# Rational numbers from their residues: Chinese remainders and rational reconstruction.
+
+
+def combine(
+    first: Sequence[Sequence[int]], modulus: int, second: Sequence[Sequence[int]], ell: int
+) -> list[list[int]]:
+    """Compute residues modulo ``modulus·ell`` that agree with both tables of residues.
+
+    Parameters
+    ----------
+    first : rows of int
+        Residues modulo ``modulus``.
+    modulus, ell : int
+        Coprime.
+    second : rows of int
+        Residues modulo ``ell``, the same shape as ``first``.
+
+    Examples
+    --------
+    >>> combine([[2]], 3, [[3]], 5)
+    [[8]]
+    """
+    inverse = pow(modulus, -1, ell)
+    return [
+        [a + modulus * ((b - a) * inverse % ell) for a, b in zip(row, other, strict=True)]
+        for row, other in zip(first, second, strict=True)
+    ]
+
+
+def rational(residue: int, modulus: int, bound: int) -> tuple[int, int] | None:
+    """Find the fraction p/q with |p| ≤ bound, 0 < q ≤ bound, p ≡ q·residue, if it exists.
+
+    Examples
+    --------
+    >>> rational(pow(7, -1, 10007) * 3 % 10007, 10007, 70)
+    (3, 7)
+    """
+    r0, r1, s0, s1 = modulus, residue % modulus, 0, 1
+    while r1 > bound:
+        quotient = r0 // r1
+        r0, r1 = r1, r0 - quotient * r1
+        s0, s1 = s1, s0 - quotient * s1
+    if s1 == 0 or abs(s1) > bound:
+        return None
+    return (r1, s1) if s1 > 0 else (-r1, -s1)
+
+
+def rationals(rows: Sequence[Sequence[int]], modulus: int) -> tuple[list[list[int]], int] | None:
+    """Find numerators over one denominator with the given residues; None if an entry has none.
+
+    Returns
+    -------
+    numerators : rows of int
+    denominator : int
+        At least 1.
+
+    Notes
+    -----
+    The result must be verified: residues determine only entries whose numerator and denominator are
+    below √(modulus/2).  The denominators found so far are tried first, since the entries of one
+    matrix mostly share them.
+
+    Examples
+    --------
+    >>> rationals([[pow(2, -1, 101), 100]], 101)
+    ([[1, -2]], 2)
+    """
+    bound = isqrt(modulus // 2)
+    denominator = 1
+    numerators: list[list[tuple[int, int]]] = []
+    for row in rows:
+        found: list[tuple[int, int]] = []
+        for value in row:
+            if value == 0:
+                found.append((0, 1))
+                continue
+            scaled = value * denominator % modulus
+            if 2 * scaled > modulus:
+                scaled -= modulus
+            if -bound <= scaled <= bound:
+                found.append((scaled, denominator))
+                continue
+            guess = rational(value * denominator, modulus, bound)
+            if guess is None:
+                return None
+            denominator *= guess[1]
+            found.append((guess[0], denominator))
+        numerators.append(found)
+    return [[p * (denominator // q) for p, q in found] for found in numerators], denominator
+
+
+def integers(residues: Sequence[int], modulus: int) -> list[int]:
+    """The representatives in −modulus/2 … modulus/2."""
+    return [value - modulus if 2 * value > modulus else value for value in residues]

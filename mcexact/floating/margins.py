@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mcexact.exact.floats import to_float
-from mcexact.exact.location import StabilityRegion, is_discrete
+from mcexact.exact.matrix import to_float
+from mcexact.exact.roots import StabilityRegion, is_discrete
 
 Array = NDArray[np.float64]
 

@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix, from_cells
-from mcexact.exact.shortened import approximated
+from mcexact.exact.rational import approximated
+from mcexact.model.radii import Radii, typed_radii
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii, typed_radii
 from mcexact.shown import Shown
 
 _FINE = 2**20

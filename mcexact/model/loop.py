@@ -6,14 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import solve
-from mcexact.exact.location import steady_point
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.roots import steady_point
 from mcexact.model.controller import Controller, LinearMap
-from mcexact.model.linked_system import with_links
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, require_discrete
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, require_discrete, with_links
 
 
 @dataclass(frozen=True, eq=False)

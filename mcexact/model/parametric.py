@@ -11,20 +11,26 @@ from typing import Any, ClassVar
 
 from mcexact.arguments import told
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.function_matrix import FunctionMatrix
-from mcexact.exact.location import require_time
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction, rational_text, written
-from mcexact.exact.rational_function import RationalFunction
-from mcexact.model.canonical import canonical
-from mcexact.model.channel import ByChannel, Channel, channels_of
-from mcexact.model.expression import checked_parameter
-from mcexact.model.function_entry import as_function, as_functions
-from mcexact.model.matrix_entry import require_square
-from mcexact.model.matrix_json import matrix_json
-from mcexact.model.names import checked_text, nearest, quoted
-from mcexact.model.system import Construction, MultiChannelSystem
-from mcexact.model.system_forms import SystemForms
+from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
+from mcexact.exact.roots import require_time
+from mcexact.model.entries import (
+    as_function,
+    as_functions,
+    checked_parameter,
+    matrix_json,
+    require_square,
+)
+from mcexact.model.system import (
+    ByChannel,
+    Channel,
+    Construction,
+    MultiChannelSystem,
+    SystemForms,
+    channels_of,
+)
+from mcexact.model.text import canonical, checked_text, nearest, quoted
 
 Range = tuple[Fraction | None, Fraction | None]
 """The least and the largest value of a parameter; None where there is none."""

@@ -1,4 +1,4 @@
-"""Conversion of python-control systems to plants with channels, and to closed loops."""
+"""Conversion from and to python-control, and sampling."""
 
 from __future__ import annotations
 
@@ -7,12 +7,29 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.arguments import several
-from mcexact.errors import InputError
-from mcexact.exact.floats import Rounding, from_float, matrix_from_float
-from mcexact.exact.matrix import Matrix
-from mcexact.model.names import nearest, quoted
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.errors import FloatRefused, InputError, MissingExtra, UsageError
+from mcexact.exact.balls import exponential
+from mcexact.exact.matrix import (
+    Matrix,
+    Rounding,
+    as_requested,
+    from_float,
+    hstack,
+    matrix_from_float,
+    matrix_to_float,
+    to_float,
+    vstack,
+)
+from mcexact.exact.rational import Entry, rational_text
+from mcexact.exact.roots import is_discrete
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.entries import as_matrix, require_shape, require_square
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.system import MultiChannelSystem, with_links
+from mcexact.model.text import nearest, quoted
+
+# Conversion of python-control systems to plants with channels, and to closed loops.
 
 Signals = int | str | Iterable[int | str]
 """One signal or several, each by its position or its label."""
@@ -220,3 +237,333 @@ def _position(signal: int | str, known: list[str], count: int, place: str) -> in
     if not 0 <= signal < count:
         raise InputError(f"expected positions 0 … {count - 1}, found {signal}", where=place)
     return int(signal)
+
+
+# Conversion of plants, controllers and closed loops to systems of python-control.
+
+Parts = tuple[Matrix, Matrix, Matrix, Matrix]
+
+
+def to_statespace(subject: Any, plant: MultiChannelSystem | None = None) -> Any:
+    """Convert a plant, a controller or a closed loop to a state-space system of python-control.
+
+    Parameters
+    ----------
+    subject : MultiChannelSystem, Controller, ClosedLoop, CertifiedLoop or Design
+        - A system gets the inputs ``u[…]`` and the outputs ``y[…]`` of all channels.
+        - A controller gets the inputs ``y[…]`` of all agents, then the set-points ``r[…]`` if it
+          uses some, and the outputs ``u[…]``.  The sign is u = +K y, as everywhere here:
+          ``control.feedback(P, K, sign=1)`` closes the loop.
+        - A closed loop gets the inputs ``d[…]``, which are added to the agents' inputs u, then the
+          set-points, and the outputs ``y[…]``.
+    plant : MultiChannelSystem, optional
+        The system that a controller is for, with its neighbor graph and delays.
+
+    Returns
+    -------
+    control.StateSpace
+        A signal is labeled by its channel, such as ``u[pump]``, or ``u[pump,0]`` if the channel has
+        several.  In discrete time ``dt`` is the plant's sample time, or True.
+
+    Raises
+    ------
+    UsageError
+        If it is something else, or a controller without its plant.
+    MissingExtra
+        If python-control is not installed.
+
+    Notes
+    -----
+    python-control computes in floating point, so that every entry is rounded to the nearest float.
+    `from_statespace` and `loop_from_statespace` convert back, by a rounding of your choice.  A link
+    with delays makes the messages under way states of the controller.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> tanks = to_statespace(gallery.load("quadruple-tank-pminus"))
+    >>> tanks.nstates, tanks.input_labels
+    (4, ['u[1]', 'u[2]'])
+    """
+    loop = getattr(subject, "loop", subject)
+    loop = getattr(loop, "closed", loop)
+    if isinstance(loop, ClosedLoop):
+        return _statespace(loop.given, _of_loop(loop), ("d", "r")[: 1 + _tracks(loop)], ("y",))
+    if isinstance(subject, MultiChannelSystem):
+        B, C = subject.input_matrix(), subject.output_matrix()
+        parts = subject.A, B, C, Matrix.zeros(C.nrows, B.ncols)
+        return _statespace(subject, parts, ("u",), ("y",))
+    if isinstance(subject, Controller):
+        if plant is None:
+            raise UsageError("a controller needs its plant: write to_statespace(controller, plant)")
+        alone = _without_dynamics(plant, subject)
+        parts = _of_controller(alone)
+        return _statespace(plant, parts, ("y", "r")[: 1 + _tracks(alone)], ("u",))
+    raise UsageError(
+        "expected a MultiChannelSystem, a Controller, a closed loop or a Design, "
+        f"found {type(subject).__name__}"
+    )
+
+
+def _tracks(loop: ClosedLoop) -> int:
+    """1 if the controller uses set-points, otherwise 0."""
+    maps = (each for agent in loop.controller.agents for each in agent.maps())
+    return int(any(each.without_zeros().reference is not None for each in maps))
+
+
+def _of_loop(loop: ClosedLoop) -> Parts:
+    """The loop from disturbances of all inputs, and set-points if it has some, to all outputs."""
+    given, N = loop.given, loop.dimension
+    disturbed = given.input_matrix()
+    B = vstack([disturbed, Matrix.zeros(N - given.n, disturbed.ncols)], ncols=disturbed.ncols)
+    if _tracks(loop):
+        B = hstack([B, loop.reference], nrows=N)
+    C = given.output_matrix() @ loop.pick("x")
+    return loop.matrix, B, C, Matrix.zeros(C.nrows, B.ncols)
+
+
+def _without_dynamics(plant: MultiChannelSystem, controller: Controller) -> ClosedLoop:
+    """The loop of a controller and a plant whose state is its outputs, which no input changes.
+
+    The rows of its matrix below this state are the controller's equations, over the outputs of the
+    plant and the states of the agents.
+    """
+    plant, graph = with_links(plant)
+    counts = [plant.q(i) for i in range(plant.m)]
+    eye, starts = Matrix.identity(sum(counts)), [sum(counts[:i]) for i in range(plant.m)]
+    outputs = MultiChannelSystem(
+        Matrix.zeros(sum(counts), sum(counts)),
+        [Matrix.zeros(sum(counts), plant.p(i)) for i in range(plant.m)],
+        [eye.take(rows=range(start, start + q)) for start, q in zip(starts, counts, strict=True)],
+        time=plant.time,
+        names=plant.names,
+        neighbors=plant.neighbors,
+    )
+    return closed_loop(outputs, controller, graph)
+
+
+def _of_controller(loop: ClosedLoop) -> Parts:
+    """The controller from all outputs, and set-points if it uses some, to all inputs."""
+    agents, given = loop.controller.agents, loop.given
+    signals, states = range(given.n), range(given.n, loop.dimension)
+    used = vstack(
+        [loop.rows(agent.input, i, given.p(i)) for i, agent in enumerate(agents)],
+        ncols=loop.dimension,
+    )
+    B, D = loop.matrix.take(rows=states, cols=signals), used.take(cols=signals)
+    if _tracks(loop):
+        direct = [
+            _spread(agent.input.reference, i, given.p(i), given) for i, agent in enumerate(agents)
+        ]
+        B = hstack([B, loop.reference.take(rows=states)], nrows=len(states))
+        D = hstack([D, vstack(direct, ncols=given.n)], nrows=D.nrows)
+    return loop.matrix.take(rows=states, cols=states), B, used.take(cols=states), D
+
+
+def _spread(M: Matrix | None, i: int, nrows: int, given: MultiChannelSystem) -> Matrix:
+    """The coefficients of r_i as coefficients of all set-points."""
+    parts = [Matrix.zeros(nrows, given.q(j)) for j in range(given.m)]
+    if M is not None:
+        parts[i] = M
+    return hstack(parts, nrows=nrows)
+
+
+def _statespace(
+    plant: MultiChannelSystem, parts: Parts, inputs: Sequence[str], outputs: Sequence[str]
+) -> Any:
+    """Make the system of python-control, with labels and the time domain of the plant."""
+    with MissingExtra.named("control"):
+        import control
+
+    dt: Any = 0
+    if is_discrete(plant.time):
+        dt = True if plant.sample_time is None else to_float(plant.sample_time)
+    return control.ss(
+        *(matrix_to_float(part) for part in parts),
+        dt,
+        inputs=[label for letter in inputs for label in _labels(letter, plant)],
+        outputs=[label for letter in outputs for label in _labels(letter, plant)],
+        name=plant.name or None,
+    )
+
+
+def _labels(letter: str, plant: MultiChannelSystem) -> list[str]:
+    """The labels of the inputs (u, d) or of the outputs and set-points (y, r) of all channels."""
+    size = plant.p if letter in "ud" else plant.q
+    return [
+        f"{letter}[{name}]" if size(i) == 1 else f"{letter}[{name},{k}]"
+        for i, name in enumerate(plant.names)
+        for k in range(size(i))
+    ]
+
+
+# Decentralized controllers from matrices or python-control systems, one for each channel.
+
+
+def local_controllers(
+    system: MultiChannelSystem, parts: Sequence[Any], *, rounding: Rounding | None = None
+) -> Controller:
+    """Make a controller from local controllers z_i' = A z_i + B y_i, u_i = C z_i + D y_i.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        m channels.
+    parts : sequence of m parts
+        Each part is four matrices (A, B, C, D) of shapes k×k, k×q_i, p_i×k and p_i×q_i; or a
+        `control.StateSpace`; or one matrix D, a static gain.  The sign is u_i = +K y_i: negate a
+        controller made for negative feedback.
+    rounding : {"decimal", "dyadic"}, optional
+        How floats become exact numbers; required if there are floats.
+
+    Returns
+    -------
+    Controller
+
+    Raises
+    ------
+    InputError
+        If a shape or the number of parts is not as expected, or there are floats and no rounding.
+
+    Examples
+    --------
+    >>> from mcexact.model.loop import closed_loop
+    >>> plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+    >>> controller = local_controllers(plant, [([[-5]], [[1]], [[-6]], [[0]])])
+    >>> closed_loop(plant, controller).matrix.numerators
+    ((0, -6), (1, -5))
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    parts = several(parts, "parts", "controllers, one for each channel")
+    if len(parts) != system.m:
+        raise InputError(f"expected {system.m} controllers, found {len(parts)}", where="parts")
+    agents = tuple(
+        _program(system, i, part, f"parts[{i}]", rounding) for i, part in enumerate(parts)
+    )
+    return Controller(system.time, system.digest_of_values(), agents)
+
+
+def _program(
+    system: MultiChannelSystem, i: int, part: Any, where: str, rounding: Rounding | None
+) -> AgentProgram:
+    """Make the program of agent i, whose state is private."""
+    p, q = system.p(i), system.q(i)
+    if all(hasattr(part, name) for name in ("A", "B", "C", "D", "dt")):
+        time, _ = sampling(part.dt, "decimal")
+        if time != system.time:
+            raise InputError(f"the controller is in {time} time", where=where)
+        given: tuple[Any, ...] = (part.A, part.B, part.C, part.D)
+    elif isinstance(part, tuple) and len(part) == 4:
+        given = part
+    elif isinstance(part, tuple):
+        raise InputError(f"expected (A, B, C, D), found {len(part)} matrices", where=where)
+    else:
+        given = ((), Matrix.zeros(0, q), Matrix.zeros(p, 0), part)
+
+    def matrix(k: int, ncols: int | None = None) -> Matrix:
+        value, place = given[k], f"{where}.{'ABCD'[k]}"
+        empty = hasattr(value, "__len__") and not len(value)
+        if rounding is not None and not empty and not isinstance(value, Matrix):
+            return matrix_from_float(value, rounding, where=place)
+        try:
+            return as_matrix(value, place, ncols=ncols)
+        except FloatRefused:
+            raise FloatRefused(
+                'a float is not exact: give local_controllers the rounding "decimal", which reads '
+                '0.1 as 1/10, or "dyadic", which takes the binary value',
+                where=place,
+            ) from None
+
+    A = require_square(matrix(0), f"{where}.A")
+    k = A.nrows
+    B = require_shape(matrix(1, q), f"{where}.B", k, q)
+    C = require_shape(matrix(2, k), f"{where}.C", p, k)
+    D = require_shape(matrix(3, q), f"{where}.D", p, q)
+    return AgentProgram(
+        system.names[i],
+        0,
+        k,
+        private_update=LinearMap({i: B}, private=A).without_zeros(),
+        input=LinearMap({i: D}, private=C).without_zeros(),
+    )
+
+
+# Plants in continuous time, sampled.
+
+DECIMALS = 12
+
+
+def c2d(system: MultiChannelSystem, step: Entry, *, decimals: int = DECIMALS) -> MultiChannelSystem:
+    """Sample a plant whose inputs are held between samples.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant in continuous time.
+    step : rational or float
+        The time h between samples; 0.1 stands for 1/10.
+    decimals : int
+        To which the matrix exponential is rounded.
+
+    Returns
+    -------
+    MultiChannelSystem
+        x(t+h) = A_h x + Σ B_{i,h} u_i with exact data, which are the rounded entries of::
+
+                ⎡ A  B ⎤     ⎡ A_h  B_h ⎤
+            exp ⎣ 0  0 ⎦ h = ⎣ 0     I  ⎦
+
+        Outputs, names and neighbors stay.  ``source`` states the rounding.  Whatever is decided
+        about this plant is decided about the rounded one.  Radii of entries are not carried over,
+        which ``source`` states, too: every entry of A_h and B_h depends on many of A and B.
+
+    Raises
+    ------
+    UsageError
+        If the system is in discrete time or no plant, the step is not above 0, or the number of
+        decimals is not from 0 to 1000.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+    >>> sampled = c2d(plant, "1/10")
+    >>> sampled.A.rows()[0], sampled.B(0).rows()
+    ((Fraction(1, 1), Fraction(1, 10)), ((Fraction(1, 200),), (Fraction(1, 10),)))
+    >>> print(sampled.source)
+    sampled every 1/10 with inputs held; every entry of A and B differs from the exact one by at \
+most 0.51e-12
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    if is_discrete(system.time):
+        raise UsageError("the system is in discrete time already", where="system")
+    if system.subject:
+        raise UsageError("expected a plant, found a derived system", where="system")
+    h = as_requested(step, where="step")
+    if h <= 0:
+        raise UsageError(f"expected a time above 0, found {rational_text(h)}", where="step")
+    if type(decimals) is not int or not 0 <= decimals <= 1000:
+        raise UsageError(f"expected 0 to 1000 decimals, found {decimals!r}", where="decimals")
+    n, B = system.n, system.input_matrix()
+    upper = hstack([system.A, B]) * h
+    found = exponential(vstack([upper, Matrix.zeros(B.ncols, n + B.ncols)]), decimals)
+    rows, inputs, start = range(n), list[Matrix](), n
+    for i in range(system.m):
+        inputs.append(found.take(rows=rows, cols=range(start, start + system.p(i))))
+        start += system.p(i)
+    told = (
+        f"sampled every {rational_text(h)} with inputs held; every entry of A and B differs from "
+        f"the exact one by at most 0.51e-{decimals}"
+    )
+    if system.uncertainty is not None:
+        told += "; the values were sampled, and the radii of uncertain entries not carried over"
+    return MultiChannelSystem(
+        found.take(rows=rows, cols=range(n)),
+        inputs,
+        [system.C(i) for i in range(system.m)],
+        time="discrete",
+        names=system.names,
+        neighbors=system.neighbors,
+        sample_time=h if system.sample_time is None else system.sample_time,
+        name=system.name,
+        source=told if system.source is None else f"{system.source}; {told}",
+    )

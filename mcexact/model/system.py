@@ -1,29 +1,459 @@
-"""Multi-channel systems, the subject of everything else in this package."""
+"""Multi-channel systems, their channels, and their forms."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from itertools import accumulate
 from math import lcm
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Generic, Self, SupportsIndex, TypeVar, overload
 
+from mcexact import shown
+from mcexact.arguments import several, told
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.floats import Rounding, matrix_from_float
-from mcexact.exact.location import is_discrete, require_time
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import as_fraction
-from mcexact.model.canonical import canonical
-from mcexact.model.channel import ByChannel, Channel, channels_of, listed_matrices
-from mcexact.model.matrix_entry import as_table, require_square
-from mcexact.model.matrix_json import canonical_matrix_text, number_json
-from mcexact.model.names import checked_text, quoted
-from mcexact.model.neighbor_graph import NeighborGraph, graph_for
-from mcexact.model.system_forms import SystemForms
-from mcexact.model.uncertainty import Radii
-from mcexact.shown import LINE, fitting
+from mcexact.exact.matrix import Matrix, Rounding, hstack, matrix_from_float, vstack
+from mcexact.exact.rational import as_fraction, rational_text
+from mcexact.exact.rational_functions import FunctionMatrix
+from mcexact.exact.roots import is_discrete, require_time
+from mcexact.model.entries import (
+    Shaped,
+    Table,
+    as_matrix,
+    as_table,
+    canonical_matrix_text,
+    number_json,
+    require_shape,
+    require_square,
+)
+from mcexact.model.graph import NeighborGraph, graph_for
+from mcexact.model.radii import Radii
+from mcexact.model.text import (
+    canonical,
+    checked_names,
+    checked_text,
+    nearest,
+    numbers_of_any_length,
+    quoted,
+    sha256,
+)
+from mcexact.shown import LINE, Shown, fitting, latex, table, words
+
+# The matrices B_i or C_i of all channels, by position or by name.
+
+AnyMatrix = TypeVar("AnyMatrix", bound=Shaped)
+
+
+def position(name: str, names: Sequence[str]) -> int:
+    """Return the position of a channel.
+
+    Raises
+    ------
+    UsageError
+        If no channel has this name.
+    """
+    if not isinstance(name, str) or name not in names:
+        raise UsageError(
+            f"there is no channel {told(name)}{nearest(str(name), names)}; "
+            f"the channels are {', '.join(map(quoted, names))}"
+        )
+    return names.index(name)
+
+
+class ChannelMatrices(tuple[AnyMatrix, ...]):
+    """One matrix for each channel: ``B[0]``, ``B["pump"]`` and ``B(0)`` are the same.
+
+    Parameters
+    ----------
+    matrices : iterable of matrices
+    names : tuple of str
+        The channels, in order.
+
+    Examples
+    --------
+    >>> from mcexact.exact.matrix import Matrix
+    >>> B = ChannelMatrices([Matrix.identity(1), Matrix.zeros(1, 2)], ("pump", "valve"))
+    >>> B["valve"].shape, B[1] == B(1), len(B)
+    ((1, 2), True, 2)
+    """
+
+    names: tuple[str, ...]
+
+    def __new__(
+        cls, matrices: Iterable[AnyMatrix], names: tuple[str, ...]
+    ) -> ChannelMatrices[AnyMatrix]:
+        made = super().__new__(cls, matrices)
+        made.names = names
+        return made
+
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        return tuple(self), self.names
+
+    @overload
+    def __getitem__(self, channel: SupportsIndex | str) -> AnyMatrix: ...
+
+    @overload
+    def __getitem__(self, channel: slice) -> tuple[AnyMatrix, ...]: ...
+
+    def __getitem__(self, channel: Any) -> Any:
+        """Return the matrix of a channel, which is given by its position from 0, or its name."""
+        if isinstance(channel, str):
+            channel = position(channel, self.names)
+        return super().__getitem__(channel)
+
+    def __call__(self, channel: int | str) -> AnyMatrix:
+        """Return the matrix of a channel."""
+        return super().__getitem__(channel) if type(channel) is int else self[channel]
+
+    def __repr__(self) -> str:
+        whole = super().__repr__()
+        if len(whole) <= shown.LINE:
+            return whole
+        sizes = ", ".join(f"{each.shape[0]} × {each.shape[1]}" for each in self[:8])
+        return f"<matrices of {len(self)} channels: {sizes}{', …' if len(self) > 8 else ''}>"
+
+    def _repr_html_(self) -> str:
+        return shown.framed(shown.grid(["channel", ""], zip(self.names, self, strict=True)))
+
+
+# Channels by position and by name: what systems of numbers and of functions have in common.
+
+M = TypeVar("M", Matrix, FunctionMatrix)
+
+
+@dataclass(frozen=True, repr=False)
+class Channel(Shown, Generic[M]):
+    """One channel: the agent's name, B_i (n×p_i) and C_i (q_i×n)."""
+
+    name: str
+    B: M
+    C: M
+
+    def __repr__(self) -> str:
+        return fitting(f"Channel({quoted(self.name)}, B={self.B!r}, C={self.C!r})")
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the name and the matrices."""
+        yield from vars(self).items()
+
+
+class ByChannel(Generic[M]):
+    """The sizes and the channels of a system with a matrix A and channels."""
+
+    A: M
+    channels: tuple[Channel[M], ...]
+
+    @property
+    def n(self) -> int:
+        """The number of states."""
+        return self.A.nrows
+
+    @property
+    def m(self) -> int:
+        """The number of channels."""
+        return len(self.channels)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the channels, in order."""
+        return tuple(channel.name for channel in self.channels)
+
+    @cached_property
+    def sizes(self) -> tuple[tuple[int, int], ...]:
+        """The numbers (p_i, q_i) of inputs and outputs of each channel."""
+        return tuple([(channel.B.ncols, channel.C.nrows) for channel in self.channels])
+
+    @cached_property
+    def B(self) -> ChannelMatrices[M]:
+        """The B_i, n×p_i: ``B[0]`` or ``B["1"]`` is that of the first channel."""
+        return ChannelMatrices((channel.B for channel in self.channels), self.names)
+
+    @cached_property
+    def C(self) -> ChannelMatrices[M]:
+        """The C_i, q_i×n: ``C[0]`` or ``C["1"]`` is that of the first channel."""
+        return ChannelMatrices((channel.C for channel in self.channels), self.names)
+
+    def p(self, i: int) -> int:
+        """Return p_i, the number of inputs of channel i."""
+        return self.channels[i].B.ncols
+
+    def q(self, i: int) -> int:
+        """Return q_i, the number of outputs of channel i."""
+        return self.channels[i].C.nrows
+
+    def index(self, name: str) -> int:
+        """Return the position of a channel.
+
+        Raises
+        ------
+        UsageError
+            If no channel has this name.
+        """
+        return position(name, self.names)
+
+    def indices(self, names: Iterable[str]) -> tuple[int, ...]:
+        """Return the positions of some channels, in the order of the system.
+
+        Raises
+        ------
+        UsageError
+            If no channel has one of the names.
+        InputError
+            If a single name is given instead of a list.
+        """
+        return tuple(sorted({self.index(name) for name in several(names, "channels")}))
+
+    def named(self, channels: Iterable[int]) -> tuple[str, ...]:
+        """Return the names of some channels, in the order of the system.
+
+        Examples
+        --------
+        >>> from mcexact import MultiChannelSystem
+        >>> ones = [[[1]], [[1]]]
+        >>> system = MultiChannelSystem([[0]], ones, ones, names=["left", "right"])
+        >>> system.named([1, 0])
+        ('left', 'right')
+        """
+        return tuple(self.channels[i].name for i in sorted(set(channels)))
+
+
+def listed_matrices(value: Any, where: str) -> list[Any]:
+    """Return the matrices of all channels as a list.
+
+    Raises
+    ------
+    InputError
+        If it is one matrix, or no list.
+    """
+    if _is_one_matrix(value):
+        raise InputError(
+            "expected a list of matrices, one for each channel, found one matrix: write "
+            f"[{where}] for one channel, or from_stacked(A, B, C, sizes) for several",
+            where=where,
+        )
+    one = isinstance(value, (str, bytes, Mapping))
+    if one or not hasattr(value, "__iter__"):
+        raise InputError(
+            f"expected a list of matrices, one for each channel, found {type(value).__name__}",
+            where=where,
+        )
+    return list(value)
+
+
+def _is_one_matrix(value: Any) -> bool:
+    """Whether a value is a matrix, and no list of matrices: its rows hold numbers."""
+    if isinstance(value, (Matrix, FunctionMatrix)) or getattr(value, "ndim", 0) == 2:
+        return True
+    row = value[0] if isinstance(value, (list, tuple)) and value else None
+    return isinstance(row, (list, tuple)) and any(
+        isinstance(entry, str) or not hasattr(entry, "__iter__") for entry in row
+    )
+
+
+def channels_of(
+    n: int,
+    B: Sequence[Any],
+    C: Sequence[Any],
+    names: Sequence[str] | None,
+    table: Callable[[Any, str, int | None], Table[M]],
+) -> tuple[Channel[M], ...]:
+    """Make the channels of matrices, whose shapes are compared before their entries are read.
+
+    Parameters
+    ----------
+    n : int
+    B, C : sequences of matrix-like values
+    names : sequence of str, optional
+        By default "1", "2", ….
+    table : callable
+        The shape of a value with its place, and of one without rows its number of columns.
+
+    Raises
+    ------
+    InputError
+        If there are no channels, or a number, a name or a shape is not as expected.
+    """
+    B, C = listed_matrices(B, "B"), listed_matrices(C, "C")
+    m = len(B)
+    if m != len(C):
+        raise InputError(f"expected as many matrices as in B, {m}, found {len(C)}", where="C")
+    if not m:
+        raise InputError("expected at least one channel, found none", where="B")
+    labels = [str(i + 1) for i in range(m)] if names is None else several(names, "names")
+    if len(labels) != m:
+        raise InputError(f"expected {m} names, found {len(labels)}", where="names")
+    checked = checked_names(labels, [f"names[{i}]" for i in range(m)])
+    tables = [
+        (
+            require_shape(table(B[i], f"B[{i}]", None), f"B[{i}]", n, None),
+            require_shape(table(C[i], f"C[{i}]", n), f"C[{i}]", None, n),
+        )
+        for i in range(m)
+    ]
+    return tuple(
+        Channel(name, B_i.matrix(), C_i.matrix())
+        for name, (B_i, C_i) in zip(checked, tables, strict=True)
+    )
+
+
+# Forms of a multi-channel system: words, a table for notebooks, and plain data.
+
+FORMAT = "mcexact-system/1"
+_MOST_CHANNELS = 12
+
+
+class SystemForms(Shown):
+    """The display of systems of numbers and of functions."""
+
+    def explain(self: Any) -> str:
+        """Say in plain words what the system is: sizes, equations, channels and links."""
+        return "\n".join(_sentences(self))
+
+    def _labeled(self: Any) -> Iterator[tuple[str, Any]]:
+        """Yield the matrices, and the other attributes that are set."""
+        if self.subject:
+            yield "made by", ", ".join(each["construction"] for each in self.subject)
+        yield "A", self.A
+        for channel in self.channels[:_MOST_CHANNELS]:
+            yield f"B of {channel.name}", channel.B
+            yield f"C of {channel.name}", channel.C
+        if self.m > _MOST_CHANNELS:
+            yield "more channels", str(self.m - _MOST_CHANNELS)
+        if self.parameters:
+            yield "parameters", ", ".join(self.parameters_in_words)
+        if self.neighbors is not None:
+            yield "neighbors", self.neighbors
+        if self.sample_time is not None:
+            yield "sample time", rational_text(self.sample_time)
+        if self.uncertainty is not None:
+            yield "uncertainty", self.uncertainty
+        if self.source is not None:
+            yield "source", self.source
+
+    def _html(self: Any) -> str:
+        """Return the sizes and the matrices in HTML."""
+        return table(_heading(self), self._labeled())
+
+    def _latex(self: Any) -> str:
+        """Return the equations of the system with its matrices in LaTeX."""
+        change = r"x(t+1)" if is_discrete(self.time) else r"\dot{x}"
+        inputs = "".join(
+            rf" + {latex(channel.B)} u_{{{words(channel.name)}}}"
+            for channel in self.channels[:_MOST_CHANNELS]
+        )
+        lines = [rf"{change} &= {latex(self.A)} x{inputs}"]
+        lines += [
+            rf"y_{{{words(channel.name)}}} &= {latex(channel.C)} x"
+            for channel in self.channels[:_MOST_CHANNELS]
+        ]
+        more = r" \\ &\;\;\vdots" if self.m > _MOST_CHANNELS else ""
+        equations = r" \\ ".join(lines) + more
+        return rf"\begin{{aligned}} {equations} \end{{aligned}}"
+
+    def canonical_text(self: Any) -> str:
+        """Return the plant of the system as the text of the ``system`` object of a certificate.
+
+        Notes
+        -----
+        Keys are sorted; matrices are rows of reduced rationals, or list their entries if they are
+        large and sparse; name and source are left out.  Systems are immutable, so the text is made
+        once and shared by all certificates.
+        """
+        plant = self.plant
+        known: str | None = plant.__dict__.get("_canonical_text")
+        if known is None:
+            known = plant._as_canonical_text()
+            object.__setattr__(plant, "_canonical_text", known)
+        return known
+
+    def canonical_document(self) -> dict[str, Any]:
+        """Return the plant as the ``system`` object of a certificate, as plain data."""
+        with numbers_of_any_length():
+            document: dict[str, Any] = json.loads(self.canonical_text())
+        return document
+
+    def digest(self: Any) -> str:
+        """Return the SHA-256 of the plant's canonical JSON, in lower-case hexadecimal.
+
+        Examples
+        --------
+        Names, order, graph and every number change the digest.  The form in which a number is
+        written, ``name`` and ``source`` do not:
+
+        >>> from mcexact import MultiChannelSystem
+        >>> first = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], name="a")
+        >>> second = MultiChannelSystem([["0.50"]], [[[1]]], [[[1]]], source="b")
+        >>> first.digest() == second.digest()
+        True
+        """
+        plant = self.plant
+        known: str | None = plant.__dict__.get("_digest")
+        if known is None:
+            known = sha256(plant.canonical_text())
+            object.__setattr__(plant, "_digest", known)
+        return known
+
+    def digest_of_values(self: Any) -> str:
+        """Return the digest of the plant without radii, which controllers name as made for.
+
+        Examples
+        --------
+        >>> from mcexact import Box, MultiChannelSystem
+        >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+        >>> Box.relative(plant, "1/100").system.digest_of_values() == plant.digest()
+        True
+        """
+        plant = self.plant
+        digest: str = (
+            plant if plant.uncertainty is None else plant.with_uncertainty(None)
+        ).digest()
+        return digest
+
+    def to_dict(self: Any) -> dict[str, Any]:
+        """Return the system as plain data, with quotients as strings; `read_system` reads it.
+
+        A derived system is written with its own matrices, as a plant.
+        """
+        document: dict[str, Any] = {"format": FORMAT}
+        for key, value in (("name", self.name), ("source", self.source)):
+            if value is not None:
+                document[key] = value
+        document |= self._own_document()
+        return document
+
+
+def _heading(system: Any) -> str:
+    name = f"{system.name}: " if system.name else ""
+    return f"{name}{_count(system.n, 'state')}, {_count(system.m, 'channel')}, {system.time} time"
+
+
+def _count(size: int, noun: str) -> str:
+    return f"{size} {noun}{'' if size == 1 else 's'}"
+
+
+def _sentences(system: Any) -> Iterator[str]:
+    yield f"{_heading(system)}."
+    if system.subject:
+        made = ", ".join(each["construction"] for each in system.subject)
+        yield f"It was made from a plant by: {made}."
+    left = "x(t+1)" if is_discrete(system.time) else "x'"
+    yield f"{left} = A x + the sum of B_i u_i, y_i = C_i x; agent i measures y_i and sets u_i."
+    for i, name in enumerate(system.names[:_MOST_CHANNELS]):
+        sizes = f"{_count(system.p(i), 'input')} and {_count(system.q(i), 'output')}"
+        yield fitting(f"Channel {name} has {sizes}.")
+    if system.m > _MOST_CHANNELS:
+        yield f"There are {system.m - _MOST_CHANNELS} more channels."
+    if system.parameters:
+        yield f"Its entries are functions of {', '.join(system.parameters_in_words)}."
+    if system.neighbors is not None:
+        yield system.neighbors.explain()
+    if system.uncertainty is not None:
+        yield f"Of the data, {system.uncertainty.explain()}."
+
+
+# Multi-channel systems, the subject of everything else in this package.
 
 Construction = Mapping[str, Any]
 # These constructions depend on the neighbor graph of the plant, or lead to systems without one.
@@ -395,3 +825,146 @@ def _checked_sample_time(value: Any, time: str) -> Fraction | None:
     if exact <= 0:
         raise InputError(f"expected a number > 0, found {exact}", where="sample_time")
     return exact
+
+
+# The neighbor graph over which the agents of a system communicate.
+
+
+def with_graph(
+    system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
+) -> tuple[MultiChannelSystem, NeighborGraph]:
+    """Return a system with a neighbor graph, and the graph.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph or mapping of names, optional
+        Overrides ``system.neighbors``.
+
+    Raises
+    ------
+    UsageError
+        If neither the system nor the argument gives a neighbor graph.
+    """
+    if graph is not None:
+        system = system.with_neighbors(graph)
+    if system.neighbors is None:
+        raise UsageError(
+            "a neighbor graph is needed, and the system has none: add 'neighbors' to it"
+        )
+    return system, system.neighbors
+
+
+def with_links(
+    system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
+) -> tuple[MultiChannelSystem, NeighborGraph]:
+    """Return a system, and the graph over which its controllers communicate.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph or mapping of names, optional
+        Overrides ``system.neighbors``.  Without either, the controller graph has no edges; the
+        system itself stays without a graph, so that certificates about the closed loop are about
+        the user's plant.
+    """
+    if graph is None and system.neighbors is None:
+        return system, NeighborGraph.empty(system.names)
+    return with_graph(system, graph)
+
+
+# Systems from stacked matrices B = [B_1 … B_m] and C = [C_1; …; C_m] and the channels' sizes.
+
+
+def from_stacked(
+    A: Any,
+    B: Any,
+    C: Any,
+    *,
+    inputs: Iterable[int],
+    outputs: Iterable[int],
+    rounding: Rounding | None = None,
+    **options: Any,
+) -> MultiChannelSystem:
+    """Make a system from stacked matrices, whose columns and rows the channels take in order.
+
+    Parameters
+    ----------
+    A : matrix, n×n
+    B : matrix, n × Σ p_i
+        [B_1 … B_m].
+    C : matrix, Σ q_i × n
+        The C_i, one below the other.
+    inputs, outputs : iterables of m integers
+        p_1 … p_m and q_1 … q_m, the numbers of inputs and outputs of the channels.
+    rounding : {"decimal", "dyadic"}, optional
+        How floats become exact numbers, as in `MultiChannelSystem.from_float`; needed for floats.
+    **options
+        As in `MultiChannelSystem`.
+
+    Raises
+    ------
+    FloatRefused
+        If an entry is a float, and there is no rounding.
+    InputError
+        If the sizes do not add up to the shapes, or a matrix is not as expected.
+
+    Examples
+    --------
+    >>> A, B, C = [[0, 1], [0, 0]], [[1, 0, 0], [0, 1, 2]], [[1, 0], [0, 1]]
+    >>> plant = from_stacked(A, B, C, inputs=[1, 2], outputs=[1, 1])
+    >>> plant.B(1).numerators
+    ((0, 0), (1, 2))
+    >>> from_stacked([[0]], [[1, 1]], [[1]], inputs=[1], outputs=[1])
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: inputs: expected sizes that add up to the 2 columns of B, found 1
+    """
+
+    def exact(value: Any, where: str) -> Matrix:
+        if rounding is None or isinstance(value, Matrix):
+            return as_matrix(value, where)
+        return matrix_from_float(value, rounding, where=where)
+
+    state = exact(A, "A")
+    stacked_B = require_shape(exact(B, "B"), "B", state.nrows, None)
+    stacked_C = require_shape(exact(C, "C"), "C", None, state.nrows)
+    return MultiChannelSystem(
+        state, *split_by_sizes(stacked_B, stacked_C, inputs, outputs), **options
+    )
+
+
+def split_by_sizes(
+    B: Matrix, C: Matrix, inputs: Iterable[int], outputs: Iterable[int]
+) -> tuple[list[Matrix], list[Matrix]]:
+    """Split stacked matrices into B_1 … B_m and C_1 … C_m.
+
+    Raises
+    ------
+    InputError
+        If the sizes do not add up to the columns of B and the rows of C.
+    """
+    columns = _parts(inputs, B.ncols, "inputs", "columns of B")
+    rows = _parts(outputs, C.nrows, "outputs", "rows of C")
+    if len(columns) != len(rows):
+        raise InputError(
+            f"expected a number of outputs for each of the {len(columns)} channels, "
+            f"found {len(rows)}",
+            where="outputs",
+        )
+    return [B.take(cols=part) for part in columns], [C.take(rows=part) for part in rows]
+
+
+def _parts(sizes: Iterable[int], count: int, where: str, what: str) -> list[Sequence[int]]:
+    """Split the positions below a count into consecutive parts of given sizes."""
+    known = []
+    for k, size in enumerate(several(sizes, where, "integers")):
+        if isinstance(size, bool) or not hasattr(size, "__index__") or size < 0:
+            raise InputError(f"expected an integer >= 0, found {size!r}", where=f"{where}[{k}]")
+        known.append(int(size))
+    if sum(known) != count:
+        raise InputError(
+            f"expected sizes that add up to the {count} {what}, found {sum(known)}", where=where
+        )
+    ends = accumulate(known)
+    return [range(end - size, end) for end, size in zip(ends, known, strict=True)]

@@ -1,19 +1,41 @@
-"""System files, ``mcexact-system/1``: read strictly, written canonically, and their digest."""
+"""System files, with parameters or without: read, written, digest, template."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from functools import partial
 from typing import Any, TypeVar
 
 from mcexact.errors import InputError
-from mcexact.exact.function_matrix import FunctionMatrix
-from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.model.canonical import numbers_of_any_length
-from mcexact.model.json_text import (
+from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
+from mcexact.exact.roots import require_time
+from mcexact.model.entries import (
+    Entries,
+    Table,
+    checked_parameter,
+    json_text_of_number,
+    matrix_json,
+    number_json,
+    numbers,
+    parse_expression,
+    read_matrix,
+    read_number,
+    require_square,
+    sparse_matrix_text,
+    unread_matrix,
+)
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem, require_ascending
+from mcexact.model.radii import read_radii
+from mcexact.model.system import FORMAT, MultiChannelSystem
+from mcexact.model.text import (
+    NumberText,
+    checked_names,
+    checked_text,
     expect_format,
     expect_integer,
     expect_list,
@@ -21,27 +43,13 @@ from mcexact.model.json_text import (
     expect_object,
     expect_string,
     kind_of,
+    numbers_of_any_length,
     parse,
+    quoted,
     require_short_numbers,
 )
-from mcexact.model.matrix_entry import Table, require_square
-from mcexact.model.matrix_json import (
-    Entries,
-    json_text_of_number,
-    matrix_json,
-    number_json,
-    numbers,
-    read_matrix,
-    read_number,
-    sparse_matrix_text,
-    unread_matrix,
-)
-from mcexact.model.names import checked_names, checked_text, quoted
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.parametric import ParametricSystem
-from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_forms import FORMAT
-from mcexact.model.uncertainty import read_radii
+
+# System files, ``mcexact-system/1``: read strictly, written canonically, and their digest.
 
 M = TypeVar("M")
 
@@ -256,3 +264,181 @@ def _matrix_text(M: Matrix | FunctionMatrix, indent: str) -> str:
     if sum(map(len, rows)) + 2 * len(rows) <= 80 - len(indent):
         return "[" + ", ".join(rows) + "]"
     return "[\n" + ",\n".join(f"{indent}  {row}" for row in rows) + f"\n{indent}]"
+
+
+# System files with parameters: ``mcexact-system/1`` with the key ``parameters``.
+
+_REQUIRED_WITH_PARAMETERS = ("format", "time", "parameters", "A", "channels")
+_OPTIONAL_WITH_PARAMETERS = ("name", "source")
+_MOST_CELLS = 2**20
+
+
+def read_parametric_system(
+    data: bytes | str, *, limits: Limits = DEFAULT_LIMITS
+) -> ParametricSystem:
+    """Read a system with parameters from the text of a system file.
+
+    Parameters
+    ----------
+    data : bytes or str
+    limits : Limits, optional
+
+    Raises
+    ------
+    InputError
+        If it is malformed; the message says where.
+
+    Examples
+    --------
+    >>> read_parametric_system('''{"format": "mcexact-system/1", "time": "continuous",
+    ...     "parameters": {"t": {"range": [0, "1/2"]}}, "A": [["1/2 + 3*t^2"]],
+    ...     "channels": [{"B": [[1]], "C": [["t/(1 + t)"]]}]}''')
+    ParametricSystem(n=1, m=1, continuous time, parameters: t in [0, 1/2], channels: '1')
+    """
+    system = read_parametric_document(parse(data, limits), limits)
+    require_short_numbers(data, limits)
+    return system
+
+
+def read_parametric_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> ParametricSystem:
+    """Read a system with parameters from the parsed document of a system file.
+
+    Raises
+    ------
+    InputError
+        If it is malformed; the message says where.
+    """
+    document = expect_format(parsed, FORMAT)
+    if "parameters" not in document:
+        raise InputError("found a system without parameters, which load_system reads")
+    expect_object(document, None, _REQUIRED_WITH_PARAMETERS, _OPTIONAL_WITH_PARAMETERS)
+    ranges = {}
+    if not isinstance(document["parameters"], dict) or not document["parameters"]:
+        raise InputError("expected an object keyed by parameters, at least one", where="parameters")
+    for name, said in document["parameters"].items():
+        where = f"parameters[{checked_parameter(name, 'parameters')}]"
+        found = expect_object(said, where, (), ("range",))
+        if "range" in found:
+            ranges[name] = _range(found["range"], f"{where}.range", limits)
+    parameters = tuple(sorted(document["parameters"]))
+    read = partial(_functions, parameters=parameters, limits=limits)
+    A, names, B, C = unread_plant(document, read, ())
+    return ParametricSystem(
+        A.matrix(),
+        [B_i.matrix() for B_i in B],
+        [C_i.matrix() for C_i in C],
+        parameters=parameters,
+        assume=ranges,
+        time=document["time"],
+        names=names,
+        **texts_of(document),
+    )
+
+
+def _range(value: Any, where: str, limits: Limits) -> tuple[Fraction | None, Fraction | None]:
+    ends = expect_list(value, where)
+    if len(ends) != 2:
+        raise InputError(f"expected two ends, found {len(ends)}", where=where)
+    low, high = (None if end is None else read_number(end, where, limits) for end in ends)
+    require_ascending(low, high, where)
+    return low, high
+
+
+def _functions(entries: Entries, parameters: tuple[str, ...], limits: Limits) -> FunctionMatrix:
+    """Read the functions of a matrix."""
+    r, c = entries.shape
+    if entries.rows is not None:
+        return FunctionMatrix(
+            tuple(
+                tuple(
+                    _entry(value, f"{entries.where}[{i}][{j}]", parameters, limits)
+                    for j, value in enumerate(row)
+                )
+                for i, row in enumerate(entries.rows)
+            ),
+            c,
+        )
+    if r * c > _MOST_CELLS:
+        raise InputError(
+            f"expected at most {_MOST_CELLS} entries in a matrix of functions, found {r} × {c}",
+            where=entries.where,
+        )
+    zero = RationalFunction.constant(0, parameters)
+    rows = [[zero] * c for _ in range(r)]
+    for k, i, j, value in entries.listed():
+        rows[i][j] = _entry(value, f"{entries.place(k)}[2]", parameters, limits)
+    return FunctionMatrix(tuple(map(tuple, rows)), c)
+
+
+def _entry(value: Any, where: str, parameters: tuple[str, ...], limits: Limits) -> RationalFunction:
+    """A number as typed, or an expression in quotes."""
+    if isinstance(value, str) and not isinstance(value, NumberText):
+        return parse_expression(value, parameters, limits, where=where)
+    return RationalFunction.constant(read_number(value, where, limits), parameters)
+
+
+# A system file to start from, with every key explained.
+
+_EXPLAINED = (
+    "Replace this text by the source of the numbers. time: continuous or discrete. "
+    'A: n rows of n numbers, such as 2, -0.5, 1e-3 or "1/3", read exactly as typed. '
+    "channels: the name of each, B (n rows, a column per input) and C (a row per output). "
+    "neighbors: for each agent those that it receives messages from; it may be left out. "
+    'In discrete time, sample_time is a number, and delays {"valve": {"pump": 2}} says that '
+    "messages from pump reach valve after 2 steps. A large matrix can be an object: "
+    '{"shape": [n, n], "entries": [[row, column, value]]}, rows and columns from 0. '
+    "name and source are free texts."
+)
+_YAML = """\
+# A system x' = A x + B_1 u_1 + B_2 u_2, y_i = C_i x, for mcexact.  Numbers are read exactly as they
+# are typed: 2, -0.5, 1e-3, or "1/3" as a text.
+format: mcexact-system/1       # as it is
+name: two tanks                # a free text; may be left out
+source: my own measurements    # a free text; may be left out
+time: continuous               # or discrete: x(t+1) = A x + ...
+# sample_time: 0.1             # in discrete time, if it is known; no decision uses it
+A:                             # n rows of n numbers
+- [-0.02, 0.02]
+- [0.02, "-1/30"]
+channels:                      # one for each agent, which sets u_i and measures y_i
+- name: pump
+  B: [[0.5], [0]]              # n rows, with a column for each input of this agent
+  C: [[1, 0]]                  # a row of n numbers for each output of this agent
+- name: valve
+  B: [[0], [0.4]]
+  C: [[0, 1]]
+neighbors:                     # for each agent, whose messages it receives; may be left out
+  pump: [valve]
+  valve: [pump]
+# delays:                      # in discrete time: messages from valve reach pump after 2 steps
+#   pump: {valve: 2}
+"""
+
+
+def template(kind: str) -> str:
+    """The text of a starting file, JSON or YAML.
+
+    Examples
+    --------
+    >>> from mcexact.model.system_file import read_system
+    >>> read_system(template("json"))
+    MultiChannelSystem(n=2, m=2, continuous time, channels: 'pump', 'valve')
+    """
+    if kind == "yaml":
+        return _YAML
+    lines = [
+        ("format", "mcexact-system/1"),
+        ("name", "two tanks"),
+        ("source", _EXPLAINED),
+        ("time", "continuous"),
+    ]
+    head = "".join(f'  "{key}": {json.dumps(value)},\n' for key, value in lines)
+    return (
+        "{\n" + head + '  "A": [[-0.02, 0.02], [0.02, "-1/30"]],\n'
+        '  "channels": [\n'
+        '    {"name": "pump",  "B": [[0.5], [0]], "C": [[1, 0]]},\n'
+        '    {"name": "valve", "B": [[0], [0.4]], "C": [[0, 1]]}\n'
+        "  ],\n"
+        '  "neighbors": {"pump": ["valve"], "valve": ["pump"]}\n'
+        "}\n"
+    )

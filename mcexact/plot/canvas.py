@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 from mcexact.errors import MissingExtra, UsageError
-from mcexact.exact.location import is_discrete
+from mcexact.exact.roots import is_discrete
 
 BLUE, RED, GRAY, LIGHT = "#1f4e79", "#b03a2e", "#888888", "#ebebeb"
 PANEL = 4.4, 3.5

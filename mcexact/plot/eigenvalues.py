@@ -10,11 +10,10 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import UsageError
-from mcexact.exact.enclosures import root_discs
-from mcexact.exact.floats import to_float
-from mcexact.exact.location import StabilityRegion, is_discrete
+from mcexact.exact.matrix import to_float
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.shortened import power_of_ten_above
+from mcexact.exact.rational import power_of_ten_above
+from mcexact.exact.roots import StabilityRegion, is_discrete, root_discs
 from mcexact.plot.canvas import BLUE, GRAY, LIGHT, RED, legend_below, one_axis
 
 _WIDE, _POWERS, _TICKS = 100.0, 3, 5

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from mcexact.exact.floats import to_float
+from mcexact.exact.matrix import to_float
 from mcexact.plot.canvas import GRAY, one_axis, plain_label
 
 _WRITTEN = 12

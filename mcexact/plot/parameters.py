@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import UsageError
-from mcexact.exact.floats import to_float
+from mcexact.exact.matrix import to_float
 from mcexact.plot.canvas import BLUE, GRAY, NAMED, RED, finished, one_axis, plain_label
 
 _STEPS = 201

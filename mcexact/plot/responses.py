@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Protocol
 
-from mcexact.exact.floats import float_above, float_below, to_float
-from mcexact.exact.location import StabilityRegion, is_discrete
-from mcexact.exact.shortened import digits_outward
+from mcexact.exact.matrix import float_above, float_below, to_float
+from mcexact.exact.rational import digits_outward
+from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.plot.canvas import (
     GRAY,
     NAMED,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from mcexact.errors import UsageError
-from mcexact.exact.floats import float_above, float_below
+from mcexact.exact.matrix import float_above, float_below
 from mcexact.plot.canvas import BLUE, GRAY, RED, finished, one_axis
 
 _RANGE = 1e6

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from mcexact.answer.account import Account
 from mcexact.answer.sentence import Sentences
 from mcexact.answer.template import Sentence
-from mcexact.exact import matrix_forms
+from mcexact.exact import matrix
 from mcexact.exact.matrix import Matrix
 from mcexact.report.text import WIDTH, Table, wrapped
 from mcexact.shown import escaped
@@ -133,7 +133,7 @@ def measured(
 
 
 def _matrix(M: Matrix) -> str:
-    return matrix_forms.latex(M, whole=True)
+    return matrix.latex(M, whole=True)
 
 
 def latex(account: Account) -> str:

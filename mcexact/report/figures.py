@@ -7,8 +7,8 @@ import math
 from fractions import Fraction
 
 from mcexact.answer.loop_spectrum import LoopSpectrum
-from mcexact.exact.floats import to_float
-from mcexact.exact.shortened import digits_outward
+from mcexact.exact.matrix import to_float
+from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import PANEL, empty_figure, one_axis
 from mcexact.plot.eigenvalues import eigenvalues

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from mcexact.answer.account import Account
-from mcexact.exact.shortened import digits_outward
+from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import NAMED, PANEL, one_axis
 from mcexact.plot.eigenvalues import circle_near

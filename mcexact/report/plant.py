@@ -8,10 +8,9 @@ from itertools import islice
 from typing import Any
 
 from mcexact.answer.formats import count
-from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational_function import RationalFunction
-from mcexact.exact.shortened import approximated
+from mcexact.exact.rational import approximated
+from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
 from mcexact.model.box import radii_in_words
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem

@@ -14,7 +14,7 @@ from typing import Any
 
 from mcexact.answer.schema import RATIONAL, Schema
 from mcexact.errors import UsageError
-from mcexact.model.names import nearest, quoted
+from mcexact.model.text import nearest, quoted
 from mcexact.report import command_schemas as commands
 from mcexact.report import file_schemas as files
 from mcexact.report.schema_terms import MATRIX, NUMBER

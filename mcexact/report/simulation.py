@@ -6,10 +6,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from mcexact.exact.floats import finite, float_above, to_float
-from mcexact.exact.location import is_discrete
-from mcexact.exact.rational import rational_text
-from mcexact.exact.shortened import digits_outward
+from mcexact.exact.matrix import finite, float_above, to_float
+from mcexact.exact.rational import digits_outward, rational_text
+from mcexact.exact.roots import is_discrete
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.figures import simulation_pictures, simulation_png
 from mcexact.report.plant import shown_plant

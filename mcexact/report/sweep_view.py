@@ -10,7 +10,7 @@ from typing import Any
 
 from mcexact.answer.formats import count, cut
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.shortened import polynomial
+from mcexact.exact.rational import polynomial
 from mcexact.model.properties import PROPERTIES
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.text import Table, shorten

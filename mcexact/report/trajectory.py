@@ -9,7 +9,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import Any
 
-from mcexact.exact.floats import to_float
+from mcexact.exact.matrix import to_float
 from mcexact.exact.rational import rational_text
 from mcexact.simulation.trajectory import SIGNALS, Trajectory
 

@@ -8,11 +8,8 @@ from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.analysis.structure.controllability_indices import controllability_indices
 from mcexact.analysis.structure.exceptional_gains import exceptional_gains
-from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import closed_by
-from mcexact.exact.blocks import hstack
-from mcexact.exact.matrix import Matrix
+from mcexact.derived.constructions import closed_by, error_system, extended_system
+from mcexact.exact.matrix import Matrix, hstack
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import PAPER, Numbers, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure

@@ -19,10 +19,9 @@ from mcexact.analysis.sharing.neighbor_graph import neighbor_graph
 from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.pencil_rank import PencilRank
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import Share, extended_system
+from mcexact.derived.constructions import Share, augmented_outputs, extended_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.dimension_figures import LEAST, dimensions_picture
 from mcexact.reproduce.extended import SHARING

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 
-from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.matrix import Matrix
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.matrix import Matrix, block, hstack, vstack
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import (
     PAPER,

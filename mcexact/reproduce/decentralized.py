@@ -11,15 +11,14 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.pencil import pencil_rank
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.analysis.structure.transfer_graph import transfer_graph
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.deficiency import system_with_deficiency
-from mcexact.derived.feedback import closed_by
+from mcexact.derived.constructions import augmented_outputs, closed_by
+from mcexact.derived.drawn.primary_form import SeededChoices
+from mcexact.derived.drawn.systems import system_with_deficiency
 from mcexact.errors import Impossible, InputError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import (
     PAPER,
@@ -34,7 +33,7 @@ from mcexact.reproduce.material import (
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.plants import fixed_zero, split_spectrum
 from mcexact.synthesis.decentralized import design_decentralized
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 
 
 def definition(note: Notebook) -> None:

@@ -14,16 +14,13 @@ from mcexact.analysis.sharing.common_dimension import common_dimension
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure.transfer_graph import transfer_graph
-from mcexact.derived.delayed import lifted_system
-from mcexact.derived.extended import Share, shift
-from mcexact.derived.feedback import closed_by
-from mcexact.exact.blocks import vstack
+from mcexact.derived.constructions import Share, closed_by, lifted_system, shift
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, vstack
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.equations import messages_agree, positions, union_of_graphs
 from mcexact.reproduce.figures import delays_picture
@@ -40,8 +37,8 @@ from mcexact.reproduce.material import (
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.plants import late_example, split_spectrum, unreached
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.decentralized import design_extended
+from mcexact.synthesis.optimum.figures import THEOREM
 
 X, ONE = Polynomial.x(), Polynomial.of(1)
 late = partial(plants, time="discrete", longest_delay=2)

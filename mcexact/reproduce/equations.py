@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from mcexact.answer.transfer_graph import TransferGraph
-from mcexact.exact.blocks import vstack
-from mcexact.exact.location import is_discrete
-from mcexact.exact.matrix import Matrix
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.matrix import Matrix, vstack
+from mcexact.exact.roots import is_discrete
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import Numbers, graph_of
 

@@ -8,14 +8,12 @@ from mcexact.analysis.fixed_modes.pencil import pencil_rank
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import closed_by
+from mcexact.derived.constructions import augmented_outputs, closed_by, extended_system
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import TIMES
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import TIMES
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.graph_figures import graph_pictures
 from mcexact.reproduce.equations import outputs, stacked

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mcexact.exact.floats import to_float
+from mcexact.exact.matrix import to_float
 from mcexact.plot.canvas import empty_figure
 from mcexact.report.picture import Picture
 from mcexact.simulation.trajectory import Trajectory

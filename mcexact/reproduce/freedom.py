@@ -13,12 +13,11 @@ from mcexact.analysis.structure.controllability_indices import (
     observability_indices,
 )
 from mcexact.analysis.structure.transfer_graph import transfer_graph
-from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import closed_by, feedback
+from mcexact.derived.constructions import closed_by, extended_system, feedback
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import spectrum_picture
@@ -33,9 +32,9 @@ from mcexact.reproduce.material import (
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.plants import split_spectrum
-from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.decentralized import design_extended
 from mcexact.synthesis.gate import Proposal, certify
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 
 
 def proposition_3(note: Notebook) -> None:

@@ -9,7 +9,7 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.sharing.allocation import shared_dimension_bound
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.analysis.structure.transfer_graph import transfer_graph
-from mcexact.derived.delayed import held_system, lifted_system
+from mcexact.derived.constructions import held_system, lifted_system
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.reproduce.delays import (
@@ -28,8 +28,8 @@ from mcexact.reproduce.material import (
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.plants import apart, late_example
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.decentralized import design_extended
+from mcexact.synthesis.optimum.figures import THEOREM
 
 
 def held(note: Notebook) -> None:

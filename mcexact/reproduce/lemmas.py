@@ -12,14 +12,12 @@ from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.analysis.structure.controllability_indices import controllability_indices
 from mcexact.analysis.structure.exceptional_gains import exceptional_gains
 from mcexact.answer.controllability_indices import ControllabilityIndices
-from mcexact.derived.error_system import error_system
-from mcexact.derived.feedback import feedback
-from mcexact.exact.blocks import hstack, kronecker, vstack
+from mcexact.derived.constructions import error_system, feedback
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion, is_discrete
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, kronecker, vstack
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.roots import StabilityRegion, is_discrete
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import spectrum_picture
 from mcexact.reproduce.material import (

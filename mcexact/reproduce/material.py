@@ -6,13 +6,16 @@ import random
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.deficiency import system_with_deficiency
-from mcexact.derived.drawn.graph import drawn_graph
-from mcexact.derived.drawn.systems import jointly_controllable_system, system_with_fixed_mode
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.primary_form import SeededChoices
+from mcexact.derived.drawn.systems import (
+    jointly_controllable_system,
+    system_with_deficiency,
+    system_with_fixed_mode,
+)
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 PAPER = "the example of section IV-B"

@@ -10,13 +10,12 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability
-from mcexact.derived.error_system import error_system
+from mcexact.derived.constructions import error_system
 from mcexact.errors import Impossible
-from mcexact.exact.blocks import vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, vstack
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import decay_pictures, spectrum_picture
 from mcexact.reproduce.equations import errors_agree
@@ -33,7 +32,7 @@ from mcexact.reproduce.observer_equations import drawn_observer, equations_agree
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.methods import default_polynomial, state_feedback
+from mcexact.synthesis.state_feedback import default_polynomial, state_feedback
 
 
 def zeros(plant: MultiChannelSystem) -> list[Matrix]:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mcexact.exact.blocks import hstack
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.equations import driven, outputs, stacked
 from mcexact.reproduce.material import Numbers, graph_of
-from mcexact.synthesis.methods import ChannelController
-from mcexact.synthesis.observer.programs import observer_programs
+from mcexact.synthesis.channel_controller import ChannelController
+from mcexact.synthesis.observer import observer_programs
 
 
 @dataclass(frozen=True)

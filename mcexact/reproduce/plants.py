@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.exact.matrix import Matrix
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import PAPER, Instance, three_channels
 

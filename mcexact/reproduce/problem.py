@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.derived.feedback import feedback
+from mcexact.derived.constructions import feedback
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem

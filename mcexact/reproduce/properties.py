@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.exact.location import TIMES
+from mcexact.exact.roots import TIMES
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import PAPER
 

@@ -8,14 +8,12 @@ from fractions import Fraction
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure.setpoint import setpoint_solvability
-from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.constructions import setpoint_system
 from mcexact.errors import Impossible
-from mcexact.exact.blocks import block, vstack
-from mcexact.exact.floats import to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve
-from mcexact.exact.location import TIMES, StabilityRegion, is_discrete, steady_point
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block, to_float, vstack
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import TIMES, StabilityRegion, is_discrete, steady_point
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import response_picture
 from mcexact.reproduce.equations import integrators_agree, stacked
@@ -31,9 +29,9 @@ from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.plants import hidden_zero, two_tanks, unreached, unseen, washed_out
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.methods import default_polynomial, state_feedback
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
+from mcexact.synthesis.state_feedback import default_polynomial, state_feedback
 
 METHODS: tuple[SetpointMethod, ...] = ("observer", "extended")
 

@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.exact.blocks import block, hstack, kronecker, vstack
 from mcexact.exact.linear_algebra import solve
-from mcexact.exact.location import is_discrete
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block, hstack, kronecker, vstack
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import is_discrete
 from mcexact.model.loop import ClosedLoop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import Instance, drawn_plants
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.observer import designed, small
 from mcexact.reproduce.plants import two_tanks
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.decentralized import design_extended
+from mcexact.synthesis.optimum.figures import THEOREM
 
 SIGNALS = {
     "continuous": {

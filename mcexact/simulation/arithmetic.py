@@ -11,8 +11,7 @@ from fractions import Fraction
 from typing import Any, Protocol
 
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 
 Native = Any
 """A matrix or column of an arithmetic: `Matrix`, ``mpmath.matrix`` or ``numpy.ndarray``."""

@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from mcexact.errors import LimitReached
-from mcexact.exact.floats import to_float
+from mcexact.exact.matrix import to_float
 from mcexact.simulation.arithmetic import Arithmetic, Native, representable
 from mcexact.simulation.network import Network, Snapshot
 from mcexact.simulation.signals import Columns, Drive

@@ -11,12 +11,10 @@ from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.answer.stability import LyapunovMethod, StabilityVerdict
 from mcexact.errors import InputError, McexactError
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.enclosures import root_above
-from mcexact.exact.exponential import exponential_above, power_above
+from mcexact.exact.balls import exponential_above, power_above
 from mcexact.exact.linear_algebra import solve_nonsingular
-from mcexact.exact.location import StabilityRegion, is_discrete, steady_point
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.roots import StabilityRegion, is_discrete, root_above, steady_point
 from mcexact.simulation.trajectory import Trajectory
 
 LARGEST = 80
@@ -81,7 +79,7 @@ def proved_envelope(run: Trajectory, spectrum: LoopSpectrum | None = None) -> En
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> from mcexact.model.system import MultiChannelSystem
     >>> from mcexact.simulation.trajectory import simulate
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])

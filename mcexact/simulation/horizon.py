@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import is_discrete
+from mcexact.exact.matrix import matrix_to_float, to_float
+from mcexact.exact.roots import is_discrete
 from mcexact.model.loop import ClosedLoop
 
 CONSTANTS = 6

@@ -10,9 +10,9 @@ from typing import Any
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.names import quoted
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import quoted
 from mcexact.simulation.arithmetic import Arithmetic, Native
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from mcexact.exact.size import largest_entry
+from mcexact.exact.matrix import largest_entry
 from mcexact.model.loop import ClosedLoop
 
 LARGEST_FOR_DOUBLES = 10**5

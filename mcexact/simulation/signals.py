@@ -10,8 +10,7 @@ from typing import Any
 
 from mcexact.arguments import several, told
 from mcexact.errors import InputError
-from mcexact.exact.floats import Rounding, from_float
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, Rounding, from_float
 from mcexact.exact.rational import as_fraction, is_inexact
 from mcexact.simulation.network import Network
 

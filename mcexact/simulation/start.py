@@ -8,8 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError
-from mcexact.exact.floats import Rounding
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, Rounding
 from mcexact.model.controller import Controller
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.arithmetic import Native

@@ -10,14 +10,13 @@ from typing import Any
 
 from mcexact.arguments import told
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.floats import Rounding, to_float
-from mcexact.exact.location import is_discrete
-from mcexact.exact.shortened import number
+from mcexact.exact.matrix import Rounding, to_float
+from mcexact.exact.rational import number
+from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import Controller
-from mcexact.model.linked_system import with_links
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, with_links
 from mcexact.plot.responses import responses
 from mcexact.shown import Shown
 from mcexact.simulation.arithmetic import arithmetic_named, representable

@@ -10,16 +10,16 @@ from typing import Any
 
 from mcexact.analysis.boxes.largest_box import failing_member
 from mcexact.answer import codec
-from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.derived.variants import Variant
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.model.canonical import canonical, sha256
-from mcexact.model.formats.reading import Reading
-from mcexact.model.formats.recognize import read_any
+from mcexact.model.arrays import Reading
+from mcexact.model.files import read_any
 from mcexact.model.properties import PROPERTIES
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
+from mcexact.model.text import canonical, sha256
 from mcexact.sweeps.questions import KNOWN
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw | Variant

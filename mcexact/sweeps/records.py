@@ -12,7 +12,7 @@ from typing import Any
 
 from mcexact.errors import InputError, NotWritten, UsageError, place_of
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.canonical import canonical
+from mcexact.model.text import canonical
 from mcexact.shown import LINE, Shown, fitting
 
 FORMAT = "mcexact-sweep/1"

@@ -14,8 +14,8 @@ from mcexact.answer.reading import answer_of
 from mcexact.errors import InternalError, McexactError, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.box import Box
-from mcexact.model.formats.recognize import read_input
-from mcexact.model.system_forms import FORMAT
+from mcexact.model.files import read_input
+from mcexact.model.system import FORMAT
 from mcexact.sweeps.jobs import Job, Outcome, Reader, Source, decide, entries, failure
 from mcexact.sweeps.questions import WITHIN_RADII, answered, chosen, denied
 from mcexact.sweeps.records import Record, RecordFile

@@ -1,11 +1,20 @@
-"""`certify_controller` decides whether a given controller makes a loop stable or fast enough."""
+"""Certification of any controller, and how its entries may be rounded."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import get_args
+from typing import Any, get_args
 
+import numpy as np
+from scipy.linalg import eig
+
+from mcexact.analysis.boxes.box_stable import box_stability
 from mcexact.analysis.boxes.failing_plants import FAILING, FailingPlant
+from mcexact.analysis.boxes.float_pencils import Floats
+from mcexact.analysis.boxes.gain_radii import digit_radii, rounded_ends, with_gains
+from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.stability.closed_loop_spectrum import eigenvalue_outside
 from mcexact.analysis.stability.stability import (
     POLYNOMIAL_LIMIT,
@@ -23,18 +32,20 @@ from mcexact.answer.sentence import Given
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.arguments import one_of, telling
 from mcexact.errors import InputError, LimitReached, UsageError
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 from mcexact.exact.rational import Entry
-from mcexact.floating.margins import spectral_bound
+from mcexact.exact.roots import StabilityRegion
+from mcexact.floating.margins import is_within, spectral_bound
 from mcexact.model.box import Box
 from mcexact.model.controller import Controller
-from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.loop import ClosedLoop, LoopPencil, closed_loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.observer.coordinates import observer_coordinates
-from mcexact.synthesis.optimum.loop_figures import rounded_controller
-from mcexact.synthesis.request import Progress
+from mcexact.synthesis.gate import Progress
+from mcexact.synthesis.observer import observer_coordinates
+from mcexact.synthesis.optimum.diagnosis import rounded_controller
+
+# `certify_controller` decides whether a given controller makes a loop stable or fast enough.
 
 _PARTS_TRIED = 32
 _MOST_ROUNDED = 1000
@@ -103,7 +114,7 @@ def certify_controller(
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=1).stable
     True
@@ -204,7 +215,7 @@ def enclosed_outside(found: StabilityVerdict) -> RootDisc | None:
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> found = certify_controller(plant, local_controllers(plant, [[[-3]]]), largest_modulus=1)
     >>> enclosed_outside(found)
@@ -248,3 +259,215 @@ def account_of_verdict(
     given = Given(found.about.plant, asked)
     sentences = VERDICT.sentences(answers, given)
     return Account(answers, given, sentences, found.about.subject[:-1], nearby=(FAILING,))
+
+
+# A way of rounding a controller's entries with which the loop fails, decided exactly.
+
+_MODES, _ROUNDS = 8, 4
+
+
+def unsafe_rounding(
+    loop: ClosedLoop, digits: int, region: StabilityRegion
+) -> tuple[Controller, StabilityVerdict] | None:
+    """Search a rounding of all entries to significant digits that leaves the region.
+
+    Each entry is rounded up or down to the next number with so many digits.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    digits : int
+    region : StabilityRegion
+
+    Returns
+    -------
+    tuple of Controller and StabilityVerdict, or None
+        The rounded controller and the exact verdict on its loop; None if none was found, which
+        proves nothing.
+
+    Notes
+    -----
+    For each of the eigenvalues nearest to the border, every entry is moved to the side on which
+    this eigenvalue comes nearer, to first order; and again from there.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> from mcexact.model.loop import closed_loop
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> loop = closed_loop(plant, local_controllers(plant, [[["-1.06"]]]))
+    >>> rounded, verdict = unsafe_rounding(loop, 2, StabilityRegion("continuous", "1/20"))
+    >>> rounded.agents[0].input.outputs[0][0, 0], verdict.stable
+    (Fraction(-1, 1), False)
+    """
+    ends = _ends(loop.controller, digits)
+    with one_thread():
+        for rounded in _roundings(loop, ends, region.discrete):
+            if is_within(matrix_to_float(replace(loop, controller=rounded).matrix), region):
+                continue
+            bound: dict[str, Any] = {region.word: region.bound}
+            verdict = certify_controller(loop.given, rounded, loop.graph, **bound)
+            if not verdict.stable:
+                return rounded, verdict
+    return None
+
+
+def _ends(controller: Controller, digits: int) -> list[tuple[Fraction, Fraction]]:
+    """The numbers with so many digits next to each entry, in the order of the entries."""
+    found: list[tuple[Fraction, Fraction]] = []
+
+    def kept(M: Matrix) -> Matrix:
+        for _, _, x in M.nonzero():
+            found.append(rounded_ends(Fraction(x, M.denominator), digits))
+        return M
+
+    with_gains(controller, kept)
+    return found
+
+
+def _with_entries(controller: Controller, entries: Iterable[int | Fraction]) -> Controller:
+    """The controller with other entries, in the order of those that are not 0."""
+    values = iter(entries)
+
+    def of(M: Matrix) -> Matrix:
+        return Matrix.from_entries(M.shape, [(i, j, next(values)) for i, j, _ in M.nonzero()])
+
+    return with_gains(controller, of)
+
+
+def _roundings(
+    loop: ClosedLoop, ends: list[tuple[Fraction, Fraction]], discrete: bool
+) -> Iterator[Controller]:
+    """Controllers whose entries are rounded to the side on which an eigenvalue gets slower."""
+    seen = set[bytes]()
+    for k in range(_MODES):
+        controller = loop.controller
+        for _ in range(_ROUNDS):
+            slopes = _slopes(replace(loop, controller=controller), len(ends), k, discrete)
+            if slopes is None:
+                break
+            up = slopes > 0
+            pairs = zip(ends, up, strict=True)
+            controller = _with_entries(loop.controller, (pair[int(side)] for pair, side in pairs))
+            if up.tobytes() in seen:
+                break
+            seen.add(up.tobytes())
+            yield controller
+
+
+def _slopes(loop: ClosedLoop, count: int, k: int, discrete: bool) -> Floats | None:
+    """How fast the k-th slowest eigenvalue gets slower where each entry grows."""
+    signals = LoopPencil(loop.given, loop.controller, loop.graph)
+    Z, N = matrix_to_float(signals.matrix), signals.states
+    static = np.linalg.solve(Z[N:, N:], np.hstack([Z[N:, :N], np.eye(len(Z) - N)]))
+    M = Z[:N, :N] - Z[:N, N:] @ static[:, :N]
+    if not np.all(np.isfinite(M)):
+        return None
+    solved: Any = eig(M, left=True)
+    values, left, right = solved
+    slow = np.abs(values) if discrete else values.real
+    order = [i for i in np.argsort(-slow) if values[i].imag >= 0]
+    if k >= len(order):
+        return None
+    i = order[k]
+    v, w, value = right[:, i], left[:, i].conj(), values[i]
+    r = np.concatenate([v, -static[:, :N] @ v])
+    row = np.concatenate([w, -(w @ Z[:N, N:]) @ static[:, N:]])
+    turn = np.conj(value) if discrete else 1.0
+    places = _places(signals, count)
+    return np.asarray((turn * row[places[0]] * r[places[1]] / (w @ v)).real)
+
+
+def _places(signals: LoopPencil, count: int) -> tuple[list[int], list[int]]:
+    """The row and the column in the pencil of each entry of the controller."""
+    given = signals.given
+    nothing = MultiChannelSystem(
+        given.A * 0, [M * 0 for M in given.B], [M * 0 for M in given.C], time=given.time
+    )
+    numbered = _with_entries(signals.controller, range(1, count + 1))
+    found = sorted((x, i, j) for i, j, x in signals.with_entries(nothing, numbered, 0).nonzero())
+    return [i for _, i, _ in found], [j for _, _, j in found]
+
+
+# How many digits of a controller's entries are enough, whichever way they are rounded.
+
+
+@dataclass(frozen=True)
+class SafeDigits:
+    """The digits that are enough, and those that are too few.
+
+    Attributes
+    ----------
+    safe : int or None
+        With so many significant digits every rounding of the entries is certified; None if that was
+        proved for no number of digits up to the one asked for.
+    proof : BoxStability or None
+    unsafe : int or None
+        The largest number of digits for which a rounding was found that fails; None if none was.
+    rounded : Controller or None
+        The controller that is rounded so.
+    refutation : StabilityVerdict or None
+        The exact verdict on its loop.
+    """
+
+    safe: int | None
+    proof: BoxStability | None
+    unsafe: int | None
+    rounded: Controller | None
+    refutation: StabilityVerdict | None
+
+
+def safe_digits(
+    system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    rate: Any = None,
+    radius: Any = None,
+    most: int = 6,
+) -> SafeDigits:
+    """Find the fewest digits of a controller's entries that keep every loop in a region.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant; with radii, all plants within them are meant.
+    controller : Controller
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    rate, radius : rational, optional
+        A rate in continuous time, a radius in discrete time; by default stability is meant.
+    most : int
+        The largest number of digits that is tried.
+
+    Notes
+    -----
+    All numbers to which an entry is rounded, up or down, are in a box, about which `box_stability`
+    has a proof.  `unsafe_rounding` searches a rounding with which the loop fails, which is decided
+    exactly; between the two numbers of digits nothing is known.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> found = safe_digits(plant, local_controllers(plant, [[["-1.04"]]]))
+    >>> found.safe, found.unsafe
+    (3, 2)
+    """
+    given: dict[str, Any] = {"rate": rate, "radius": radius}
+    loop = closed_loop(system, controller, graph)
+    region = StabilityRegion.of(system.time, rate, radius)
+    unsafe, found = 0, None
+    for digits in range(most, 0, -1):
+        found = unsafe_rounding(loop, digits, region)
+        if found is not None:
+            unsafe = digits
+            break
+    for digits in range(unsafe + 1, most + 1):
+        try:
+            gains = digit_radii(controller, digits)
+            proof = box_stability(system, controller, graph, gains=gains, **given)
+        except LimitReached:
+            continue
+        return SafeDigits(digits, proof, unsafe or None, *(found or (None, None)))
+    return SafeDigits(None, None, unsafe or None, *(found or (None, None)))

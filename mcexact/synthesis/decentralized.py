@@ -1,20 +1,29 @@
-"""Decentralized control, without communication."""
+"""Control without communication, and with shared sub-states."""
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass, replace
+from math import inf
+from typing import Any, Literal
 
-from mcexact.errors import InputError
-from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.asking import request_for
+from mcexact.derived.constructions import Share
+from mcexact.errors import Impossible, InputError, LimitReached, McexactError
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.network.network_design import network_design
-from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.optimum.aims import Aims
-from mcexact.synthesis.optimum.proposals import searched_proposals
-from mcexact.synthesis.optimum.structures import Family
-from mcexact.synthesis.request import Arithmetic, Progress, Request
-from mcexact.synthesis.slowing import at_a_robust_rate
+from mcexact.synthesis.gate import Arithmetic, Progress, Request
+from mcexact.synthesis.network_design import network_design
+from mcexact.synthesis.networks import (
+    Dimensions,
+    decentralized_network,
+    sharing_network,
+    sharing_of,
+)
+from mcexact.synthesis.optimum.figures import MARGIN, Aims
+from mcexact.synthesis.optimum.search import Family, searched_proposals
+from mcexact.synthesis.rate import at_a_robust_rate, request_for
+
+# Decentralized control, without communication.
 
 
 def design_decentralized(
@@ -96,3 +105,195 @@ which channel 2 does not control and channel 1 does not observe, and it is not f
         return network_design("decentralized", network, asked, proposals)
 
     return at_a_robust_rate(request, attempt)
+
+
+# Distributed control with shared sub-states, by decentralized control of the extended system.
+
+SharedNetwork = Literal["extended", "lifted", "held"]
+_WITH_DELAYS: tuple[SharedNetwork, ...] = ("lifted", "held")
+
+
+def design_extended(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None = None,
+    agent: str | None = None,
+    *,
+    dimensions: Dimensions = "minimal",
+    share: Share | None = None,
+    network: SharedNetwork | None = None,
+    spectrum: Any = None,
+    rate: Any = None,
+    radius: Any = None,
+    free_assignability: bool = False,
+    arithmetic: Arithmetic = "exact",
+    aims: Aims | None = None,
+    progress: Progress | None = None,
+) -> Design:
+    """Design a linear time-invariant distributed controller on an extended system.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant or a derived system with n states and m channels.
+    graph : NeighborGraph, optional
+        With delays, in discrete time; overrides ``system.neighbors``.
+    agent : str, optional
+        The agent with the channel controller of the theorem, which is then constructed without a
+        search.
+    dimensions : {"minimal", "bound"} or sequence of m int
+        n_1 … n_m: the least that suffice, Theorem 2's bound for every agent, or given ones.
+    share : {"outputs+states", "states"}, optional
+        The signals that agents send; by default both, but with holding sub-states alone.
+    network : {"extended", "lifted", "held"}, optional
+        With delays, the lifted system, in which only 0 is fixed, or the held one, in which no mode
+        is.  By default a search tries both and keeps the cheaper one with a margin of 0.3, which
+        `Design.notes` tells with the figures of both; else the system is lifted.
+    spectrum : polynomial, list of roots, or mapping, optional
+        n̄ + k_q prescribed numbers; see `network_proposals`.  The dimensions then suffice for all
+        modes to be moved, or if that is impossible, all modes that are not stable.  It is placed by
+        the controller of the theorem, of least order.
+    rate, radius : rational, optional
+        A rate or radius to be certified, instead of a spectrum or in addition to it.  Only modes
+        that violate it need to be moved; fixed modes that meet it remain, and are reported.
+        Without a spectrum, the default is half the sensible rate, or less if that leads to a
+        fragile loop.
+    free_assignability : bool
+        With ``"minimal"``, share enough that the transfer graph of the extended system is strongly
+        connected, so that the spectrum does not split.
+    arithmetic : {"exact", "float"}
+        The arithmetic of the theorem's controller.  Floating point takes no spectrum.
+    aims : Aims, optional
+        What the search aims at.
+    progress : callable, optional
+
+    Returns
+    -------
+    Design
+        That of the theorem has order k_q + Σ n_i; a distributed observer has order nm + m − 1.
+
+    Raises
+    ------
+    Impossible
+        If no dimensions, or not the given ones, allow every mode that is too slow to be moved.
+    LimitReached
+        If no controller was found, or already the rate is out of reach for all agents together
+        (`OutOfReach`); the message names the mode that is nearest to being fixed, and the sensible
+        rate.
+
+    Notes
+    -----
+    Paper, sections IV-D, IV-E and V.  For a rate or a radius, controllers of low order are searched
+    first, as in `design_decentralized`; agents may then share more sub-states than the least that
+    suffice, or none.  The design uses the derived system, and the programs are for
+    the network itself, where links have delays and agents hold signals.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> ring = NeighborGraph.ring(plant.names)
+    >>> found = design_extended(plant, ring, spectrum=[-1, -1, -2, -2])
+    >>> found.parts["dimensions"], found.order, found.parts["observer_order"]
+    ({'1': 0, '2': 0, '3': 1}, 1, 11)
+    >>> design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.Impossible: no shared dimensions allow linear time-invariant control to move \
+the modes that are not fast enough: agents 2 and 3 need 1 shared state of other agents, and can \
+receive from nobody
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress, aims=aims)
+
+    def attempt(request: Request) -> Design:
+        given = dimensions, share, free_assignability, aims or Aims()
+        asked = _Asked(system, graph, request, *given)
+        if network is None and asked.compares:
+            return asked.cheaper()
+        return asked.designed(network)
+
+    return at_a_robust_rate(request, attempt)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """The arguments of `design_extended`, checked, without the network."""
+
+    system: MultiChannelSystem
+    graph: NeighborGraph | None
+    request: Request
+    dimensions: Dimensions
+    share: Share | None
+    free_assignability: bool
+    aims: Aims
+
+    @property
+    def compares(self) -> bool:
+        """Whether a search can use the lifted and the held system."""
+        _, graph = with_graph(self.system, self.graph)
+        searched = self.aims.searched_for(self.request)
+        return searched and bool(graph.delays) and self.share != "outputs+states"
+
+    def designed(self, network: SharedNetwork | None) -> Design:
+        """Design over one network."""
+        derived, allocation = sharing_network(
+            self.system,
+            self.graph,
+            self.request,
+            dimensions=self.dimensions,
+            share=self.share,
+            network=network,
+            free_assignability=self.free_assignability,
+        )
+        family = Family(derived, sharing_of(derived.kind, self.share))
+        proposals = searched_proposals(family, self.request, self.aims)
+        made = network_design("extended", derived, self.request, proposals)
+        if allocation is None:
+            return made
+        parts = {**made.parts, "allocation": allocation}
+        return replace(
+            made, certificates={**made.certificates, allocation.kind: allocation}, parts=parts
+        )
+
+    def cheaper(self) -> Design:
+        """Design over the lifted and over the held network, and keep the cheaper one.
+
+        Raises
+        ------
+        Impossible, LimitReached
+            That of the lifted network, if both fail.
+        """
+        found: dict[SharedNetwork, Design] = {}
+        told, failed = list[str](), list[McexactError]()
+        for network in _WITH_DELAYS:
+            self.request.tell(f"the {network} network")
+            try:
+                made = self.designed(network)
+            except (Impossible, LimitReached) as error:
+                failed.append(error)
+                told.append(f"{network}: {error}")
+                continue
+            found[network] = made
+            told.append(f"{network}: {_figures(made)}")
+        if not found:
+            raise failed[0]
+        best = min(found.values(), key=_price)
+        note = f"of the networks with delays, the {best.parts['network']} one was kept"
+        return replace(best, notes=(*best.notes, f"{note} ({'; '.join(told)}; computed)"))
+
+
+def _price(made: Design) -> tuple[bool, float]:
+    """Whether a design is fragile, and its cost; without a search both are unknown."""
+    found = made.parts.get("optimum")
+    if found is None:
+        return True, inf
+    return not found.figures.margin >= MARGIN, found.figures.cost
+
+
+def _figures(made: Design) -> str:
+    """The figures of a design in a few words."""
+    found = made.parts.get("optimum")
+    if found is None:
+        return f"the controller of the theorem, of order {made.order}"
+    seen = found.figures
+    return f"order {made.order}, margin {seen.margin:.3g}, cost {seen.cost:.3g}"

@@ -15,20 +15,19 @@ from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import DESIGN
 from mcexact.answer.sentence import Given
 from mcexact.errors import UsageError
-from mcexact.exact.floats import finite, matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import finite, matrix_to_float, to_float
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import written
+from mcexact.exact.roots import StabilityRegion
 from mcexact.floating.margins import loop_margins
 from mcexact.model.controller import Controller
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.gate import CertifiedLoop, Proposal, first_certified
-from mcexact.synthesis.optimum.loop_figures import bound_of_eigenvalues
-from mcexact.synthesis.request import Arithmetic, Request
+from mcexact.synthesis.gate import Arithmetic, CertifiedLoop, Proposal, Request, first_certified
+from mcexact.synthesis.optimum.diagnosis import bound_of_eigenvalues
 
 if TYPE_CHECKING:
-    from mcexact.synthesis.every_loop import EveryLoop
+    from mcexact.synthesis.robustness import EveryLoop
 
 Method = Literal["decentralized", "observer", "extended"]
 
@@ -129,7 +128,7 @@ class Design(ShownByAccount):
             Where the plant has radii, about all plants within them; otherwise about a part of its
             entries that is found with little work.
         """
-        from mcexact.synthesis.every_loop import every_loop
+        from mcexact.synthesis.robustness import every_loop
 
         return every_loop(self.loop.closed, self.region, effort)
 
@@ -176,7 +175,7 @@ class Design(ShownByAccount):
         same.  `Controller.plot` draws the gains, and `Trajectory.plot` what `simulate` returns.
         """
         from mcexact.plot.loops import loop
-        from mcexact.synthesis.optimum.curves import curves_of
+        from mcexact.synthesis.optimum.diagnosis import curves_of
 
         curves = curves_of(self.loop.closed, self.region)
         if curves is None:

@@ -13,37 +13,30 @@ from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.answer.wording import refusals as say
 from mcexact.arguments import one_of
-from mcexact.derived.integrators import setpoint_system
-from mcexact.errors import (
-    Impossible,
-    InputError,
-    InternalError,
-    LimitReached,
-    OutOfReach,
-)
-from mcexact.exact.blocks import block, hstack, vstack
-from mcexact.exact.location import StabilityRegion, steady_point
-from mcexact.exact.matrix import Matrix
+from mcexact.derived.constructions import setpoint_system
+from mcexact.errors import Impossible, InputError, InternalError, LimitReached, OutOfReach
+from mcexact.exact.matrix import Matrix, block, hstack, vstack
 from mcexact.exact.polynomial import product
+from mcexact.exact.roots import StabilityRegion, steady_point
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.linked_system import with_links
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, as_plant
-from mcexact.synthesis.agreeing_observer import observers
-from mcexact.synthesis.asking import request_for
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, as_plant, with_links
 from mcexact.synthesis.design import Design, Method, designed
-from mcexact.synthesis.gate import Proposal
-from mcexact.synthesis.integrated_plant import integrated_plant
-from mcexact.synthesis.network.network_design import network_proposals
-from mcexact.synthesis.network.networks import DerivedNetwork, decentralized_network
-from mcexact.synthesis.network.sharing import Dimensions, sharing_network
-from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.distributed_observer import observers
+from mcexact.synthesis.gate import Arithmetic, Progress, Proposal, Request
+from mcexact.synthesis.network_design import network_proposals
+from mcexact.synthesis.networks import (
+    DerivedNetwork,
+    Dimensions,
+    decentralized_network,
+    integrated_plant,
+    sharing_network,
+)
 from mcexact.synthesis.optimum.diagnosis import with_diagnosis
-from mcexact.synthesis.optimum.proposals import searched_proposals
-from mcexact.synthesis.optimum.structures import Family
-from mcexact.synthesis.optimum.weights import Weights
-from mcexact.synthesis.request import Arithmetic, Progress, Request
-from mcexact.synthesis.slowing import at_a_robust_rate
+from mcexact.synthesis.optimum.figures import Aims
+from mcexact.synthesis.optimum.problem import Weights
+from mcexact.synthesis.optimum.search import Family, searched_proposals
+from mcexact.synthesis.rate import at_a_robust_rate, request_for
 
 SetpointMethod = Literal["observer", "extended"]
 

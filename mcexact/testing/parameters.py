@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
-from mcexact.exact.location import TIMES
+from mcexact.exact.roots import TIMES
 from mcexact.model.parametric import ParametricSystem
 
 _ONES = ("0", "1", "-1", "2")

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
 from mcexact.derived.drawn.systems import Drawn as Drawn
-from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import written
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.roots import is_discrete
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -9,13 +9,12 @@ from typing import TypeVar
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
-from mcexact.derived.drawn import structure
 from mcexact.derived.drawn import systems as drawn
-from mcexact.derived.drawn.deficiency import system_with_deficiency
-from mcexact.derived.drawn.graph import drawn_graph
-from mcexact.derived.drawn.systems import Drawn
-from mcexact.exact.location import TIMES
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.derived.drawn import systems as structure
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.systems import Drawn, system_with_deficiency
+from mcexact.exact.roots import TIMES
+from mcexact.model.graph import NeighborGraph
 from mcexact.testing.printing import printed, printed_graph
 
 T = TypeVar("T")

@@ -18,7 +18,7 @@ from mcexact.checker.manifest import manifest_verdicts
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model import gallery
 from mcexact.model.box import Box
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 

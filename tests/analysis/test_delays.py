@@ -5,10 +5,9 @@ from __future__ import annotations
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.delayed import held_system
-from mcexact.derived.extended import extended_system
+from mcexact.derived.constructions import extended_system, held_system
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.campaigns import extended as campaign
 from tests.campaigns.networks import (

@@ -12,12 +12,10 @@ from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.codec import encode
 from mcexact.answer.protocol import Answer
 from mcexact.checker.kinds import check_document
-from mcexact.derived.extended import extended_system
-from mcexact.derived.integrators import setpoint_system
-from mcexact.exact.blocks import block
+from mcexact.derived.constructions import extended_system, setpoint_system
 from mcexact.exact.linear_algebra import rank
-from mcexact.exact.matrix import Matrix
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.matrix import Matrix, block
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.campaigns.networks import connectivity
 from tests.oracle.enumeration import pencil_rank, plain

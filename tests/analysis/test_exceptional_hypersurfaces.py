@@ -20,7 +20,7 @@ from mcexact import (
 )
 from mcexact.errors import UsageError
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rational_functions import RationalFunction
 from tests.campaigns import hypersurfaces
 
 

@@ -18,7 +18,7 @@ from mcexact import (
     save_controller,
 )
 from mcexact.answer import codec
-from mcexact.derived.feedback import feedback
+from mcexact.derived.constructions import feedback
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix
 

@@ -23,10 +23,10 @@ from mcexact.answer.fixed_spectrum import (
 from mcexact.answer.reading import load_certificate
 from mcexact.checker.kinds import check_document
 from mcexact.errors import InputError, NotWritten
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
-from mcexact.model.canonical import plain
+from mcexact.model.text import plain
 from tests.checker.handmade import FIXED
 
 PLANT = MultiChannelSystem(

@@ -16,19 +16,18 @@ from mcexact.answer.sentence import Given, Sentences
 from mcexact.answer.template import Sentence
 from mcexact.checker import Expectation, Limits
 from mcexact.checker.manifest import manifest_verdicts
-from mcexact.derived.extended import Share
+from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.account import tables
 from mcexact.report.text import plain
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.answer.reading import texts_of_plain
 from tests.answer.test_sentences import drawn, known_texts, require_certified, require_known

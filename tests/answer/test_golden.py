@@ -26,15 +26,15 @@ from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
 from mcexact.analysis.structure import controllability, transfer_graph
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
-from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.constructions import Share
 from mcexact.derived.drawn.networks import NETWORKS, network_system
-from mcexact.derived.extended import Share
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
-from mcexact.model.canonical import canonical, plain
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import canonical, plain
 from tests.campaigns.networks import held_verdict, lifted_verdict
 from tests.oracle.draws import exact, sparse_system
 

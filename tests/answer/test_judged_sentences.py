@@ -11,9 +11,9 @@ import pytest
 from mcexact.answer.listing import everything
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.decentralized import design_extended
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.campaigns.sentences import caught, drawn, examined
 from tests.oracle.sentences import JUDGES, UNJUDGED, Case, Said, plant_of, said, verdict

@@ -15,7 +15,7 @@ from mcexact import (
     local_controllers,
 )
 from mcexact.answer.members import leading
-from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.constructions import augmented_outputs
 
 PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
 NEAR, FAR = (Box.relative(PLANT, part).system for part in ("1/100", "9/10"))

@@ -33,7 +33,7 @@ from mcexact.answer.showing import fitted
 from mcexact.checker.kinds import KINDS as RULES
 from mcexact.errors import UsageError
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import LINE, words
 from tests.answer.test_golden import answers, of_a_parameter

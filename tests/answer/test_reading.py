@@ -9,10 +9,9 @@ import pytest
 
 import mcexact
 from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
-from mcexact.derived.feedback import feedback, full_output
-from mcexact.derived.links import add_links
+from mcexact.derived.constructions import add_links, feedback, full_output
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 GRAPH = NeighborGraph(("a", "b"), [[1], [0]], [(0, 1, 2)])

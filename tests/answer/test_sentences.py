@@ -18,7 +18,7 @@ from mcexact.answer.sentence import LOOP, Certified
 from mcexact.answer.template import templates
 from mcexact.checker import check_document
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.account import answer, in_lines, latex, tables
 from mcexact.report.account_page import account_page

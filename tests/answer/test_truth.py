@@ -10,13 +10,11 @@ import pytest
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.account import Account
-from mcexact.derived.extended import Share, extended_system
-from mcexact.derived.feedback import feedback
-from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.constructions import Share, extended_system, feedback, setpoint_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.answer.asking import account_of
 from tests.answer.test_sentences import drawn

@@ -19,10 +19,10 @@ from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.box import Box
-from mcexact.model.formats.files import save_system
-from mcexact.model.local_controllers import local_controllers
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.files import save_system
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 
 PLANTS = ("liu2020-3ch-extended-n1", "lexalutyi-two-double-integrators")

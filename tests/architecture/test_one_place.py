@@ -52,14 +52,14 @@ def replaces_a_file(node: ast.AST) -> bool:
 
 
 def test_time_domains_are_compared_in_one_place() -> None:
-    assert found_outside("exact/location.py", what=compares_time_domains) == []
+    assert found_outside("exact/roots.py", what=compares_time_domains) == []
 
 
 def test_exact_numbers_become_floats_in_one_place() -> None:
     # Residues below 2**26 are floats in `krylov`, without any rounding.
-    elsewhere = found_outside("exact/floats.py", "exact/krylov.py", what=rounds_an_exact_number)
+    elsewhere = found_outside("exact/matrix.py", "exact/krylov.py", what=rounds_an_exact_number)
     assert elsewhere == []
 
 
 def test_files_are_written_whole_in_one_place() -> None:
-    assert found_outside("model/atomic.py", what=replaces_a_file) == []
+    assert found_outside("model/text.py", what=replaces_a_file) == []

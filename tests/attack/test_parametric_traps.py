@@ -17,7 +17,7 @@ from mcexact.answer import codec
 from mcexact.checker import check_document, moved_modes, parametric_rank
 from mcexact.checker.arithmetic import cleared, coprime, poly_modulo
 from mcexact.checker.two_variables import characteristic, without
-from mcexact.model.parametric_file import read_parametric_system
+from mcexact.model.system_file import read_parametric_system
 from tests.attack.campaign import judged
 from tests.attack.conditions import GATES, require_one_gate, weakened_checker
 from tests.attack.forgeries.parametric_traps import RANKS, SPECTRA

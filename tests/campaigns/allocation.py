@@ -15,8 +15,8 @@ from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, share
 from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.extended import Share
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.derived.constructions import Share
+from mcexact.model.graph import NeighborGraph
 from tests.oracle.allocation import demands, fewest_arcs, least_cost
 from tests.oracle.draws import exact
 from tests.oracle.enumeration import PlainSystem, Rows

@@ -24,7 +24,7 @@ from mcexact.cli import main
 from mcexact.errors import Impossible
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
-from mcexact.model.formats.files import save_system
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.answer.written import with_graph
 

@@ -17,8 +17,8 @@ from mcexact.checker import reading
 from mcexact.checker.statement import canonical_json, digest_of
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
-from mcexact.model.canonical import canonical
-from mcexact.model.controller_file import read_controller
+from mcexact.model.controller import read_controller
+from mcexact.model.text import canonical
 from tests.campaigns.grammar import (
     Pairs,
     Tally,

@@ -33,13 +33,10 @@ import scipy.sparse
 import yaml
 
 from mcexact.errors import McexactError
-from mcexact.exact.floats import matrix_to_float
-from mcexact.model.controller_file import load_controller
-from mcexact.model.formats.csv_folder import csv_texts
-from mcexact.model.formats.files import load_parametric_system, load_system
-from mcexact.model.formats.mat import mat_bytes
-from mcexact.model.formats.npz import npz_bytes
-from mcexact.model.formats.parts import parts_of
+from mcexact.exact.matrix import matrix_to_float
+from mcexact.model.arrays import csv_texts, mat_bytes, npz_bytes, parts_of
+from mcexact.model.controller import load_controller
+from mcexact.model.files import load_parametric_system, load_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 from tests.campaigns import controller_grammar, grammar

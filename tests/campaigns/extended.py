@@ -19,19 +19,19 @@ from mcexact.analysis.structure.controllability import joint_controllability, jo
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.constructions import extended_system
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import jointly_controllable_system, system_with_fixed_mode
-from mcexact.derived.extended import extended_system
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.linear_algebra import left_nullspace
 from mcexact.exact.matrix import Matrix
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
-from mcexact.synthesis.request import Arithmetic
+from mcexact.synthesis.decentralized import design_extended
+from mcexact.synthesis.gate import Arithmetic
+from mcexact.synthesis.optimum.figures import THEOREM
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
 from tests.campaigns.networks import connectivity, extended_verdict, held_verdict, lifted_verdict
 

@@ -25,16 +25,15 @@ import mcexact.checker
 from mcexact.analysis.stability.stability import certify_stability, matrix_system
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.errors import LimitReached
-from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial, inverse
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, matrix_to_float
+from mcexact.exact.roots import StabilityRegion
 from mcexact.floating.margins import spectral_bound
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.design import Design

@@ -22,8 +22,8 @@ from mcexact.checker.statement import digest as checked_digest
 from mcexact.checker.system import read_plant, read_system_file
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
-from mcexact.model import system_file, system_forms
-from mcexact.model.canonical import canonical
+from mcexact.model import system, system_file
+from mcexact.model.text import canonical
 from tests.campaigns.grammar_tokens import (
     BYTES,
     ENCODINGS,
@@ -321,7 +321,7 @@ def in_a_certificate(data: bytes, limits: Limits, ours: Any) -> str:
             return f"its canonical form has the digest {found}"
     if not isinstance(document, dict) or limits != Limits():
         return ""
-    if document.pop("format", None) != system_forms.FORMAT:
+    if document.pop("format", None) != system.FORMAT:
         return ""
     plant, reason = verdict_of(lambda: read_plant(document), reading.Refused)
     expected = ours is not None and canonical(document) == canonical(form)

@@ -17,7 +17,7 @@ from typing import Any
 
 from mcexact import ParametricSystem, check, exceptional_hypersurfaces
 from mcexact.answer.codec import document
-from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rational_functions import RationalFunction
 from tests.campaigns.resumed import Examined, main
 from tests.oracle.parametric import _polynomial, fixed_radical, values
 from tests.oracle.parametric_ranks import rank_of

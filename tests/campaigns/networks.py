@@ -12,12 +12,10 @@ from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.controllability import JointControllability
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.transfer_graph import TransferGraph
-from mcexact.derived.delayed import held_system, lifted_system
-from mcexact.derived.extended import Share, extended_system
+from mcexact.derived.constructions import Share, extended_system, held_system, lifted_system
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.linked_system import with_graph
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
 
 
 @dataclass(frozen=True)

@@ -17,15 +17,13 @@ from typing import Any
 
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, largest_entry
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.size import largest_entry
-from mcexact.model.controller import Controller
-from mcexact.model.controller_file import controller_text
+from mcexact.model.controller import Controller, controller_text
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.start import InitialState
 from mcexact.simulation.trajectory import simulate

@@ -30,7 +30,7 @@ from mcexact import (
     transfer_graph,
 )
 from mcexact.analysis.engine.parametric_structure import parametric_completeness
-from mcexact.derived.extended import Share
+from mcexact.derived.constructions import Share
 from mcexact.errors import InputError
 from tests.campaigns.resumed import Examined, main
 from tests.oracle import enumeration

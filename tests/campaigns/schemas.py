@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from mcexact.model import gallery
-from mcexact.model.formats.files import save_system
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.files import save_system
+from mcexact.model.graph import NeighborGraph
 from tests.end_to_end.command_line import run
 from tests.report.schemas import faults
 

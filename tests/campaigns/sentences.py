@@ -31,17 +31,16 @@ from mcexact.answer.rules.design import EVERY_LOOP
 from mcexact.answer.sentence import Given
 from mcexact.answer.template import Sentence
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
-from mcexact.model.local_controllers import local_controllers
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.attack.oracle.reading import Unspecified
 from tests.campaigns.resumed import main

@@ -32,12 +32,12 @@ from mcexact.analysis.structure.exceptional_gains import exceptional_gains
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle import enumeration, structure
 from tests.oracle.draws import exact, sparse_system

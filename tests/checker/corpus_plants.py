@@ -24,22 +24,19 @@ from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import document
-from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import Share, extended_system
-from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.constructions import Share, error_system, extended_system, setpoint_system
 from mcexact.errors import McexactError
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
-from mcexact.model.canonical import plain
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import plain
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.answer.test_sentences import drawn
 from tests.attack.draws.certificates import certified

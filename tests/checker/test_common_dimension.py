@@ -15,14 +15,14 @@ from mcexact.analysis.sharing.allocation import shared_dimension_bound
 from mcexact.analysis.sharing.common_dimension import common_dimension
 from mcexact.analysis.sharing.separation import absence
 from mcexact.answer.codec import document
-from mcexact.derived.extended import extended_system
-from mcexact.derived.modular_system import generator
+from mcexact.derived.constructions import extended_system
+from mcexact.derived.modular import generator
 from mcexact.errors import UsageError
 from mcexact.model import gallery
-from mcexact.model.canonical import plain
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
+from mcexact.model.text import plain
 from tests.campaigns.allocation import drawn, drawn_neighbors
 from tests.checker.handmade import CHAIN, GRAPH, Document, certificate, changed, checked
 from tests.checker.polynomials import by_polynomials

@@ -5,7 +5,7 @@ from __future__ import annotations
 from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.answer.codec import document
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.handmade import certificate, changed, checked, layers, plant
 from tests.checker.polynomials import by_polynomials

@@ -12,7 +12,7 @@ from mcexact.checker import Limits
 from mcexact.checker.expressions import LONGEST, common_divisor, function, function_text
 from mcexact.checker.reading import Refused
 from mcexact.errors import InputError
-from mcexact.model.expression import parse_expression
+from mcexact.model.entries import parse_expression
 
 TEXTS: dict[Any, Any] = {
     "1/2 + 3*t^2": "3*t^2 + 1/2",

@@ -29,9 +29,8 @@ from mcexact.checker.budget import Budget, Refused, limited
 from mcexact.checker.moved_entries import MOVING, subject_of
 from mcexact.checker.parametric_system import ParametricSystem as Read
 from mcexact.checker.parametric_system import read_parametric
-from mcexact.derived import moved_entries
-from mcexact.derived.feedback import feedback
-from mcexact.derived.moved_entries import along_line
+from mcexact.derived import constructions
+from mcexact.derived.constructions import along_line, feedback
 from mcexact.errors import InputError, UsageError
 from tests.attack.draws.parametric import drawn_moves, drawn_on_a_line, drawn_parametric_plant
 from tests.attack.oracle.constructions import subject_of as obvious
@@ -110,7 +109,7 @@ def test_checker_package_and_oracle_make_the_same(number: int) -> None:
 
 def test_every_construction_that_moves_entries_is_examined() -> None:
     assert {step["construction"] for steps in SEVERAL.values() for step in steps} == set(MOVING)
-    assert moved_entries.MOVING == set(MOVING)
+    assert constructions.MOVING == set(MOVING)
 
 
 OTHERS: dict[str, Any] = {
@@ -255,11 +254,11 @@ def test_the_package_refuses_them_as_well(
 def test_there_is_one_line_before_all_other_constructions() -> None:
     with pytest.raises(UsageError, match="on a line already"):
         along_line(LINE, {"s": 1}, {"s": 1}, "r")
-    turned = moved_entries.moved(TWO, dual)
+    turned = constructions.moved(TWO, dual)
     line = along_line(turned, {"a": 1, "b": 0}, {"a": "1/2", "b": -1})
     assert [step["construction"] for step in line.subject] == ["line", "dual"]
-    assert line.A == moved_entries.moved(LINE, dual).A
-    alone = moved_entries.moved(TWO, lambda plain: restricted(plain, ["1"]))
+    assert line.A == constructions.moved(LINE, dual).A
+    alone = constructions.moved(TWO, lambda plain: restricted(plain, ["1"]))
     with pytest.raises(InputError, match="undefined there"):
         along_line(alone, {"a": 1, "b": 0}, {"a": 0, "b": 1})
 
@@ -304,4 +303,4 @@ def test_a_certificate_is_about_what_was_constructed() -> None:
     for steps in (found["subject"][:1], [], found["subject"][::-1]):
         assert checked({**found, "subject": steps}).verdict in ("INVALID", "MALFORMED")
     with pytest.raises(UsageError, match="feedback does not apply"):
-        moved_entries.moved(plant, lambda bare: feedback(bare, [[[1, 1]], [[1]], [[1]]]))
+        constructions.moved(plant, lambda bare: feedback(bare, [[[1, 1]], [[1]], [[1]]]))

@@ -11,8 +11,8 @@ from mcexact.answer.codec import document
 from mcexact.checker import Expectation, Limits
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.model.box import Box
-from mcexact.model.controller_file import controller_text
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.controller import controller_text
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
 from mcexact.synthesis.certify import certify_controller

@@ -11,8 +11,7 @@ from mcexact import MultiChannelSystem, ParametricSystem
 from mcexact.checker import Expectation, Limits
 from mcexact.checker.reading import Refused
 from mcexact.errors import InputError
-from mcexact.model.parametric_file import read_parametric_system
-from mcexact.model.system_file import system_text
+from mcexact.model.system_file import read_parametric_system, system_text
 from tests.checker.handmade import changed, checked
 from tests.checker.parametric_plants import ALL, PAPER, RANGED
 

@@ -30,15 +30,15 @@ from mcexact.checker.manifest import Evidence
 from mcexact.checker.reading import Limits
 from mcexact.checker.sentence import RULES, Premise, Rule
 from mcexact.checker.sentences_design import DIMENSIONS
-from mcexact.derived.extended import Share, extended_system
-from mcexact.exact.location import StabilityRegion
+from mcexact.derived.constructions import Share, extended_system
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
-from mcexact.model.canonical import canonical, plain
-from mcexact.model.local_controllers import local_controllers
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import canonical, plain
 from mcexact.synthesis.certify import certify_controller
 from tests.answer.asking import asked as asking
 from tests.answer.test_sentences import drawn, question

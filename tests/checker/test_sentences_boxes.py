@@ -14,7 +14,7 @@ from mcexact.checker.sentences_boxes import least
 from mcexact.checker.system_matrices import read_matrix
 from mcexact.checker.uncertainty import pairs_of, radii_in_words
 from mcexact.model.box import Box
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.box_maker import stable
 from tests.checker.box_plants import LOOP_STABLE, PART_CERTAIN, PART_STABLE, WAYS, proportional

@@ -13,9 +13,7 @@ from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import document
 from mcexact.checker import Verdict
 from mcexact.checker.sentence import RULES
-from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import extended_system
-from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.constructions import error_system, extended_system, setpoint_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from tests.checker import test_setpoint

@@ -208,9 +208,7 @@ def test_what_is_not_implied_is_refused_with_its_reason(name: str, tmp_path: Pat
 def test_channels_that_are_merged_in_part_do_not_stand_for_all(tmp_path: Path) -> None:
     from mcexact.analysis.engine import parametric_fixed_spectrum
     from mcexact.answer.codec import document
-    from mcexact.derived.feedback import full_output
-    from mcexact.derived.merged import merged
-    from mcexact.derived.moved_entries import moved
+    from mcexact.derived.constructions import full_output, merged, moved
 
     plant = ParametricSystem(
         [[1, "t"], [0, 2]], [[[0], [1]], [[1], [0]], [[0], [0]]], [[[1, 0]]] * 3, parameters=["t"]

@@ -10,7 +10,7 @@ import pytest
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.checker.reading import Limits, Refused
 from mcexact.errors import InputError
-from mcexact.model.parametric_file import read_parametric_document
+from mcexact.model.system_file import read_parametric_document
 from tests.checker.handmade import ranged
 
 TEXTS: dict[str, Any] = {

@@ -12,7 +12,7 @@ from mcexact.checker.reading import Refused
 from mcexact.checker.shared_dimensions import read_cut
 from mcexact.checker.system import read_plant
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.handmade import Document, changed, checked, matrix, plant
 from tests.checker.polynomials import by_polynomials

@@ -21,8 +21,8 @@ from mcexact.checker.reading import Refused
 from mcexact.checker.statement import canonical_json, described, polynomial_text
 from mcexact.checker.subject import CONSTRUCTIONS, read_subject
 from mcexact.checker.system import System, read_plant
-from mcexact.model.canonical import plain
 from mcexact.model.system_file import read_system
+from mcexact.model.text import plain
 from tests.attack.draws.certificates import some_certificate
 from tests.attack.oracle.statement import statement as second
 from tests.attack.oracle.statement import system_words as second_words

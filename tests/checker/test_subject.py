@@ -14,22 +14,26 @@ from mcexact.checker.reading import Refused
 from mcexact.checker.statement import digest
 from mcexact.checker.subject import CONSTRUCTIONS, LINE, read_subject
 from mcexact.checker.system import System, read_plant
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.delayed import held_system, lifted_system
-from mcexact.derived.dual import dual
-from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import feedback, full_output
-from mcexact.derived.integrators import setpoint_system
-from mcexact.derived.links import add_links
-from mcexact.derived.merged import merged
-from mcexact.derived.restricted import restricted
+from mcexact.derived.constructions import (
+    add_links,
+    augmented_outputs,
+    dual,
+    error_system,
+    extended_system,
+    feedback,
+    full_output,
+    held_system,
+    lifted_system,
+    merged,
+    restricted,
+    setpoint_system,
+)
 from mcexact.exact.matrix import Matrix
-from mcexact.model.canonical import plain
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import plain
 from tests import effort
 from tests.checker.handmade import FREE, changed, checked
 

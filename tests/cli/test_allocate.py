@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from mcexact.model import gallery
-from mcexact.model.formats.files import save_system
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.files import save_system
+from mcexact.model.graph import NeighborGraph
 from tests.end_to_end.command_line import run
 
 PLANT = gallery.load("liu2020-3ch-no-communication")

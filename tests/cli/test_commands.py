@@ -16,7 +16,7 @@ from mcexact.cli.commands import COMMANDS
 from mcexact.crosschecks import demonstration
 from mcexact.crosschecks.records import libraries_here
 from mcexact.model import gallery
-from mcexact.model.formats.files import load_system
+from mcexact.model.files import load_system
 from tests.checker.manifests import write
 from tests.end_to_end.command_line import without_notes
 

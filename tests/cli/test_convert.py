@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mcexact.model import gallery
-from mcexact.model.formats.files import load_parametric_system, load_system, save_system
+from mcexact.model.files import load_parametric_system, load_system, save_system
 from mcexact.model.parametric import ParametricSystem
 from tests.cli.calling import call
 from tests.model.formats.hostile import mat

@@ -14,7 +14,7 @@ import pytest
 
 from mcexact.cli.deadline import Deadline
 from mcexact.errors import LimitReached
-from mcexact.model.formats.files import save_system
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
 from tests.cli.calling import call

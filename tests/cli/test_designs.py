@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mcexact.model import gallery
-from mcexact.model.formats.files import save_system
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.answer.written import with_graph
 from tests.end_to_end.command_line import run

@@ -11,8 +11,8 @@ from mcexact.answer.parameter_values import (
     mode_text,
 )
 from mcexact.model import gallery
-from mcexact.model.formats.recognize import read_any
-from mcexact.model.published import published
+from mcexact.model.files import read_any
+from mcexact.model.gallery import published
 from mcexact.model.system_file import read_system
 from tests.cli.calling import call
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from mcexact.model.box import Box
-from mcexact.model.controller_file import load_controller, save_controller
-from mcexact.model.formats.files import save_system
+from mcexact.model.controller import load_controller, save_controller
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
 

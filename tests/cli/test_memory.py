@@ -12,7 +12,7 @@ import pytest
 from mcexact.cli import memory
 from mcexact.cli.supervision import supervised
 from mcexact.errors import InternalError, LimitReached, UsageError
-from mcexact.model.formats.files import save_system
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
 

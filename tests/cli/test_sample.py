@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import LimitReached
 from mcexact.model.system_file import read_system
 from tests.end_to_end.command_line import run

@@ -12,7 +12,7 @@ import pytest
 from mcexact.cli import command_line
 from mcexact.cli.spectra import COEFFICIENTS, NUMBERS, PAIRS, ROOTS, spectrum_text
 from mcexact.errors import InputError
-from mcexact.synthesis.methods.spectrum import require_numbers, spectrum_polynomial
+from mcexact.synthesis.state_feedback import require_numbers, spectrum_polynomial
 
 
 def help_of(name: str, capsys: pytest.CaptureFixture[str]) -> str:

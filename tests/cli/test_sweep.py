@@ -14,11 +14,11 @@ import pytest
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer import codec
 from mcexact.cli import main
-from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.model import gallery
-from mcexact.model.controller_file import save_controller
-from mcexact.model.formats.files import save_system
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.controller import save_controller
+from mcexact.model.files import save_system
+from mcexact.model.statespace import local_controllers
 from mcexact.report.sweep_view import sweep_tables
 from mcexact.sweeps.questions import QUESTIONS
 from tests.effort import PATIENCE

@@ -11,7 +11,7 @@ import pytest
 from mcexact.cli import main
 from mcexact.cli.files import require_apart, require_writable
 from mcexact.errors import InputError, LimitReached, NotWritten
-from mcexact.model.formats.files import save_system
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 
 WRITING = {

@@ -9,7 +9,7 @@ import pytest
 from mcexact.crosschecks.gallery import exhibit, exhibits, shown, shown_in
 from mcexact.crosschecks.records import recorded
 from mcexact.crosschecks.table import crosscheck
-from mcexact.derived.dual import dual
+from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem
 from tests.attack.oracle.algebra import fraction_polynomial

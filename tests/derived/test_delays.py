@@ -5,13 +5,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.derived.delayed import held_system, lifted_system
-from mcexact.derived.extended import extended_system
+from mcexact.derived.constructions import extended_system, held_system, lifted_system
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.blocks import vstack
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, vstack
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -9,30 +9,28 @@ import sympy
 from hypothesis import given, settings
 
 from mcexact import testing
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.deficiency import system_with_deficiency
-from mcexact.derived.drawn.draw import Draw, drawn_system
-from mcexact.derived.drawn.graph import drawn_graph
-from mcexact.derived.drawn.parts import irreducible
-from mcexact.derived.drawn.structure import (
-    incomplete_system,
-    system_with_indices,
-    system_with_remnant,
-)
+from mcexact.derived.constructions import augmented_outputs
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.primary_form import SeededChoices, irreducible
 from mcexact.derived.drawn.systems import (
+    Draw,
     Drawn,
     any_system,
+    drawn_system,
+    incomplete_system,
     jointly_controllable_system,
     sparse_system,
+    system_with_deficiency,
     system_with_fixed_mode,
+    system_with_indices,
+    system_with_remnant,
     uncontrollable_system,
 )
 from mcexact.errors import UsageError
-from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import hstack
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from tests.oracle import enumeration as oracle
 
 

@@ -5,16 +5,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.dual import dual
-from mcexact.derived.extended import extended_system
-from mcexact.derived.links import add_links
+from mcexact.derived.constructions import add_links, augmented_outputs, dual, extended_system
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.blocks import block
 from mcexact.exact.linear_algebra import rank
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 
 
 @pytest.fixture

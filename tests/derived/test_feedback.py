@@ -7,12 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.derived.error_system import error_system
-from mcexact.derived.feedback import feedback, full_output
-from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.constructions import error_system, feedback, full_output, setpoint_system
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -10,8 +10,7 @@ from mcexact import testing
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure.transfer_graph import transfer_graph
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.merged import merged
+from mcexact.derived.constructions import augmented_outputs, merged
 from mcexact.errors import InputError, UsageError
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem

@@ -9,9 +9,9 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer import codec
 from mcexact.answer.fixed_spectrum import ByBlocks
 from mcexact.checker import check_document
-from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
-from mcexact.derived.modular_system import (
+from mcexact.derived.modular import (
     ModularSystem,
     closed_loop,
     drawn_gains,

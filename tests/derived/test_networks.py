@@ -6,9 +6,9 @@ import pytest
 
 from mcexact import fixed_spectrum
 from mcexact.cli.options import NETWORKS as OFFERED
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.derived.drawn.networks import NETWORKS, network_system
+from mcexact.derived.drawn.primary_form import SeededChoices
+from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem

@@ -7,7 +7,7 @@ import networkx
 import pytest
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.constructions import augmented_outputs
 from mcexact.derived.variants import neighbor_graph_variants, parameter_grid, sensor_variants
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model import gallery

@@ -33,9 +33,9 @@ LIBRARIES = ("flint", "networkx", "numpy", "scipy.linalg", "scipy.optimize", "sy
 PACKAGE = (
     "mcexact.cli.rechecking",
     "mcexact.cli.supervision",
-    "mcexact.model.formats.files",
+    "mcexact.model.files",
     "mcexact.synthesis.certify",
-    "mcexact.synthesis.extended",
+    "mcexact.synthesis.decentralized",
     "mcexact.synthesis.setpoint",
 )
 LONGEST = 1 << 20  # bytes of a message

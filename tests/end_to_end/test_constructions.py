@@ -11,19 +11,24 @@ from mcexact import testing
 from mcexact.checker.statement import digest as checked_digest
 from mcexact.checker.subject import read_subject
 from mcexact.checker.system import read_plant
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.delayed import held_system, lifted_system
-from mcexact.derived.dual import dual
-from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import Share, extended_system
-from mcexact.derived.feedback import feedback, full_output
-from mcexact.derived.integrators import setpoint_system
-from mcexact.derived.links import add_links
-from mcexact.derived.merged import merged
-from mcexact.derived.restricted import restricted
+from mcexact.derived.constructions import (
+    Share,
+    add_links,
+    augmented_outputs,
+    dual,
+    error_system,
+    extended_system,
+    feedback,
+    full_output,
+    held_system,
+    lifted_system,
+    merged,
+    restricted,
+    setpoint_system,
+)
 from mcexact.exact.matrix import Matrix
-from mcexact.model.canonical import text_of
 from mcexact.model.loop import closed_loop
+from mcexact.model.text import text_of
 from tests.model.test_controller import drawn_controller
 
 SHARES: tuple[Share, ...] = ("outputs+states", "states")

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.model.formats.files import save_system
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
 

@@ -8,9 +8,9 @@ import pytest
 
 from mcexact.answer.codec import encode
 from mcexact.crosschecks.gallery import exhibit, exhibits
-from mcexact.model.controller_file import save_controller
-from mcexact.model.formats.files import save_system
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.controller import save_controller
+from mcexact.model.files import save_system
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from tests.campaigns.floating import (
     both_methods,

@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.model.controller_file import load_controller
-from mcexact.model.formats.files import save_system
+from mcexact.model.controller import load_controller
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
 from tests.synthesis.test_extended import late

@@ -11,9 +11,8 @@ from pathlib import Path
 import pytest
 
 from mcexact import checker
-from mcexact.model.controller import AgentProgram, Controller
-from mcexact.model.controller_file import load_controller, save_controller
-from mcexact.model.formats.files import save_system
+from mcexact.model.controller import AgentProgram, Controller, load_controller, save_controller
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
 from tests.synthesis.three_channels import three_channels

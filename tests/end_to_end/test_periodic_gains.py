@@ -9,12 +9,12 @@ import sympy
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.feedback import closed_by
+from mcexact.derived.constructions import closed_by
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.synthesis.decentralized import design_decentralized
 from tests.end_to_end.command_line import run

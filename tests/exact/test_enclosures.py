@@ -9,8 +9,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mcexact.errors import InputError
-from mcexact.exact.enclosures import Disc, real_root_intervals, root_discs
 from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.roots import Disc, real_root_intervals, root_discs
 from tests.exact.draws import polynomials
 
 DECIMAL = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]*[1-9])?")

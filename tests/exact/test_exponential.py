@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.exact.exponential import exponential
+from mcexact.exact.balls import exponential
 from mcexact.exact.matrix import Matrix
 
 

@@ -4,13 +4,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcexact.exact import field_equations
-from mcexact.exact.field_equations import solve_over_field
-from mcexact.exact.linear_algebra import rank
+from mcexact.exact import linear_algebra
+from mcexact.exact.linear_algebra import PolynomialMatrix, inflate, rank, solve_over_field
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix, inflate
 from tests.exact.draws import matrices
 
 FIELDS = [
@@ -25,7 +23,7 @@ WAYS = pytest.mark.parametrize("degree", [1, 99], ids=["by values", "over Q"])
 @pytest.fixture
 def least_degree(monkeypatch, degree):
     """Let every field be solved in the same way."""
-    monkeypatch.setattr(field_equations, "_DEGREE", degree)
+    monkeypatch.setattr(linear_algebra, "_DEGREE", degree)
 
 
 @st.composite
@@ -45,7 +43,7 @@ def test_both_ways_solve_the_equation_where_the_matrix_is_nonsingular(given_, p)
     found = []
     for degree in (1, 99):
         with pytest.MonkeyPatch.context() as patched:
-            patched.setattr(field_equations, "_DEGREE", degree)
+            patched.setattr(linear_algebra, "_DEGREE", degree)
             found.append(solve_over_field(N, right, p))
     assert found[0] == found[1]
     if singular:
@@ -83,7 +81,7 @@ def test_a_prime_that_divides_a_denominator_is_left_out(least_degree):
 
 
 def test_points_where_the_matrix_is_singular_are_left_out(monkeypatch):
-    monkeypatch.setattr(field_equations, "_DEGREE", 1)
+    monkeypatch.setattr(linear_algebra, "_DEGREE", 1)
     x = Polynomial.x()
     N = PolynomialMatrix.from_polynomials([[x * (x - Polynomial.of(1))]])
     X = solve_over_field(N, PolynomialMatrix.identity(1), FIELDS[1])

@@ -10,8 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.errors import InputError
-from mcexact.exact.floats import from_float, matrix_from_float, matrix_to_float, to_float
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, from_float, matrix_from_float, matrix_to_float, to_float
 from tests.exact.draws import matrices
 
 finite = st.floats(allow_nan=False, allow_infinity=False)

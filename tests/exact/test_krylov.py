@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.exact import krylov
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.modular import ModularMatrix, primes, residues
 from tests.exact.draws import square_matrices
 

@@ -7,7 +7,6 @@ from hypothesis import given
 
 from mcexact.errors import InputError
 from mcexact.exact import linear_algebra
-from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import (
     characteristic_polynomial,
     determinant,
@@ -21,7 +20,7 @@ from mcexact.exact.linear_algebra import (
     solve,
     solve_nonsingular,
 )
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack
 from mcexact.exact.polynomial import Polynomial
 from tests.exact.draws import domain_matrix, evaluated, matrices, small, square_matrices
 

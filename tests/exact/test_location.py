@@ -8,8 +8,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.location import StabilityRegion, is_hurwitz, is_schur
 from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.roots import StabilityRegion, is_hurwitz, is_schur
 from tests.exact.draws import polynomials
 
 parts = st.builds(Fraction, st.integers(-6, 6), st.integers(1, 4))

@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.errors import FloatRefused, InputError, LimitReached
-from mcexact.exact.blocks import block, block_diagonal, hstack, kronecker, vstack
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, kronecker, vstack
 from tests.exact.draws import (
     domain_matrix,
     from_domain_matrix,

@@ -10,14 +10,16 @@ import flint
 import pytest
 
 from mcexact.errors import InternalError
-from mcexact.exact.modular_resultants import (
+from mcexact.exact.bivariate import (
     common_divisor,
-    degree_bound,
+    difference,
     interpolated_modulo,
     of_rationals,
+    product,
+    residues,
+    resultant_degree_bound,
 )
-from mcexact.exact.prime_field import primes
-from mcexact.exact.two_variables import difference, product, residues
+from mcexact.exact.modular import primes
 from tests.oracle.resultants import resultant
 
 P = flint.fmpq_poly
@@ -39,20 +41,20 @@ def test_resultants_have_the_residues_of_exact_ones_and_no_larger_degree(seed: i
     f, g = drawn(rng, rng.randint(0, 4)), drawn(rng, rng.randint(1, 3))
     whole = resultant(f, g)
     assert of_rationals(f, g, ELL) == residues(whole, ELL)
-    assert whole.degree() <= degree_bound(f, g)
-    assert whole.degree() <= degree_bound(f, difference(g, f))
+    assert whole.degree() <= resultant_degree_bound(f, g)
+    assert whole.degree() <= resultant_degree_bound(f, difference(g, f))
 
 
 def test_the_bound_is_reached_by_most_polynomials() -> None:
     f = [P([0, 0, 1]), P([1, 1]), P([3]), P([1])]
     g = [P([5, 2]), P([0, 3]), P([1])]
-    assert resultant(f, g).degree() == degree_bound(f, g) == degree_bound(g, f)
+    assert resultant(f, g).degree() == resultant_degree_bound(f, g) == resultant_degree_bound(g, f)
     # -t + 1 and -t + 2 are alike at infinity
     f, g = [P([1, -1]), P([1])], [P([2, -1]), P([1])]
-    assert (degree_bound(f, g), degree_bound(f, difference(g, f))) == (1, 0)
+    assert (resultant_degree_bound(f, g), resultant_degree_bound(f, difference(g, f))) == (1, 0)
     # the root 0, and a polynomial that vanishes there
-    assert degree_bound([P([]), P([1])], [P([0, 0, 7])]) == 2
-    assert degree_bound([P([]), P([1])], [P([]), P([0, 0, 7])]) == 0
+    assert resultant_degree_bound([P([]), P([1])], [P([0, 0, 7])]) == 2
+    assert resultant_degree_bound([P([]), P([1])], [P([]), P([0, 0, 7])]) == 0
 
 
 @pytest.mark.parametrize("many", [1, 2, 3, 5, 8, 13])

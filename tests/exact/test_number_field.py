@@ -9,15 +9,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.errors import InputError
-from mcexact.exact.blocks import block_diagonal
-from mcexact.exact.linear_algebra import characteristic_polynomial, nullspace
+from mcexact.exact.linear_algebra import (
+    PolynomialMatrix,
+    characteristic_polynomial,
+    field_kernel,
+    field_rank,
+    inflate,
+    kernel_at,
+    nullspace,
+)
 from mcexact.exact.linear_algebra import rank as rational_rank
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular import residues
-from mcexact.exact.number_field import kernel, kernel_at, rank
+from mcexact.exact.matrix import Matrix, block_diagonal
+from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix, inflate
-from mcexact.exact.prime_field import primes
 from tests.exact.draws import evaluated, matrices, polynomials, small, square_matrices
 
 GOLDEN = Polynomial.of(-1, -1, 1)
@@ -82,12 +86,12 @@ def test_values_modulo_a_prime(M, mu):
 
 @given(polynomial_matrices(), st.sampled_from(IRREDUCIBLE))
 def test_a_kernel_is_annihilated_and_complete(M, p):
-    U, pivots = kernel(M, p)
+    U, pivots = field_kernel(M, p)
     assert (M @ U % p).is_zero()
     assert U.take(rows=pivots) == PolynomialMatrix.identity(U.ncols)
     assert U % p == U
     assert rational_rank(inflate(M, p)) == p.degree * (M.ncols - U.ncols)
-    assert rank(M, p) == rank(M.T, p) == M.ncols - U.ncols
+    assert field_rank(M, p) == field_rank(M.T, p) == M.ncols - U.ncols
 
 
 @given(square_matrices(4, entries=small))
@@ -122,7 +126,7 @@ def test_a_kernel_over_a_cubic_field_is_that_of_sympy():
 def test_a_rank_drop_only_modulo_the_probing_prime_is_no_rank_drop():
     ell = next(primes(0, bits=62))
     M = PolynomialMatrix.pencil(Matrix.from_rows([[-ell, 0], [0, 1]]), Matrix.zeros(2, 2))
-    U, pivots = kernel(M, GOLDEN)
+    U, pivots = field_kernel(M, GOLDEN)
     assert U.shape == (2, 0)
     assert pivots == ()
 
@@ -130,7 +134,7 @@ def test_a_rank_drop_only_modulo_the_probing_prime_is_no_rank_drop():
 def test_other_pivots_modulo_the_probing_prime_give_a_kernel_all_the_same():
     ell = next(primes(0, bits=62))
     M = PolynomialMatrix.from_matrices(Matrix.from_rows([[ell, 1]]))
-    U, pivots = kernel(M, CUBIC)
+    U, pivots = field_kernel(M, CUBIC)
     assert (M @ U % CUBIC).is_zero()
     assert U.take(rows=pivots) == PolynomialMatrix.identity(1)
 
@@ -148,10 +152,10 @@ def test_a_large_field_and_repeated_eigenvalues():
 @pytest.mark.parametrize("shape", [(0, 0), (0, 3), (3, 0)])
 def test_matrices_without_entries(shape):
     Z = PolynomialMatrix.from_matrices(Matrix.zeros(*shape))
-    U, pivots = kernel(Z, GOLDEN)
+    U, pivots = field_kernel(Z, GOLDEN)
     assert PolynomialMatrix.identity(shape[1]) == U
     assert pivots == tuple(range(shape[1]))
-    assert rank(Z, GOLDEN) == 0
+    assert field_rank(Z, GOLDEN) == 0
     assert Z.T.shape == shape[::-1]
     assert (Z @ Z.T).shape == (shape[0], shape[0])
     assert Z % GOLDEN == Z
@@ -161,7 +165,7 @@ def test_matrices_without_entries(shape):
 def test_a_reducible_polynomial_is_refused_where_it_is_no_field():
     M = PolynomialMatrix.pencil(Matrix.from_rows([[-1]]), Matrix.identity(1))
     with pytest.raises(InputError, match=r"expected an irreducible polynomial, found x\^2 - 1"):
-        kernel(M, Polynomial.of(-1, 0, 1))
+        field_kernel(M, Polynomial.of(-1, 0, 1))
 
 
 I2 = PolynomialMatrix.identity(2)
@@ -171,7 +175,7 @@ ONE = Matrix.identity(1)
 @pytest.mark.parametrize(
     ("operation", "message"),
     [
-        (lambda: kernel(I2, Polynomial.of(1)), "expected a polynomial of degree at least 1"),
+        (lambda: field_kernel(I2, Polynomial.of(1)), "expected a polynomial of degree at least 1"),
         (lambda: I2 % Polynomial.of(0), "expected a polynomial of degree at least 1"),
         (lambda: PolynomialMatrix.from_matrices(), "expected at least one coefficient matrix"),
         (

@@ -8,16 +8,16 @@ from typing import Any
 import pytest
 import sympy
 
-from mcexact.exact.function_kernels import entries_of
-from mcexact.exact.parameter_matrices import (
+from mcexact.exact.bivariate import (
     determinant,
     determinant_modulo,
+    entries_of,
     generic_kernel,
     kernel_modulo,
-    product,
+    matrix_product,
 )
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 
 t = sympy.Symbol("t")
 PRIME = 1000003
@@ -50,7 +50,7 @@ def test_kernels_are_annihilated_generically_and_at_a_value() -> None:
     pivots, vectors = generic_kernel(M, 4)
     assert len(pivots) == len(vectors) == 2
     columns = [[v[i][0] for v in vectors] for i in range(4)]
-    assert all(entry == 0 for row in product(M, columns) for entry in row)
+    assert all(entry == 0 for row in matrix_product(M, columns) for entry in row)
     q = Polynomial.of(-2, 0, 1)
     square = entries_of(PolynomialMatrix.from_polynomials([[q, Polynomial.of(1)]], ncols=2))
     pivots, vectors = kernel_modulo(square, 2, q)

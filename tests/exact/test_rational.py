@@ -11,12 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.errors import FloatRefused, InputError
-from mcexact.exact.rational import (
-    Limits,
-    as_fraction,
-    parse_rational,
-    written,
-)
+from mcexact.exact.rational import Limits, as_fraction, parse_rational, written
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcexact.exact.modular import residue
-from mcexact.exact.reconstruction import (
-    combine,
-    integers,
-    rational,
-    rationals,
-)
+from mcexact.exact.modular import combine, integers, rational, rationals, residue
 
 ELLS = (1_000_003, 998_244_353)
 MODULUS = ELLS[0] * ELLS[1]

@@ -6,8 +6,8 @@ import random
 
 import pytest
 
+from mcexact.exact.krylov import cofactors, least_recurrence
 from mcexact.exact.modular import ModularPolynomial
-from mcexact.exact.recurrence import cofactors, least_recurrence
 
 
 def satisfied(d: list[int], s: list[int], ell: int) -> bool:

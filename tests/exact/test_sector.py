@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion, is_hurwitz
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.sector import lifted, turned
+from mcexact.exact.roots import StabilityRegion, is_hurwitz, lifted, turned
 
 PARTS = st.integers(-6, 6)
 RATIOS = st.fractions(Fraction(1, 40), Fraction(39, 40), max_denominator=40)

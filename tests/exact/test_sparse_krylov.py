@@ -6,11 +6,17 @@ import numpy as np
 import pytest
 import scipy.sparse
 
-from mcexact.exact import sparse_krylov
-from mcexact.exact.krylov import FloatLoop, loop_sequences
+from mcexact.exact import krylov
+from mcexact.exact.krylov import (
+    FloatLoop,
+    SparseLoop,
+    loop_sequences,
+    sequence,
+    stays_sparse,
+    steps_at_once,
+)
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import residues
-from mcexact.exact.sparse_krylov import SparseLoop, sequence, stays_sparse, steps_at_once
 
 MODULI = [2, 3, 7, 31, 2**19 - 1]
 
@@ -57,7 +63,7 @@ def plain(M, row, column, ell, length):
 @pytest.mark.parametrize("ell", [2, 7, 31, 2**19 - 1])
 @pytest.mark.parametrize("together", [1, 3, 1024])
 def test_every_entry_as_large_as_it_can_be_is_computed_exactly(ell, together, monkeypatch):
-    monkeypatch.setattr(sparse_krylov, "_TOGETHER", together)
+    monkeypatch.setattr(krylov, "_TOGETHER", together)
     n, top = 9, ell // 2
     for entry in (top, -top):
         M = scipy.sparse.csr_array(np.full((n, n), entry, dtype=np.int64))
@@ -76,7 +82,7 @@ def test_steps_are_as_many_as_are_exact():
 
 
 def test_no_sequence_is_computed_where_one_step_is_not_exact(monkeypatch):
-    monkeypatch.setattr(sparse_krylov, "_EXACT", 10)
+    monkeypatch.setattr(krylov, "_EXACT", 10)
     loop = SparseLoop(Matrix.identity(3), [Matrix.column([1] * 3)], [Matrix.zeros(1, 3)], 31)
     assert loop.sequences(loop.closed([[[1]]]), [(0, [1], [1])]) is None
 

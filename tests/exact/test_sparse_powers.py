@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 import scipy.sparse
 
-from mcexact.exact.modular_polynomial import ModularPolynomial
-from mcexact.exact.prime_field import primes
-from mcexact.exact.sparse_powers import SparsePowers, largest_prime, row_echelon
+from mcexact.exact.krylov import SparsePowers, largest_prime, row_echelon
+from mcexact.exact.modular import ModularPolynomial, primes
 
 ELL = next(primes(1, 24))
 

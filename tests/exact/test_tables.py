@@ -12,9 +12,17 @@ from hypothesis import strategies as st
 
 from mcexact.errors import FloatRefused, InputError, LimitReached
 from mcexact.exact import tables
-from mcexact.exact.blocks import block, block_diagonal, hstack, kronecker, vstack
-from mcexact.exact.floats import matrix_from_float, matrix_to_float
-from mcexact.exact.matrix import Matrix, from_numerators
+from mcexact.exact.matrix import (
+    Matrix,
+    block,
+    block_diagonal,
+    from_numerators,
+    hstack,
+    kronecker,
+    matrix_from_float,
+    matrix_to_float,
+    vstack,
+)
 from mcexact.exact.tables import DenseTable, SparseTable, listed
 from tests.exact.draws import matrices, rationals
 

@@ -2,11 +2,11 @@
 
 from concurrent.futures import ThreadPoolExecutor
 
-from mcexact.exact.enclosures import root_discs
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import residues
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import root_discs
 
 
 def test_threads_that_share_a_matrix_find_what_one_thread_finds():

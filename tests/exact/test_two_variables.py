@@ -10,11 +10,11 @@ import pytest
 import sympy
 
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact import modular_resultants, parameter_field, two_variables
-from mcexact.exact.function_kernels import Tower, X, line, modulus_at, over_functions
+from mcexact.exact import bivariate
+from mcexact.exact.bivariate import Tower, X, line, modulus_at, over_functions
+from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
-from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rational_functions import RationalFunction
 from tests.oracle.resultants import resultant
 
 P = flint.fmpq_poly
@@ -43,7 +43,7 @@ def test_resultants_are_those_of_sympy(seed: int) -> None:
     expected = sympy.Poly(sympy.resultant(as_sympy(f), as_sympy(g), x), t)
     assert sympy.Poly(as_sympy([found]), t) in (expected, -expected)
     ell = 1000003
-    assert modular_resultants.of_rationals(f, g, ell) == two_variables.residues(found, ell)
+    assert bivariate.of_rationals(f, g, ell) == bivariate.residues(found, ell)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -54,11 +54,11 @@ def test_the_characteristic_polynomial_is_that_of_sympy(seed: int) -> None:
         for _ in range(3)
     ]
     M = PolynomialMatrix.from_matrices(*layers)
-    found = two_variables.characteristic(M)
+    found = bivariate.characteristic(M)
     rows = [[sum(L[i, j] * t**k for k, L in enumerate(layers)) for j in range(3)] for i in range(3)]
     expected = sympy.Matrix(rows).charpoly(x).as_expr()
     assert sympy.expand(as_sympy(found) - expected) == 0
-    assert two_variables.degree(found) <= two_variables.degree_bound(M)
+    assert bivariate.degree(found) <= bivariate.degree_bound(M)
 
 
 @pytest.mark.parametrize("q", ["t - 2", "t**2 - 2", "t**3 + t + 1"])
@@ -71,13 +71,13 @@ def test_factors_over_a_number_field_multiply_to_the_squarefree_part(q: str) -> 
         for j, b in enumerate(first):
             for k, c in enumerate(second):
                 product[i + j + k] = (product[i + j + k] + a * b * c) % modulus
-    found = parameter_field.factors(product, modulus)
+    found = bivariate.factors(product, modulus)
     splits = q == "t**2 - 2"  # √2 is in the field, and −√2 a root of the first factor as well
     assert sorted(len(p) - 1 for p in found) == ([1, 1] if splits else [1, 2])
     for p in found:
-        assert two_variables.divided(product, p, modulus)[1] == []
-    common = parameter_field.gcd(product, first, modulus)
-    assert common == parameter_field.monic(first, modulus)
+        assert bivariate.divided(product, p, modulus)[1] == []
+    common = bivariate.gcd(product, first, modulus)
+    assert common == bivariate.monic(first, modulus)
 
 
 def test_a_kernel_over_a_tower_is_annihilated() -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from mcexact import AgentProgram, Controller, load_system, save_controller, save_system
 from mcexact.cli import main as mcexact
-from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.model import gallery
 from tests.look.browser import Browser, NoBrowser, closed_panels, open_page
 

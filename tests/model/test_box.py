@@ -26,8 +26,8 @@ from mcexact import (
 )
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.rational import Limits
+from mcexact.model.radii import typed_radii, typed_radius
 from mcexact.model.system_file import read_system, system_text
-from mcexact.model.uncertainty import typed_radii, typed_radius
 
 TYPED: dict[str, Any] = {
     "0.10": Fraction(1, 200),

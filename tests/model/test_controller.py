@@ -12,19 +12,20 @@ from mcexact import testing
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
-from mcexact.derived.feedback import feedback
+from mcexact.derived.constructions import feedback
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.blocks import vstack
-from mcexact.exact.matrix import Matrix
-from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.controller_file import (
+from mcexact.exact.matrix import Matrix, vstack
+from mcexact.model.controller import (
+    AgentProgram,
+    Controller,
+    LinearMap,
     controller_text,
     load_controller,
     read_controller,
     save_controller,
 )
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -12,7 +12,7 @@ import pytest
 from mcexact.checker import controller, reading, system_matrices
 from mcexact.checker import system as checker
 from mcexact.exact import rational
-from mcexact.model import matrix_json, system_file
+from mcexact.model import entries, system_file
 from tests.campaigns import controller_grammar
 from tests.campaigns.grammar import Tally, run
 from tests.campaigns.grammar_tokens import GOOD_NUMBERS, NAMES, NASTY, TEXTS
@@ -73,7 +73,7 @@ LOOSENED = [
     ("a number may be as long as it likes", system_matrices, "too_long", lambda *_: False, 3),
     ("names may be numbers", system_file, "expect_name", lambda value, where: value, 17),
     ("long numbers may be texts", system_file, "require_short_numbers", lambda *_: None, 0),
-    ("sparse matrices may be longer", matrix_json, "LONGEST_SIDE", 2**24, 1),
+    ("sparse matrices may be longer", entries, "LONGEST_SIDE", 2**24, 1),
     ("feedthrough is ignored here", system_file, "_refuse_feedthrough", lambda *_: None, 0),
     ("a number may have a plus sign", rational, "_NUMBER", SIGNED, 5),
 ]

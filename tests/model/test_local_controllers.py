@@ -6,10 +6,9 @@ import pytest
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.model.controller_file import controller_text, read_controller
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.controller import controller_text, read_controller
 from mcexact.model.loop import closed_loop
-from mcexact.model.statespace import loop_from_statespace
+from mcexact.model.statespace import local_controllers, loop_from_statespace
 from mcexact.model.system import MultiChannelSystem
 
 PLANT = MultiChannelSystem([[0, 1], [2, 0]], [[[0], [1]], [[1], [0]]], [[[1, 0]], [[0, 1]]])

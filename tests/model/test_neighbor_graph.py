@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 
 from mcexact.errors import FloatRefused, InputError
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.testing import neighbor_graphs
 
 NAMES = ("a", "b", "c")

@@ -20,7 +20,7 @@ from mcexact import (
     save_system,
 )
 from mcexact.errors import FloatRefused, InputError, LimitReached, UsageError
-from mcexact.model.parametric_file import read_parametric_system
+from mcexact.model.system_file import read_parametric_system
 
 t, a, b = symbols("t a b")
 

@@ -7,7 +7,7 @@ import pytest
 
 from mcexact import c2d
 from mcexact.errors import UsageError
-from mcexact.model.formats.files import load_system, save_system
+from mcexact.model.files import load_system, save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
 

@@ -9,7 +9,7 @@ import pytest
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.model import matrix_json
+from mcexact.model import entries
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 
@@ -36,7 +36,7 @@ def entries_read(monkeypatch: pytest.MonkeyPatch) -> Callable[[], int]:
         return from_rows(rows, *arguments, **options)
 
     from_rows = Matrix.from_rows
-    monkeypatch.setattr(matrix_json, "read_number", counted(matrix_json.read_number))
+    monkeypatch.setattr(entries, "read_number", counted(entries.read_number))
     monkeypatch.setattr(Matrix, "from_rows", counted_rows)
     return lambda: read
 

@@ -9,9 +9,8 @@ import scipy.sparse
 import sympy
 
 from mcexact.errors import FloatRefused, InputError
-from mcexact.exact.floats import from_float, matrix_from_float
-from mcexact.model.stacked import from_stacked
-from mcexact.model.system import MultiChannelSystem
+from mcexact.exact.matrix import from_float, matrix_from_float
+from mcexact.model.system import MultiChannelSystem, from_stacked
 
 A, B, C = [[0, 1], [0, 0]], [[1, 0, 0], [0, 1, 2]], [[1, 0], [0, 1]]
 SIZES: dict[str, Any] = {"inputs": [1, 2, 0], "outputs": (0, 1, 1)}

@@ -7,14 +7,12 @@ import numpy as np
 import pytest
 
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.floats import matrix_to_float
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, matrix_to_float
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.statespace import from_statespace, loop_from_statespace
+from mcexact.model.statespace import from_statespace, loop_from_statespace, to_statespace
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.to_statespace import to_statespace
 from mcexact.synthesis.setpoint import design_setpoint
 
 

@@ -8,17 +8,22 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
-from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.controller_file import load_controller, save_controller
-from mcexact.model.formats.files import save_system
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.controller import (
+    AgentProgram,
+    Controller,
+    LinearMap,
+    load_controller,
+    save_controller,
+)
+from mcexact.model.files import save_system
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.decentralized import design_extended
 
 SCRIPT = Path(__file__).with_name("stranger.py")
 

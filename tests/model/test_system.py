@@ -13,14 +13,11 @@ import sympy
 from hypothesis import given
 
 from mcexact import testing
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.dual import dual
-from mcexact.derived.feedback import feedback
+from mcexact.derived.constructions import augmented_outputs, dual, feedback
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.matrix import Matrix
-from mcexact.model.linked_system import with_graph
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
 
 
 def small(**options):

@@ -23,23 +23,18 @@ from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer import codec
 from mcexact.checker import Limits as CheckerLimits
 from mcexact.checker import check_document
-from mcexact.derived.extended import extended_system
+from mcexact.derived.constructions import extended_system
 from mcexact.errors import FloatRefused, InputError, NotWritten
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Limits
-from mcexact.model import gallery, json_text
-from mcexact.model.atomic import write_text
-from mcexact.model.canonical import canonical, numbers_of_any_length
-from mcexact.model.formats.files import load_system, save_system
-from mcexact.model.matrix_json import (
-    canonical_matrix_text,
-    matrix_json,
-    number_json,
-    read_matrix,
-)
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model import gallery
+from mcexact.model import text as json_text
+from mcexact.model.entries import canonical_matrix_text, matrix_json, number_json, read_matrix
+from mcexact.model.files import load_system, save_system
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system, system_text
+from mcexact.model.text import canonical, numbers_of_any_length, write_text
 
 
 def document(**changes):

@@ -16,8 +16,8 @@ from mcexact import MultiChannelSystem, ParametricSystem, analyze, pencil_rank
 from mcexact.errors import InputError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational_function import RationalFunction
-from mcexact.model.function_entry import as_function
+from mcexact.exact.rational_functions import RationalFunction
+from mcexact.model.entries import as_function
 from tests.oracle.parametric import subsets
 
 Point = Mapping[str, Fraction]

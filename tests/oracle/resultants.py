@@ -6,7 +6,7 @@ from typing import Any
 
 import flint
 
-from mcexact.exact.two_variables import Bivariate, joined
+from mcexact.exact.bivariate import Bivariate, joined
 
 
 def resultant(f: Bivariate, g: Bivariate) -> flint.fmpq_poly:

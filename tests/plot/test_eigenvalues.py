@@ -11,9 +11,9 @@ from matplotlib.patches import Circle
 
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum, open_loop_spectrum
 from mcexact.errors import UsageError
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.eigenvalues import Point, eigenvalues, points_of
 

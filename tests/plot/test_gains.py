@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.gains import gains
 

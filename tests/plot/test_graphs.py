@@ -7,7 +7,7 @@ import pytest
 from mcexact.analysis.analyze import analyze
 from mcexact.errors import UsageError
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.plot.graphs import LARGEST, MARKED, graph, names_and_edges
 
 

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from mcexact.errors import UsageError
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.responses import decay, responses
 from mcexact.simulation.envelope import proved_envelope

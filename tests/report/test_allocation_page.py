@@ -10,8 +10,8 @@ from matplotlib.colors import to_hex
 from mcexact.analysis.accounts import account_of_dimensions, account_of_links
 from mcexact.cli import main
 from mcexact.model import gallery
-from mcexact.model.formats.files import save_system
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.files import save_system
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.graphs import ADDED
 from mcexact.report.account_page import allocation_page

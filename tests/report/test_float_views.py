@@ -17,13 +17,13 @@ from mcexact.crosschecks.view import (
     exhibits_view,
 )
 from mcexact.model import gallery
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.account import measured, tables
 from mcexact.report.text import plain
+from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.loop_assessment import assess
 from tests.report.strict_html import Page, external_addresses
 from tests.synthesis.three_channels import three_channels
 

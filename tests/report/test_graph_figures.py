@@ -3,7 +3,7 @@
 from matplotlib.colors import to_hex
 
 from mcexact.analysis.analyze import analyze
-from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.plot.graphs import LARGEST, MARKED, SENDERS
 from mcexact.report.graph_figures import graph_pictures
 

@@ -2,12 +2,12 @@
 
 from fractions import Fraction
 
-from mcexact.exact.location import StabilityRegion
-from mcexact.model.local_controllers import local_controllers
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.loop import closed_loop
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.loop_page import loop_pictures
-from mcexact.synthesis.optimum.curves import curves_of
+from mcexact.synthesis.optimum.diagnosis import curves_of
 from mcexact.synthesis.setpoint import design_setpoint
 
 

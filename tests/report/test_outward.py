@@ -9,10 +9,9 @@ import pytest
 
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.cli.uncertainty import loops
-from mcexact.exact.floats import float_above, float_below
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.shortened import digits_outward
-from mcexact.model.local_controllers import local_controllers
+from mcexact.exact.matrix import Matrix, float_above, float_below
+from mcexact.exact.rational import digits_outward
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.responses import rate_text
 from mcexact.report.figures import spectrum_picture

@@ -9,7 +9,7 @@ import pytest
 
 from mcexact.answer.check import recheck
 from mcexact.cli import main
-from mcexact.exact import matrix_forms
+from mcexact.exact import matrix
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
@@ -92,7 +92,7 @@ def test_a_certificate_that_was_not_re_checked_says_so() -> None:
 def test_latex_escapes_names_and_writes_fractions() -> None:
     text = latex(account_of(hostile()))
     assert "\\textbackslash{}frac" in text and "\\&amp;" in text
-    assert "\\tfrac{1}{3}" in matrix_forms.latex(Matrix.from_rows([["-1/3"]]), whole=True)
+    assert "\\tfrac{1}{3}" in matrix.latex(Matrix.from_rows([["-1/3"]]), whole=True)
 
 
 def test_analyze_writes_the_page_and_latex(

@@ -11,9 +11,9 @@ from mcexact.answer.schema import kinds, of_type
 from mcexact.cli.commands import COMMANDS
 from mcexact.errors import UsageError
 from mcexact.model import gallery
-from mcexact.model.controller_file import save_controller
-from mcexact.model.formats.files import load_system, save_system
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.controller import save_controller
+from mcexact.model.files import load_system, save_system
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.schema import DOCUMENTS, FOLDER, made, schema_text
 from tests.cli.calling import call

@@ -8,9 +8,8 @@ import pytest
 
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
-from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.controller_file import save_controller
-from mcexact.model.formats.files import save_system
+from mcexact.model.controller import AgentProgram, Controller, LinearMap, save_controller
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import simulation_pictures, simulation_png
 from mcexact.report.simulation import SimulationReport

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from mcexact.cli import main
-from mcexact.derived import error_system, extended, feedback, integrators
+from mcexact.derived import constructions
 from mcexact.report.text import plain
 from mcexact.reproduce.ledger import examinations
 from mcexact.reproduce.notebook import Notebook, examined
@@ -157,12 +157,12 @@ def transposed(module: Any, name: str) -> Any:
 
 
 BROKEN = [
-    (extended, "selector", doubled, "equations-24-25", "Equations (24) and (25)"),
-    (extended, "shift", transposed, "equations-34-35", "Equations (34) and (35)"),
-    (extended, "shift", transposed, "equations-37-38", "Equations (37) and (38)"),
-    (error_system, "block", doubled, "equations-12-16", "Equations (12) to (16)"),
-    (integrators, "selector", doubled, "equations-17-18", "Equations (17) and (18)"),
-    (feedback, "closed_by", doubled, "equation-1", "Equation (1)"),
+    (constructions, "selector", doubled, "equations-24-25", "Equations (24) and (25)"),
+    (constructions, "shift", transposed, "equations-34-35", "Equations (34) and (35)"),
+    (constructions, "shift", transposed, "equations-37-38", "Equations (37) and (38)"),
+    (constructions, "block", doubled, "equations-12-16", "Equations (12) to (16)"),
+    (constructions, "selector", doubled, "equations-17-18", "Equations (17) and (18)"),
+    (constructions, "closed_by", doubled, "equation-1", "Equation (1)"),
 ]
 
 
@@ -189,7 +189,7 @@ def test_a_wrong_construction_is_refused_by_the_checker_too(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The checker builds the extended system itself, so evidence about another one is not valid."""
-    monkeypatch.setattr(extended, "selector", doubled(extended, "selector"))
+    monkeypatch.setattr(constructions, "selector", doubled(constructions, "selector"))
     (row,) = reproduce(["equations-24-25"]).rows
     assert {made.verdict for made in row.finding.certificates} != {"VALID"}
 

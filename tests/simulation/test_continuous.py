@@ -7,8 +7,8 @@ import pytest
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.precision import double_precision_warning
 from mcexact.simulation.trajectory import simulate

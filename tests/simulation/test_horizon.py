@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.horizon import FEWEST, MOST, STEPS, Grid, chosen_grid
 

@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from mcexact import testing
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.matrix import Matrix
-from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.controller_file import controller_text
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.controller import AgentProgram, Controller, LinearMap, controller_text
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.arithmetic import ExactArithmetic
 from mcexact.simulation.network import Network, SignalNotReceived

@@ -14,15 +14,15 @@ import pytest
 
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer import codec
-from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import InputError, NotWritten, UsageError
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery
 from mcexact.model.box import Box
-from mcexact.model.canonical import canonical
-from mcexact.model.formats.files import save_system
+from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
+from mcexact.model.text import canonical
 from mcexact.sweeps.jobs import Job, Outcome, decide
 from mcexact.sweeps.questions import QUESTIONS
 from mcexact.sweeps.records import Record, read_records

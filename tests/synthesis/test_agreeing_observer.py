@@ -10,13 +10,13 @@ from mcexact import design_observer, design_setpoint
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import distributed_observer
-from mcexact.synthesis.agreeing_observer import agreed_weights, best_agreeing
-from mcexact.synthesis.loop_assessment import assess
+from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.distributed_observer import agreed_weights, best_agreeing
 
 PENDULA = "slicot-ctdsx-2-5-pendula-s2"
 

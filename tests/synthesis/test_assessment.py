@@ -11,27 +11,24 @@ import numpy as np
 import pytest
 
 from mcexact.errors import InputError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
-from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.assessment import Assessment
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.assessment import Assessment, assess, assessed_loop
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.loop_assessment import assess, assessed_loop
-from mcexact.synthesis.optimum.aims import THEOREM, Aims
-from mcexact.synthesis.optimum.curves import curves_of
-from mcexact.synthesis.optimum.diagnosis import diagnosed
-from mcexact.synthesis.optimum.figures import Figures
-from mcexact.synthesis.optimum.loop_figures import (
+from mcexact.synthesis.optimum.diagnosis import (
+    curves_of,
+    diagnosed,
     digits_that_suffice,
     figures_of_loop,
     integrators_of,
     rounded_controller,
 )
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.optimum.figures import THEOREM, Aims, Figures
+from mcexact.synthesis.optimum.problem import Weights
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.synthesis.optimum.plants import coupled, delayed
 from tests.synthesis.test_setpoint import two_tanks
@@ -75,7 +72,7 @@ def test_the_cost_over_delays_is_that_of_a_simulation() -> None:
 
 def _power_of(loop: ClosedLoop, k: int) -> float:
     """Σ_t x'x + u'u after an impulse of noise k at time 0, by the programs of the agents."""
-    from mcexact.exact.floats import matrix_to_float
+    from mcexact.exact.matrix import matrix_to_float
 
     plant, agents = loop.given, loop.controller.agents
     A = matrix_to_float(plant.A)

@@ -7,8 +7,8 @@ import pytest
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, LimitReached, UsageError
-from mcexact.exact.location import StabilityRegion
-from mcexact.model.local_controllers import local_controllers
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import certify as certifying
 from mcexact.synthesis.certify import certify_controller, enclosed_outside

@@ -6,19 +6,19 @@ import pytest
 
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import any_system
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.loop_assessment import assess
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 from tests.synthesis.three_channels import three_channels
 
 

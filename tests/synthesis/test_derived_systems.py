@@ -11,17 +11,14 @@ from mcexact.answer.account import Account
 from mcexact.answer.codec import encode
 from mcexact.checker import Expectation, Limits, check_document
 from mcexact.checker.manifest import manifest_verdicts
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import feedback, full_output
+from mcexact.derived.constructions import augmented_outputs, extended_system, feedback, full_output
 from mcexact.errors import Impossible
-from mcexact.model.local_controllers import local_controllers
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.synthesis.test_setpoint import two_tanks
 from tests.synthesis.three_channels import three_channels

@@ -10,10 +10,9 @@ import pytest
 
 from mcexact.model import loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 from mcexact.synthesis.setpoint import design_setpoint
 
 

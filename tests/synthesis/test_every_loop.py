@@ -8,10 +8,10 @@ import pytest
 
 from mcexact import Box, MultiChannelSystem, certify_controller, check, local_controllers
 from mcexact.errors import UsageError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.synthesis.decentralized import design_decentralized
-from mcexact.synthesis.every_loop import SIX_DIGITS, every_loop
+from mcexact.synthesis.robustness import SIX_DIGITS, every_loop
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
 WHOLE = StabilityRegion("continuous")

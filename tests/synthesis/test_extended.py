@@ -10,20 +10,20 @@ import pytest
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.controller_file import controller_text, read_controller
+from mcexact.model.controller import controller_text, read_controller
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
+from mcexact.synthesis.decentralized import design_extended
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 from tests.synthesis.optimum.plants import delayed
 from tests.synthesis.three_channels import three_channels
 

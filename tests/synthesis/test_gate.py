@@ -10,13 +10,13 @@ from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, InternalError, LimitReached, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import LinearMap
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import CertifiedLoop, Proposal, certify, first_certified
-from mcexact.synthesis.observer.coordinates import observer_coordinates
+from mcexact.synthesis.observer import observer_coordinates
 from tests.synthesis.three_channels import three_channels
 
 ANY = StabilityRegion("continuous")

@@ -17,10 +17,9 @@ from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import certify_controller
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.optimum.aims import THEOREM
+from mcexact.synthesis.optimum.figures import THEOREM
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.synthesis.test_extended import late
 from tests.synthesis.test_setpoint import two_tanks

@@ -10,20 +10,18 @@ import numpy as np
 import pytest
 
 from mcexact.errors import Impossible, InputError, LimitReached, OutOfReach, UsageError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import distributed_observer, setpoint
-from mcexact.synthesis.asking import request_for
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.gate import Proposal
-from mcexact.synthesis.optimum import proposals
-from mcexact.synthesis.optimum.aims import THEOREM, Aims
+from mcexact.synthesis.gate import Proposal, Warned
+from mcexact.synthesis.optimum import search
 from mcexact.synthesis.optimum.diagnosis import diagnosed
-from mcexact.synthesis.optimum.weights import Weights
-from mcexact.synthesis.request import Warned
+from mcexact.synthesis.optimum.figures import THEOREM, Aims
+from mcexact.synthesis.optimum.problem import Weights
+from mcexact.synthesis.rate import request_for
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.synthesis.optimum.plants import coupled
 from tests.synthesis.test_setpoint import two_tanks
@@ -128,7 +126,7 @@ def nothing(*_: object, **__: object) -> Iterator[Proposal]:
 @pytest.mark.parametrize(
     ("module", "name", "design"),
     [
-        (proposals, "network_proposals", partial(design_decentralized, POSITION, aims=THEOREM)),
+        (search, "network_proposals", partial(design_decentralized, POSITION, aims=THEOREM)),
         (setpoint, "observers", partial(design_setpoint, two_tanks(), method="observer")),
         (distributed_observer, "observers", partial(design_observer, two_tanks())),
     ],

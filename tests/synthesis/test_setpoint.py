@@ -15,14 +15,19 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
-from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.controller_file import controller_text, read_controller
+from mcexact.model.controller import (
+    AgentProgram,
+    Controller,
+    LinearMap,
+    controller_text,
+    read_controller,
+)
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint, with_integrators
 from tests.campaigns import extended as campaign
 

@@ -8,10 +8,9 @@ import pytest
 from mcexact import design_decentralized
 from mcexact.errors import LimitReached
 from mcexact.model import gallery
-from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.request import Request, Warned
-from mcexact.synthesis.slowing import at_a_robust_rate
+from mcexact.synthesis.gate import Request, Warned
+from mcexact.synthesis.rate import at_a_robust_rate, request_for
 
 PLANT = gallery.load("lexalutyi-two-double-integrators")
 

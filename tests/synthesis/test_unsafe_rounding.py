@@ -9,14 +9,13 @@ import pytest
 
 from mcexact import MultiChannelSystem, check, local_controllers
 from mcexact.analysis.boxes.gain_radii import with_gains
-from mcexact.exact.floats import matrix_to_float
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, matrix_to_float
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.synthesis import unsafe_rounding as module
-from mcexact.synthesis.unsafe_rounding import unsafe_rounding
+from mcexact.synthesis import certify as module
+from mcexact.synthesis.certify import unsafe_rounding
 
 WHOLE = StabilityRegion("continuous")
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])

@@ -1,7 +1,7 @@
 """The paper's three-channel example over its cyclic graph, in either time domain."""
 
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 CYCLE = {"1": ["2"], "2": ["3"], "3": ["1"]}

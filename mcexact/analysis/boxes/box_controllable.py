@@ -26,16 +26,13 @@ from mcexact.analysis.boxes.regular_discs import (
 )
 from mcexact.answer.box_controllable import BoxControllability, RightInverseFrame
 from mcexact.answer.parametric_box_controllable import ParametricBoxControllability
-from mcexact.derived.dual import dual
-from mcexact.derived.moved_entries import moved
+from mcexact.derived.constructions import dual, moved
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.blocks import hstack
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii
 
 _MOST_SQUARES = 3000
 _REWEIGHTINGS, _FEW = 40, 10

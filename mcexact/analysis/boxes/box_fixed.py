@@ -21,11 +21,11 @@ from mcexact.answer.evidence import ExteriorDiscs, RootDisc
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.parametric_box_fixed import ParametricBoxFixedModes
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import matrix_to_float, to_float
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii
 
 _MOST_SQUARES = 3000
 _NEAREST = 10

@@ -5,7 +5,7 @@ from __future__ import annotations
 from mcexact.analysis.boxes.box_fixed import box_stabilizability
 from mcexact.answer.box_fixed import BoxFixedModes
 from mcexact.answer.setpoint import SetpointSolvability
-from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.constructions import setpoint_system
 from mcexact.errors import InputError, LimitReached
 from mcexact.model.system import MultiChannelSystem
 

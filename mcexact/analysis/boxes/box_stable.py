@@ -25,15 +25,15 @@ from mcexact.answer.evidence import InverseFrame
 from mcexact.answer.parametric_box_stable import ParametricBoxStability, StabilityOfCell
 from mcexact.answer.stability import LyapunovMethod, PolynomialMethod
 from mcexact.errors import InputError, InternalError, LimitReached
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import matrix_to_float, to_float
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.controller import Controller
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, LoopPencil, closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.radii import Radii, moduli
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii, moduli
 
 _MOST_SEGMENTS = 4000
 _SHORTEST = Fraction(1, 10**12)
@@ -301,7 +301,7 @@ def box_stability(
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> gain = local_controllers(plant, [[[-3]]])
     >>> str(box_stability(Box.relative(plant, "1/10").system, gain, rate="1/2").bound)

@@ -8,8 +8,7 @@ from fractions import Fraction
 
 from mcexact.analysis.boxes.regular_discs import Point
 from mcexact.answer.evidence import RootDisc
-from mcexact.exact.enclosures import exact_decimal
-from mcexact.exact.location import is_discrete
+from mcexact.exact.roots import exact_decimal, is_discrete
 
 SQUARE = Fraction(1414214, 1000000)
 """A number above √2: a square of half side h is inside of the disc of radius √2 h."""

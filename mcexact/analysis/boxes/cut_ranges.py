@@ -13,7 +13,7 @@ from mcexact.analysis.boxes.float_pencils import independent
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.parameter_cells import Cell, CellBox, box_of_cell, halves, whole_cell
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.matrix import matrix_to_float
 from mcexact.exact.rational import rational_text
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem

@@ -16,10 +16,8 @@ from mcexact.analysis.boxes.cover import Outside
 from mcexact.analysis.boxes.exterior import Coordinates, Exterior, coordinates, exterior
 from mcexact.analysis.boxes.float_pencils import Complex, FloatBox
 from mcexact.answer.evidence import ExteriorDiscs
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.floats import matrix_to_float
-from mcexact.exact.matrix import Matrix
-from mcexact.model.uncertainty import Radii, moduli
+from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, vstack
+from mcexact.model.radii import Radii, moduli
 
 MANY = 30
 """From so many states on, gains are drawn; frames are cheap below, and allow for larger radii."""

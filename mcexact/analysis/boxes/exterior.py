@@ -17,8 +17,8 @@ import numpy as np
 from mcexact.analysis.boxes.float_pencils import Complex, FloatBox, Floats, perron
 from mcexact.analysis.boxes.regular_discs import ComplexRows, dyadic, modulus_above
 from mcexact.answer.evidence import RootDisc
-from mcexact.exact.enclosures import decimal
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import decimal
 
 _PERTURBATIONS = (0.0, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2)
 """Eigenvectors of a matrix that is not diagonalizable are taken of one so close to it."""

@@ -12,13 +12,11 @@ import numpy as np
 
 from mcexact.analysis.boxes.rank_drops import Freedom, Uncertain
 from mcexact.answer.protocol import Answer
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float, vstack
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
+from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii
 
 _PAIRS = 6
 FAILING = "failing_loop"

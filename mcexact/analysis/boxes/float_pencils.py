@@ -19,11 +19,9 @@ from mcexact.analysis.boxes.regular_discs import (
     entries,
     whole_weights,
 )
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.floats import matrix_to_float
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, vstack
+from mcexact.model.radii import Radii, moduli
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii, moduli
 
 Complex = npt.NDArray[np.complexfloating[Any, Any]]
 Floats = npt.NDArray[np.floating[Any]]

@@ -11,7 +11,7 @@ from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
-from mcexact.model.uncertainty import moduli
+from mcexact.model.radii import moduli
 
 
 def with_gains(controller: Controller, of: Callable[[Matrix], Matrix]) -> Controller:
@@ -36,7 +36,7 @@ def gain_radii(controller: Controller, part: Any) -> Controller:
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> from mcexact.model.system import MultiChannelSystem
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> [agent] = gain_radii(local_controllers(plant, [[[-3]]]), "1/100").agents
@@ -68,7 +68,7 @@ def digit_radii(controller: Controller, digits: int) -> Controller:
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> from mcexact.model.system import MultiChannelSystem
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> [agent] = digit_radii(local_controllers(plant, [[["-31.4"]]]), 2).agents

@@ -22,15 +22,14 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer.protocol import Answer
 from mcexact.answer.reading import constructed
-from mcexact.derived.dual import dual
+from mcexact.derived.constructions import dual
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.size import largest_entry
+from mcexact.exact.matrix import Matrix, largest_entry
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.properties import Property
+from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii
 
 _ROUNDS = 2
 _GAINS = 50

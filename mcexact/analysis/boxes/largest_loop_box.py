@@ -16,12 +16,12 @@ from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.protocol import Answer
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.errors import InputError
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.controller import Controller
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import LoopPencil, closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 
@@ -60,7 +60,7 @@ def largest_loop_uncertainty(
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> found = largest_loop_uncertainty(plant, local_controllers(plant, [[[-3]]]))
     >>> 0.2 < found.lower < found.upper < 0.4

@@ -20,12 +20,11 @@ from mcexact.answer.parametric_box_stable import ParametricBoxStability
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.arguments import require_seconds
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.rational import written
-from mcexact.exact.shortened import percent
+from mcexact.exact.matrix import matrix_to_float, to_float
+from mcexact.exact.rational import percent, written
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import Controller
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import Shown
@@ -136,7 +135,7 @@ def largest_loop_ranges(
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> plant = ParametricSystem(
     ...     [["k"]], [[[1]]], [[[1]]], parameters=["k"], assume={"k": (-4, 8)}
     ... )

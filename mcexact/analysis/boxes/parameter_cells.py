@@ -14,12 +14,11 @@ from functools import reduce
 from math import comb, prod
 
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii
 
 Cell = tuple[tuple[Fraction, Fraction], ...]
 """The least and the largest value of each parameter."""

@@ -19,7 +19,7 @@ from mcexact.answer.parametric_box_controllable import (
 )
 from mcexact.answer.parametric_box_fixed import FixedModesOfCell, ParametricBoxFixedModes
 from mcexact.errors import InputError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 

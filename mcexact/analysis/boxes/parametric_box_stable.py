@@ -14,13 +14,12 @@ from mcexact.analysis.boxes.parameter_cells import CellBox
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.parametric_box_stable import ParametricBoxStability, StabilityOfCell
 from mcexact.answer.stability import StabilityVerdict
-from mcexact.derived.links import add_links
-from mcexact.derived.parametric_loop import looped
+from mcexact.derived.constructions import add_links, looped
 from mcexact.errors import InputError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import Controller
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
@@ -56,7 +55,7 @@ def parametric_box_stability(
 
     Examples
     --------
-    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.statespace import local_controllers
     >>> plant = ParametricSystem(
     ...     [["k"]], [[["k"]]], [[[1]]], parameters=["k"], assume={"k": ("1/2", 2)}
     ... )

@@ -10,8 +10,8 @@ from mcexact.answer.reading import constructed
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.box import Box
+from mcexact.model.radii import Radii, moduli
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii, moduli
 
 
 def radii_of(system: MultiChannelSystem) -> Radii:
@@ -39,7 +39,7 @@ def radii_of(system: MultiChannelSystem) -> Radii:
     Examples
     --------
     >>> from mcexact import dual
-    >>> from mcexact.derived.feedback import feedback
+    >>> from mcexact.derived.constructions import feedback
     >>> plant = MultiChannelSystem([[1]], [[[2, 3]]], [[[4]]])
     >>> box = Box.relative(plant, "1/2").system
     >>> radii_of(dual(box)).C[0].numerators

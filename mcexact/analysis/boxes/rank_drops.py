@@ -15,10 +15,8 @@ from typing import Any, Literal
 import numpy as np
 
 from mcexact.analysis.boxes.float_pencils import Floats
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.linear_algebra import nullspace, row_echelon, solve_nonsingular
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, vstack
 
 Freedom = Literal["plane", "line", "circle"]
 """Where λ may move: anywhere, parallel to the imaginary axis, or on a circle around 0."""

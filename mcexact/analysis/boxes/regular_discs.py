@@ -20,8 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from mcexact.answer.evidence import ComplexMatrix
-from mcexact.exact.floats import matrix_to_float, to_float
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 
 Complex = npt.NDArray[np.complexfloating[Any, Any]]
 Floats = npt.NDArray[np.floating[Any]]

@@ -19,7 +19,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from mcexact.errors import InternalError, LimitReached, McexactError
-from mcexact.exact.floats import to_float
+from mcexact.exact.matrix import to_float
 
 if TYPE_CHECKING:
     import numpy as np

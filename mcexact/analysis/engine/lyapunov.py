@@ -15,9 +15,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from mcexact.analysis.engine.smith_doubling import doubled_lyapunov
-from mcexact.exact.floats import dyadic_matrix, matrix_to_float, to_float
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, dyadic_matrix, matrix_to_float, to_float
+from mcexact.exact.roots import StabilityRegion
 
 if TYPE_CHECKING:
     import numpy as np

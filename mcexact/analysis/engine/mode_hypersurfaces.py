@@ -17,13 +17,12 @@ from mcexact.answer.exceptional_hypersurfaces import (
     Line,
 )
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import LimitReached
-from mcexact.exact import several_variables
-from mcexact.exact.function_matrix import FunctionMatrix
+from mcexact.exact import rational_functions
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational_function import RationalFunction
-from mcexact.model.function_entry import as_functions
+from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
+from mcexact.model.entries import as_functions
 from mcexact.model.parametric import ParametricSystem
 
 _NUMBER = RationalFunction.constant(0, ())
@@ -98,11 +97,11 @@ class _Search:
         self.about, self.decide = about, decide
         self.system, self.rng, self.names = system, rng, system.parameters
         parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
-        rows = [several_variables.cleared(M, self.names)[0] for M in parts]
+        rows = [rational_functions.cleared(M, self.names)[0] for M in parts]
         entries = [about.A, *(M for c in about.channels for M in (c.B, c.C))]
         self.A, self.B, self.C = rows[0], rows[1::2], rows[2::2]
         self.poles = poles(entries, self.names)
-        self.chi = several_variables.characteristic(self.A, self.names)
+        self.chi = rational_functions.characteristic(self.A, self.names)
 
     def found(self) -> ExceptionalHypersurfaces:
         """The answer."""
@@ -111,7 +110,7 @@ class _Search:
             if drawn is None:
                 continue
             generic, candidates = drawn
-            degree = sum(map(several_variables.degree, generic))
+            degree = sum(map(rational_functions.degree, generic))
 
             def is_generic(answer: ParametricFixedSpectrum, degree: int = degree) -> bool:
                 return sum(len(p) - 1 for p in answer.generic) == degree
@@ -144,12 +143,12 @@ class _Search:
             ),
             undefined_at=tuple(in_order(self.poles)),
             lines=lines,
-            generic=tuple(several_variables.coefficients(p, self.names) for p in generic),
+            generic=tuple(rational_functions.coefficients(p, self.names) for p in generic),
         )
 
     def _loop(self, size: int) -> Any:
         """det(xI − A − Σ B_i F_i C_i) for drawn gains of this size."""
-        inside = several_variables.ring(self.names)
+        inside = rational_functions.ring(self.names)
         zero, closed = inside.constant(0), self.A
         for B_i, C_i, (p, q) in zip(self.B, self.C, self.system.sizes, strict=True):
             if p and q and self.system.n:
@@ -157,11 +156,11 @@ class _Search:
                     [inside.constant(self.rng.randint(-size, size)) for _ in range(q)]
                     for _ in range(p)
                 ]
-                gained = several_variables.product(B_i, F, zero)
-                closed = several_variables.total(
-                    closed, several_variables.product(gained, C_i, zero)
+                gained = rational_functions.product(B_i, F, zero)
+                closed = rational_functions.total(
+                    closed, rational_functions.product(gained, C_i, zero)
                 )
-        return several_variables.characteristic(closed, self.names)
+        return rational_functions.characteristic(closed, self.names)
 
     def _candidates(self, size: int) -> tuple[list[Any], list[RationalFunction]] | None:
         """What drawn gains leave, and where more is common to what they move.
@@ -170,15 +169,15 @@ class _Search:
         say nothing.
         """
         psi = [self.chi, self._loop(size), self._loop(size)]
-        common = several_variables.common_divisor(psi)
-        generic = [p for p in several_variables.factors(common) if several_variables.degree(p)]
+        common = rational_functions.common_divisor(psi)
+        generic = [p for p in rational_functions.factors(common) if rational_functions.degree(p)]
         for p in generic:
-            psi = [several_variables.without(f, p) for f in psi]
-        if not all(several_variables.is_coprime(psi[0], f) for f in psi[1:]):
+            psi = [rational_functions.without(f, p) for f in psi]
+        if not all(rational_functions.is_coprime(psi[0], f) for f in psi[1:]):
             return None
-        left, first, second = map(several_variables.factors, psi)
-        in_both = several_variables.resultant_factors(left, first, self.names)
-        in_both &= several_variables.resultant_factors(left, [*second, *generic], self.names)
+        left, first, second = map(rational_functions.factors, psi)
+        in_both = rational_functions.resultant_factors(left, first, self.names)
+        in_both &= rational_functions.resultant_factors(left, [*second, *generic], self.names)
         return generic, [h for h in in_both if h not in self.poles]
 
 

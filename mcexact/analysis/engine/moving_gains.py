@@ -5,16 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from mcexact.derived.polynomial_system import PolynomialSystem
-from mcexact.exact import modular_resultants, parameter_field
+from mcexact.derived.modular import PolynomialSystem
+from mcexact.exact import bivariate
+from mcexact.exact.bivariate import Bivariate, difference, is_coprime_modulo, residues, without
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.two_variables import (
-    Bivariate,
-    difference,
-    is_coprime_modulo,
-    residues,
-    without,
-)
 
 _SHORT = 8
 """The degree of values outside the range up to which a common divisor there is computed."""
@@ -35,19 +29,19 @@ class MovingGains:
         ell: int,
     ) -> None:
         self.psi, self.moved, self.gains, self.ell = psi, moved, gains, ell
-        self.loop = modular_resultants.characteristic_modulo(system.closed(gains), ell)
-        left = modular_resultants.residues_in_x(psi, ell)
-        right = modular_resultants.residues_in_x(moved, ell)
-        self.first = modular_resultants.resultant_modulo(left, right, ell)
-        self.other = modular_resultants.resultant_modulo(left, self.loop, ell)
+        self.loop = bivariate.characteristic_modulo(system.closed(gains), ell)
+        left = bivariate.residues_in_x(psi, ell)
+        right = bivariate.residues_in_x(moved, ell)
+        self.first = bivariate.resultant_modulo(left, right, ell)
+        self.other = bivariate.resultant_modulo(left, self.loop, ell)
 
     def is_complete(self, q: Any, known: Sequence[Bivariate]) -> bool:
         """Whether G moves what factors that are known leave of det(xI − A_E) at the roots of q."""
-        left, bottom = parameter_field.reduced(self.psi, q), residues(q, self.ell)
+        left, bottom = bivariate.reduced(self.psi, q), residues(q, self.ell)
         for p in known:
             left = without(left, p, q)
-        common = modular_resultants.resultant_modulo(
-            modular_resultants.residues_in_x(left, self.ell),
+        common = bivariate.resultant_modulo(
+            bivariate.residues_in_x(left, self.ell),
             [c % bottom for c in self.loop],
             self.ell,
         )
@@ -76,7 +70,7 @@ class MovingGains:
         None where they are not enough: a resultant can vanish more often than it has to, and its
         degree can be less than those of its factors allow.
         """
-        if self.first.degree() < modular_resultants.degree_bound(
+        if self.first.degree() < bivariate.resultant_degree_bound(
             self.psi, difference(self.moved, self.psi)
         ):
             return None
@@ -87,8 +81,8 @@ class MovingGains:
                 continue
             if q in outside and q.degree() > _SHORT:
                 return None
-            first, second = (parameter_field.reduced(f, q) for f in (self.psi, self.moved))
-            found.append((q, parameter_field.gcd(first, second, q)))
+            first, second = (bivariate.reduced(f, q) for f in (self.psi, self.moved))
+            found.append((q, bivariate.gcd(first, second, q)))
             for _ in found[-1][1][1:]:
                 rest = divmod(rest, bottom)[0]
         return found if rest.gcd(self.other).degree() == 0 else None

@@ -7,7 +7,7 @@ import random
 from dataclasses import dataclass
 
 from mcexact.analysis.engine.shrunk_subspace import ExactSubspace, shrunk_subspace
-from mcexact.derived.modular_system import (
+from mcexact.derived.modular import (
     Gains,
     ModularSystem,
     drawn_gains,
@@ -17,9 +17,8 @@ from mcexact.derived.modular_system import (
 )
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.modular import ModularPolynomial, polynomial_residues
+from mcexact.exact.modular import ModularPolynomial, combine, integers, polynomial_residues
 from mcexact.exact.polynomial import Polynomial, from_integer_coefficients, product
-from mcexact.exact.reconstruction import combine, integers
 from mcexact.model.system import MultiChannelSystem
 
 

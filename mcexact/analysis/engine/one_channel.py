@@ -6,16 +6,15 @@ import random
 from collections.abc import Iterator, Sequence
 
 from mcexact.answer.evidence import KrylovSequence
-from mcexact.derived.modular_system import (
+from mcexact.derived.modular import (
     Gains,
     ModularSystem,
     channel_sequences,
     drawn_gains,
     lifted_gains,
 )
-from mcexact.exact.krylov import Start
+from mcexact.exact.krylov import Start, cofactors, least_recurrence
 from mcexact.exact.modular import ModularPolynomial
-from mcexact.exact.recurrence import cofactors, least_recurrence
 from mcexact.model.system import MultiChannelSystem
 
 MODULI = (19, 31, 2**19 - 1)

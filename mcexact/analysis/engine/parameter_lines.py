@@ -9,12 +9,11 @@ from typing import Any
 from mcexact.answer.exceptional_hypersurfaces import A, Line
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.answer.parametric_rank import ParametricRank
-from mcexact.derived.moved_entries import along_line, points_of
+from mcexact.derived.constructions import along_line, points_of
 from mcexact.errors import InputError
-from mcexact.exact import several_variables
-from mcexact.exact.function_matrix import FunctionMatrix
+from mcexact.exact import rational_functions
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
 from mcexact.model.parametric import ParametricSystem
 
 DRAWS = 60
@@ -78,9 +77,9 @@ def confirming_lines(
 def poles(parts: Collection[FunctionMatrix], names: tuple[str, ...]) -> set[RationalFunction]:
     """The irreducible factors of the denominators of matrices."""
     return {
-        several_variables.in_parameters(q, names)
+        rational_functions.in_parameters(q, names)
         for M in parts
-        for q in several_variables.factors(several_variables.cleared(M, names)[1])
+        for q in rational_functions.factors(rational_functions.cleared(M, names)[1])
     }
 
 

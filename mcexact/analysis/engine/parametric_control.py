@@ -6,11 +6,7 @@ from collections.abc import Iterable
 
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.derived.dual import dual
-from mcexact.derived.feedback import full_output
-from mcexact.derived.merged import merged
-from mcexact.derived.moved_entries import moved
-from mcexact.derived.restricted import restricted
+from mcexact.derived.constructions import dual, full_output, merged, moved, restricted
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 

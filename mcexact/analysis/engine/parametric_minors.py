@@ -11,25 +11,24 @@ from mcexact.answer.parameter_values import (
     meets,
 )
 from mcexact.answer.parametric_rank import Kernel, LowerRank, ParametricRank, TwoMinors
-from mcexact.derived.modular_system import generator
-from mcexact.derived.polynomial_system import PolynomialSystem
+from mcexact.derived.modular import PolynomialSystem, generator
 from mcexact.errors import InternalError
-from mcexact.exact import two_variables
-from mcexact.exact.enclosures import root_discs
-from mcexact.exact.function_kernels import Kernel as Columns
-from mcexact.exact.function_kernels import entries_of, matrix_of
-from mcexact.exact.location import steady_point
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular import primes
-from mcexact.exact.parameter_matrices import (
+from mcexact.exact import bivariate
+from mcexact.exact.bivariate import (
     ZERO,
     determinant,
     determinant_modulo,
+    entries_of,
     generic_kernel,
     kernel_modulo,
-    product,
+    matrix_of,
+    matrix_product,
 )
+from mcexact.exact.bivariate import Kernel as Columns
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import primes
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import root_discs, steady_point
 from mcexact.model.parametric import ParametricSystem
 
 _BITS = 61
@@ -85,7 +84,7 @@ class _Search:
         exceptional = [q for q in lost if q not in outside]
         kernels = [self._kernel(kernel_modulo(self.rows, self.ncols, q)) for q in exceptional]
         ranks = [self.ncols - len(kernel.pivots) for kernel in kernels]
-        rest = two_variables.freed(minor, [q._rational for q in [*lost, *undefined]])
+        rest = bivariate.freed(minor, [q._rational for q in [*lost, *undefined]])
         full = rank == min(len(self.rows), self.ncols)
         ell, X_, Y = self._drawn(rank, rest, list(zip(exceptional, ranks, strict=True)))
         return ParametricRank(
@@ -119,7 +118,7 @@ class _Search:
         for ell in self.stream:
             if self.M.denominator % ell == 0 or int(q.denom()) % ell == 0:
                 continue
-            for root, _ in two_variables.residues(q, ell).roots():
+            for root, _ in bivariate.residues(q, ell).roots():
                 return self.M.at_residue(int(root), ell).rank()
         raise InternalError("no prime has a root of the polynomial")
 
@@ -148,15 +147,14 @@ class _Search:
             corners = [(q, small.take(rows=range(r), cols=range(r))) for q, r in values]
             pairs = [(rest, small), *((q._rational, corner) for q, corner in corners)]
             if all(
-                two_variables.is_coprime_modulo(p, determinant_modulo(M, ell), ell)
-                for p, M in pairs
+                bivariate.is_coprime_modulo(p, determinant_modulo(M, ell), ell) for p, M in pairs
             ):
                 return ell, X_, Y
         raise InternalError("no drawn minors have a root in common where the rank is less")
 
 
 def _polynomial(p: Any) -> Polynomial:
-    return two_variables.polynomials([p])[0]
+    return bivariate.polynomials([p])[0]
 
 
 def _entries(system: PolynomialSystem) -> Entries:
@@ -170,5 +168,5 @@ def _entries(system: PolynomialSystem) -> Entries:
         scale=system.scale._rational,
         steady=steady_point(system.system.time),
         zero=ZERO,
-        product=product,
+        product=matrix_product,
     )

@@ -28,17 +28,14 @@ from mcexact.answer.parametric_fixed_spectrum import (
     ParametricFixedSpectrum,
     SettledValue,
 )
-from mcexact.derived.modular_system import generator
-from mcexact.derived.polynomial_system import PolynomialSystem
+from mcexact.derived.modular import PolynomialSystem, generator
 from mcexact.errors import InternalError
-from mcexact.exact import modular_resultants, parameter_field, two_variables
-from mcexact.exact.enclosures import root_discs
-from mcexact.exact.function_kernels import line
+from mcexact.exact import bivariate
+from mcexact.exact.bivariate import Bivariate, characteristic, line, polynomials, without
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular import primes
+from mcexact.exact.modular import long_prime, primes
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.prime_field import long_prime
-from mcexact.exact.two_variables import Bivariate, characteristic, polynomials, without
+from mcexact.exact.roots import root_discs
 from mcexact.model.parametric import ParametricSystem
 
 _DRAWS = 60
@@ -166,7 +163,7 @@ class _Search:
         ]
         loops = [characteristic(self.system.closed(F)) for F in self.gains]
         self.generic = []
-        for p in two_variables.common_factors(loops):
+        for p in bivariate.common_factors(loops):
             t = self.rng.randrange(10**3, 10**6)
             block = self._generic_block(p, t)
             if block is None:
@@ -175,12 +172,12 @@ class _Search:
         self.psi = loops
         for p, _ in self.generic:
             self.psi = [without(psi, p) for psi in self.psi]
-        return all(two_variables.are_coprime(self.psi[0], psi) for psi in self.psi[1:])
+        return all(bivariate.are_coprime(self.psi[0], psi) for psi in self.psi[1:])
 
     def _generic_block(self, p: Bivariate, t: int) -> ZeroBlock | None:
         """A zero block for the roots of p, if they are fixed at a drawn value of t."""
         at_t = line(t)
-        factor = parameter_field.factors(parameter_field.reduced(p, at_t), at_t)[-1]
+        factor = bivariate.factors(bivariate.reduced(p, at_t), at_t)[-1]
         T = responsible_channels(self.system, at_t, factor, self.rng)
         return None if T is None else generic_zero_block(self.system, T, p)
 
@@ -195,15 +192,15 @@ class _Search:
     def _decided(self, value: Polynomial) -> _Candidate:
         """What is fixed at the roots of an irreducible polynomial."""
         q = value._rational
-        common = parameter_field.reduced(self.psi[0], q)
+        common = bivariate.reduced(self.psi[0], q)
         for psi in self.psi[1:]:
-            common = parameter_field.gcd(common, parameter_field.reduced(psi, q), q)
-        known = [parameter_field.reduced(g, q) for g, _ in self.generic]
+            common = bivariate.gcd(common, bivariate.reduced(psi, q), q)
+        known = [bivariate.reduced(g, q) for g, _ in self.generic]
         if value not in self.modes:
             new = [
                 p
-                for p in parameter_field.factors(common, q)
-                if all(two_variables.divided(g, p, q)[1] for g in known)
+                for p in bivariate.factors(common, q)
+                if all(bivariate.divided(g, p, q)[1] for g in known)
             ]
             self.modes[value] = [found for p in new if (found := self._mode(q, p)) is not None]
         return _Candidate(q, self.modes[value], self._shared(q, known))
@@ -222,23 +219,23 @@ class _Search:
         """Candidates: the irreducible factors that two resultants have in common."""
         stream = primes(self.rng.getrandbits(64), _BITS)
         # det(xI − A_G) keeps its generic factors, so the second resultant has their roots as well
-        second = functools.reduce(two_variables.product, (p for p, _ in self.generic), self.psi[2])
+        second = functools.reduce(bivariate.product, (p for p, _ in self.generic), self.psi[2])
         known = [c for f in (*self.psi, second) for c in f]
         usable = (ell for ell in stream if self._is_defined(known, ell))
-        common = modular_resultants.common_divisor(self.psi[0], self.psi[1], second, usable)
+        common = bivariate.common_divisor(self.psi[0], self.psi[1], second, usable)
         found = {q for q, _ in _polynomial(common).factor()}
         return sorted(found, key=lambda q: (q.degree, q.coefficients))
 
     def _is_defined(self, known: list[Any], ell: int) -> bool:
         """Whether a prime divides no denominator."""
-        denominators = two_variables.denominators(known)
+        denominators = bivariate.denominators(known)
         return self.system.is_defined_modulo(ell) and all(d % ell for d in denominators)
 
     def _shared(self, q: Any, known: list[Bivariate]) -> list[Bivariate]:
         """Divisors of generic polynomials that divide what is left of det(xI − A_E)."""
-        left, found = parameter_field.reduced(self.psi[0], q), []
+        left, found = bivariate.reduced(self.psi[0], q), []
         for p in known:
-            while len(g := parameter_field.gcd(left, p, q)) > 1:
+            while len(g := bivariate.gcd(left, p, q)) > 1:
                 found.append(g)
                 left = without(left, g, q)
         return found
@@ -264,7 +261,7 @@ class _Search:
     def _moduli(self) -> tuple[int, ...]:
         """Primes whose product is above twice the coefficients of the first resultant."""
         first, second = self.psi[0], self.psi[1]
-        sizes = two_variables.size(first), two_variables.size(second)
+        sizes = bivariate.size(first), bivariate.size(second)
         least = 2 * sizes[0] ** (len(second) - 1) * sizes[1] ** (len(first) - 1)
         found: list[int] = []
         while math.prod(found) <= least:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.derived.extended import Share, extended_system
+from mcexact.derived.constructions import Share, extended_system
 from mcexact.errors import LimitReached
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 
 _MOST = 10_000

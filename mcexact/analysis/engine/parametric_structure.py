@@ -27,9 +27,9 @@ from mcexact.answer.parameter_values import (
 )
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.answer.parametric_rank import ParametricRank, TransferColumn
-from mcexact.exact.enclosures import root_discs
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rational_functions import RationalFunction
+from mcexact.exact.roots import root_discs
 from mcexact.model.parametric import ParametricSystem
 
 Pair = tuple[str, str]

@@ -11,13 +11,12 @@ from mcexact.analysis.engine.parameter_lines import DRAWS, confirming_lines, in_
 from mcexact.analysis.engine.parametric_minors import parametric_rank
 from mcexact.answer.exceptional_hypersurfaces import Hypersurface, RankHypersurfaces
 from mcexact.answer.parametric_rank import ParametricRank
-from mcexact.derived.dual import dual
-from mcexact.derived.modular_system import generator
-from mcexact.derived.moved_entries import moved
+from mcexact.derived.constructions import dual, moved
+from mcexact.derived.modular import generator
 from mcexact.errors import LimitReached
-from mcexact.exact import several_variables
-from mcexact.exact.location import steady_point
+from mcexact.exact import rational_functions
 from mcexact.exact.modular import ModularMatrix, primes
+from mcexact.exact.roots import steady_point
 from mcexact.model.parametric import ParametricSystem
 
 _BITS = 61
@@ -58,8 +57,8 @@ def rank_hypersurfaces(
     for ell in islice(primes(rng.getrandbits(64), _BITS), DRAWS):
         above, beside = _pivots(rows, width, [rng.randrange(ell) for _ in names], ell)
         minor = [[rows[i][j] for j in beside] for i in above]
-        factors = several_variables.factors(several_variables.determinant(minor, names))
-        candidates = [several_variables.in_parameters(h, names) for h in factors]
+        factors = rational_functions.factors(rational_functions.determinant(minor, names))
+        candidates = [rational_functions.in_parameters(h, names) for h in factors]
 
         def is_generic(answer: ParametricRank, rank: int = len(above)) -> bool:
             return answer.rank == rank
@@ -90,18 +89,18 @@ def rank_hypersurfaces(
 def _entries(system: ParametricSystem) -> Entries:
     """The entries of A', B_i' and C_i' as polynomials in all parameters."""
     names = system.parameters
-    zero = several_variables.ring(names).constant(0)
-    A, scale = several_variables.cleared(system.A, names)
+    zero = rational_functions.ring(names).constant(0)
+    A, scale = rational_functions.cleared(system.A, names)
     return Entries(
         names=system.names,
         A=A,
-        B=[several_variables.cleared(c.B, names)[0] for c in system.channels],
-        C=[several_variables.cleared(c.C, names)[0] for c in system.channels],
+        B=[rational_functions.cleared(c.B, names)[0] for c in system.channels],
+        C=[rational_functions.cleared(c.C, names)[0] for c in system.channels],
         widths=[c.B.ncols for c in system.channels],
         scale=scale,
         steady=steady_point(system.time),
         zero=zero,
-        product=partial(several_variables.product, zero=zero),
+        product=partial(rational_functions.product, zero=zero),
     )
 
 
@@ -111,7 +110,7 @@ def _pivots(
     """Rows and columns of a minor of full order that is not 0 at a point modulo a prime."""
 
     def residue(entry: Any) -> int:
-        value = several_variables.value(entry, point)
+        value = rational_functions.value(entry, point)
         return int(value.p) * pow(int(value.q), -1, ell) % ell
 
     table = [[residue(entry) for entry in row] for row in rows]

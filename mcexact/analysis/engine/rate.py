@@ -7,10 +7,9 @@ from fractions import Fraction
 from math import isqrt
 
 from mcexact.answer.evidence import RateInterval, RootDisc
-from mcexact.exact.enclosures import decimal, exact_decimal, root_discs
-from mcexact.exact.location import is_discrete, is_hurwitz
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.rational import digits_of
+from mcexact.exact.roots import decimal, exact_decimal, is_discrete, is_hurwitz, root_discs
 
 # The width of an enclosure relative to its ends is at most this.
 _RELATIVE_WIDTH = Fraction(1, 10**10)

@@ -6,8 +6,8 @@ import random
 from collections.abc import Sequence
 
 from mcexact.answer.evidence import ZeroTransfer
-from mcexact.derived.modular_system import ModularSystem
-from mcexact.exact.invariant_subspace import InvariantSubspace
+from mcexact.derived.modular import ModularSystem
+from mcexact.exact.krylov import InvariantSubspace
 from mcexact.exact.modular import ModularMatrix
 from mcexact.model.system import MultiChannelSystem
 

@@ -7,9 +7,8 @@ from fractions import Fraction
 
 from mcexact.analysis.engine.lyapunov import QuadraticForm, decrease, is_dominant
 from mcexact.answer.stability import InstabilityMethod
-from mcexact.exact.blocks import block_diagonal, vstack
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block_diagonal, vstack
+from mcexact.exact.roots import StabilityRegion
 
 _SCALES = (8, 24, 48, 96)
 

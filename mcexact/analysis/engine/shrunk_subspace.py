@@ -15,21 +15,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mcexact.answer.evidence import ShrunkSubspace
-from mcexact.derived.modular_system import (
-    Gains,
-    ModularSystem,
-    closed_loop,
-    drawn_gains,
-    residue_systems,
-)
+from mcexact.derived.modular import Gains, ModularSystem, closed_loop, drawn_gains, residue_systems
 from mcexact.errors import InternalError
-from mcexact.exact.blocks import block
-from mcexact.exact.linear_algebra import row_echelon
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.linear_algebra import PolynomialMatrix, kernel_at, row_echelon
+from mcexact.exact.matrix import Matrix, block
 from mcexact.exact.modular import ModularMatrix, hstack, polynomial_residues
-from mcexact.exact.number_field import kernel_at
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.system import MultiChannelSystem
 
 

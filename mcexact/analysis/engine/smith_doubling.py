@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from mcexact.exact.floats import matrix_from_float, matrix_to_float
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, matrix_from_float, matrix_to_float
+from mcexact.exact.roots import StabilityRegion
 
 _BITS = 320
 _DOUBLINGS = 40

@@ -16,10 +16,10 @@ from mcexact.analysis.engine.sparse_loops import (
     drawn_loop,
     exact_primes,
 )
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
+from mcexact.exact.krylov import SparsePowers, row_echelon
 from mcexact.exact.matrix import Matrix, from_cells
-from mcexact.exact.reconstruction import combine, rationals
-from mcexact.exact.sparse_powers import SparsePowers, row_echelon
+from mcexact.exact.modular import combine, rationals
 from mcexact.model.system import MultiChannelSystem
 
 if TYPE_CHECKING:

@@ -6,11 +6,9 @@ import random
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mcexact.derived.modular_system import ModularSystem, drawn_gains
-from mcexact.exact.modular import ModularPolynomial
-from mcexact.exact.prime_field import primes
-from mcexact.exact.sparse_krylov import SparseLoop
-from mcexact.exact.sparse_powers import SparsePowers, largest_prime
+from mcexact.derived.modular import ModularSystem, drawn_gains
+from mcexact.exact.krylov import SparseLoop, SparsePowers, largest_prime
+from mcexact.exact.modular import ModularPolynomial, primes
 from mcexact.model.system import MultiChannelSystem
 
 # Each column has n entries in the certificate, and takes n products with A_F.

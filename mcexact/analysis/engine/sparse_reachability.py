@@ -12,9 +12,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from mcexact.errors import LimitReached
-from mcexact.exact.krylov import reduce
+from mcexact.exact.krylov import SparseLoop, reduce
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.sparse_krylov import SparseLoop
 from mcexact.model.system import MultiChannelSystem
 
 if TYPE_CHECKING:

@@ -25,15 +25,19 @@ from mcexact.analysis.engine.sparse_loops import (
     drawn_loop,
     exact_primes,
 )
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import InternalError, LimitReached
-from mcexact.exact.linear_algebra import rank, solve
+from mcexact.exact.krylov import row_echelon
+from mcexact.exact.linear_algebra import PolynomialMatrix, rank, solve
 from mcexact.exact.matrix import Matrix, from_cells
-from mcexact.exact.modular import ModularMatrix, ModularPolynomial, polynomial_residues
+from mcexact.exact.modular import (
+    ModularMatrix,
+    ModularPolynomial,
+    combine,
+    polynomial_residues,
+    rationals,
+)
 from mcexact.exact.polynomial import Polynomial, from_integer_coefficients
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
-from mcexact.exact.reconstruction import combine, rationals
-from mcexact.exact.sparse_powers import row_echelon
 from mcexact.model.system import MultiChannelSystem
 
 # One of n! primes splits a polynomial of degree n, mostly.

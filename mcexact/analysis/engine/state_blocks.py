@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from mcexact.analysis.engine.obstructions import decide
 from mcexact.analysis.engine.one_channel import best_sequences
 from mcexact.answer.evidence import Block, CoprimePolynomials, KrylovSequence
-from mcexact.derived.modular_system import generator, lifted_gains
+from mcexact.derived.modular import generator, lifted_gains
 from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.model.system import MultiChannelSystem
 

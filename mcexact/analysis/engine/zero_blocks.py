@@ -16,22 +16,23 @@ from typing import Any
 
 from mcexact.analysis.engine.shrunk_subspace import obstruction_modulo
 from mcexact.answer.evidence import ZeroBlock
-from mcexact.derived.modular_system import drawn_gains
-from mcexact.derived.polynomial_system import PolynomialSystem
+from mcexact.derived.modular import PolynomialSystem, drawn_gains
 from mcexact.errors import InternalError
-from mcexact.exact.function_kernels import (
+from mcexact.exact.bivariate import (
+    Bivariate,
     Element,
     Kernel,
     Tower,
     X,
+    denominators,
     entries_of,
     line,
     matrix_of,
     modulus_at,
     over_functions,
+    roots_modulo,
 )
 from mcexact.exact.modular import primes
-from mcexact.exact.two_variables import Bivariate, denominators, roots_modulo
 
 _BITS = 60
 _TRIES = 2000

@@ -5,9 +5,9 @@ from __future__ import annotations
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.assignability import Assignability, MinimalRealization, SpectrumBlock
 from mcexact.answer.transfer_graph import TransferGraph
-from mcexact.derived.modular_system import generator, residue_systems
+from mcexact.derived.modular import generator, residue_systems
 from mcexact.errors import InputError, InternalError
-from mcexact.exact.invariant_subspace import controllable_subspace, krylov_rows
+from mcexact.exact.krylov import controllable_subspace, krylov_rows
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 

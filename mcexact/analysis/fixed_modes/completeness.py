@@ -29,9 +29,9 @@ from mcexact.answer.completeness import (
     FreedomWitness,
 )
 from mcexact.answer.fixed_spectrum import ByBlocks, FixedSpectrum
-from mcexact.derived.modular_system import ModularSystem, generator, lifted_gains, residue_systems
+from mcexact.derived.modular import ModularSystem, generator, lifted_gains, residue_systems
 from mcexact.errors import InputError, InternalError
-from mcexact.exact.invariant_subspace import controllable_subspace
+from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.matrix import Matrix
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem

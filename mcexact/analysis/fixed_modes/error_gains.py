@@ -10,13 +10,11 @@ from typing import Any
 from mcexact.analysis.fixed_modes.gains import error_gain_draws
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.answer.single_channel_gains import SingleChannelGains
-from mcexact.derived.error_system import error_system
-from mcexact.derived.feedback import checked_gains
+from mcexact.derived.constructions import checked_gains, error_system
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.model.linked_system import with_graph
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
 
 
 @dataclass(frozen=True)

@@ -27,12 +27,12 @@ from mcexact.answer.fixed_spectrum import (
     TwoPolynomials,
 )
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
+from mcexact.derived.modular import closed_loop, generator, lifted, lifted_gains
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.location import StabilityRegion, Time
+from mcexact.exact.krylov import stays_sparse
 from mcexact.exact.modular import polynomial_residues, random_matrix
 from mcexact.exact.polynomial import Polynomial, product
-from mcexact.exact.sparse_krylov import stays_sparse
+from mcexact.exact.roots import StabilityRegion, Time
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 

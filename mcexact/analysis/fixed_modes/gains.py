@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
 
-from mcexact.derived.modular_system import ModularSystem, generator, residue_systems
-from mcexact.exact.blocks import block_diagonal, hstack
-from mcexact.exact.matrix import Matrix
+from mcexact.derived.modular import ModularSystem, generator, residue_systems
+from mcexact.exact.matrix import Matrix, block_diagonal, hstack
 from mcexact.exact.modular import ModularMatrix, residues
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 Draw = Callable[[int, Random], tuple[Matrix, ...]]

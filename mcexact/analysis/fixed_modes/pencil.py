@@ -8,14 +8,12 @@ from typing import Any
 from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.pencil_rank import PencilRank
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import InputError, InternalError
-from mcexact.exact.blocks import block
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.linear_algebra import PolynomialMatrix, inflate, kernel_at
+from mcexact.exact.matrix import Matrix, block
 from mcexact.exact.modular import primes, residues
-from mcexact.exact.number_field import kernel_at
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix, inflate
 from mcexact.exact.rational import as_fraction
 from mcexact.model.system import MultiChannelSystem
 

@@ -16,9 +16,8 @@ from mcexact.answer.single_channel_gains import (
     UnreachedWitness,
 )
 from mcexact.arguments import one_of, told
-from mcexact.derived.dual import dual
-from mcexact.derived.feedback import closed_by, full_output
-from mcexact.derived.modular_system import (
+from mcexact.derived.constructions import closed_by, dual, full_output
+from mcexact.derived.modular import (
     ModularSystem,
     closed_loop,
     drawn_gains,
@@ -26,10 +25,9 @@ from mcexact.derived.modular_system import (
     residue_systems,
 )
 from mcexact.errors import InputError, InternalError, UsageError
-from mcexact.exact.blocks import hstack
-from mcexact.exact.invariant_subspace import controllable_subspace
+from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.linear_algebra import solve_nonsingular
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.system import MultiChannelSystem
 

@@ -18,17 +18,15 @@ from mcexact.answer.covering import ConnectivityCut
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.arguments import several
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import Share, checked_share, extended_system
-from mcexact.derived.modular_system import generator
+from mcexact.derived.constructions import Share, augmented_outputs, checked_share, extended_system
+from mcexact.derived.modular import generator
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.floats import as_requested
-from mcexact.exact.invariant_subspace import controllable_subspace
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.krylov import controllable_subspace
+from mcexact.exact.matrix import as_requested
 from mcexact.exact.rational import Entry
-from mcexact.model.linked_system import with_graph
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
 
 
 def base_system(system: MultiChannelSystem, share: str) -> MultiChannelSystem:

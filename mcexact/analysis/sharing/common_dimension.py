@@ -6,10 +6,10 @@ from mcexact.analysis.engine import CoveringCut, decide
 from mcexact.analysis.sharing.allocation import base_system, plant_with_graph
 from mcexact.analysis.sharing.separation import absence, violated_subsets
 from mcexact.answer.common_dimension import CommonDimension
-from mcexact.derived.extended import Share, extended_system
-from mcexact.derived.modular_system import generator
+from mcexact.derived.constructions import Share, extended_system
+from mcexact.derived.modular import generator
 from mcexact.errors import InputError
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -21,20 +21,21 @@ from mcexact.analysis.sharing.separation import least_minimizers, violating_fact
 from mcexact.answer.communication import MinimalCommunication
 from mcexact.answer.covering import LinkCut
 from mcexact.arguments import one_of, several, told
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import Share, extended_system, selector
-from mcexact.derived.links import add_links
-from mcexact.derived.modular_system import generator
+from mcexact.derived.constructions import (
+    Share,
+    add_links,
+    augmented_outputs,
+    extended_system,
+    selector,
+)
+from mcexact.derived.modular import generator
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.blocks import block_diagonal
-from mcexact.exact.floats import as_requested
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, as_requested, block_diagonal
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry
-from mcexact.model.linked_system import with_links
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_links
 
 Edge = tuple[int, int]
 Carried = Literal["outputs", "outputs+states", "states"]

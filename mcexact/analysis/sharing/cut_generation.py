@@ -10,9 +10,9 @@ from typing import Any
 from mcexact.analysis.engine import CoveringCut, CoveringProgram, Node, Tree, branch_tree, minimize
 from mcexact.analysis.sharing.separation import absence
 from mcexact.answer.covering import Absence, BlocksAbsence
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 
 

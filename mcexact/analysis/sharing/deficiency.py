@@ -6,7 +6,7 @@ from mcexact.analysis.engine import Obstruction, decide, evidence
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.deficiency import ByBlocks, ByCompletion, Deficiency, RankLoss
 from mcexact.answer.fixed_spectrum import ByBlocks as FixedByBlocks
-from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
+from mcexact.derived.modular import closed_loop, generator, lifted, lifted_gains
 from mcexact.exact.modular import random_matrix
 from mcexact.model.system import MultiChannelSystem
 

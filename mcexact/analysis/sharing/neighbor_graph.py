@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from mcexact.answer.neighbor_graph import NeighborGraphVerdict
 from mcexact.errors import InputError
-from mcexact.model.linked_system import with_graph
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
 
 
 def neighbor_graph(

@@ -17,19 +17,14 @@ from mcexact.analysis.engine import (
     witnessed_powers,
 )
 from mcexact.answer.covering import Absence, BlocksAbsence, DeficiencyCut
-from mcexact.derived.dual import dual
-from mcexact.derived.modular_system import (
-    ModularSystem,
-    drawn_gains,
-    lifted_gains,
-    residue_systems,
-)
+from mcexact.derived.constructions import dual
+from mcexact.derived.modular import ModularSystem, drawn_gains, lifted_gains, residue_systems
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.modular import polynomial_residues
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 Channels = tuple[int, ...]

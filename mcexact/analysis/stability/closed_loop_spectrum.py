@@ -9,13 +9,13 @@ from mcexact.analysis.engine import located
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.loop_spectrum import LoopSpectrum
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues, primes, residues_modulo_each
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 
 _MODULUS_BITS = 61

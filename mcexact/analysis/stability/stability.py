@@ -19,16 +19,15 @@ from mcexact.answer.stability import (
     Transformation,
 )
 from mcexact.arguments import one_of
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
-from mcexact.exact.sector import lifted
-from mcexact.model.matrix_entry import as_matrix
+from mcexact.exact.roots import StabilityRegion, lifted
+from mcexact.model.entries import as_matrix
 from mcexact.model.system import MultiChannelSystem
 
 Method = Literal["polynomial", "lyapunov"]

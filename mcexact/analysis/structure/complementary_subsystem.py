@@ -7,13 +7,19 @@ from dataclasses import dataclass
 from random import Random
 
 from mcexact.answer.complementary_subsystem import ComplementarySubsystem
-from mcexact.derived.modular_system import generator, residue_systems
+from mcexact.derived.modular import generator, residue_systems
 from mcexact.errors import InputError, InternalError, UsageError
-from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.invariant_form import companions, invariant_form
-from mcexact.exact.invariant_subspace import controllable_subspace
-from mcexact.exact.linear_algebra import inverse, kernel, left_nullspace, nullspace, solve
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.krylov import controllable_subspace
+from mcexact.exact.linear_algebra import (
+    companions,
+    invariant_form,
+    inverse,
+    kernel,
+    left_nullspace,
+    nullspace,
+    solve,
+)
+from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.modular import hstack as modular_hstack
 from mcexact.exact.modular import residues
 from mcexact.exact.polynomial import Polynomial, product

@@ -19,10 +19,10 @@ from mcexact.answer.evidence import Block
 from mcexact.answer.fixed_spectrum import ByBlocks as FixedByBlocks
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.derived.dual import dual
-from mcexact.derived.modular_system import generator
+from mcexact.derived.constructions import dual
+from mcexact.derived.modular import generator
 from mcexact.errors import InputError
-from mcexact.exact.invariant_subspace import controllable_subspace
+from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial

@@ -11,12 +11,11 @@ from typing import overload
 from mcexact.analysis.structure.parametric_ranks import parametric_indices
 from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.answer.parametric_rank import ParametricRank
-from mcexact.derived.dual import dual
-from mcexact.derived.modular_system import generator, residue_systems
+from mcexact.derived.constructions import dual
+from mcexact.derived.modular import generator, residue_systems
 from mcexact.errors import InputError, InternalError
-from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import solve_nonsingular
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem

@@ -12,17 +12,14 @@ from mcexact.analysis.structure.controllability_indices import controllability_i
 from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.exceptional_gains import ExceptionalFactor, ExceptionalSet
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import Impossible, InternalError
-from mcexact.exact.blocks import hstack
-from mcexact.exact.enclosures import root_discs
-from mcexact.exact.linear_algebra import determinant
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.linear_algebra import PolynomialMatrix, determinant, field_kernel
+from mcexact.exact.matrix import Matrix, hstack
 from mcexact.exact.modular import polynomial_residues, primes
-from mcexact.exact.number_field import kernel
 from mcexact.exact.polynomial import Polynomial, product
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
-from mcexact.model.matrix_entry import as_matrix, require_shape
+from mcexact.exact.roots import root_discs
+from mcexact.model.entries import as_matrix, require_shape
 from mcexact.model.system import MultiChannelSystem
 
 
@@ -148,7 +145,7 @@ def _exceptional_set(
         confirmed: list[ExceptionalFactor] = []
         left = first
         for f, _ in first.gcd(second).factor():
-            rows, pivots = kernel(K.T, f)
+            rows, pivots = field_kernel(K.T, f)
             if rows.ncols:
                 left = left // f ** f.multiplicity_in(left)
                 row = rows.take(cols=[0]).T

@@ -13,8 +13,7 @@ from mcexact.answer.parametric_rank import (
     SetpointMatrix,
     SignalMatrix,
 )
-from mcexact.derived.dual import dual
-from mcexact.derived.moved_entries import moved
+from mcexact.derived.constructions import dual, moved
 from mcexact.errors import InputError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.parametric import ParametricSystem

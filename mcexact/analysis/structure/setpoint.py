@@ -9,19 +9,18 @@ from typing import overload
 from mcexact.analysis.structure.parametric_ranks import parametric_setpoints
 from mcexact.answer.parametric_rank import ParametricRank
 from mcexact.answer.setpoint import SetpointSolvability
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import InputError, InternalError
-from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import (
+    PolynomialMatrix,
     characteristic_polynomial,
     left_nullspace,
     row_echelon,
 )
-from mcexact.exact.location import steady_point
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block, hstack, vstack
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
+from mcexact.exact.roots import steady_point
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 

@@ -19,9 +19,9 @@ from mcexact.analysis.engine import (
     zero_transfer,
 )
 from mcexact.answer.transfer_graph import TransferGraph
-from mcexact.derived.modular_system import generator, residue_systems
+from mcexact.derived.modular import generator, residue_systems
 from mcexact.errors import InputError, InternalError
-from mcexact.exact.invariant_subspace import InvariantSubspace, controllable_subspace
+from mcexact.exact.krylov import InvariantSubspace, controllable_subspace
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 

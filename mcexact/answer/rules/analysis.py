@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.template import Sentence, Template
 from mcexact.answer.wording import analysis as say
-from mcexact.exact.location import steady_point
 from mcexact.exact.polynomial import product
+from mcexact.exact.roots import steady_point
 
 RULES = Rulebook()
 rule = RULES.rule

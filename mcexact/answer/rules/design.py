@@ -5,7 +5,7 @@ from __future__ import annotations
 from mcexact.answer.rules.analysis import Said
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.wording import design as say
-from mcexact.exact.location import LIMITS, StabilityRegion
+from mcexact.exact.roots import LIMITS, StabilityRegion
 
 RULES = Rulebook()
 rule = RULES.rule

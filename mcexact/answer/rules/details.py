@@ -9,7 +9,7 @@ from mcexact.answer.rules.analysis import Said, control, empty, gains, reached
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.wording import details as say
 from mcexact.answer.wording.analysis import GAINS
-from mcexact.exact.enclosures import exact_decimal
+from mcexact.exact.roots import exact_decimal
 
 RULES = Rulebook()
 rule = RULES.rule

@@ -10,7 +10,7 @@ from mcexact.answer.rules.design import about
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InternalError
-from mcexact.exact.location import steady_point
+from mcexact.exact.roots import steady_point
 
 RULES = Rulebook()
 rule = RULES.rule

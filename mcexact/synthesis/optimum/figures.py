@@ -1,31 +1,508 @@
-"""Figures of a loop that say whether a person would install its controller."""
+"""Cost, sensitivity, eigenvalues and aims of a loop, with their gradients."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from math import isfinite
+from numbers import Real
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.linalg import expm
+from scipy.linalg import eig, expm, lapack, rsf2csf
 
-from mcexact.derived.merged import merged
-from mcexact.exact.floats import to_float
-from mcexact.exact.location import StabilityRegion
+from mcexact.arguments import require_seconds, told
+from mcexact.derived.constructions import merged
+from mcexact.errors import UsageError
+from mcexact.exact.matrix import as_requested, to_float
+from mcexact.exact.rational import Entry
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem, as_plant
-from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.optimum.cost import quadratic_costs
-from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes
-from mcexact.synthesis.optimum.programs import balanced
-from mcexact.synthesis.optimum.regulator import Model, gaussian_controller
-from mcexact.synthesis.optimum.sensitivity import Sensitivity, frequencies, norm
-from mcexact.synthesis.optimum.shape import least_damping
-from mcexact.synthesis.optimum.spectrum import SchurForm
-from mcexact.synthesis.optimum.weights import Floats, Weights
+from mcexact.synthesis.gate import Request
+from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.optimum.problem import (
+    FeedbackProblem,
+    Floats,
+    SchurForm,
+    Sizes,
+    Weights,
+    balanced,
+)
+from mcexact.synthesis.optimum.starts import Model, gaussian_controller
+
+# The linear-quadratic cost of a loop, and its gradient in the entries of K.
+
+Valued = tuple[float, Floats]
+"""A value and its gradient; where the value is infinite the gradient is not used."""
+
+_NO_GRADIENT = np.zeros((0, 0))
+INFINITE: Valued = (np.inf, _NO_GRADIENT)
+
+
+def quadratic_costs(problem: FeedbackProblem, K: Floats, shifts: tuple[float, ...]) -> list[Valued]:
+    """Compute the costs of shifted loops, and their gradients.
+
+    Parameters
+    ----------
+    problem : FeedbackProblem
+    K : ndarray, P × L
+    shifts : tuple of float
+        a in continuous time: the loop is M + aI; ρ in discrete time: the loop is M/ρ.
+
+    Returns
+    -------
+    list of (float, ndarray)
+        J for each shift, infinite unless the shifted loop is stable; and the P × L gradient.
+
+    Notes
+    -----
+    With the noises Wˢ = W + B K V K'B' and the weights Qˢ = Q + C'K'R K C, the Gramians S, P of M::
+
+        J = tr(S Qˢ) + tr(R K V K')
+        ∇J = 2 (B'P M S C' + R K C S C' + B'P B K V + R K V)     (without M in continuous time)
+
+    (Levine and Athans 1970; Rautert and Sachs 1997).  The second term of J is the power of the
+    noise that K passes on to its inputs at once: a part of E[u'Ru] in discrete time, and kept as a
+    definition in continuous time, where that power would be infinite.  One Schur form serves all
+    shifts.
+    """
+    A, B, C, R = problem.A, problem.B, problem.C, problem.R
+    BK, RK, KV = B @ K, R @ K, K @ problem.V
+    M = A + BK @ C
+    form = SchurForm.of(M, discrete=problem.discrete)
+    if form is None:
+        return [INFINITE for _ in shifts]
+    Q, W = problem.Q + C.T @ (K.T @ RK) @ C, problem.W + B @ (KV @ BK.T)
+    through = float(np.sum(RK * KV))
+    found = []
+    for shift in shifts:
+        inside = form.bound < shift if problem.discrete else form.bound < -shift
+        gramians = form.gramians(W, Q, shift) if inside else None
+        if gramians is None:
+            found.append(INFINITE)
+            continue
+        S, P = gramians
+        SC = S @ C.T
+        forward = P @ (M @ SC) / shift**2 if problem.discrete else P @ SC
+        G = 2 * (B.T @ (forward + P @ (B @ KV)) + RK @ (C @ SC) + R @ KV)
+        cost = float(np.sum(S * Q)) + through
+        found.append((cost, G) if cost > 0 and np.all(np.isfinite(G)) else INFINITE)
+    return found
+
+
+# The complementary sensitivity at the inputs of the plant, on a grid of frequencies.
+
+Complexes = npt.NDArray[np.complex128]
+
+GRID = 80
+_BEYOND_SENSE = 1e30
+
+
+def frequencies(
+    eigenvalues: Complexes, *, discrete: bool, count: int = GRID, widen: float = 3.0
+) -> Complexes:
+    """Choose points of the boundary of stability, which cover the eigenvalues of a loop.
+
+    Parameters
+    ----------
+    eigenvalues : ndarray of complex
+    discrete : bool
+    count : int
+        The number of points besides those nearest to eigenvalues.
+    widen : float
+        In continuous time, the frequencies reach this factor beyond the moduli.
+
+    Returns
+    -------
+    ndarray of complex
+        jω, ω ≥ 0, or e^{jθ}, 0 ≤ θ ≤ π.
+
+    Examples
+    --------
+    >>> frequencies(np.array([-1 + 2j, -1 - 2j]), discrete=False, count=2).imag.round(2).tolist()
+    [0.0, 0.75, 6.71, 2.0]
+    """
+    if discrete:
+        near = np.unique(np.abs(np.angle(eigenvalues)))
+        return np.exp(1j * np.concatenate([np.linspace(0, np.pi, count), near]))
+    sizes = np.abs(eigenvalues)
+    sizes = sizes[sizes > 1e-9 * np.max(sizes, initial=0.0)]
+    low, high = np.min(sizes, initial=1.0) / widen, np.max(sizes, initial=1e-9) * widen
+    if sizes.size:
+        low = float(np.min(sizes)) / widen
+    near = np.unique(np.abs(eigenvalues.imag))
+    points = np.concatenate([[0.0], np.geomspace(low, high, count), near[near > 0]])
+    return 1j * points
+
+
+def norm(M: Floats | Complexes) -> float:
+    """The largest singular value; infinite where numbers exceed any sense.
+
+    Examples
+    --------
+    >>> round(norm(np.diag([2.0, -3.0])), 9), norm(np.array([[np.nan]]))
+    (3.0, inf)
+    """
+    sensible = bool(np.all(np.abs(M) < _BEYOND_SENSE))
+    return float(np.linalg.norm(M, 2)) if sensible and M.size else 0.0 if sensible else np.inf
+
+
+class Response:
+    """T(z) = U (zI − M)⁻¹ B, on the boundary of stability.
+
+    Parameters
+    ----------
+    M : ndarray, N × N
+    entering, leaving : ndarray, N × p and p' × N
+        B and U.
+    discrete : bool
+
+    Notes
+    -----
+    With a complex Schur form of M each frequency costs O(N²).
+    """
+
+    def __init__(self, M: Floats, entering: Floats, leaving: Floats, *, discrete: bool) -> None:
+        form = SchurForm.of(M, discrete=discrete)
+        self.eigenvalues: Complexes = np.zeros(0, dtype=np.complex128)
+        self.valid = form is not None
+        if form is None:
+            return
+        self.eigenvalues = form.eigenvalues
+        upper, unitary = rsf2csf(form.T, form.Z) if len(M) else (M, M)
+        self._T = np.asarray(upper, dtype=np.complex128)
+        self._Z = np.asarray(unitary, dtype=np.complex128)
+        self._entering = self._Z.conj().T @ entering
+        self._leaving = leaving @ self._Z
+
+    def _resolvent(self, z: complex, right: Complexes, trans: int = 0) -> Complexes:
+        """Solve (zI − T) X = right, or its transpose."""
+        solved, _ = lapack.ztrtrs(z * np.eye(len(self._T)) - self._T, right, trans=trans)
+        found: Complexes = solved
+        return found
+
+    def sizes(self, points: Complexes) -> Floats:
+        """Return the largest singular value of T at each of some points."""
+        if not self._leaving.size or not self._entering.size:
+            return np.zeros(len(points))
+        return np.array(
+            [norm(self._leaving @ self._resolvent(z, self._entering)) for z in points], dtype=float
+        )
+
+    def peak(self, points: Complexes) -> float:
+        """Return the largest singular value of T at some points."""
+        return float(np.max(self.sizes(points), initial=0.0))
+
+
+class Sensitivity(Response):
+    """T(z) = U (zI − M)⁻¹ B_u, with u = U x̄ the inputs of the plant and B_u where these enter.
+
+    Parameters
+    ----------
+    problem : FeedbackProblem
+    K : ndarray, P × L
+
+    Notes
+    -----
+    The loop is opened at all inputs of the plant at once.
+    """
+
+    def __init__(self, problem: FeedbackProblem, K: Floats) -> None:
+        self._problem, self._K = problem, K
+        entering, leaving = problem.B[:, : problem.p], (K @ problem.C)[: problem.p]
+        super().__init__(problem.closed(K), entering, leaving, discrete=problem.discrete)
+
+    def excess(self, points: Complexes, limit: float) -> Valued:
+        """Compute Σ max(0, σ_max(T(z))/limit − 1)² over some points, and its gradient in K.
+
+        Notes
+        -----
+        With u, v the singular vectors of σ_max, dσ = Re(uᴴ dT v), and dT = E dK C X B_u + U X B dK
+        C X B_u, X = (zI − M)⁻¹, where E picks the inputs of the plant.
+        """
+        problem, K = self._problem, self._K
+        total, G = 0.0, np.zeros(K.shape)
+        if not self._leaving.size:
+            return total, G
+        for z in points:
+            inner = self._resolvent(z, self._entering)
+            left, sizes, right = np.linalg.svd(self._leaving @ inner)
+            excess = float(sizes[0]) / limit - 1
+            if not excess > 0:
+                continue
+            total += excess**2
+            u, v = left[:, 0], right[0].conj()
+            back = self._resolvent(z, self._leaving.T @ u.conj(), trans=1)
+            row = problem.B.T @ (self._Z.conj() @ back)
+            row[: problem.p] += u.conj()
+            G += 2 * excess / limit * np.real(np.outer(row, problem.C @ (self._Z @ (inner @ v))))
+        return total, G
+
+
+# The eigenvalues of a loop, and how gains move them.
+
+_CLOSE = 1e-13
+
+
+@dataclass(frozen=True, eq=False)
+class Eigenvalues:
+    """The eigenvalues of M = A + B K C, with left and right eigenvectors as columns.
+
+    Attributes
+    ----------
+    problem : FeedbackProblem
+    values : ndarray of complex, N
+    left, right : ndarray of complex, N × N
+    """
+
+    problem: FeedbackProblem
+    values: Complexes
+    left: Complexes
+    right: Complexes
+
+    @classmethod
+    def of(cls, problem: FeedbackProblem, M: Floats) -> Eigenvalues:
+        """Compute the eigenvalues of the loop M of a problem, whose entries are finite."""
+        found = (np.asarray(each, dtype=np.complex128) for each in eig(M, left=True))
+        return cls(problem, *found)
+
+    def slope(self, k: int, direction: complex) -> Floats:
+        """Return the gradient of Re(c λ_k) in K, for a number c.
+
+        Parameters
+        ----------
+        k : int
+        direction : complex
+            c.
+
+        Notes
+        -----
+        With left and right eigenvectors w, v, dλ = wᴴ dM v/(wᴴ v).  Where wᴴ v vanishes, 1e-13
+        takes its place.
+        """
+        w, v, problem = self.left[:, k].conj(), self.right[:, k], self.problem
+        paired = complex(w @ v)
+        paired = paired if abs(paired) > _CLOSE else complex(_CLOSE)
+        found: Floats = np.real(direction / paired * np.outer(w @ problem.B, problem.C @ v))
+        return found
+
+
+# Where eigenvalues lie besides the rate: how well damped, and how fast at most.
+
+_GONE = 1e-3
+_AIMED_FURTHER = 1.05
+
+
+def least_damping(eigenvalues: Complexes, *, discrete: bool) -> float:
+    """Compute the least damping ratio −Re s/|s|, s = λ or in discrete time s = log λ.
+
+    In discrete time an eigenvalue of a modulus below 1/1000 has the ratio 1.
+
+    Examples
+    --------
+    >>> round(least_damping(np.array([-3 + 4j, -3 - 4j, -1]), discrete=False), 3)
+    0.6
+    >>> round(least_damping(np.exp(np.array([-0.3 + 0.4j, -0.3 - 0.4j])), discrete=True), 3)
+    0.6
+    """
+    s = np.log(eigenvalues[np.abs(eigenvalues) >= _GONE]) if discrete else eigenvalues
+    ratios = -s.real / np.maximum(np.abs(s), np.finfo(float).tiny)
+    return float(np.min(ratios, initial=1.0))
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Limits on the eigenvalues of a loop, which a search aims at.
+
+    Attributes
+    ----------
+    damping : float or None
+        The least damping ratio.
+    largest : float or None
+        The largest modulus, in continuous time.
+    """
+
+    damping: float | None = None
+    largest: float | None = None
+
+    @property
+    def free(self) -> bool:
+        """Whether there is no limit."""
+        return self.damping is None and self.largest is None
+
+    def met(self, damping: float, fastest: float) -> bool:
+        """Whether a least damping ratio and a largest modulus keep the limits."""
+        damped = self.damping is None or damping >= self.damping
+        return damped and (self.largest is None or fastest <= self.largest)
+
+    def excess(self, problem: FeedbackProblem, K: Floats) -> Valued:
+        """Compute Σ max(0, ζ − d_k)² + Σ max(0, |λ_k|/R − 1)², and its gradient in K.
+
+        Parameters
+        ----------
+        problem : FeedbackProblem
+        K : ndarray, P × L
+
+        Notes
+        -----
+        d_k are the damping ratios; ζ is 1.05 times the limit, and R the limit over 1.05.
+        """
+        seen = Eigenvalues.of(problem, problem.closed(K))
+        total, G = 0.0, np.zeros(K.shape)
+        for k, value in enumerate(map(complex, seen.values)):
+            size, slope = self._of(value, discrete=problem.discrete)
+            if size:
+                total += size
+                G += seen.slope(k, slope)
+        return total, G
+
+    def _of(self, value: complex, *, discrete: bool) -> tuple[float, complex]:
+        """What an eigenvalue adds, and c with Re(c dλ) its differential."""
+        total, slope = 0.0, 0j
+        modulus = abs(value)
+        if modulus < (_GONE if discrete else np.finfo(float).tiny):
+            return total, slope
+        if self.largest is not None and not discrete:
+            over = _AIMED_FURTHER * modulus / self.largest - 1
+            if over > 0:
+                total += over**2
+                slope += 2 * over * _AIMED_FURTHER / self.largest * value.conjugate() / modulus
+        if self.damping is not None:
+            s = complex(np.log(value)) if discrete else value
+            r, inner = abs(s), 1 / value if discrete else 1 + 0j
+            # At λ = 1 every direction is as good.
+            lacking = min(_AIMED_FURTHER * self.damping, 0.99) + s.real / r if r else 0.0
+            if lacking > 0:
+                total += lacking**2
+                # d(Re s/|s|) = Re(g ds).
+                g = complex(s.imag**2, s.real * s.imag) / r**3
+                slope += 2 * lacking * g * inner
+        return total, slope
+
+
+NO_LIMITS = Shape()
+"""Eigenvalues may lie anywhere in the region."""
+
+
+# What a search for a controller aims at, besides the rate or the radius.
+
+MARGIN = 0.3
+SEEDS = 4
+
+
+@dataclass(frozen=True)
+class Aims:
+    """What a search for a controller aims at.
+
+    Of this only a damping ratio and a largest modulus in continuous time are certified: then no
+    controller without them is a design.
+
+    Parameters
+    ----------
+    weights : mapping of {"Q", "R", "W", "V"} to matrix, optional
+        See `Weights.of`; by default Q = R = W = I and V = I/100.
+    margin : float
+        The margin at the inputs of the plant, which the search raises to this if it can.
+    largest_gain : float, optional
+        The largest entry that is not penalized; by default ten times that of the optimal controller
+        of all agents together.
+    largest_order : int, optional
+        The largest number of states of each agent.
+    damping : rational or float, optional
+        The least damping ratio of an eigenvalue, −Re s/|s| for s = λ or in discrete time log λ,
+        where it is aimed at and not certified.
+    largest_modulus : rational or float, optional
+        The largest modulus of an eigenvalue, in continuous time.
+    digits : int, optional
+        The largest number of significant decimal digits of an entry.
+    effort : float, optional
+        About how many seconds a processor of 2024 may search for each rate that is tried, one if
+        a rate is given and else up to three.  Work is counted, not timed, so that the result does
+        not depend on the machine's load.  With 0 there is no search, but the
+        controller of the theorem at once.
+    seeds : int
+        The number of drawn starts of each order.
+
+    Raises
+    ------
+    UsageError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> Aims(margin=0.4, digits=3).largest_order
+    >>> Aims(margin=2)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.UsageError: margin: expected a number above 0 and below 1, found 2
+    """
+
+    weights: Mapping[str, Any] | None = None
+    margin: float = MARGIN
+    largest_gain: float | None = None
+    largest_order: int | None = None
+    damping: Entry | None = None
+    largest_modulus: Entry | None = None
+    digits: int | None = None
+    effort: float | None = None
+    seeds: int = SEEDS
+
+    def __post_init__(self) -> None:
+        for name in ("margin", "largest_gain", "damping", "largest_modulus"):
+            number = getattr(self, name)
+            if isinstance(number, bool) or not isinstance(number, Real):
+                _require(number is None and name != "margin", name, "a number", told(number))
+        _require(0 < self.margin < 1, "margin", "a number above 0 and below 1", self.margin)
+        if self.largest_gain is not None:
+            good = 0 < self.largest_gain and isfinite(self.largest_gain)
+            _require(good, "largest_gain", "a number above 0", self.largest_gain)
+        if self.damping is not None:
+            object.__setattr__(self, "damping", as_requested(self.damping, where="damping"))
+            good = 0 < _number(self.damping) < 1
+            _require(good, "damping", "a number above 0 and below 1", self.damping)
+        if self.largest_modulus is not None:
+            most = as_requested(self.largest_modulus, where="largest_modulus")
+            object.__setattr__(self, "largest_modulus", most)
+            good = 0 < _number(self.largest_modulus)
+            _require(good, "largest_modulus", "a number above 0", self.largest_modulus)
+        for name, least in (("largest_order", 0), ("digits", 1), ("seeds", 1)):
+            number = getattr(self, name)
+            if number is not None:
+                good = type(number) is int and number >= least
+                _require(good, name, f"an integer of at least {least}", number)
+        if self.effort is not None:
+            require_seconds(self.effort, "effort")
+
+    def searched_for(self, request: Request) -> bool:
+        """Whether there is a search: no spectrum, no agent with a channel controller, effort."""
+        return request.spectrum is None and request.agent is None and self.effort != 0
+
+    @property
+    def shape(self) -> Shape:
+        """The limits on the eigenvalues."""
+        limits = (self.damping, self.largest_modulus)
+        return Shape(*(None if limit is None else _number(limit) for limit in limits))
+
+
+def _number(limit: Entry) -> float:
+    return to_float(as_requested(limit))
+
+
+def _require(good: bool, name: str, expected: str, found: object) -> None:
+    if not good:
+        raise UsageError(f"expected {expected}, found {found}", where=name)
+
+
+THEOREM = Aims(effort=0)
+"""No search: the controller of the theorem."""
+
+
+# Figures of a loop that say whether a person would install its controller.
 
 _FREQUENCIES = 200
 STEPS = 400
-_BEYOND_SENSE = 1e30
+_FIGURE_BEYOND_SENSE = 1e30
 
 
 @dataclass(frozen=True)
@@ -136,7 +613,7 @@ def _powers(M: Floats, form: SchurForm) -> Iterator[Floats]:
         start = 0.05 / float(np.max(np.abs(form.eigenvalues), initial=1e-9))
         step, elapsed, slowest = expm(M * start), 1.0, -form.bound
     end = 8 / max(slowest, 1e-300) / start
-    while elapsed < end and np.all(np.abs(step) < _BEYOND_SENSE):
+    while elapsed < end and np.all(np.abs(step) < _FIGURE_BEYOND_SENSE):
         power = step
         for _ in range(8):
             yield power

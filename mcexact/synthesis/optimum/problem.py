@@ -1,20 +1,272 @@
-"""All controllers of one structure as the free entries of one gain matrix."""
+"""All controllers of a structure as one gain matrix with free entries."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import accumulate
+from itertools import accumulate, pairwise
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.linalg import block_diag, lapack
+from threadpoolctl import threadpool_limits
 
-from mcexact.exact.floats import matrix_to_float
-from mcexact.exact.location import is_discrete
-from mcexact.synthesis.network.networks import DerivedNetwork, Signal
-from mcexact.synthesis.optimum.ties import Places, Ties
-from mcexact.synthesis.optimum.weights import Floats, Weights
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix, matrix_from_float, matrix_to_float
+from mcexact.exact.roots import is_discrete
+from mcexact.model.controller import Controller
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.channel_controller import ChannelController
+from mcexact.synthesis.networks import (
+    DerivedNetwork,
+    Signal,
+    decentralized_network,
+    network_programs,
+)
+
+# Floating-point arithmetic in one thread, without warnings about numbers that are dropped.
+
+
+@contextmanager
+def quiet_floats() -> Iterator[None]:
+    """Compute in one thread and without warnings.
+
+    For matrices of some hundred rows threads cost more than they bring.  What overflows or is
+    nearly singular belongs to controllers that are dropped, or to figures that say so.
+    """
+    with threadpool_limits(1, "blas"), np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+# The work that a search may do, counted and not timed, so that it ends alike everywhere.
+
+_OVERHEAD = 48
+"""The number of states at which the arithmetic of one cost takes as long as what surrounds it."""
+PER_SECOND = 3000
+"""About as many units as a processor of 2024 does in a second."""
+
+
+@dataclass
+class Effort:
+    """A number of units, each about the cost of one loop of a few states.
+
+    Attributes
+    ----------
+    limit : float
+    spent : float
+    whole : Effort or None
+        What this is a part of, where everything is counted too.
+
+    Examples
+    --------
+    >>> effort = Effort(100)
+    >>> part = effort.part(0.5)
+    >>> part.take(0, times=50)
+    >>> part.over, effort.left
+    (True, 50.0)
+    """
+
+    limit: float
+    spent: float = 0.0
+    whole: Effort | None = field(default=None, repr=False)
+
+    def take(self, states: int, times: float = 1.0) -> None:
+        """Count some costs of a loop of some states, of O(N³) operations each."""
+        self._add(times * (1 + (states / _OVERHEAD) ** 3))
+
+    def _add(self, cost: float) -> None:
+        self.spent += cost
+        if self.whole is not None:
+            self.whole._add(cost)
+
+    @property
+    def left(self) -> float:
+        """What is left, 0 or more."""
+        return max(self.limit - self.spent, 0.0)
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing is left."""
+        return self.left <= 0
+
+    def part(self, share: float) -> Effort:
+        """Return a part of what is left."""
+        return Effort(self.left * share, whole=self)
+
+
+# Weights of the linear-quadratic cost of a plant.
+
+Floats = npt.NDArray[np.float64]
+
+_NOISE = 1e-2
+_ROUNDING = 1e-12
+NAMES = ("Q", "R", "W", "V")
+
+
+@dataclass(frozen=True, eq=False)
+class Weights:
+    """Weights of the cost E[x'Qx + u'Ru], and the covariances of the noises of state and outputs.
+
+    Attributes
+    ----------
+    Q, W : ndarray, n × n
+        The weight of the state, and the covariance of its noise.
+    R : ndarray, p × p
+        The weight of all inputs, in the order of the channels.
+    V : ndarray, q × q
+        The covariance of the noise of all outputs, in the order of the channels.
+    """
+
+    Q: Floats
+    R: Floats
+    W: Floats
+    V: Floats
+
+    @classmethod
+    def unit(cls, system: MultiChannelSystem) -> Weights:
+        """Return Q = R = W = I and V = I/100.
+
+        Examples
+        --------
+        >>> weights = Weights.unit(MultiChannelSystem([[1]], [[[1]]], [[[1]]]))
+        >>> weights.Q.tolist(), weights.V.tolist()
+        ([[1.0]], [[0.01]])
+        """
+        p = sum(system.p(i) for i in range(system.m))
+        q = sum(system.q(i) for i in range(system.m))
+        return cls(np.eye(system.n), np.eye(p), np.eye(system.n), _NOISE * np.eye(q))
+
+    @classmethod
+    def of(cls, system: MultiChannelSystem, given: Mapping[str, Any] | None = None) -> Weights:
+        """Return the weights that are given, and those of `unit` for the others.
+
+        Parameters
+        ----------
+        system : MultiChannelSystem
+        given : mapping of {"Q", "R", "W", "V"} to matrix, optional
+            Symmetric matrices of numbers, as arrays or as lists of rows.  Q and W are positive
+            semidefinite, R and V are positive definite.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown, or a matrix has another size or is not as described.
+
+        Examples
+        --------
+        >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+        >>> Weights.of(plant, {"R": [["1/4"]]}).R.tolist()
+        [[0.25]]
+        >>> Weights.of(plant, {"R": [[0]]})
+        Traceback (most recent call last):
+            ...
+        mcexact.errors.InputError: weights.R: expected a positive definite matrix
+        """
+        found = cls.unit(system)
+        for name, entries in (given or {}).items():
+            where = f"weights.{name}"
+            if name not in NAMES:
+                raise InputError(f"expected one of {', '.join(NAMES)}, found {name!r}", where=where)
+            size = len(getattr(found, name))
+            found = replace(found, **{name: _checked(entries, size, where, definite=name in "RV")})
+        return found
+
+    def with_integrators(self, system: MultiChannelSystem) -> Weights:
+        """Return the weights of `integrated_plant`, for the weights of a system.
+
+        Integrators are weighed by 1 and have noise of covariance 1.  What agents measure of them
+        has the noise of the outputs, independently.
+        """
+        sizes = [system.q(i) for i in range(system.m)]
+        one, starts = np.eye(sum(sizes)), np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp)
+        places = [np.arange(a, b) for a, b in pairwise(starts)]
+        # The integrals of a channel come first, then its outputs.
+        order = np.concatenate([[], *(p + k for p in places for k in (0, len(one)))]).astype(
+            np.intp
+        )
+        V = block_diag(self.V, self.V)[np.ix_(order, order)]
+        return Weights(block_diag(self.Q, one), self.R, block_diag(self.W, one), V)
+
+
+def _checked(entries: Any, size: int, where: str, *, definite: bool) -> Floats:
+    """Convert a symmetric matrix of a size, and check that it is (semi)definite."""
+    if isinstance(entries, Matrix):
+        M = entries
+    elif isinstance(entries, np.ndarray):
+        M = matrix_from_float(entries, "dyadic", where=where)
+    else:
+        M = _read(entries, where)
+    if M.shape != (size, size):
+        raise InputError(
+            f"expected a {size} × {size} matrix, found {M.nrows} × {M.ncols}", where=where
+        )
+    if M != M.T:
+        raise InputError("expected a symmetric matrix", where=where)
+    found = matrix_to_float(M)
+    if not np.all(np.isfinite(found)):
+        raise InputError("expected numbers in the range of double precision", where=where)
+    least, largest = np.linalg.eigvalsh(found)[[0, -1]] if size else (1.0, 1.0)
+    if definite and not least > _ROUNDING * largest:
+        raise InputError("expected a positive definite matrix", where=where)
+    if not least >= -_ROUNDING * abs(largest):
+        raise InputError("expected a positive semidefinite matrix", where=where)
+    return found
+
+
+def _read(entries: Any, where: str) -> Matrix:
+    """Read rows of numbers, which may be floats or exact."""
+    if not isinstance(entries, list | tuple) or not all(
+        isinstance(row, list | tuple) for row in entries
+    ):
+        raise InputError("expected a list of rows of numbers", where=where)
+    if any(isinstance(entry, float) for row in entries for entry in row):
+        return matrix_from_float(entries, "decimal", where=where)
+    return Matrix.from_rows(entries, where=where)
+
+
+# Which free entries of a gain matrix are equal.
+
+Places = npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Ties:
+    """Which free entries of K are equal.
+
+    Attributes
+    ----------
+    number : ndarray of int
+        For each free entry the number of the value that it has.
+    chosen : ndarray of bool
+        The free entry, one for each value, from which the value of a given K is taken.
+    """
+
+    number: Places
+    chosen: npt.NDArray[np.bool_]
+
+    @property
+    def count(self) -> int:
+        """The number of values."""
+        return int(np.count_nonzero(self.chosen))
+
+    def values(self, entries: Floats) -> Floats:
+        """Return the values of some entries."""
+        found = np.empty(self.count)
+        found[self.number[self.chosen]] = entries[self.chosen]
+        return found
+
+    def summed(self, entries: Floats) -> Floats:
+        """Sum the entries that have the same value, as the chain rule does with gradients."""
+        found = np.bincount(self.number, entries, minlength=self.count)
+        return np.asarray(found, dtype=np.float64)
+
+
+# All controllers of one structure as the free entries of one gain matrix.
 
 Sources = dict[tuple[Signal, bytes], slice]
 """The rows of each signal of each age, which is known by the bytes of its output matrix."""
@@ -144,7 +396,7 @@ class FeedbackProblem:
         Examples
         --------
         >>> from mcexact.model.system import MultiChannelSystem
-        >>> from mcexact.synthesis.network.networks import decentralized_network
+        >>> from mcexact.synthesis.networks import decentralized_network
         >>> plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
         >>> problem = FeedbackProblem.of(decentralized_network(plant), [1], Weights.unit(plant))
         >>> problem.loop(np.array([-2.0, 3.0, 1.0, -4.0])).tolist()
@@ -371,3 +623,210 @@ def _scale(shape: tuple[int, ...], outputs: Places, sizes: Sizes | None) -> Floa
     seen = np.flatnonzero(outputs >= 0)
     columns[seen] = sizes.outputs[outputs[seen]]
     return np.outer(rows, 1 / columns)
+
+
+# One real Schur form of a loop: its eigenvalues, and the Gramians of its shifts.
+
+
+@dataclass(frozen=True, eq=False)
+class SchurForm:
+    """M = Z T Z', Z orthogonal and T quasi upper triangular.
+
+    Attributes
+    ----------
+    T, Z : ndarray, N × N
+    eigenvalues : ndarray of complex, N
+    discrete : bool
+    """
+
+    T: Floats
+    Z: Floats
+    eigenvalues: npt.NDArray[np.complex128]
+    discrete: bool
+
+    @classmethod
+    def of(cls, M: Floats, *, discrete: bool) -> SchurForm | None:
+        """Compute the Schur form; None if M is not finite or the iteration fails.
+
+        Examples
+        --------
+        >>> form = SchurForm.of(np.array([[0.0, 1.0], [-2.0, -3.0]]), discrete=False)
+        >>> round(form.bound, 6)
+        -1.0
+        """
+        if not len(M):
+            return cls(M, M, np.zeros(0, dtype=np.complex128), discrete)
+        if not np.all(np.isfinite(M)):
+            return None
+        T, _, real, imaginary, Z, _, info = lapack.dgees(lambda *_: 0, M, lwork=8 * len(M))
+        return None if info else cls(T, Z, real + 1j * imaginary, discrete)
+
+    @property
+    def bound(self) -> float:
+        """The largest real part (continuous time) or modulus (discrete time) of an eigenvalue."""
+        if not len(self.T):
+            return 0.0 if self.discrete else -np.inf
+        sizes = np.abs(self.eigenvalues) if self.discrete else self.eigenvalues.real
+        return float(np.max(sizes))
+
+    def gramians(self, W: Floats, Q: Floats, shift: float) -> tuple[Floats, Floats] | None:
+        """Solve the two Lyapunov equations of the shifted loop.
+
+        Parameters
+        ----------
+        W, Q : ndarray, N × N
+            Symmetric, positive semidefinite.
+        shift : float
+            a in continuous time, where the shifted loop is M + aI, or ρ in discrete time, where it
+            is M/ρ; it has to be stable.
+
+        Returns
+        -------
+        S, P : ndarray, N × N, or None
+            M S + S M' + W = 0 and M'P + P M + Q = 0 (discrete time: M S M' − S + W = 0 and
+            M'P M − P + Q = 0) for the shifted M.  None if they are not finite, or not positive
+            semidefinite up to rounding.
+
+        Notes
+        -----
+        In discrete time (T + I)⁻¹(T − I) is quasi triangular with T, with zeros where T has them,
+        and has the equations of continuous time with 2(T + I)⁻¹W(T + I)⁻ᵀ.
+        """
+        T, Z = self.T, self.Z
+        if not len(T):
+            return W, Q
+        W, Q = Z.T @ W @ Z, Z.T @ Q @ Z
+        if self.discrete:
+            inverse = np.linalg.inv(T / shift + np.eye(len(T)))
+            W, Q = 2 * inverse @ W @ inverse.T, 2 * inverse.T @ Q @ inverse
+            T = np.eye(len(T)) - 2 * inverse
+        else:
+            T = T + shift * np.eye(len(T))
+        S, scale, _ = lapack.dtrsyl(T, T, -W, trana="N", tranb="T")
+        P, dual, _ = lapack.dtrsyl(T, T, -Q, trana="T", tranb="N")
+        if not scale or not dual:
+            return None
+        S, P = Z @ (S / scale) @ Z.T, Z @ (P / dual) @ Z.T
+        for each in (S, P):
+            if not np.all(np.isfinite(each)) or np.min(np.diag(each)) < -1e-9 * np.max(
+                np.abs(each)
+            ):
+                return None
+        return S, P
+
+
+# Controllers as gain matrices, and gain matrices as controllers.
+
+NetworkController = tuple[DerivedNetwork, Controller]
+"""A network, and a controller of it."""
+
+single_channel = decentralized_network
+"""The network of a plant in which one channel has all inputs and outputs."""
+
+
+def controller_of(problem: FeedbackProblem, K: Floats) -> Controller:
+    """Write the agents' programs of a gain matrix, every entry as its shortest decimal.
+
+    Examples
+    --------
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> from mcexact.synthesis.networks import decentralized_network
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> problem = FeedbackProblem.of(decentralized_network(plant), [0], Weights.unit(plant))
+    >>> controller_of(problem, np.array([[-2.5]])).agents[0].input.outputs[0].rows()
+    ((Fraction(-5, 2),),)
+    """
+
+    def part(rows: Floats) -> Matrix:
+        return matrix_from_float(rows, "decimal", where="K")
+
+    gains, channels = [], {}
+    for i, agent in enumerate(problem.agents):
+        rows = np.concatenate([agent.inputs, agent.updates])
+        own, heard, z = agent.private_rows, agent.heard, agent.private_columns
+        gains.append(part(K[np.ix_(rows, heard)]))
+        if len(own):
+            channels[i] = ChannelController(
+                part(K[np.ix_(own, z)]),
+                part(K[np.ix_(own, heard)]),
+                part(K[np.ix_(rows, z)]),
+                Matrix.zeros(len(rows), len(heard)),
+                None,
+            )
+    return network_programs(problem.network, gains, channels)
+
+
+def problem_of(
+    network: DerivedNetwork,
+    controller: Controller,
+    weights: Weights,
+    sizes: Sizes | None = None,
+) -> tuple[FeedbackProblem, Floats]:
+    """Return the problem in which a controller of a network is a gain matrix, and this matrix.
+
+    Parameters
+    ----------
+    network : DerivedNetwork
+    controller : Controller
+        Made for the same network, with its dimensions of sub-states.
+    weights : Weights
+    sizes : Sizes, optional
+    """
+    orders = [each.private for each in controller.agents]
+    problem = FeedbackProblem.of(network, orders, weights, sizes)
+    K = np.zeros(problem.mask.shape)
+    for program, agent in zip(controller.agents, problem.agents, strict=True):
+        rows = agent.updates, agent.private_rows, agent.inputs
+        for used, place in zip(program.maps(), rows, strict=True):
+            for j, M in used.outputs.items():
+                K[np.ix_(place, agent.signals["y", j])] = matrix_to_float(M)
+            for j, M in used.shared.items():
+                K[np.ix_(place, agent.signals["x", j])] = matrix_to_float(M)
+            if used.private is not None:
+                K[np.ix_(place, agent.private_columns)] = matrix_to_float(used.private)
+    return problem, K
+
+
+def balanced(problem: FeedbackProblem, K: Floats) -> Floats:
+    """Scale every state of the agents by a power of two, so that what enters and leaves it agree.
+
+    Notes
+    -----
+    Exact in floating point; the eigenvalues of the loop stay.  Agents that look alike could be
+    scaled differently, so that nothing is scaled while their entries have to be equal.
+
+    Examples
+    --------
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> from mcexact.synthesis.networks import decentralized_network
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> problem = FeedbackProblem.of(decentralized_network(plant), [1], Weights.unit(plant))
+    >>> balanced(problem, np.array([[-2.0, 64.0], [1.0, -1.0]])).tolist()
+    [[-2.0, 8.0], [8.0, -1.0]]
+    """
+    K = K.copy()
+    if problem.ties is not None:
+        return K
+    for _ in range(5):
+        for row, columns in enumerate(problem.columns_of_states, start=problem.p):
+            entering, leaving = K[row].copy(), K[:, columns].copy()
+            entering[columns], leaving[row] = 0.0, 0.0
+            sizes = float(np.linalg.norm(entering)), float(np.linalg.norm(leaving))
+            if not min(sizes) > 0:
+                continue
+            scale = 2.0 ** round(float(np.log2(sizes[0] / sizes[1])) / 2)
+            K[row] /= scale
+            K[:, columns] *= scale
+    return K
+
+
+def rounded(K: Floats, digits: int) -> Floats:
+    """Round every entry to some significant decimal digits.
+
+    Examples
+    --------
+    >>> rounded(np.array([[-0.12345, 678.9]]), 2).tolist()
+    [[-0.12, 680.0]]
+    """
+    entries = [float(f"{entry:.{digits - 1}e}") for entry in K.ravel()]
+    return np.array(entries, dtype=np.float64).reshape(K.shape)

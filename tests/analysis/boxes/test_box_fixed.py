@@ -14,18 +14,21 @@ from mcexact import Box, MultiChannelSystem, check, dual, fixed_spectrum, galler
 from mcexact.analysis.boxes.box_fixed import box_fixed_modes, box_stabilizability
 from mcexact.analysis.boxes.radii import radii_of
 from mcexact.answer.box_fixed import BoxFixedModes
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import feedback, full_output
-from mcexact.derived.integrators import setpoint_system
-from mcexact.derived.merged import merged
-from mcexact.derived.restricted import restricted
+from mcexact.derived.constructions import (
+    augmented_outputs,
+    error_system,
+    extended_system,
+    feedback,
+    full_output,
+    merged,
+    restricted,
+    setpoint_system,
+)
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
-from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import closed_loop
-from mcexact.model.uncertainty import Radii
+from mcexact.model.radii import Radii
+from mcexact.model.statespace import local_controllers
 
 
 def found(system: MultiChannelSystem, stable: bool = False) -> BoxFixedModes | None:

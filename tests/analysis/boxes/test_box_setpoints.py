@@ -11,7 +11,7 @@ from mcexact.analysis.boxes.box_setpoints import box_setpoints
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.check import check
-from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.constructions import setpoint_system
 from mcexact.errors import LimitReached
 from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem

@@ -29,9 +29,9 @@ from mcexact.analysis.boxes.parameter_cells import box_of_cell, whole_cell
 from mcexact.analysis.boxes.parametric_box_stable import LoopSearch
 from mcexact.answer.parametric_box_stable import ParametricBoxStability
 from mcexact.errors import InputError, LimitReached, UsageError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, LinearMap
-from mcexact.model.uncertainty import moduli
+from mcexact.model.radii import moduli
 
 PORTS = ([[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from mcexact.analysis.boxes.float_pencils import gain_pencil, perron, weights
 from mcexact.analysis.boxes.regular_discs import dyadic, modulus_above, whole_weights
 from mcexact.exact.matrix import Matrix
+from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.uncertainty import Radii
 
 
 @given(st.integers(-(10**20), 10**20), st.integers(-(10**20), 10**20))

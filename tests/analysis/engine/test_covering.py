@@ -16,7 +16,7 @@ from mcexact.analysis.engine.covering import (
 from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
 from mcexact.errors import LimitReached
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 
 TRIANGLE = tuple(CoveringCut(frozenset(pair), 1) for pair in ((0, 1), (1, 2), (0, 2)))
 

@@ -21,12 +21,12 @@ from mcexact.answer.codec import encode
 from mcexact.answer.evidence import KrylovSequence
 from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials
 from mcexact.checker import check_document
-from mcexact.derived import modular_system
-from mcexact.exact import sparse_krylov, tables
+from mcexact.derived import modular
+from mcexact.exact import krylov, tables
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
-from mcexact.model.canonical import text_of
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import text_of
 from tests.oracle.draws import exact, sparse_system
 
 
@@ -65,7 +65,7 @@ def test_floats_and_flint_give_the_same_sequence(monkeypatch: pytest.MonkeyPatch
         system = drawn(130, widths)
         by_floats = list(best_sequences(system))
         with monkeypatch.context() as patched:
-            patched.setattr(modular_system, "_KRYLOV_SIZE", 10**9)
+            patched.setattr(modular, "_KRYLOV_SIZE", 10**9)
             assert list(best_sequences(system)) == by_floats
 
 
@@ -163,11 +163,11 @@ def test_a_sparse_system_has_the_same_sequences_as_a_dense_one(
     assert system.A.is_sparse
     sparsely = list(best_sequences(system))
     with monkeypatch.context() as patched:
-        patched.setattr(modular_system, "stays_sparse", lambda *_: False)
+        patched.setattr(modular, "stays_sparse", lambda *_: False)
         assert list(best_sequences(system)) == sparsely
-        patched.setattr(modular_system, "_KRYLOV_SIZE", 10**9)
+        patched.setattr(modular, "_KRYLOV_SIZE", 10**9)
         assert list(best_sequences(system)) == sparsely
-    monkeypatch.setattr(sparse_krylov, "_EXACT", 10)  # then it is computed densely
+    monkeypatch.setattr(krylov, "_EXACT", 10)  # then it is computed densely
     assert list(best_sequences(system)) == sparsely
 
 

@@ -21,7 +21,7 @@ from mcexact import (
     save_certificate,
 )
 from mcexact.errors import InputError, UsageError
-from mcexact.model.parametric_file import read_parametric_system
+from mcexact.model.system_file import read_parametric_system
 from tests.answer.test_golden import PORTS, with_a_parameter
 from tests.campaigns.parametric import companions
 from tests.oracle.parametric_draws import drawn_parametric

@@ -10,9 +10,9 @@ from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.answer import codec
 from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.checker import check_document
-from mcexact.exact.invariant_form import companions
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.linear_algebra import companions
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -11,11 +11,10 @@ from mcexact.analysis.engine.shrunk_subspace import (
     obstruction_modulo,
     shrunk_subspace,
 )
-from mcexact.derived.modular_system import ModularSystem, closed_loop, drawn_gains
-from mcexact.exact.linear_algebra import rank
+from mcexact.derived.modular import ModularSystem, closed_loop, drawn_gains
+from mcexact.exact.linear_algebra import PolynomialMatrix, rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.system import MultiChannelSystem
 
 Table = list[list[int]]

@@ -6,8 +6,8 @@ import pytest
 
 from mcexact.analysis.engine.lyapunov import decrease, is_dominant, quadratic_form
 from mcexact.analysis.engine.smith_doubling import doubled_lyapunov
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import StabilityRegion
 
 
 def far_from_normal(time: str, states: int = 8) -> Matrix:

@@ -7,10 +7,9 @@ import random
 import pytest
 
 from mcexact.analysis.engine import annihilator, measured_system, sparse_annihilator
-from mcexact.exact.blocks import vstack
-from mcexact.exact.invariant_subspace import controllable_subspace
+from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.linear_algebra import rank
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, vstack
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.draws import exact, sparse_system
 

@@ -10,7 +10,7 @@ import pytest
 
 from mcexact.analysis.engine import decide, sparse_subspaces
 from mcexact.analysis.engine.sparse_subspaces import fixed_subspaces
-from mcexact.derived.modular_system import generator
+from mcexact.derived.modular import generator
 from mcexact.errors import LimitReached
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial

@@ -13,8 +13,8 @@ import flint
 
 from mcexact import MultiChannelSystem, ParametricSystem, check, fixed_spectrum
 from mcexact.answer.codec import document
-from mcexact.derived.polynomial_system import PolynomialSystem
-from mcexact.exact import modular_resultants, two_variables
+from mcexact.derived.modular import PolynomialSystem
+from mcexact.exact import bivariate
 from mcexact.exact.matrix import Matrix
 from tests.checker.handmade import checked
 from tests.checker.parametric_plants import exactly
@@ -28,7 +28,7 @@ def loops(plant: ParametricSystem, *gains: list[int]) -> list[Any]:
     """det(xI − A), and det(xI − A_F) for scalar gains."""
     system = PolynomialSystem(plant)
     closed = [system.closed([Matrix.from_rows([[f]]) for f in F]) for F in gains]
-    return [two_variables.characteristic(M) for M in (system.A, *closed)]
+    return [bivariate.characteristic(M) for M in (system.A, *closed)]
 
 
 def coupled(entry: str) -> ParametricSystem:
@@ -38,7 +38,7 @@ def coupled(entry: str) -> ParametricSystem:
 
 def left_modulo(first: Any, listed: Any, second: Any, ell: int) -> bool:
     """Whether a resultant, divided modulo ℓ by a value as often as it goes, misses a second one."""
-    rest, q = two_variables.residues(first, ell), two_variables.residues(listed, ell)
+    rest, q = bivariate.residues(first, ell), bivariate.residues(listed, ell)
     while (pair := divmod(rest, q))[1] == 0:
         rest = pair[0]
     return bool(rest.gcd(second).degree() == 0)
@@ -62,7 +62,7 @@ def test_dividing_values_out_modulo_a_prime_takes_congruent_values_for_one() -> 
     one = flint.fmpq_poly([-1, 1])
     resultants = (
         resultant(chi, first),
-        modular_resultants.of_rationals(chi, second, PRIME),
+        bivariate.of_rationals(chi, second, PRIME),
     )
     assert left_modulo(resultants[0], one, resultants[1], PRIME)  # 1 alone is accepted
     found = fixed_spectrum(plant)
@@ -76,7 +76,7 @@ def test_a_prime_that_divides_the_denominator_of_a_root_overlooks_it() -> None:
     plant = coupled(f"(t - 1)*({PRIME}*t - 1)")
     chi, first, second = loops(plant, [1], [2])
     whole = resultant(chi, first)
-    modular = modular_resultants.of_rationals(chi, second, PRIME)
+    modular = bivariate.of_rationals(chi, second, PRIME)
     assert left_modulo(whole, flint.fmpq_poly([-1, 1]), modular, PRIME)
     found = fixed_spectrum(plant)
     assert {each.exact for each in found.exceptional} == {1, Fraction(1, PRIME)}
@@ -91,18 +91,18 @@ def test_a_prime_that_divides_the_denominator_of_a_root_overlooks_it() -> None:
 def test_powers_of_a_generic_polynomial_divided_out_modulo_a_prime_take_roots_along() -> None:
     plant = ParametricSystem([[0, 0], [0, 5]], [[[0], ["t"]]], [[[0, 1]]], parameters=["t"])
     chi, first, second = loops(plant, [1], [2])
-    p, ell = two_variables.from_polynomials(fixed_spectrum(plant).generic[0]), 5
-    left, moved = (two_variables.without(f, p) for f in (chi, first))
+    p, ell = bivariate.from_polynomials(fixed_spectrum(plant).generic[0]), 5
+    left, moved = (bivariate.without(f, p) for f in (chi, first))
     whole = resultant(left, moved)
-    residue = [two_variables.residues(c, ell) for c in second]
+    residue = [bivariate.residues(c, ell) for c in second]
     at_0 = flint.nmod_poly([int(c(0)) for c in residue], ell)
     x = flint.nmod_poly([0, 1], ell)
     while at_0 % x == 0:
         at_0 //= x
     assert whole(0) == 0 and at_0.degree() == 0  # so 0 is said not to be exceptional
     assert [each.exact for each in fixed_spectrum(plant).exceptional] == [0]
-    undivided = modular_resultants.of_rationals(left, second, ell)
-    assert not two_variables.is_coprime_modulo(flint.fmpq_poly([0, 1]), undivided, ell)
+    undivided = bivariate.of_rationals(left, second, ell)
+    assert not bivariate.is_coprime_modulo(flint.fmpq_poly([0, 1]), undivided, ell)
 
 
 def test_a_companion_matrix_for_the_parameter_lets_gains_mix_conjugate_plants() -> None:
@@ -150,7 +150,7 @@ def test_a_resultant_that_is_zero_for_one_pair_of_gains_fixes_nothing() -> None:
     plant = parallel("t", "-t")
     chi, first = loops(plant, [1, 1])
     assert resultant(chi, first) == 0  # as if 0 were fixed for every t
-    assert len(two_variables.common_factors([chi, first])) == 1
+    assert len(bivariate.common_factors([chi, first])) == 1
     found = fixed_spectrum(plant)
     assert not found.generic and [each.exact for each in found.exceptional] == [0]
     assert check(found, plant).verdict == "VALID"

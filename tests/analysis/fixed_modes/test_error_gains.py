@@ -9,9 +9,8 @@ from mcexact.answer.codec import encode
 from mcexact.answer.single_channel_gains import StuckWitness
 from mcexact.checker import check_document
 from mcexact.errors import UsageError
-from mcexact.exact.blocks import block
 from mcexact.exact.linear_algebra import minimal_polynomial
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block
 
 PLANT = MultiChannelSystem(
     [[1, 0, 0], [0, 1, 0], [0, 1, 1]],

@@ -18,15 +18,15 @@ from mcexact.answer.evidence import Block, CoprimePolynomials
 from mcexact.answer.fixed_spectrum import ByBlocks, FixedFactor, FixedSpectrum
 from mcexact.checker import Expectation, Limits, check_document
 from mcexact.checker.manifest import manifest_verdicts
-from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.constructions import dual
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
-from mcexact.derived.dual import dual
 from mcexact.errors import LimitReached
 from mcexact.exact.linear_algebra import characteristic_polynomial, inverse
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.agreement import disagreements, drawn_pair

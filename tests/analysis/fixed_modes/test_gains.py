@@ -6,15 +6,13 @@ import pytest
 
 from mcexact.analysis.fixed_modes.gains import error_gain_draws, reaching_gains
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.constructions import error_system, feedback
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import jointly_controllable_system
-from mcexact.derived.error_system import error_system
-from mcexact.derived.feedback import feedback
-from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import minimal_polynomial, rank
-from mcexact.exact.matrix import Matrix
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.exact.matrix import Matrix, hstack
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.synthesis.three_channels import three_channels
 

@@ -11,7 +11,7 @@ from mcexact.analysis.fixed_modes.single_channel_gains import Want
 from mcexact.answer.codec import encode
 from mcexact.answer.single_channel_gains import GainsWitness, UnreachedWitness
 from mcexact.checker import check_document
-from mcexact.derived.dual import dual
+from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import minimal_polynomial
 from mcexact.exact.matrix import Matrix

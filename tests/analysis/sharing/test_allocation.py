@@ -14,12 +14,11 @@ from mcexact.answer.codec import encode
 from mcexact.answer.protocol import Answer
 from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.checker.kinds import check_document
-from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import extended_system
+from mcexact.derived.constructions import augmented_outputs, extended_system
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.campaigns.allocation import compare_arcs, compare_dimensions, drawn, drawn_neighbors
 from tests.oracle.allocation import boundary

@@ -18,9 +18,8 @@ from mcexact.answer.codec import encode
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, UsageError
-from mcexact.exact.blocks import block_diagonal
-from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block_diagonal
+from mcexact.exact.roots import StabilityRegion
 
 NEAR = Fraction(1, 10**9)
 

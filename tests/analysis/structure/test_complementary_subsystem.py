@@ -13,8 +13,7 @@ from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.derived.drawn.systems import Drawn
 from mcexact.errors import UsageError
-from mcexact.exact.invariant_form import companions, invariant_form
-from mcexact.exact.linear_algebra import characteristic_polynomial, rank
+from mcexact.exact.linear_algebra import characteristic_polynomial, companions, invariant_form, rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.model import gallery

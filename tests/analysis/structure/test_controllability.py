@@ -12,9 +12,9 @@ from mcexact.analysis.structure.controllability import joint_controllability, jo
 from mcexact.answer import codec
 from mcexact.answer.controllability import ByBlocks
 from mcexact.checker import check_document
-from mcexact.derived.dual import dual
+from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
-from mcexact.exact.invariant_subspace import controllable_subspace
+from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery

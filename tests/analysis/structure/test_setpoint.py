@@ -11,9 +11,9 @@ from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.constructions import setpoint_system
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import any_system
-from mcexact.derived.integrators import setpoint_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 

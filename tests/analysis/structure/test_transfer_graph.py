@@ -6,7 +6,7 @@ from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer import codec
 from mcexact.answer.protocol import Answer
 from mcexact.checker import check_document
-from mcexact.derived.dual import dual
+from mcexact.derived.constructions import dual
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem

@@ -25,12 +25,11 @@ from mcexact.answer.parametric_rank import (
 )
 from mcexact.answer.reading import constructed
 from mcexact.errors import McexactError
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.parametric_file import read_parametric_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import read_system
+from mcexact.model.system_file import read_parametric_system, read_system
 
 from .boxes import drawn_about_a_box, drawn_in_ranges
 from .observers import drawn_observer

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import random
 
-from mcexact.derived.moved_entries import along_line
+from mcexact.derived.constructions import along_line
 from mcexact.errors import McexactError
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.parametric_file import read_parametric_system
+from mcexact.model.system_file import read_parametric_system
 from tests.attack.oracle.constructions import subject_of
 from tests.attack.oracle.moved_entries import MOVING
 from tests.attack.oracle.reading import Unspecified

@@ -17,10 +17,9 @@ from hypothesis import strategies as st
 
 from mcexact.errors import InputError, MissingExtra, NotWritten, UsageError
 from mcexact.exact.rational import Limits
-from mcexact.model import gallery
-from mcexact.model.formats import csv_folder, mat
-from mcexact.model.formats.files import load_parametric_system, load_system, save_system
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model import arrays, gallery
+from mcexact.model.files import load_parametric_system, load_system, save_system
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system, system_text
@@ -152,7 +151,7 @@ def test_an_interrupted_folder_is_no_system(
         if path.name == "C_1.csv":
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(csv_folder, "write_text", stop)
+    monkeypatch.setattr(arrays, "write_text", stop)
     with pytest.raises(KeyboardInterrupt):
         save_system(PLAIN, tmp_path / "p")
     with pytest.raises(InputError):
@@ -200,7 +199,7 @@ def scipys_files() -> list[Path]:
     """The sound files of MATLAB, version 5, that scipy is tested with."""
     folder = Path(scipy.io.__file__).parent / "matlab" / "tests" / "data"
     files = [path for path in sorted(folder.glob("*.mat")) if not path.name.startswith(BAD)]
-    return [path for path in files if path.read_bytes().startswith(mat.MAGIC)]
+    return [path for path in files if path.read_bytes().startswith(arrays.MAGIC)]
 
 
 def test_matrices_and_texts_of_matlab_are_those_that_scipy_reads() -> None:
@@ -208,8 +207,8 @@ def test_matrices_and_texts_of_matlab_are_those_that_scipy_reads() -> None:
     matrices = texts = 0
     for path in scipys_files():
         try:
-            plain = mat._decompressed(path.read_bytes(), Limits())
-            file = mat._File(*plain)
+            plain = arrays._decompressed(path.read_bytes(), Limits())
+            file = arrays._File(*plain)
             variables = file._variables()
             loaded = scipy.io.loadmat(path)
         except (InputError, ValueError, TypeError):
@@ -238,7 +237,7 @@ def test_drawn_matrices_of_matlab_are_those_that_scipy_reads(seed: int) -> None:
     M = (rng.integers(-9, 9, rng.integers(0, 5, 2)) * rng.choice([0.25, 1, 1000])).round(3)
     M = scipy.sparse.csc_array(M) if kind == "sparse" else M.astype(kind)
     data = hostile.mat(compressed=bool(rng.integers(2)), A=M)
-    found = mat.read_mat(data, Limits()).tables["A"]
+    found = arrays.read_mat(data, Limits()).tables["A"]
     stream: Any = io.BytesIO(data)
     expected = scipy.io.loadmat(stream)["A"]
     if kind == "sparse":

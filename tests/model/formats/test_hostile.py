@@ -9,7 +9,7 @@ import pytest
 
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
-from mcexact.model.formats.files import load_system
+from mcexact.model.files import load_system
 from tests.campaigns import damaged_files
 from tests.model.formats.hostile import CSV, MAT, NPZ, TEXTS, YAML
 

@@ -20,8 +20,8 @@ from typing import Any
 from flint import fmpq, fmpq_mat, fmpq_poly
 
 from mcexact.answer.template import Sentence
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from tests.attack.oracle.algebra import krylov
 from tests.attack.oracle.constructions import built
 from tests.attack.oracle.controllers import Loop, read_agents

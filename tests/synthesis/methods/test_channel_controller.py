@@ -6,18 +6,13 @@ from fractions import Fraction
 import pytest
 
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import closed_loop
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.methods.channel_controller import (
-    channel_controller,
-    observing_rows,
-    transposed,
-)
+from mcexact.synthesis.channel_controller import channel_controller, observing_rows, transposed
 
 
 def drawn(rng, nrows, ncols, bound=2):

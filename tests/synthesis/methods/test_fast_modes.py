@@ -9,11 +9,11 @@ from mcexact.answer.codec import encode
 from mcexact.checker import Expectation, check_document
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.methods.fast_modes import feedback_for_region, observable_part
+from mcexact.synthesis.state_feedback import feedback_for_region, observable_part
 
 FAST: dict[str, Any] = {"continuous": -5, "discrete": Fraction(1, 10)}
 BOUND: dict[str, Any] = {"continuous": {"rate": 2}, "discrete": {"radius": Fraction(1, 2)}}

@@ -5,9 +5,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.floating.margins import is_within
-from mcexact.synthesis.methods.riccati import riccati_feedback
+from mcexact.synthesis.channel_controller import riccati_feedback
 
 SLOW = StabilityRegion("continuous", Fraction(1))
 

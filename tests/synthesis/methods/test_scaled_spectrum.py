@@ -6,10 +6,10 @@ import pytest
 
 from mcexact import Aims, design_decentralized
 from mcexact.errors import InputError
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
-from mcexact.synthesis.methods.scaled_spectrum import scaled_polynomial
+from mcexact.synthesis.state_feedback import scaled_polynomial
 
 OWN = {
     "nothing": Polynomial.of(1),

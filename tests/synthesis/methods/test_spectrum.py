@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.methods.spectrum import default_polynomial, spectrum_polynomial
-from mcexact.synthesis.request import Request
+from mcexact.synthesis.gate import Request
+from mcexact.synthesis.state_feedback import default_polynomial, spectrum_polynomial
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.methods.state_feedback import loop_matrix, state_feedback
+from mcexact.synthesis.state_feedback import loop_matrix, state_feedback
 
 
 def drawn_polynomial(seed, degree):

@@ -6,18 +6,17 @@ from random import Random
 
 import pytest
 
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.constructions import closed_by
+from mcexact.derived.drawn.networks import drawn_graph
+from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import any_system, jointly_controllable_system
-from mcexact.derived.feedback import closed_by
-from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.methods.channel_parts import channel_part, drawn_gains
-from mcexact.synthesis.network.networks import NetworkKind, network_programs, shared_network
+from mcexact.synthesis.channel_controller import channel_part, drawn_gains
+from mcexact.synthesis.networks import NetworkKind, network_programs, shared_network
 from tests.campaigns.networks import is_power_of_x
 
 

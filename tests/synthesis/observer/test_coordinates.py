@@ -9,7 +9,7 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.observer.coordinates import observer_coordinates
+from mcexact.synthesis.observer import observer_coordinates
 from tests.synthesis.three_channels import three_channels
 
 

@@ -9,7 +9,7 @@ from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import gate

@@ -7,17 +7,16 @@ import pytest
 
 from mcexact.answer.codec import encode
 from mcexact.checker import Expectation, check_document
-from mcexact.derived.feedback import feedback
+from mcexact.derived.constructions import feedback
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, bit_length, largest_entry
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.size import bit_length, largest_entry
-from mcexact.model.controller_file import controller_text, read_controller
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.controller import controller_text, read_controller
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.distributed_observer import design_observer
-from mcexact.synthesis.methods.spectrum import spectrum_polynomial
+from mcexact.synthesis.state_feedback import spectrum_polynomial
 from tests.campaigns.observer import one_design
 from tests.synthesis.three_channels import three_channels
 

@@ -5,10 +5,10 @@ from itertools import islice
 import pytest
 
 from mcexact import design_observer
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.loop_assessment import assess
-from mcexact.synthesis.observer.promising import rounds
+from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.observer import rounds
 
 
 def vehicles() -> MultiChannelSystem:

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.networks import (
-    DerivedNetwork,
-    decentralized_network,
-    shared_network,
-)
+from mcexact.synthesis.networks import DerivedNetwork, decentralized_network, shared_network
 
 NAMES = ("1", "2", "3")
 

@@ -4,16 +4,13 @@ import numpy as np
 import pytest
 
 from mcexact import design_extended
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.networks import decentralized_network, shared_network
-from mcexact.synthesis.optimum import ladder
-from mcexact.synthesis.optimum.alike import tied
-from mcexact.synthesis.optimum.objective import Objective
-from mcexact.synthesis.optimum.problem import FeedbackProblem
-from mcexact.synthesis.optimum.programs import balanced
-from mcexact.synthesis.optimum.starts import drawn_dynamics
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.networks import decentralized_network, shared_network
+from mcexact.synthesis.optimum import search
+from mcexact.synthesis.optimum.descent import Objective
+from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights, balanced
+from mcexact.synthesis.optimum.starts import drawn_dynamics, tied
 
 
 def string(m, time="continuous", masses=None):
@@ -137,7 +134,7 @@ def test_tied_agents_are_not_scaled_one_by_one():
 
 @pytest.mark.parametrize("bound", [{"rate": "1/5"}, {"radius": "24/25"}])
 def test_a_long_string_is_designed_with_one_program_for_the_vehicles_between(bound, monkeypatch):
-    monkeypatch.setattr(ladder, "MOST_STATES", 8)
+    monkeypatch.setattr(search, "MOST_STATES", 8)
     plant = string(5, "continuous" if "rate" in bound else "discrete")
     made = design_extended(plant, arithmetic="float", **bound)
     found = made.parts["optimum"]

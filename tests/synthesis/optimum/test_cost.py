@@ -6,14 +6,10 @@ import numpy as np
 import pytest
 from scipy.linalg import solve_continuous_lyapunov, solve_discrete_lyapunov
 
-from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.optimum.cost import quadratic_costs
-from mcexact.synthesis.optimum.objective import Objective
-from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes
-from mcexact.synthesis.optimum.sensitivity import Sensitivity, frequencies
-from mcexact.synthesis.optimum.shape import Shape
-from mcexact.synthesis.optimum.spectrum import SchurForm
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.optimum.descent import Objective
+from mcexact.synthesis.optimum.figures import Sensitivity, Shape, frequencies, quadratic_costs
+from mcexact.synthesis.optimum.problem import FeedbackProblem, SchurForm, Sizes, Weights
 from tests.synthesis.optimum.plants import coupled, networks
 
 NETWORKS = networks()

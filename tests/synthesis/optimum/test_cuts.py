@@ -3,15 +3,20 @@
 import numpy as np
 import pytest
 
-from mcexact.exact.location import StabilityRegion
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.synthesis.network.networks import decentralized_network, shared_network
-from mcexact.synthesis.optimum.cuts import cut_gains, cut_observers, held_states, whole_model
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.graph import NeighborGraph
+from mcexact.synthesis.networks import decentralized_network, shared_network
 from mcexact.synthesis.optimum.figures import central_optimum, figures_of, shift_of
-from mcexact.synthesis.optimum.problem import FeedbackProblem
-from mcexact.synthesis.optimum.regulator import regulator
-from mcexact.synthesis.optimum.starts import Locality, localities
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights
+from mcexact.synthesis.optimum.starts import (
+    Locality,
+    cut_gains,
+    cut_observers,
+    held_states,
+    localities,
+    regulator,
+    whole_model,
+)
 from tests.synthesis.optimum.plants import NAMES, coupled
 
 TIMES = ("continuous", "discrete")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mcexact.synthesis.optimum.descent import minimize
-from mcexact.synthesis.optimum.effort import Effort
+from mcexact.synthesis.optimum.problem import Effort
 
 
 def rosenbrock(x):

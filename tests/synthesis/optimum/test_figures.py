@@ -8,16 +8,14 @@ import numpy as np
 import pytest
 from scipy.linalg import expm, solve_continuous_lyapunov, solve_discrete_lyapunov
 
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.optimum.cost import quadratic_costs
+from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum.diagnosis import diagnosed, slow_modes
-from mcexact.synthesis.optimum.figures import central_optimum, figures_of, shift_of
-from mcexact.synthesis.optimum.problem import FeedbackProblem
-from mcexact.synthesis.optimum.regulator import Model, gaussian_controller
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.optimum.figures import central_optimum, figures_of, quadratic_costs, shift_of
+from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights
+from mcexact.synthesis.optimum.starts import Model, gaussian_controller
 from tests.synthesis.optimum.plants import coupled
 
 

@@ -14,15 +14,14 @@ from math import comb, factorial
 import numpy as np
 import pytest
 
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
-from mcexact.model.local_controllers import local_controllers
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.loop_assessment import assessed_loop
-from mcexact.synthesis.optimum.curves import curves_of
-from mcexact.synthesis.optimum.loop_figures import figures_of_loop, sure_figures
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.assessment import assessed_loop
+from mcexact.synthesis.optimum.diagnosis import curves_of, figures_of_loop, sure_figures
+from mcexact.synthesis.optimum.problem import Weights
 
 
 def pascal(n: int, sign: int = 1) -> Matrix:
@@ -100,8 +99,8 @@ def test_a_loop_that_rounding_destabilizes_has_no_margin_on_any_processor() -> N
 
 _SHOWN = """
 from mcexact.synthesis.assessment import shown
-from mcexact.synthesis.optimum.loop_figures import sure_figures
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.optimum.diagnosis import sure_figures
+from mcexact.synthesis.optimum.problem import Weights
 from tests.synthesis.optimum.test_loop_figures import defective
 for n, eigenvalue, time in (
     (6, "-1", "continuous"), (9, "-1", "continuous"), (6, "1/2", "discrete")

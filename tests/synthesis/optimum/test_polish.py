@@ -5,14 +5,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.optimum.effort import Effort
-from mcexact.synthesis.optimum.eigenvalues import Eigenvalues
-from mcexact.synthesis.optimum.polish import Target, bound_of, calmed, inside, settled
-from mcexact.synthesis.optimum.problem import FeedbackProblem
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.optimum.descent import Target, bound_of, calmed, inside, settled
+from mcexact.synthesis.optimum.figures import Eigenvalues
+from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
 
 
 def problem_with(A, orders=(0,), time="continuous") -> FeedbackProblem:

@@ -3,11 +3,17 @@
 import numpy as np
 import pytest
 
-from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.matrix import matrix_to_float
 from mcexact.model.loop import closed_loop
-from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes
-from mcexact.synthesis.optimum.programs import balanced, controller_of, problem_of, rounded
-from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.optimum.problem import (
+    FeedbackProblem,
+    Sizes,
+    Weights,
+    balanced,
+    controller_of,
+    problem_of,
+    rounded,
+)
 from tests.synthesis.optimum.plants import networks
 
 NETWORKS = networks()

@@ -7,31 +7,30 @@ import pytest
 
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
-from mcexact.derived.extended import Share
+from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached
-from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.network_design import network_design
-from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.network.sharing import sharing_network
-from mcexact.synthesis.optimum import proposals
-from mcexact.synthesis.optimum.aims import Aims
-from mcexact.synthesis.optimum.alone import found_alone
-from mcexact.synthesis.optimum.effort import Effort
-from mcexact.synthesis.optimum.figures import figures_of
-from mcexact.synthesis.optimum.ladder import Candidate
-from mcexact.synthesis.optimum.polish import SLACK, Target, bound_of, inside, polished
-from mcexact.synthesis.optimum.problem import FeedbackProblem
-from mcexact.synthesis.optimum.proposals import optimum, searched_proposals, with_few_digits
-from mcexact.synthesis.optimum.regulator import regulator
+from mcexact.synthesis.gate import Request
+from mcexact.synthesis.network_design import network_design
+from mcexact.synthesis.networks import decentralized_network, sharing_network
+from mcexact.synthesis.optimum import search
+from mcexact.synthesis.optimum.descent import SLACK, Target, bound_of, found_alone, inside, polished
+from mcexact.synthesis.optimum.figures import Aims, figures_of
+from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
+from mcexact.synthesis.optimum.search import (
+    Candidate,
+    Family,
+    optimum,
+    searched_proposals,
+    with_few_digits,
+)
 from mcexact.synthesis.optimum.starts import (
     local_regulators,
     localities,
+    regulator,
     with_private_parts,
 )
-from mcexact.synthesis.optimum.structures import Family
-from mcexact.synthesis.optimum.weights import Weights
-from mcexact.synthesis.request import Request
 from tests.synthesis.optimum.plants import coupled, delayed
 
 
@@ -263,7 +262,7 @@ def test_digits_are_added_as_long_as_the_margin_needs_them(monkeypatch, needed, 
         digits = len(f"{abs(K[0, 0])}") - 1
         return replace(figures, margin=0.31 if digits >= needed else 0.29)
 
-    monkeypatch.setattr(proposals, "figures_of", of)
+    monkeypatch.setattr(search, "figures_of", of)
     target = Target(request(plant, "1/2").region)
     found = with_few_digits(Candidate("a start", problem, K, figures), target, None, most)
     assert found.K.tolist() == [[expected]]

@@ -10,11 +10,10 @@ from mcexact.answer.stability import StabilityVerdict
 from mcexact.checker import check_document
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.loop_assessment import assess
-from mcexact.synthesis.optimum.aims import Aims
-from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape, least_damping
+from mcexact.synthesis.optimum.figures import NO_LIMITS, Aims, Shape, least_damping
 
 
 def oscillator() -> MultiChannelSystem:

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.decentralized import design_decentralized
-from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.optimum import climb
-from mcexact.synthesis.optimum.aims import Aims
-from mcexact.synthesis.optimum.figures import figures_of, shift_of
-from mcexact.synthesis.optimum.problem import FeedbackProblem
+from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.optimum import search
+from mcexact.synthesis.optimum.figures import Aims, figures_of, shift_of
+from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights
 from mcexact.synthesis.optimum.starts import local_regulators, localities
-from mcexact.synthesis.optimum.weights import Weights
 
 
 def sampled_string() -> MultiChannelSystem:
@@ -47,9 +45,9 @@ def test_states_that_an_agent_hardly_drives_can_be_left_out() -> None:
 
 
 def test_a_start_inside_the_region_counts_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(climb, "_finish", lambda *_: False)
+    monkeypatch.setattr(search, "_finish", lambda *_: False)
     made = design_decentralized(sampled_string(), radius="0.98", aims=Aims(seeds=1, effort=0.2))
     assert made.parts["optimum"].step == "static gains"
-    monkeypatch.setattr(climb, "_as_it_is", lambda *_: [])
+    monkeypatch.setattr(search, "_as_it_is", lambda *_: [])
     made = design_decentralized(sampled_string(), radius="0.98", aims=Aims(seeds=1, effort=0.2))
     assert "optimum" not in made.parts

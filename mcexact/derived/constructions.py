@@ -1,0 +1,1239 @@
+"""Systems made from systems: dual, feedback, merged, extended, delayed, error system, loops."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from itertools import accumulate, count
+from typing import Any, ClassVar, Literal, get_args, overload
+
+from mcexact.arguments import one_of, several
+from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.exact.matrix import (
+    Matrix,
+    Rounding,
+    block,
+    block_diagonal,
+    hstack,
+    kronecker,
+    matrix_from_float,
+    vstack,
+)
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import as_fraction, written
+from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
+from mcexact.exact.roots import steady_point
+from mcexact.model.entries import as_matrix, require_shape
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem, values_by_name
+from mcexact.model.system import Construction, MultiChannelSystem, require_discrete, with_graph
+from mcexact.model.text import quoted
+
+# The dual system, in which controllability becomes observability.
+
+
+def dual(system: MultiChannelSystem) -> MultiChannelSystem:
+    """Return the system (A', C_i', B_i'), without a neighbor graph.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+
+    Returns
+    -------
+    MultiChannelSystem
+        The inputs of each channel correspond to its outputs in the given system, and conversely.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+    >>> dual(system).B(0).numerators
+    ((1,), (0,))
+    >>> dual(dual(system)).A == system.A
+    True
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    return system.derived(
+        system.A.T,
+        [channel.C.T for channel in system.channels],
+        [channel.B.T for channel in system.channels],
+        {"construction": "dual"},
+    )
+
+
+# Static decentralized feedback, and a channel that measures the whole state.
+
+
+def checked_gains(
+    system: MultiChannelSystem,
+    gains: Sequence[Any],
+    widths: Sequence[int],
+    *,
+    rounding: Rounding | None = None,
+) -> list[Matrix]:
+    """Check and return gains F_i of p_i rows and ``widths[i]`` columns as exact matrices.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    gains : sequence of m matrices
+    widths : sequence of m int
+    rounding : {"decimal", "dyadic"}, optional
+        How floats become exact; see `MultiChannelSystem.from_float`.
+
+    Raises
+    ------
+    InputError
+        If the number of gains is not m, a gain has the wrong shape, or there are floats and no
+        rounding.
+    """
+    gains = several(gains, "gains", "matrices")
+    if len(gains) != system.m:
+        raise InputError(f"expected {system.m} gains, found {len(gains)}", where="gains")
+
+    def exact(F: Any, i: int) -> Matrix:
+        where = f"gains[{i}]"
+        if rounding is not None and not isinstance(F, Matrix):
+            return matrix_from_float(F, rounding, where=where)
+        return as_matrix(F, where, ncols=widths[i])
+
+    return [
+        require_shape(exact(F, i), f"gains[{i}]", system.p(i), widths[i])
+        for i, F in enumerate(gains)
+    ]
+
+
+def closed_by(system: MultiChannelSystem, gains: Sequence[Matrix]) -> Matrix:
+    """Return A_F = A + Σ B_i F_i C_i, n×n, for gains whose shapes were checked.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    gains : sequence of m Matrix
+        F_i, p_i×q_i; `checked_gains` makes them of what a user gives.
+    """
+    fed = [F @ channel.C for channel, F in zip(system.channels, gains, strict=True)]
+    return system.A + system.input_matrix() @ vstack(fed, ncols=system.n)
+
+
+def feedback(system: MultiChannelSystem, gains: Sequence[Any]) -> MultiChannelSystem:
+    """Close the loop u_i = F_i y_i + v_i: A_F = A + Σ B_i F_i C_i in place of A.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    gains : sequence of m matrices
+        F_i is p_i×q_i.
+
+    Returns
+    -------
+    MultiChannelSystem
+        (A_F, B_i, C_i).
+
+    Raises
+    ------
+    InputError
+        If a gain has the wrong shape.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[1]], [[[1]], [[1]]], [[[1]], [[2]]])
+    >>> feedback(system, [[[-3]], [[-4]]]).A.numerators
+    ((-10,),)
+    """
+    exact = checked_gains(system, gains, [system.q(i) for i in range(system.m)])
+    return system.derived(
+        closed_by(system, exact),
+        [channel.B for channel in system.channels],
+        [channel.C for channel in system.channels],
+        {"construction": "feedback", "gains": tuple(exact)},
+        neighbors=system.neighbors,
+    )
+
+
+def full_output(system: MultiChannelSystem, channel: int) -> MultiChannelSystem:
+    """Let one channel measure the whole state: C_q becomes the n×n identity.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    channel : int
+        q, counted from 0.
+
+    Returns
+    -------
+    MultiChannelSystem
+        It has no fixed mode, and every i with C_i ≠ 0 is reached from q, iff some F makes
+        (A_F, B_q) controllable.
+
+    Raises
+    ------
+    UsageError
+        If there is no such channel.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+    >>> full_output(system, 0).C(0).numerators
+    ((1, 0), (0, 1))
+    """
+    if not 0 <= channel < system.m:
+        raise UsageError(f"expected a channel 0 … {system.m - 1}, found {channel}")
+    C = [each.C for each in system.channels]
+    C[channel] = Matrix.identity(system.n)
+    return system.derived(
+        system.A,
+        [each.B for each in system.channels],
+        C,
+        {"construction": "full_output", "channel": system.names[channel]},
+        neighbors=system.neighbors,
+    )
+
+
+# The plant with some of its channels merged.
+
+
+def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiChannelSystem:
+    """Merge the channels of each part into one channel.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    parts : sequence of sequences of str
+        The names of the channels of each part; every channel is in exactly one part.
+
+    Returns
+    -------
+    MultiChannelSystem
+        (A, B_T, C_T), one channel for each part T, in the order of first members, without a
+        neighbor graph.  A channel of several members has their names, joined by "+".
+
+    Raises
+    ------
+    UsageError
+        If a part is empty, a name is unknown, the parts are not a partition of the channels, or two
+        of the new channels would have the same name.
+
+    Notes
+    -----
+    In block form, for a part T = {i, j, …} with i < j < …::
+
+        B_T = [ B_i  B_j  … ]    n×(p_i + p_j + …)
+
+              ⎡ C_i ⎤
+        C_T = ⎢ C_j ⎥            (q_i + q_j + …)×n
+              ⎣  ⋮  ⎦
+
+    Gains of the plant are block diagonal gains of the result, so that merging adds no fixed mode.
+    With all channels in one part, the fixed modes are the modes that all channels together do not
+    control or do not observe.
+
+    With the strong components of the plant's transfer graph as parts, the fixed modes of the
+    result are those that no decentralized controller of the plant moves, not even one that varies
+    with time or is nonlinear; some such controller stabilizes the plant iff they are all stable.
+    This theorem is cited (Anderson and Moore 1981; Gong and Aldeen 1997) and claimed by no
+    certificate: a certificate claims what the fixed modes of the result are, and no more.
+
+    Examples
+    --------
+    >>> from mcexact import fixed_spectrum, transfer_graph
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("movable-by-periodic-gains")
+    >>> as_one = merged(plant, transfer_graph(plant).components)
+    >>> as_one.names, as_one.B(0).numerators
+    (('1+2',), ((1, 0), (0, 6), (0, -11)))
+    >>> str(fixed_spectrum(plant).polynomial), str(fixed_spectrum(as_one).polynomial)
+    ('x - 11/10', '1')
+    >>> merged(plant, [["1"]])
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.UsageError: parts: expected every channel in exactly one part, found '2' 0 times
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    parts = several(parts, "parts", "lists of names")
+    found = sorted(system.indices(part) for part in parts)
+    if () in found:
+        raise UsageError("expected at least one channel in every part, found none", where="parts")
+    given = [name for part in parts for name in part]
+    for name in system.names:
+        if given.count(name) != 1:
+            raise UsageError(
+                "expected every channel in exactly one part, "
+                f"found {quoted(name)} {given.count(name)} times",
+                where="parts",
+            )
+    listed = [list(system.named(part)) for part in found]
+    names = ["+".join(part) for part in listed]
+    forms = [unicodedata.normalize("NFC", name) for name in names]
+    for name, form in zip(names, forms, strict=True):
+        if forms.count(form) > 1:
+            raise UsageError(f"two channels would have the name {quoted(name)}", where="parts")
+    return system.derived(
+        system.A,
+        [system.input_matrix(part) for part in found],
+        [system.output_matrix(part) for part in found],
+        {"construction": "merged", "parts": listed},
+        names=names,
+    )
+
+
+# The plant with some of its channels alone.
+
+
+def restricted(system: MultiChannelSystem, channels: Sequence[str]) -> MultiChannelSystem:
+    """Leave out all channels but these: nobody sets the other inputs or measures the other outputs.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    channels : sequence of str
+        Names of channels, at least one.
+
+    Returns
+    -------
+    MultiChannelSystem
+        (A, B_i, C_i), i among the channels, in the order of the system, without a neighbor graph.
+
+    Raises
+    ------
+    UsageError
+        If there is no channel, or a name is unknown.
+
+    Notes
+    -----
+    A controller of the result is one of the plant that does nothing at the other channels, so every
+    fixed mode of the plant is one of the result.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[0]], [[[1]], [[2]]], [[[3]], [[4]]], names=["left", "right"])
+    >>> restricted(system, ["right"])
+    MultiChannelSystem(n=1, m=1, continuous time, channels: 'right', restricted)
+    >>> restricted(system, [])
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.UsageError: channels: expected at least one channel, found none
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    chosen = system.indices(channels)
+    if not chosen:
+        raise UsageError("expected at least one channel, found none", where="channels")
+    names = list(system.named(chosen))
+    return system.derived(
+        system.A,
+        [system.B[i] for i in chosen],
+        [system.C[i] for i in chosen],
+        {"construction": "restricted", "channels": names},
+        names=names,
+    )
+
+
+# A plant with further communication links.
+
+
+def add_links(
+    system: MultiChannelSystem,
+    added: Iterable[tuple[int, int]],
+    graph: NeighborGraph | None = None,
+) -> MultiChannelSystem:
+    """Add edges j → i to the neighbor graph: j joins N_i; A, B and C do not change.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    added : iterable of (j, i)
+        Positions of channels; the new links have no delay.  An edge that exists already keeps its
+        delay.
+    graph : NeighborGraph, optional
+        The graph that they are added to; overrides ``system.neighbors``.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph.
+    InputError
+        If a position is out of range.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[0]], [[[1]], [[1]]], [[[1]], [[1]]], neighbors={})
+    >>> add_links(system, [(0, 1)]).neighbors.edges()
+    ((0, 1),)
+    """
+    system, found = with_graph(system, graph)
+    added = list(added)
+    joined = found.with_edges(added)
+    edges = sorted({(j, i) for j, i in added if j not in found.neighborhood(i)})
+    return system.derived(
+        system.A,
+        [channel.B for channel in system.channels],
+        [channel.C for channel in system.channels],
+        {"construction": "arcs", "added": [[system.names[j], system.names[i]] for j, i in edges]},
+        neighbors=joined,
+    )
+
+
+# The system in which each agent also receives its neighbors' measured outputs.
+
+
+def augmented_outputs(
+    system: MultiChannelSystem, graph: NeighborGraph | None = None
+) -> MultiChannelSystem:
+    """Replace every C_i by C_{N_i}, the rows of C_j, j ∈ N_i, in the order of the channels.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+
+    Returns
+    -------
+    MultiChannelSystem
+        (A, B_i, C_{N_i}); a fixed mode of it cannot be moved by any linear time-invariant
+        distributed controller whose agents send nothing but their measured outputs.  (Paper,
+        section IV-B, equation `mss`.)
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> cyclic = NeighborGraph.ring(plant.names)
+    >>> augmented_outputs(plant, cyclic).C(1).numerators
+    ((0, 1, 0), (0, 1, 0))
+    >>> augmented_outputs(plant)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.UsageError: a neighbor graph is needed, and the system has none: add 'neighbors'
+        to it
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    system, found = with_graph(system, graph)
+    return system.derived(
+        system.A,
+        [channel.B for channel in system.channels],
+        [system.output_matrix(found.neighborhood(i)) for i in range(system.m)],
+        {"construction": "augmented_outputs"},
+        neighbors=found,
+    )
+
+
+# Constructions of systems with parameters: those that only put entries elsewhere, and lines.
+
+MOVING = frozenset(
+    {
+        "arcs",
+        "augmented_outputs",
+        "dual",
+        "extended",
+        "full_output",
+        "integrators",
+        "merged",
+        "restricted",
+    }
+)
+"""The constructions whose results have entries of the system, 0 and 1 for entries."""
+LINE = "line"
+"""The construction that comes before these."""
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class DerivedParametricSystem(ParametricSystem):
+    """A system with parameters that was constructed from another one."""
+
+    origin: ParametricSystem
+    steps: tuple[Construction, ...] = field(hash=False)
+
+    @property
+    def plant(self) -> ParametricSystem:
+        """The system from which this one was constructed."""
+        return self.origin
+
+    @property
+    def subject(self) -> tuple[Construction, ...]:
+        """The constructions that lead from the plant to this system, in order."""
+        return self.steps
+
+    @cached_property
+    def poles(self) -> tuple[Polynomial, ...]:
+        """The irreducible polynomials at whose roots an entry of the plant is undefined."""
+        if self.steps[0]["construction"] != LINE:
+            return super().poles
+        line = [*points_of(self).values()]
+        zero = RationalFunction.constant(0, self.parameters)
+        parts = [self.origin.A, *(M for c in self.origin.channels for M in (c.B, c.C))]
+        entries = {entry for M in parts for row in M.rows for entry in row}
+        below = {
+            RationalFunction(e.parameters, e.denominator, e.denominator**0).substituted(line, zero)
+            for e in entries
+        }
+        found = {q.monic() for each in below for q, _ in each.polynomials()[0].factor()}
+        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+
+
+def moved(
+    system: ParametricSystem, construct: Callable[[MultiChannelSystem], MultiChannelSystem]
+) -> ParametricSystem:
+    """Apply constructions that only put entries elsewhere to a system with parameters.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        It has the neighbor graph without edges.
+    construct : function of a MultiChannelSystem
+        Applies constructions, all of `MOVING`.
+
+    Returns
+    -------
+    ParametricSystem
+        It records the plant and the constructions; at every value of the parameters it is what the
+        constructions make from the plant there.
+
+    Raises
+    ------
+    UsageError
+        If a construction computes with entries.
+
+    Notes
+    -----
+    They are applied once, to numbers in the places of the entries, 0 for 0 and else 2, 3, …, which
+    tell from the result which entry stands where.
+
+    Examples
+    --------
+    >>> from mcexact.derived.constructions import dual
+    >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, "t^2"]]], parameters=["t"])
+    >>> found = moved(plant, dual)
+    >>> print(found.A[1, 0], "|", found.channels[0].B[1, 0], "|", found.subject)
+    t | t^2 | ({'construction': 'dual'},)
+    """
+    zero, one = (RationalFunction.constant(k, system.parameters) for k in (0, 1))
+    known, free = {0: zero, 1: one}, count(2)
+
+    def numbered(M: FunctionMatrix) -> Matrix:
+        rows = [[_number(entry, known, free) for entry in row] for row in M.rows]
+        return Matrix.from_integers(rows, ncols=M.ncols)
+
+    def entries(M: Matrix) -> FunctionMatrix:
+        return FunctionMatrix(tuple(tuple(known[k] for k in row) for row in M.numerators), M.ncols)
+
+    start = MultiChannelSystem(
+        numbered(system.A),
+        [numbered(channel.B) for channel in system.channels],
+        [numbered(channel.C) for channel in system.channels],
+        time=system.time,
+        names=system.names,
+        neighbors={},
+    )
+    made = construct(start)
+    for step in made.subject:
+        if step["construction"] not in MOVING:
+            raise UsageError(f"{step['construction']} does not apply to systems with parameters")
+    result = object.__new__(DerivedParametricSystem)
+    ParametricSystem.__init__(
+        result,
+        entries(made.A),
+        [entries(channel.B) for channel in made.channels],
+        [entries(channel.C) for channel in made.channels],
+        parameters=system.parameters,
+        assume=dict(zip(system.parameters, system.ranges, strict=True)),
+        time=made.time,
+        names=made.names,
+    )
+    object.__setattr__(result, "origin", system.plant)
+    object.__setattr__(result, "steps", (*system.subject, *made.subject))
+    return result
+
+
+def along_line(
+    system: ParametricSystem,
+    point: Mapping[Any, Any],
+    direction: Mapping[Any, Any],
+    parameter: str = "s",
+) -> ParametricSystem:
+    """The system on a line through the space of its parameters, each a + b s, for every s.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        With one parameter or several; their ranges are of no account on the line.
+    point, direction : mapping
+        For each parameter, by symbol or name, the exact numbers a and b; not every b is 0.
+    parameter : str
+        The letter s, which is none of the parameters.
+
+    Returns
+    -------
+    ParametricSystem
+        It records the plant and the line, before all other constructions, so that certificates
+        about it name the plant: ``mcexact check --system`` accepts them with its file.
+
+    Raises
+    ------
+    InputError
+        If a number is missing, the direction is 0, or an entry is undefined on all of the line.
+    UsageError
+        If the parameter is one of the system, or the system is on a line already.
+
+    Notes
+    -----
+    Exact.  Nothing is claimed where an entry of the plant is undefined, also where its numerator
+    vanishes with the denominator on the line.
+
+    Examples
+    --------
+    >>> plant = ParametricSystem([["a + b"]], [[["a"]]], [[["1/b"]]], parameters=["a", "b"])
+    >>> line = along_line(plant, {"a": 1, "b": 0}, {"a": "1/2", "b": -1})
+    >>> print(line.A[0, 0], "|", line.channels[0].C[0, 0], "|", *line.poles)
+    -1/2*s + 1 | (-1)/(s) | x
+    >>> along_line(plant, {"a": 1, "b": 0}, {"a": 1, "b": 0})
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: channels[0].C: (1)/(b) is undefined there: its denominator is 0
+    """
+    InputError.require(system, ParametricSystem, "system")
+    if parameter in system.parameters:
+        raise UsageError(f"{parameter} is a parameter of the system: choose another letter")
+    if any(step["construction"] == LINE for step in system.subject):
+        raise UsageError("the system is on a line already: take one of the plant")
+    start, slope = _numbers(system, point, "point"), _numbers(system, direction, "direction")
+    if not any(slope.values()):
+        raise InputError("expected a direction that is not 0", where="direction")
+    line = _line(system, start, slope, parameter)
+    made = system.along(line, [parameter])
+    if system.subject:
+        # also where an entry was left out that is undefined on the line
+        system.plant.along(line, [parameter])
+    result = object.__new__(DerivedParametricSystem)
+    for key, value in vars(made).items():
+        object.__setattr__(result, key, value)
+    step = {
+        "construction": LINE,
+        "parameter": parameter,
+        "point": {name: written(value) for name, value in start.items()},
+        "direction": {name: written(value) for name, value in slope.items()},
+    }
+    object.__setattr__(result, "origin", system.plant)
+    object.__setattr__(result, "steps", (step, *system.subject))
+    return result
+
+
+def points_of(line: ParametricSystem) -> dict[str, RationalFunction]:
+    """The values of the parameters of the plant on the line that a system is on.
+
+    Examples
+    --------
+    >>> plant = ParametricSystem([["a + b"]], [[[1]]], [[[1]]], parameters=["a", "b"])
+    >>> [*map(str, points_of(along_line(plant, {"a": 1, "b": 0}, {"a": 2, "b": 1})).values())]
+    ['2*s + 1', 's']
+    """
+    step = line.subject[0]
+    point, direction = (
+        {name: Fraction(value) for name, value in step[key].items()}
+        for key in ("point", "direction")
+    )
+    return _line(line.plant, point, direction, step["parameter"])
+
+
+def _numbers(system: ParametricSystem, value: Mapping[Any, Any], where: str) -> dict[str, Fraction]:
+    """An exact number for each parameter."""
+    known = values_by_name(value, system.parameters, where)
+    missing = [name for name in system.parameters if name not in known]
+    if missing:
+        raise InputError(f"expected a number for the parameter {missing[0]!r}", where=where)
+    return {name: as_fraction(known[name], where=f"{where}[{name}]") for name in system.parameters}
+
+
+def _line(
+    system: ParametricSystem,
+    point: Mapping[str, Fraction],
+    direction: Mapping[str, Fraction],
+    parameter: str,
+) -> dict[str, RationalFunction]:
+    """For each parameter a + b s."""
+    s = RationalFunction.parameter(parameter, (parameter,))
+    return {name: direction[name] * s + point[name] for name in system.parameters}
+
+
+def _number(
+    entry: RationalFunction, known: dict[int, RationalFunction], free: Iterator[int]
+) -> int:
+    """0 for 0, and else a number that stands for the entry from now on."""
+    if entry.is_constant and entry.value == 0:
+        return 0
+    k = next(free)
+    known[k] = entry
+    return k
+
+
+# The extended system, in which agents share sub-states in addition to their outputs.
+
+Share = Literal["outputs+states", "states"]
+
+LARGEST = 20_000
+"""The largest number of states of a derived system, since delays in a file may be large."""
+
+
+def checked_share(share: str) -> str:
+    """Check and return the way of sharing.
+
+    Raises
+    ------
+    InputError
+        If it is neither ``"outputs+states"`` nor ``"states"``.
+    """
+    one_of(share, get_args(Share), "share", InputError)
+    return share
+
+
+def checked_dimensions(system: MultiChannelSystem, dimensions: Sequence[int]) -> tuple[int, ...]:
+    """Check and return the dimensions n_1 … n_m of the shared sub-states.
+
+    Raises
+    ------
+    InputError
+        If their number is not m, or one is negative or not an integer.
+    """
+    found = several(dimensions, "dimensions", "integers")
+    if len(found) != system.m:
+        raise InputError(
+            f"expected {system.m} dimensions, one for each agent, found {len(found)}",
+            where="dimensions",
+        )
+    for i, size in enumerate(found):
+        if isinstance(size, bool) or not isinstance(size, int) or size < 0:
+            raise InputError(f"expected an integer >= 0, found {size!r}", where=f"dimensions[{i}]")
+    return found
+
+
+def selector(start: int, size: int, total: int) -> Matrix:
+    """The ``total``×``size`` matrix with an identity at the rows from ``start``, else zeros.
+
+    This is the paper's E_i, H_iδ, Q_iδ' and L_iδ.
+
+    Examples
+    --------
+    >>> selector(1, 2, 3).numerators
+    ((0, 0), (1, 0), (0, 1))
+    """
+    return Matrix.from_entries((total, size), [(start + k, k, 1) for k in range(size)])
+
+
+def shift(d: int) -> Matrix:
+    """S_d, the d×d shift matrix: ones just below the diagonal.
+
+    Examples
+    --------
+    >>> shift(3).numerators
+    ((0, 0, 0), (1, 0, 0), (0, 1, 0))
+    """
+    return Matrix.from_entries((d, d), [(j + 1, j, 1) for j in range(d - 1)])
+
+
+def require_size(states: int) -> None:
+    """Raise an error for a system with too many states.
+
+    Raises
+    ------
+    LimitReached
+        If there are more than `LARGEST` states.
+    """
+    if states > LARGEST:
+        raise LimitReached(
+            f"this would be a system of {states} states, more than {LARGEST}; share fewer states, "
+            "or shorten the delays"
+        )
+
+
+@overload
+def extended_system(
+    system: MultiChannelSystem,
+    dimensions: Sequence[int],
+    share: Share = "outputs+states",
+    graph: NeighborGraph | None = None,
+) -> MultiChannelSystem: ...
+
+
+@overload
+def extended_system(
+    system: ParametricSystem,
+    dimensions: Sequence[int],
+    share: Share = "outputs+states",
+    graph: NeighborGraph | None = None,
+) -> ParametricSystem: ...
+
+
+def extended_system(
+    system: MultiChannelSystem | ParametricSystem,
+    dimensions: Sequence[int],
+    share: Share = "outputs+states",
+    graph: NeighborGraph | None = None,
+) -> MultiChannelSystem | ParametricSystem:
+    """Append to every agent i a shared sub-state x_i of dimension n_i with ẋ_i = v_i.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem or ParametricSystem
+    dimensions : sequence of m int
+        n_1 … n_m, each ≥ 0.
+    share : {"outputs+states", "states"}
+        Whether agents receive their neighbors' outputs in addition to their sub-states.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``; a system with parameters has none of its own.
+
+    Returns
+    -------
+    MultiChannelSystem or ParametricSystem
+        n̄ = n + Σ n_i states.  A distributed controller of the plant is a decentralized one of it.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph.
+    InputError
+        If the dimensions or the way of sharing are not as expected.
+
+    Notes
+    -----
+    Paper, section IV-C, equation (25), and Remark 2 for ``share="states"``.  In block form, with
+    x̄ = (x, x_1, …, x_m), ū_i = (u_i, v_i) and ȳ_i = (y_j, j ∈ N_i, then x_j, j ∈ N_i), neighbors
+    in the order of the channels::
+
+            ⎡ A  0 ⎤            ⎡ B_i   0  ⎤            ⎡ C_{N_i}     0     ⎤
+        Ā = ⎣ 0  0 ⎦ ,    B̄_i = ⎣  0   E_i ⎦ ,    C̄_i = ⎣    0     E'_{N_i} ⎦
+
+    E_i, of Σ n_j rows and n_i columns, holds the identity at the rows of x_i, and E_{N_i} = [E_j],
+    j ∈ N_i.  With ``share="states"`` C_i stands in place of C_{N_i}.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> cyclic = NeighborGraph.ring(plant.names)
+    >>> extended = extended_system(plant, [0, 0, 1], graph=cyclic)
+    >>> extended.n, extended.C(1).numerators
+    (4, ((0, 1, 0, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
+    """
+    if isinstance(system, ParametricSystem):
+        links = () if graph is None else graph.edges()
+        return moved(
+            system,
+            lambda bare: extended_system(
+                add_links(bare, links) if links else bare, dimensions, share
+            ),
+        )
+    InputError.require(system, MultiChannelSystem, "system")
+    system, found = with_graph(system, graph)
+    construction = {"construction": "extended", "share": share, "dimensions": dimensions}
+    return exchanged(system, found, construction, lambda i, j: 0)
+
+
+def exchanged(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    construction: Mapping[str, Any],
+    delay: Callable[[int, int], int],
+) -> MultiChannelSystem:
+    """Append shared sub-states and the messages under way, as `lifted_system` draws them.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph
+    construction : mapping
+        Its ``dimensions`` n_1 … n_m, and what agents ``share``, by default sub-states alone.
+    delay : function of i and j
+        The number of steps after which agent i receives x_j, and y_j if outputs are shared.
+    """
+    sizes = checked_dimensions(system, construction["dimensions"])
+    both = checked_share(construction.get("share", "states")) == "outputs+states"
+    n, m = system.n, system.m
+    seen = [{j: delay(i, j) for j in graph.neighborhood(i)} for i in range(m)]
+    late = [max(steps.get(j, 0) for steps in seen) for j in range(m)]
+    sent = [system.q(j) if both else 0 for j in range(m)]
+    blocks = [k + d * (k + q) for d, k, q in zip(late, sizes, sent, strict=True)]
+    starts = [0, *accumulate(blocks)]
+    require_size(n + starts[m])
+
+    def x(j: int, steps: int) -> Matrix:
+        return selector(starts[j] + steps * sizes[j], sizes[j], starts[m])
+
+    def y(j: int, steps: int) -> Matrix:
+        behind = (late[j] + 1) * sizes[j] + (steps - 1) * sent[j]
+        return selector(starts[j] + behind, sent[j], starts[m])
+
+    K, G, C = [], [], []
+    for j, d in enumerate(late):
+        K += [kronecker(shift(d + 1), Matrix.identity(sizes[j]))]
+        K += [kronecker(shift(d), Matrix.identity(sent[j]))]
+        entering = system.C(j) if both and d else Matrix.zeros(0, n)
+        G += [Matrix.zeros((d + 1) * sizes[j], n), entering]
+        G += [Matrix.zeros(d * sent[j] - entering.nrows, n)]
+    for i, steps in enumerate(seen):
+        at_once = [j for j in steps if not steps[j]] if both else [i]
+        under_way = [y(j, steps[j]) for j in steps if steps[j] and both]
+        states = [x(j, steps[j]) for j in steps]
+        received = hstack([*under_way, *states], nrows=starts[m]).T
+        C.append(block_diagonal([system.output_matrix(at_once), received]))
+    return system.derived(
+        block([[system.A, Matrix.zeros(n, starts[m])], [vstack(G), block_diagonal(K)]]),
+        [block_diagonal([system.B(i), x(i, 0)]) for i in range(m)],
+        C,
+        {**construction, "dimensions": list(sizes)},
+        neighbors=graph,
+    )
+
+
+# The plant with an integrator of every output, for set-point control.
+
+
+def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
+    """Append w with ẇ_i = y_i − r_i, in discrete time w_i(t+1) = w_i + y_i − r_i.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+
+    Returns
+    -------
+    MultiChannelSystem
+        n + Σ q_i states.  Agent i measures w_i.  A linear time-invariant controller that
+        stabilizes it holds every y_i at r_i.
+
+    Notes
+    -----
+    Paper, section III, equation `b1`.  In block form, C all C_i below each other::
+
+            ⎡ A  0 ⎤            ⎡ B_i ⎤
+        Ã = ⎣ C  W ⎦ ,    B̃_i = ⎣  0  ⎦ ,    C̃_i = [ 0  e_i' ]
+
+    W = 0 in continuous and W = I in discrete time, and e_i' are the rows of the identity that
+    belong to y_i. The references enter as −r in the lower rows.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[3]]], time="discrete")
+    >>> setpoint_system(plant).A.numerators
+    ((2, 0), (3, 1))
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    n, m = system.n, system.m
+    counts = [system.q(i) for i in range(m)]
+    total = sum(counts)
+    starts = [0, *accumulate(counts)]
+    W = Matrix.identity(total) * steady_point(system.time)
+    return system.derived(
+        block([[system.A, Matrix.zeros(n, total)], [system.output_matrix(), W]]),
+        [vstack([system.B(i), Matrix.zeros(total, system.p(i))]) for i in range(m)],
+        [selector(n + starts[i], counts[i], n + total).T for i in range(m)],
+        {"construction": "integrators"},
+        neighbors=system.neighbors,
+    )
+
+
+# The extended system with delays, in which every message under way is a state.
+
+
+def lifted_system(
+    system: MultiChannelSystem,
+    dimensions: Sequence[int],
+    share: Share = "outputs+states",
+    graph: NeighborGraph | None = None,
+) -> MultiChannelSystem:
+    """Extend the plant by shared sub-states and by the messages that are under way.
+
+    Agent i receives (y_j(t−d_ij), x_j(t−d_ij)), j ∈ N_i, or x_j(t−d_ij) and its own y_i alone when
+    only sub-states are shared.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        In discrete time.
+    dimensions : sequence of m int
+        n_1 … n_m, each ≥ 0.
+    share : {"outputs+states", "states"}
+    graph : NeighborGraph, optional
+        With the delays d_ij on its edges; overrides ``system.neighbors``.
+
+    Returns
+    -------
+    MultiChannelSystem
+        ñ = n + Σ (n_i + d_i n_i + d_i q_i) states, d_i the largest delay to a follower of i;
+        without the d_i q_i when only sub-states are shared.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, or the system is in continuous time.
+    InputError
+        If the dimensions or the way of sharing are not as expected.
+    LimitReached
+        If there would be more than 20000 states.
+
+    Notes
+    -----
+    Paper, section V-A, equations (34) and (35).  The state is
+    (x, x_1, w_1, x_2, w_2, …), w_j = (x_j(t−1), …, x_j(t−d_j), y_j(t−1), …, y_j(t−d_j)), and w_j
+    is empty when d_j = 0.  In block form::
+
+            ⎡ A  0 ⎤            ⎡ B_i    0   ⎤            ⎡ C_{N⁰_i}     0     ⎤
+        Ã = ⎣ G  K ⎦ ,    B̃_i = ⎣  0   H_{i0} ⎦ ,   C̃_i = ⎢    0      Q_{N⁺_i} ⎥
+                                                          ⎣    0      H'_{N_i}  ⎦
+
+        K = diag(S_{d_1+1} ⊗ I_{n_1},  S_{d_1} ⊗ I_{q_1},  S_{d_2+1} ⊗ I_{n_2},  …)
+        G = (G_1; …; G_m),  G_j = (0_{(d_j+1)n_j×n}; C_j; 0_{(d_j−1)q_j×n})  for d_j ≥ 1
+                            G_j = 0_{n_j×n}                                 for d_j = 0
+
+    N⁰_i are the neighbors with d_ij = 0 and N⁺_i those with d_ij > 0, so that i receives undelayed
+    outputs first, then the delayed ones, then all sub-states. H_jδ picks x_j(t−δ) and Q_jδ picks
+    y_j(t−δ); H_{N_i} = [H_{j d_ij}], Q_{N⁺_i} = (Q_{j d_ij}), in the order of the channels. The
+    paper's G_j would have −1 block rows when d_j = 0. With ``share="states"`` (the remark after
+    Theorem 3) there are neither y_j(t−δ) nor G, and C̃_i = diag(C_i, H'_{N_i}).
+
+    Examples
+    --------
+    >>> graph = NeighborGraph(("1", "2"), [[1], [0]], [(0, 1, 2)])
+    >>> plant = MultiChannelSystem(
+    ...     [[1]], [[[1]], [[1]]], [[[3]], [[5]]], time="discrete", neighbors=graph)
+    >>> lifted = lifted_system(plant, [0, 1])
+    >>> lifted.n  # x, x_2, x_2(t-1), x_2(t-2), y_2(t-1), y_2(t-2)
+    6
+    >>> lifted.A.numerators[4]  # y_2(t) becomes y_2(t-1)
+    (5, 0, 0, 0, 0, 0)
+    >>> lifted.C(0).numerators  # agent 1 sees y_1(t), y_2(t-2), x_2(t-2)
+    ((3, 0, 0, 0, 0, 0), (0, 0, 0, 0, 0, 1), (0, 0, 0, 1, 0, 0))
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    system, found = with_graph(system, graph)
+    require_discrete(system)
+    construction = {"construction": "lifted", "share": share, "dimensions": dimensions}
+    return exchanged(system, found, construction, found.delay)
+
+
+def held_system(
+    system: MultiChannelSystem, dimensions: Sequence[int], graph: NeighborGraph | None = None
+) -> MultiChannelSystem:
+    """Extend the plant by shared sub-states that all agents, also their owner, use d_i steps late.
+
+    Agent i sends its sub-state to follower k after holding it for d_i − d_ki steps, and keeps it
+    from itself for d_i steps, so that all followers use x_i(t−d_i) at the same time.  Measured
+    outputs are not sent.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        In discrete time.
+    dimensions : sequence of m int
+        n_1 … n_m, each ≥ 0.
+    graph : NeighborGraph, optional
+        With the delays d_ij on its edges; overrides ``system.neighbors``.
+
+    Returns
+    -------
+    MultiChannelSystem
+        n̂ = n + Σ (n_i + d_i n_i) states, d_i the largest delay to a follower of i.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, or the system is in continuous time.
+    InputError
+        If the dimensions are not as expected.
+    LimitReached
+        If there would be more than 20000 states.
+
+    Notes
+    -----
+    Paper, section V-B, equations (37) and (38).  The state is
+    (x, x_1(t), …, x_1(t−d_1), x_2(t), …, x_m(t−d_m)).  In block form::
+
+        Â = diag(A, S_{d_1+1} ⊗ I_{n_1}, …, S_{d_m+1} ⊗ I_{n_m})
+
+              ⎡ B_i    0   ⎤            ⎡ C_i              0               ⎤
+        B̂_i = ⎣  0   L_{i0} ⎦ ,   Ĉ_i = ⎣  0   [L_{j d_j}, j ∈ N_i]'       ⎦
+
+    S_d is the d×d shift matrix and L_jδ picks x_j(t−δ), 0 ≤ δ ≤ d_j; with d_j = 0 the block is
+    S_1 ⊗ I = 0, as in the extended system without delays.
+
+    Examples
+    --------
+    >>> graph = NeighborGraph(("1", "2"), [[1], [0]], [(0, 1, 2)])
+    >>> plant = MultiChannelSystem(
+    ...     [[1]], [[[1]], [[1]]], [[[3]], [[5]]], time="discrete", neighbors=graph)
+    >>> held = held_system(plant, [0, 1])
+    >>> held.n  # x, x_2, x_2(t-1), x_2(t-2)
+    4
+    >>> held.C(1).numerators  # agent 2 sees y_2(t) and its own x_2(t-2)
+    ((5, 0, 0, 0), (0, 0, 0, 1))
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    system, found = with_graph(system, graph)
+    require_discrete(system)
+    late = [found.longest_delay(j) for j in range(system.m)]
+    construction = {"construction": "held", "dimensions": dimensions}
+    return exchanged(system, found, construction, lambda i, j: late[j])
+
+
+# The open-loop error system of the distributed observer.
+
+
+def error_system(
+    system: MultiChannelSystem, gains: Sequence[Any], graph: NeighborGraph | None = None
+) -> MultiChannelSystem:
+    """Build the m-channel system of the estimation errors e_i = x_i − x under substitution.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    gains : sequence of m matrices
+        The state feedbacks F_i, p_i×n.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+
+    Returns
+    -------
+    MultiChannelSystem
+        nm states ε = (e_1, …, e_m), n inputs in every channel.  Decentralized static feedback of
+        it by [K_i, H_ij, …] is the paper's error system without the channel controller.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph.
+    InputError
+        If a gain has the wrong shape.
+
+    Notes
+    -----
+    Paper, section II-D, equations `com.o` and `anal`.  In block form::
+
+        Ã = I_m ⊗ (A + Σ_j B_j F_j) − Q,    Q_ij = B_j F_j,    B̃_i = b_i ⊗ I_n
+
+        C̃_i ε = ( C_i e_i ;  e_i − e_j, j ∈ N_i∖{i}, in the order of the channels )
+
+    b_i is the i-th unit vector of length m.  The block e_i − e_i = 0 that the paper carries along
+    is left out.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1]], [[[1]], [[1]]], [[[3]], [[5]]], neighbors={"1": ["2"]})
+    >>> errors = error_system(plant, [[[-2]], [[-7]]])
+    >>> errors.A.numerators  # 1 − 2 − 7 on the diagonal, less B_j F_j in column j
+    ((-6, 7), (2, -1))
+    >>> errors.C(0).numerators, errors.C(1).numerators
+    (((3, 0), (1, -1)), ((0, 5),))
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    system, found = with_graph(system, graph)
+    n, m = system.n, system.m
+    exact = checked_gains(system, gains, [n] * m)
+    driven = [system.B(j) @ exact[j] for j in range(m)]
+    closed = sum(driven, system.A)
+    A = block_diagonal([closed] * m) - block([driven] * m)
+    pick = [selector(i * n, n, n * m).T for i in range(m)]
+    C = []
+    for i in range(m):
+        others = [j for j in found.neighborhood(i) if j != i]
+        C.append(vstack([system.C(i) @ pick[i], *(pick[i] - pick[j] for j in others)]))
+    return system.derived(
+        A,
+        [each.T for each in pick],
+        C,
+        {"construction": "error", "gains": tuple(exact)},
+        neighbors=found,
+    )
+
+
+# Closed loops of systems with parameters.
+
+Construct = Callable[[MultiChannelSystem], MultiChannelSystem]
+
+
+@dataclass(frozen=True)
+class ParametricLoop:
+    """The closed loop of a system with parameters and one controller.
+
+    Attributes
+    ----------
+    given : ParametricSystem
+    construct : callable
+        Closes the loop of a system without parameters, perhaps after other constructions.
+    subject : tuple of mapping
+        The constructions that lead from the plant to the loop, in order.
+    n : int
+        The dimension of the loop's state.
+    """
+
+    given: ParametricSystem
+    construct: Construct = field(compare=False, repr=False)
+    subject: tuple[Construction, ...] = field(hash=False)
+    n: int
+    names: ClassVar[tuple[str, ...]] = ()
+    m: ClassVar[int] = 0
+
+    @property
+    def plant(self) -> ParametricSystem:
+        """The user's plant."""
+        return self.given.plant
+
+    @property
+    def time(self) -> str:
+        """The time domain of the plant."""
+        return self.given.time
+
+    @property
+    def name(self) -> str | None:
+        """The name of the plant."""
+        return self.given.name
+
+    def at(self, values: Any) -> MultiChannelSystem:
+        """The loop at a value of every parameter, as `ParametricSystem.at` takes them."""
+        return self.construct(self.given.at(values).with_neighbors({}))
+
+
+def looped(system: ParametricSystem, construct: Construct) -> ParametricLoop:
+    """Close the loop of a system with parameters.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        It has the neighbor graph without edges.
+    construct : function of a MultiChannelSystem
+        Applies constructions, the last of which closes the loop.
+
+    Raises
+    ------
+    UsageError
+        If the last construction is another one.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> from mcexact.model.loop import closed_loop
+    >>> plant = ParametricSystem([["k"]], [[[1]]], [[[1]]], parameters=["k"])
+    >>> gain = local_controllers(plant.at({"k": 0}), [[[-3]]])
+    >>> loop = looped(plant, lambda system: closed_loop(system, gain).system)
+    >>> loop.n, loop.at({"k": 1}).A[0, 0]
+    (1, Fraction(-2, 1))
+    """
+    n, sizes = system.n, system.sizes
+    still = MultiChannelSystem(
+        Matrix.zeros(n, n),
+        [Matrix.zeros(n, p) for p, _ in sizes],
+        [Matrix.zeros(q, n) for _, q in sizes],
+        time=system.time,
+        names=system.names,
+        neighbors={},
+    )
+    made = construct(still)
+    if made.subject[-1:] == () or made.subject[-1]["construction"] != "closed_loop":
+        raise UsageError("expected a closed loop")
+    return ParametricLoop(system, construct, (*system.subject, *made.subject), made.n)

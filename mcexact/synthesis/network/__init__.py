@@ -1,1 +1,0 @@
-"""Decentralized control and control of extended systems, over links with and without delays."""

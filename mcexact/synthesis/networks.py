@@ -1,0 +1,333 @@
+"""Networks derived from a plant, with shared sub-states and integrators."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.answer.deficiency import Deficiency
+from mcexact.answer.rules.refusals import refusal
+from mcexact.answer.shared_dimensions import SharedDimensions
+from mcexact.arguments import one_of
+from mcexact.derived.constructions import (
+    Share,
+    checked_dimensions,
+    extended_system,
+    held_system,
+    lifted_system,
+    setpoint_system,
+)
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
+from mcexact.synthesis.channel_controller import ChannelController
+from mcexact.synthesis.gate import Request
+
+# Networks derived from a plant, and agent programs of their decentralized controllers.
+
+NetworkKind = Literal["decentralized", "extended", "lifted", "held"]
+
+Signal = tuple[Literal["y", "x"], int]
+
+
+@dataclass(frozen=True)
+class DerivedNetwork:
+    """A plant with the dimensions that its agents share, and the resulting multi-channel system.
+
+    Attributes
+    ----------
+    kind : {"decentralized", "extended", "lifted", "held"}
+    given : MultiChannelSystem
+        The plant or derived system on which the agents run.
+    graph : NeighborGraph or None
+        None if no signals are sent.
+    dimensions : tuple of int
+        n_1 … n_m.
+    system : MultiChannelSystem
+        The system whose decentralized controllers are the distributed controllers of the given one.
+    signals : tuple
+        The signals that each agent receives, in the order of its outputs: ("y", j) or ("x", j).
+    """
+
+    kind: NetworkKind
+    given: MultiChannelSystem
+    graph: NeighborGraph | None
+    dimensions: tuple[int, ...]
+    system: MultiChannelSystem
+    signals: tuple[tuple[Signal, ...], ...]
+
+    def size(self, signal: Signal) -> int:
+        """The dimension of a signal."""
+        what, j = signal
+        return self.given.q(j) if what == "y" else self.dimensions[j]
+
+    def holds(self, j: int) -> dict[int, int]:
+        """The number of steps for which agent j holds x_j, for each follower and for itself."""
+        if self.kind != "held" or self.graph is None or not self.dimensions[j]:
+            return {}
+        longest = self.graph.longest_delay(j)
+        held = {i: longest - (self.graph.delay(i, j) if i != j else 0) for i in self._hearers(j)}
+        return {i: steps for i, steps in held.items() if steps}
+
+    def _hearers(self, j: int) -> list[int]:
+        return [i for i, seen in enumerate(self.signals) if ("x", j) in seen]
+
+    def split(self, i: int, gains: Matrix) -> LinearMap:
+        """Split gains of ȳ_i by the signals that they multiply.
+
+        Parameters
+        ----------
+        i : int
+        gains : Matrix
+            Its columns belong to the signals of agent i, in their order.
+
+        Returns
+        -------
+        LinearMap
+            The blocks of columns of each y_j and x_j, without those that are 0.
+        """
+        maps: dict[str, dict[int, Matrix]] = {"y": {}, "x": {}}
+        start = 0
+        for what, j in self.signals[i]:
+            stop = start + self.size((what, j))
+            maps[what][j] = gains.take(cols=range(start, stop))
+            start = stop
+        return LinearMap(maps["y"], maps["x"]).without_zeros()
+
+
+def decentralized_network(system: MultiChannelSystem) -> DerivedNetwork:
+    """Return the plant as a network in which agent i receives y_i alone."""
+    signals: tuple[tuple[Signal, ...], ...] = tuple((("y", i),) for i in range(system.m))
+    return DerivedNetwork("decentralized", system, None, (0,) * system.m, system, signals)
+
+
+def shared_network(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    dimensions: Sequence[int],
+    share: Share,
+    kind: NetworkKind,
+) -> DerivedNetwork:
+    """Return the extended, lifted or held system for some dimensions.
+
+    Raises
+    ------
+    UsageError
+        If the links have delays and the kind does not, or outputs should be sent and held.
+    """
+    own_only = kind == "held" or share == "states"
+    if kind == "held" and share != "states":
+        raise UsageError('with holding, agents send sub-states only: share must be "states"')
+    if kind == "extended" and graph.delays:
+        raise UsageError('the links have delays: choose the network "lifted" or "held"')
+    if kind == "held":
+        derived = held_system(system, dimensions, graph)
+    else:
+        builder: Callable[..., MultiChannelSystem]
+        builder = lifted_system if kind == "lifted" else extended_system
+        derived = builder(system, dimensions, share, graph)
+    signals = []
+    for i in range(system.m):
+        heard = graph.neighborhood(i)
+        measured = [i] if own_only else list(heard)
+        if kind == "lifted":
+            measured.sort(key=lambda j: (graph.delay(i, j) > 0, j))
+        seen: list[Signal] = [("y", j) for j in measured]
+        signals.append((*seen, *(("x", j) for j in heard)))
+    return DerivedNetwork(kind, system, graph, tuple(dimensions), derived, tuple(signals))
+
+
+def network_programs(
+    network: DerivedNetwork,
+    gains: Sequence[Matrix],
+    channels: Mapping[int, ChannelController],
+) -> Controller:
+    """Write the agent programs for ū_i = F̄_i ȳ_i, with channel controllers at some agents.
+
+    Parameters
+    ----------
+    network : DerivedNetwork
+    gains : sequence of Matrix
+        F̄_i, (p_i + n_i) × the size of ȳ_i; ū_i = (u_i, v_i) and v_i updates x_i.
+    channels : mapping of int to ChannelController
+        ż = Az + Bȳ_q, with Cz + Dȳ_q added to ū_q.
+
+    Notes
+    -----
+    Paper, sections IV-C to IV-E and V.  Delays belong to the links and holding to the agents, so
+    programs contain no matrix of the lifted system.
+    """
+    given, programs = network.given, []
+    for i in range(given.m):
+        p_i, made = given.p(i), channels.get(i)
+        F = gains[i] if made is None else gains[i] + made.D
+        k = 0 if made is None else made.order
+        upper, lower = range(p_i), range(p_i, F.nrows)
+        used = [network.split(i, F.take(rows=rows)) for rows in (upper, lower)]
+        own: list[Matrix | None] = [None, None]
+        update = LinearMap()
+        if made is not None and k:
+            own = [made.C.take(rows=upper), made.C.take(rows=lower)]
+            driven = network.split(i, made.B)
+            update = LinearMap(driven.outputs, driven.shared, made.A).without_zeros()
+        inputs, shared = (
+            LinearMap(each.outputs, each.shared, z).without_zeros()
+            for each, z in zip(used, own, strict=True)
+        )
+        programs.append(
+            AgentProgram(
+                given.names[i], network.dimensions[i], k, shared, update, inputs, network.holds(i)
+            )
+        )
+    return Controller(given.time, given.digest_of_values(), tuple(programs))
+
+
+# The networks of shared sub-states, and the dimensions with which they are controlled.
+
+Dimensions = str | Sequence[int]
+"""``"minimal"``, ``"bound"``, or n_1 … n_m."""
+
+
+def sharing_of(kind: NetworkKind, share: Share | None = None) -> Share:
+    """Return what agents send: by default both, but with holding sub-states alone."""
+    return share or ("states" if kind == "held" else "outputs+states")
+
+
+def sharing_network(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None,
+    request: Request,
+    *,
+    dimensions: Dimensions = "minimal",
+    share: Share | None = None,
+    network: Literal["extended", "lifted", "held"] | None = None,
+    free_assignability: bool = False,
+) -> tuple[DerivedNetwork, SharedDimensions | Deficiency | None]:
+    """Return the network that `design_extended` controls, and the allocation of its dimensions.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    request : Request
+    dimensions, share, network, free_assignability
+        As in `design_extended`; without ``network`` links with delays give the lifted system.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, there is no such network, or it does not fit the delays or
+        the way of sharing.
+    """
+    system, found = with_graph(system, graph)
+    one_of(network, (None, "extended", "lifted", "held"), "network")
+    kind: NetworkKind = network or ("lifted" if found.delays else "extended")
+    sharing = sharing_of(kind, share)
+    request.tell("shared dimensions")
+    allocation, sizes = _sizes(system, dimensions, sharing, request.region, free_assignability)
+    return shared_network(system, found, sizes, sharing, kind), allocation
+
+
+def _sizes(
+    system: MultiChannelSystem,
+    dimensions: Dimensions,
+    share: Share,
+    region: StabilityRegion,
+    free_assignability: bool,
+) -> tuple[SharedDimensions | Deficiency | None, tuple[int, ...]]:
+    """Return the dimensions n_1 … n_m, and the answer that determined them."""
+    if not isinstance(dimensions, str):
+        return None, checked_dimensions(system, dimensions)
+    if dimensions == "bound":
+        most = shared_dimension_bound(system, share=share)
+        return most, (most.deficiency,) * system.m
+    if dimensions != "minimal":
+        raise InputError(
+            f'expected "minimal", "bound" or {system.m} numbers, found {dimensions!r}',
+            where="dimensions",
+        )
+    plant = system if not system.subject else as_plant(system)
+    least = minimal_shared_dimensions(
+        plant,
+        share=share,
+        region=None if region.bound is None else region,
+        free_assignability=free_assignability,
+    )
+    if least.dimensions is None and region.bound is None:
+        # Not every mode can be moved; the stable ones may be fixed.
+        stable = _region_of_stable_modes(system)
+        least = minimal_shared_dimensions(
+            plant, share=share, region=stable, free_assignability=free_assignability
+        )
+    if system.subject:
+        # The answer is about the system taken for a plant, so it is only followed.  Where no
+        # dimensions suffice, neither do as many as there are states.
+        return None, least.dimensions or (system.n,) * system.m
+    if least.dimensions is None:
+        raise refusal("dimensions", least)
+    return least, least.dimensions
+
+
+def _region_of_stable_modes(system: MultiChannelSystem) -> StabilityRegion:
+    """Return the region of a rate that every stable mode of A meets, or of the radius 1."""
+    region = StabilityRegion(system.time)
+    if region.discrete:
+        return region
+    modes = [p for p, _ in characteristic_polynomial(system.A).factor()]
+    stable = [p for p in modes if region.contains_roots_of(p)]
+    region, rate = StabilityRegion(system.time, Fraction(1)), Fraction(1)
+    while not all(region.contains_roots_of(p) for p in stable):
+        rate /= 2
+        region = StabilityRegion(system.time, rate)
+    return region
+
+
+# The plant with integrators of its outputs, as a search for set-point controllers sees it.
+
+
+def integrated_plant(system: MultiChannelSystem) -> MultiChannelSystem:
+    """Return the plant with its integrators, of which agent i measures w_i, and y_i, too.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        n states and the outputs y_i = C_i x.
+
+    Returns
+    -------
+    MultiChannelSystem
+        A plant with the matrices of `setpoint_system`, except for its outputs::
+
+                ⎡  0   e_i' ⎤
+            C̃_i = ⎣ C_i   0  ⎦
+
+    Notes
+    -----
+    With w_i alone an agent has to differentiate to act on y_i in proportion.  No other modes are
+    fixed: the rows of the integrators in the pencils of complementary subsystems are C_i, beside
+    −λ w_i.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[3]]])
+    >>> integrated_plant(plant).C(0).numerators
+    ((0, 1), (3, 0))
+    """
+    whole = setpoint_system(system)
+    none = [Matrix.zeros(system.q(i), whole.n - system.n) for i in range(system.m)]
+    return MultiChannelSystem(
+        whole.A,
+        [whole.B(i) for i in range(system.m)],
+        [vstack([whole.C(i), hstack([system.C(i), none[i]])]) for i in range(system.m)],
+        time=system.time,
+        names=list(system.names),
+        neighbors=system.neighbors,
+    )

@@ -1,1 +1,0 @@
-"""Observer-based distributed control: Theorem 1, exactly and in floating point."""

@@ -1,0 +1,851 @@
+"""The ladder of structures and starts, and what it proposes to the gate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.derived.constructions import Share
+from mcexact.errors import Impossible, LimitReached, OutOfReach, UsageError
+from mcexact.model.controller import Controller
+from mcexact.synthesis.gate import Progress, Proposal, Request, Warned, certify
+from mcexact.synthesis.network_design import network_proposals, require_fast
+from mcexact.synthesis.networks import DerivedNetwork, shared_network
+from mcexact.synthesis.optimum.descent import (
+    SLACK,
+    Target,
+    bound_of,
+    drafted,
+    found_alone,
+    inside,
+    polished,
+    settled,
+)
+from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed, with_diagnosis
+from mcexact.synthesis.optimum.figures import (
+    SEEDS,
+    Aims,
+    Figures,
+    figures_of,
+    quadratic_costs,
+    shift_of,
+)
+from mcexact.synthesis.optimum.problem import (
+    PER_SECOND,
+    Effort,
+    FeedbackProblem,
+    Floats,
+    NetworkController,
+    Sizes,
+    Structure,
+    Weights,
+    balanced,
+    controller_of,
+    problem_of,
+    quiet_floats,
+    rounded,
+)
+from mcexact.synthesis.optimum.starts import (
+    Locality,
+    cut_gains,
+    cut_observers,
+    drawn_dynamics,
+    held_states,
+    local_observers,
+    local_regulators,
+    localities,
+    tied,
+    whole_model,
+    with_private_parts,
+)
+
+# What a search tries in which structures, what it finds, and how it ranks that.
+
+_LARGEST_ORDER = 3
+_PRICE_OF_ORDER, _PRICED_ORDERS = 1.02, 20
+_CONTENT, _FRAGILE, _NOT_CERTIFIED = 1.5, 1.25, 1e6
+MOST_STATES = 100
+"""Of plants for which the controller of the theorem is constructed where a search found none."""
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """What a search tries, and when it ends.
+
+    Attributes
+    ----------
+    structure : callable
+        The structure in which every agent has a state of some order, one for all or for each.
+    theorem : callable
+        The controller of the theorem, with its network; None if there is none.
+    weights : Weights
+    target : Target
+    enough : float
+        The cost at which the search ends, if margin and gains are as aimed at.
+    effort : Effort
+    sizes : Sizes or None
+        Of the signals of the plant.
+    seeds : int
+        The number of drawn starts of each order.
+    most_digits : int or None
+        The largest number of digits of an entry.
+    most_order : int or None
+        The largest number of states of each agent; None without a limit, where starts are drawn
+        for orders up to 3.
+    tell : callable
+    """
+
+    structure: Callable[[int | Sequence[int]], Structure]
+    theorem: Callable[[], NetworkController | None]
+    weights: Weights
+    target: Target
+    enough: float
+    effort: Effort
+    sizes: Sizes | None = None
+    seeds: int = SEEDS
+    most_digits: int | None = None
+    most_order: int | None = None
+    tell: Progress = field(default=lambda _: None)
+
+    @property
+    def large(self) -> bool:
+        """Whether the plant is so large that a search is content with a little more."""
+        return len(self.weights.Q) > MOST_STATES
+
+    def problem(self, structure: Structure) -> FeedbackProblem:
+        """Return the problem of a structure.
+
+        Of large plants whose agents send signals, those that look alike are tied.
+        """
+        made = FeedbackProblem.of(*structure, self.weights, self.sizes)
+        sending = structure[0].graph is not None
+        return tied(made, self.weights) if self.large and sending else made
+
+    @property
+    def orders(self) -> range:
+        """The orders for which starts are drawn."""
+        return range(1, (_LARGEST_ORDER if self.most_order is None else self.most_order) + 1)
+
+    def allows(self, problem: FeedbackProblem) -> bool:
+        """Whether no agent has more states than it may have."""
+        sizes = zip(problem.orders, problem.network.dimensions, strict=True)
+        return self.most_order is None or all(z + x <= self.most_order for z, x in sizes)
+
+    def fine(self, found: Figures) -> bool:
+        """Whether a controller is good enough to end the search."""
+        return (
+            found.cost <= self.enough
+            and found.margin >= self.target.margin
+            and self.target.shape.met(found.damping, found.fastest)
+            and found.largest_gain <= 1.001 * self.target.largest_gain
+        )
+
+    def keeps(self, problem: FeedbackProblem, K: Floats) -> bool:
+        """Whether a gain matrix stays in the region with the digits that it may have."""
+        if self.most_digits is None:
+            return True
+        return self.target.keeps(problem, problem.entries(rounded(K, self.most_digits)))
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A controller inside the region, as a gain matrix.
+
+    Attributes
+    ----------
+    step : str
+        The step of the ladder that found it.
+    problem : FeedbackProblem
+    K : ndarray
+        Balanced.
+    figures : Figures
+        Without the peak.
+    """
+
+    step: str
+    problem: FeedbackProblem
+    K: Floats
+    figures: Figures
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A gain matrix from which a search starts, and the step of the ladder that it belongs to."""
+
+    step: str
+    problem: FeedbackProblem
+    K: Floats
+
+
+def ranked(ladder: Ladder, found: list[Candidate]) -> list[Candidate]:
+    """Return the candidates by their prices, the lowest first."""
+    return sorted(found, key=lambda each: _price(ladder, each))
+
+
+def _price(ladder: Ladder, candidate: Candidate) -> float:
+    """The cost; small margins, large gains and high orders make it higher.
+
+    Of large plants only so many orders do, since each of many agents has one or two.
+    """
+    figures, target = candidate.figures, ladder.target
+    lacking = _FRAGILE * target.margin / max(figures.margin, 1e-9)
+    lacking = 1.0 if figures.margin >= target.margin else lacking
+    large = max(figures.largest_gain / target.largest_gain, 1.0)
+    if not target.shape.met(figures.damping, figures.fastest):
+        lacking *= _NOT_CERTIFIED if target.region.limits else _FRAGILE
+    priced = min(figures.order, _PRICED_ORDERS) if ladder.large else figures.order
+    return figures.cost * lacking * large * _PRICE_OF_ORDER**priced
+
+
+def contents(ladder: Ladder, found: list[Candidate]) -> bool:
+    """Whether a large plant needs no further search: the best price is nearly low enough."""
+    return ladder.large and best_price(ladder, found) <= _CONTENT * ladder.enough
+
+
+def best_price(ladder: Ladder, found: list[Candidate]) -> float:
+    """The lowest price; infinite without candidates."""
+    return min((_price(ladder, each) for each in found), default=np.inf)
+
+
+# The steps of the ladder: starts of static gains, of low orders and of all agents together.
+
+Rank = tuple[bool, float]
+
+_SHIFTS = (1.0, 1.3, 1.7, 2.5, 4.0)
+_REACHES = ((1.0, 1.0), (10.0, 1.0), (100.0, 1.0), (10.0, 100.0))
+_FURTHER_REACHES = ((10.0, 10.0), (100.0, 10.0))
+_MOST_ENTRIES, _SETTLED = 1500, 3
+_BETTER, _GOOD = 0.97, 2.0
+_SMALL = 20
+_STATIC = "static gains"
+
+
+def steps_of(
+    ladder: Ladder, found: list[Candidate], later: list[tuple[float, Start]]
+) -> Iterator[Iterable[Start]]:
+    """Yield the starts of each step, from the lowest order to the highest.
+
+    An order is the last one if the best price is moderate, and it did not make it lower by a part.
+    """
+    static = ladder.problem(ladder.structure(0))
+    parts = [localities(static, ladder.weights, driven=each) for each in (False, True)]
+    narrow = localities(static, ladder.weights, much=True)
+    if all(_states(narrow) != _states(each) for each in parts):
+        parts.append(narrow)
+    yield [Start(_STATIC, static, _best_static(ladder, static, parts))]
+    cut = _cut(ladder, static, parts[1])
+    if ladder.large and any(sum(each.problem.network.dimensions) for each in cut):
+        # Controllers that agents find alone disturb each other more, the more agents there are.
+        yield cut
+        cut = []
+    observers = [*cut, *_local_observers(ladder, static, parts)]
+    for order in ladder.orders:
+        problem = ladder.problem(ladder.structure(order))
+        yield [each for each in observers if each.problem.order <= problem.order]
+        observers = [each for each in observers if each.problem.order > problem.order]
+        if problem.order > 2 * problem.n or problem.size > _MOST_ENTRIES:
+            break
+        before = best_price(ladder, found)
+        yield _alone(ladder, static, parts[1], order)
+        yield _drawn(ladder, problem, order, [*found, *(draft for _, draft in later)])
+        if _BETTER * before < best_price(ladder, found) < _GOOD * ladder.enough:
+            return
+    yield observers
+    # It takes long to construct, and is hardly ever a better start than what was found.
+    small = static.n <= (_SMALL if found else MOST_STATES)
+    proposed = ladder.theorem() if small else None
+    if proposed is not None:
+        problem, K = problem_of(*proposed, ladder.weights, ladder.sizes)
+        if problem.size <= _MOST_ENTRIES:
+            yield [Start("from the theorem's controller", problem, balanced(problem, K))]
+
+
+def _states(parts: list[Locality]) -> list[tuple[int, ...]]:
+    return [each.states for each in parts]
+
+
+def _drawn(
+    ladder: Ladder, problem: FeedbackProblem, order: int, known: Sequence[Candidate | Start]
+) -> Iterator[Start]:
+    """Yield drawn starts of one order, with and without the static gains that were found."""
+    static = next((each for each in known if each.step == _STATIC), None)
+    given = None if static is None else (static.problem, static.K)
+    for seed in range(ladder.seeds):
+        K = drawn_dynamics(problem, seed, None if seed % 2 else given)
+        yield Start(f"order {order} per agent, seed {seed}", problem, K)
+
+
+def _alone(
+    ladder: Ladder, static: FeedbackProblem, parts: list[Locality], order: int
+) -> Iterator[Start]:
+    """Yield the controllers that agents find for their own parts, if any of them finds one."""
+    network = static.network
+    orders = (order,) * network.given.m
+    problem = ladder.problem((network, orders))
+    made = found_alone(parts, order, ladder.target, ladder.effort.part(0.05))
+    if any(part is not None for part in made):
+        K, drawn = with_private_parts(problem, made), drawn_dynamics(problem, 0)
+        for agent, part in zip(problem.agents, made, strict=True):
+            K[agent.updates] = drawn[agent.updates]
+            if part is None:
+                K[agent.private_rows] = drawn[agent.private_rows]
+        yield Start(f"order {order} per agent, each for itself", problem, balanced(problem, K))
+
+
+def _best_static(ladder: Ladder, problem: FeedbackProblem, parts: list[list[Locality]]) -> Floats:
+    """The best of the local regulators of several rates, and of no feedback at all."""
+    shifts = [shift_of(ladder.target.region, factor) for factor in _SHIFTS]
+    starts = [local_regulators(problem, each, shift) for each in parts for shift in shifts]
+    model = whole_model(problem, ladder.weights)
+    cut = (cut_gains(problem, model, shift) for shift in shifts)
+    starts += [each for each in cut if each is not None]
+    if sum(problem.network.dimensions) + sum(problem.orders):
+        dynamics = drawn_dynamics(problem, 0)
+        starts = [each + dynamics for each in starts]
+        starts.append(dynamics)
+    else:
+        starts.append(np.zeros(problem.mask.shape))
+
+    return min(starts, key=lambda K: _rank(ladder, problem, K))
+
+
+def _cut(ladder: Ladder, static: FeedbackProblem, parts: Sequence[Locality]) -> list[Start]:
+    """Optimal controllers of all agents together, cut to what each agent knows: the best of some.
+
+    The noisier outputs are taken to be, and the dearer inputs, the shorter is the reach of gains.
+    """
+    held = held_states(parts)
+    problem = ladder.problem(ladder.structure([len(each) for each in held]))
+    if problem.size > _MOST_ENTRIES or problem.order > max(2 * problem.n, 8):
+        return []
+    model, ranked = whole_model(static, ladder.weights), list[tuple[Rank, Floats]]()
+    for noise, price in _REACHES if problem.ties is None else (*_REACHES, *_FURTHER_REACHES):
+        weighed, tried = replace(model, V=noise * model.V, R=price * model.R), len(ranked)
+        for factor in _SHIFTS:
+            K = cut_observers(problem, held, weighed, shift_of(ladder.target.region, factor))
+            if K is not None:
+                ranked.append((_rank(ladder, problem, K), K))
+        ranked[tried:] = sorted(ranked[tried:], key=_first)[:1]
+    ranked.sort(key=_first)
+    if problem.ties is not None:
+        ranked = sorted((_settled(ladder, problem, K) for _, K in ranked[:_SETTLED]), key=_first)
+    if not ranked:
+        return []
+    K = ranked[0][1]
+    return [Start("cut from the controller for all agents", problem, balanced(problem, K))]
+
+
+def _first(ranked: tuple[Rank, Floats]) -> Rank:
+    return ranked[0]
+
+
+def _settled(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> tuple[Rank, Floats]:
+    """Follow a start for a short while: the cheapest one need not become the cheapest."""
+    x = settled(problem, problem.entries(K), ladder.target, ladder.effort.part(0.1), rounds=1)
+    K = problem.gain(x)
+    return _rank(ladder, problem, K), K
+
+
+def _local_observers(
+    ladder: Ladder, static: FeedbackProblem, parts: list[list[Locality]]
+) -> list[Start]:
+    """The optimal controllers of the agents' own parts, where they are not too large."""
+    found = []
+    for each in parts:
+        made = local_observers(each, shift_of(ladder.target.region))
+        orders = [0 if part is None else len(part[0]) for part in made]
+        problem = ladder.problem((static.network, tuple(orders)))
+        if not 0 < sum(orders) <= max(2 * problem.n, 8) or problem.size > _MOST_ENTRIES:
+            continue
+        K = with_private_parts(problem, made)
+        updates = np.concatenate([agent.updates for agent in problem.agents])
+        K[updates] = drawn_dynamics(problem, 0)[updates]
+        found.append(Start("local observers", problem, balanced(problem, K)))
+    return found
+
+
+def _rank(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> Rank:
+    """Whether a start is outside the region; its cost, or else its largest real part or modulus.
+
+    If agents are tied it is enough that the loop is stable: of long networks the fast starts are
+    far more costly than the way of others into the region.
+    """
+    ladder.effort.take(len(problem.A), 2.0)
+    x, edge = problem.entries(K), 1.0 if problem.discrete else 0.0
+    bound = bound_of(problem, x)
+    usable = ladder.target.reached(bound, SLACK) if problem.ties is None else bound < edge
+    if not usable:
+        return True, bound
+    [(cost, _)] = quadratic_costs(problem, problem.gain(x), (edge,))
+    return False, cost
+
+
+# All steps of the ladder in their order: every start is followed, and the best to the end.
+
+_KEPT, _MOST_FREED = 2, 3000
+_GOOD_ENOUGH, _DEAR, _HOPELESS = 2.0, 0.05, 1000.0
+
+
+def climbed(ladder: Ladder) -> list[Candidate]:
+    """Return the candidates of the ladder, up to the first that is good enough.
+
+    Notes
+    -----
+    In floating point; nothing is proved.  All starts of a step are followed for a while, and the
+    best two of them to the end; a start that lies inside the region counts as it is, too.  For a
+    large plant 1.5 times the price that is enough ends the search after a step.  Where drafts are
+    dear there is only one, and if its cost is far too high it waits until all steps were tried,
+    unless its agents are tied; a hopeless one waits in any case.
+    """
+    found: list[Candidate] = []
+    later: list[tuple[float, Start]] = []
+    for step in steps_of(ladder, found, later):
+        drafts, dear = list[tuple[float, Start]](), False
+        for start in filter(lambda each: ladder.allows(each.problem), step):
+            if ladder.effort.over:
+                break
+            ladder.tell(start.step)
+            found += _as_it_is(ladder, start)
+            before = ladder.effort.left
+            value, draft = _draft(ladder, start)
+            if value <= ladder.enough and _finish(ladder, draft, found):
+                return found
+            if np.isfinite(value) and value > ladder.enough:
+                drafts.append((value, draft))
+                dear = ladder.effort.left < (1 - _DEAR) * before
+                if dear:
+                    break
+        drafts.sort(key=lambda each: each[0])
+        for value, draft in drafts[:_KEPT]:
+            waits = dear and draft.problem.ties is None
+            if value > (_GOOD_ENOUGH if waits else _HOPELESS) * ladder.enough:
+                later.append((value, draft))
+            elif _finish(ladder, draft, found):
+                return found
+        if contents(ladder, found):
+            return found
+    for _, draft in sorted(later, key=lambda each: each[0])[: 2 * _KEPT]:
+        if _finish(ladder, draft, found):
+            break
+    return found
+
+
+def _as_it_is(ladder: Ladder, start: Start) -> list[Candidate]:
+    """A start inside the region, which is a candidate: descent may end with a higher price."""
+    if not ladder.target.reached(bound_of(start.problem, start.problem.entries(start.K))):
+        return []
+    made = _candidate(ladder, start.step, start.problem.untied, start.K)
+    return [] if made is None else [made]
+
+
+def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:
+    """Follow a start into the region and for a few steps; return its cost, too.
+
+    It is infinite where the region is not reached.  The barrier does not count: at the border of
+    the region it is high, and polishing leaves it.
+    """
+    problem, x = start.problem, start.problem.entries(start.K)
+    if problem.ties is not None:
+        x = settled(problem, x, ladder.target, ladder.effort.part(0.4))
+    part = ladder.effort.part(0.3 if problem.ties is None else 0.5)
+    entered = inside(problem, x, ladder.target, part)
+    if entered is None:
+        return np.inf, start
+    x, value = drafted(problem, entered, ladder.target, part)
+    K = problem.gain(x)
+    [(cost, _)] = quadratic_costs(problem, K, (1.0 if problem.discrete else 0.0,))
+    return min(cost, value), replace(start, K=K)
+
+
+def _finish(ladder: Ladder, draft: Start, found: list[Candidate]) -> bool:
+    """Follow a draft to the end and append what it leads to; whether that is good enough.
+
+    Where agents that look alike are tied and this does not content, a search without ties goes on.
+    """
+    before = len(found)
+    if _followed(ladder, draft, found):
+        return True
+    problem = draft.problem.untied
+    made = ranked(ladder, found[before:])
+    if not made or problem.ties is draft.problem.ties or problem.size > _MOST_FREED:
+        return False
+    if contents(ladder, made):
+        return False
+    return _followed(ladder, Start(draft.step, problem, made[0].K), found)
+
+
+def _followed(ladder: Ladder, draft: Start, found: list[Candidate]) -> bool:
+    """Follow a draft in its problem, as `_finish` does."""
+    problem = draft.problem
+    if ladder.effort.over and found:
+        return False
+    part = ladder.effort.part(0.4 if problem.ties is None else 0.8)
+    for x in polished(problem, problem.entries(draft.K), ladder.target, part):
+        made = _candidate(ladder, draft.step, problem.untied, problem.gain(x))
+        if made is not None:
+            found.append(made)
+            if ladder.fine(made.figures) and ladder.keeps(made.problem, made.K):
+                return True
+    return False
+
+
+def _candidate(ladder: Ladder, step: str, problem: FeedbackProblem, K: Floats) -> Candidate | None:
+    """Compute the figures of a gain matrix; None if its loop lies outside the region."""
+    K = balanced(problem, K)
+    figures = figures_of(problem, K, peak=False)
+    if not ladder.target.reached(figures.bound) or not np.isfinite(figures.cost):
+        return None
+    return Candidate(step, problem, K, figures)
+
+
+# The structures of decentralized and of extended control, by the order of the agents' states.
+
+
+@dataclass(frozen=True)
+class Family:
+    """The structures that a search tries, by the order of the agents' states.
+
+    Attributes
+    ----------
+    network : DerivedNetwork
+        That of least dimensions.
+    share : {"outputs+states", "states"} or None
+        What agents send, if they have a sub-state to share; else their states are private.
+    """
+
+    network: DerivedNetwork
+    share: Share | None = None
+
+    def of_order(self, order: int | Sequence[int]) -> Structure:
+        """Return the structure in which every agent has a state of at least some order."""
+        network, none = self.network, (0,) * self.network.given.m
+        orders = (order,) * network.given.m if isinstance(order, int) else tuple(order)
+        if network.graph is None or self.share is None:
+            return network, orders
+        if not any(orders):
+            return network, none
+        sizes = [max(pair) for pair in zip(orders, network.dimensions, strict=True)]
+        wider = shared_network(network.given, network.graph, sizes, self.share, network.kind)
+        return wider, none
+
+    def theorem(self, request: Request) -> NetworkController | None:
+        """Return the controller of the theorem, in floating point; None if there is none."""
+        try:
+            inexact = replace(request, arithmetic="float")
+            proposal = next(network_proposals(self.network, inexact), None)
+        except (Impossible, LimitReached):
+            return None
+        return None if proposal is None else (self.network, proposal.controller)
+
+
+# Proposals of the ladder to the gate, with as few digits as it certifies.
+
+_MOST_TRIED = 12
+_LEAST_STORED, _MORE, _CERTIFIED = 3, 3, 20
+_ENOUGH = 1.5
+_GAINS = 10.0
+_LEAST_GAIN = 1.0
+_LARGEST_UNKNOWN = 1e3
+_EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE_SHARE = 60_000.0, 40, 5.0, 130, 0.25
+
+
+@dataclass(frozen=True, eq=False)
+class Optimum:
+    """The controller that a search found, with what is known of it and of the central one.
+
+    Attributes
+    ----------
+    step : str
+        The step of the ladder that found it.
+    problem : FeedbackProblem
+    K : ndarray
+        Its rounded gain matrix.
+    digits : int or None
+        The least number of significant decimal digits with which the gate certified it; None if it
+        was none of those tried.
+    figures : Figures
+        Of the rounded controller.
+    central : Figures or None
+        Of the optimal controller of all agents together, for the same region.
+    """
+
+    step: str
+    problem: FeedbackProblem
+    K: Floats
+    digits: int | None
+    figures: Figures
+    central: Figures | None
+
+    @property
+    def relative_cost(self) -> float:
+        """The cost divided by that of the central optimum; NaN if this is not known."""
+        return np.nan if self.central is None else self.figures.cost / self.central.cost
+
+    @property
+    def controller(self) -> Controller:
+        """The agents' programs."""
+        return controller_of(self.problem, self.K)
+
+
+def target_of(request: Request, central: Figures | None, aims: Aims) -> Target:
+    """Return the target of a request: gains up to ten times those of the central optimum."""
+    largest = _LARGEST_UNKNOWN
+    if aims.largest_gain is not None:
+        largest = aims.largest_gain
+    elif central is not None and np.isfinite(central.cost):
+        largest = _GAINS * max(central.largest_gain, _LEAST_GAIN)
+    return Target(request.region, largest, aims.margin, aims.shape)
+
+
+def _effort(given: float | None, states: int, central: Figures | None, target: Target) -> Effort:
+    """The effort that is given in seconds; by default it grows with the states."""
+    if given is not None:
+        return Effort(given * PER_SECOND)
+    grown = max(min((states / _GROWS) ** 2, _MOST_TIMES), (states / _GROWS_WITH_CUBE) ** 3)
+    units = _EFFORT * (1 + grown)
+    # What is fragile even in one hand does not become robust by a longer search.
+    fragile = central is None or central.margin < target.margin
+    return Effort(units * (_FRAGILE_SHARE if fragile else 1.0))
+
+
+def optimum(
+    family: Family,
+    request: Request,
+    aims: Aims | None = None,
+    *,
+    weights: Weights | None = None,
+    diagnosis: Diagnosis | None = None,
+) -> Optimum:
+    """Search the ladder for a controller, and round it to few digits.
+
+    Parameters
+    ----------
+    family : Family
+    request : Request
+        With a bound.
+    aims : Aims, optional
+    weights : Weights, optional
+        Those of the aims, which are read if this is left out.
+    diagnosis : Diagnosis, optional
+        Of the plant, for the region and the weights.
+
+    Raises
+    ------
+    LimitReached
+        If no controller was found; it names the mode that is nearest to being fixed, and the
+        sensible rate.
+
+    Notes
+    -----
+    In floating point, and deterministic.  Only `Optimum.digits` is proved, by the gate.
+
+    Examples
+    --------
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> from mcexact.synthesis.networks import decentralized_network
+    >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 0], [0, 1]]])
+    >>> request = Request.of(plant, rate=1, arithmetic="float")
+    >>> found = optimum(Family(decentralized_network(plant)), request)
+    >>> found.step, found.figures.order, found.figures.bound < -1
+    ('static gains', 0, True)
+    """
+    given, aims = family.network.given, aims or Aims()
+    weights = weights or Weights.of(given, aims.weights)
+    known = diagnosis or diagnosed(given, request.region, weights, family.network.system)
+    central = known.central
+    figures = None if central is None else central.figures
+    target = target_of(request, figures, aims)
+    ladder = Ladder(
+        family.of_order,
+        lambda: family.theorem(request),
+        weights,
+        target,
+        np.inf if figures is None else _ENOUGH * figures.cost,
+        _effort(aims.effort, given.n, figures, target),
+        None if central is None else central.sizes,
+        seeds=aims.seeds,
+        most_digits=aims.digits,
+        most_order=aims.largest_order,
+        tell=request.tell,
+    )
+    with quiet_floats():
+        found = climbed(ladder)
+    if not found:
+        raise LimitReached(f"no controller was found for {request.region}: {known}")
+    limit = LimitReached("")
+    for each in ranked(ladder, found)[:_CERTIFIED]:
+        try:
+            return with_few_digits(each, target, figures, aims.digits)
+        except LimitReached as reached:
+            limit = reached
+    raise LimitReached(f"{limit}: {known}")
+
+
+def with_few_digits(
+    found: Candidate, target: Target, central: Figures | None, most: int | None = None
+) -> Optimum:
+    """Round a controller to the least number of digits that the gate certifies, and one more.
+
+    Parameters
+    ----------
+    found : Candidate
+    target : Target
+    central : Figures or None
+        Of the central optimum.
+    most : int, optional
+        The largest number of digits.
+
+    Raises
+    ------
+    LimitReached
+        If the gate does not certify the controller, however many digits it keeps.
+
+    Notes
+    -----
+    At least three digits are kept, unless these are too many or are not certified and fewer are,
+    and up to two more where the margin needs them.
+    """
+    problem, K, least = found.problem, found.K, None
+    for digits in range(1, min(_MOST_TRIED, most or _MOST_TRIED) + 1):
+        if _certified(problem, rounded(K, digits), target):
+            least = digits
+            break
+    if least is None and (most is not None or not _certified(problem, K, target)):
+        digits_told = "" if most is None else f" with {most} digits"
+        raise LimitReached(
+            f"no controller that was found could be certified{digits_told} for {target.region}"
+        )
+    if least is not None:
+        kept = max(least + 1, _LEAST_STORED)
+        tried = [min(kept + k, most or _MOST_TRIED) for k in range(_MORE)]
+        K = _stored(found, target, least, tried)
+    return Optimum(found.step, problem, K, least, figures_of(problem, K), central)
+
+
+def _stored(found: Candidate, target: Target, least: int, tried: Iterable[int]) -> Floats:
+    """Round to the first number of digits with which the margin is as aimed at, if it was before.
+
+    Otherwise it is the first of them with which the region is kept, or the least of all.
+    """
+    problem, first = found.problem, None
+    robust = found.figures.margin >= target.margin
+    for digits in tried:
+        stored = rounded(found.K, digits)
+        if not target.keeps(problem, problem.entries(stored)):
+            continue
+        if not robust or figures_of(problem, stored, peak=False).margin >= target.margin:
+            return stored
+        first = stored if first is None else first
+    return rounded(found.K, least) if first is None else first
+
+
+def _certified(problem: FeedbackProblem, K: Floats, target: Target) -> bool:
+    """Whether the gate certifies a controller; it is asked only where floating point sees it."""
+    if not target.keeps(problem, problem.entries(K)):
+        return False
+    network = problem.network
+    proposal = Proposal(controller_of(problem, K))
+    try:
+        certify(network.given, proposal, target.region, network.graph)
+    except (Impossible, UsageError):
+        return False
+    return True
+
+
+def proposal_of(found: Optimum) -> Proposal:
+    """Return the proposal of a search, with its parts."""
+    network = found.problem.network
+    given = network.given
+    parts = {
+        "network": network.kind,
+        "dimensions": dict(zip(given.names, network.dimensions, strict=True)),
+        "observer_order": given.n * given.m + given.m - 1,
+        "optimum": found,
+    }
+    return Proposal(found.controller, parts=parts)
+
+
+def searched_proposals(
+    family: Family, request: Request, aims: Aims | None = None, weights: Weights | None = None
+) -> Iterator[Proposal]:
+    """Propose the controller of a search, or that of the theorem where the search finds none.
+
+    Parameters
+    ----------
+    family : Family
+    request : Request
+        With a prescribed spectrum, or an agent for the channel controller, there is no search.
+    aims : Aims, optional
+        Without effort there is no search.
+    weights : Weights, optional
+        Those of the aims, which are read if this is left out.
+
+    Yields
+    ------
+    Proposal
+        One.  After a search its parts include the `Optimum` as ``optimum`` and the `Diagnosis` as
+        ``diagnosis``; else they are those of `network_proposals`.
+
+    Raises
+    ------
+    Impossible
+        If a fixed mode is not fast enough, which is decided before any search.
+    OutOfReach
+        If even the optimal controller of all agents together is one that nobody would install, and
+        the aims name no effort.
+    LimitReached
+        If no controller was found, by a search or without one.  Both tell the diagnosis.
+
+    Notes
+    -----
+    What is hard for all agents together is told as soon as it is known, by a step `Warned`.
+    """
+    network, aims = family.network, aims or Aims()
+    weights = weights or Weights.of(network.given, aims.weights)
+    about = network.given, request.region, weights, network.system
+    if not aims.searched_for(request):
+        try:
+            yield from network_proposals(network, request)
+        except LimitReached as limit:
+            raise with_diagnosis(limit, *about) from None
+        return
+    request.tell("fixed modes")
+    fixed = fixed_spectrum(network.system)
+    require_fast(network, fixed, request.region)
+    request.tell("diagnosis")
+    known = diagnosed(*about)
+    if known.is_out_of_reach and aims.effort is None:
+        raise OutOfReach(
+            f"{request.region} is out of reach, even for all agents together: {known}; ask for "
+            "less, or give an effort for which to search all the same"
+        )
+    if not known.is_sensible:
+        request.tell(Warned(f"{request.region} is hard for all agents together: {known}"))
+    more: dict[str, Any] = {"fixed_spectrum": fixed, "diagnosis": known}
+    try:
+        found = optimum(family, request, aims, weights=weights, diagnosis=known)
+    except LimitReached as limit:
+        if aims.largest_order is not None or aims.digits is not None or request.region.limits:
+            raise
+        yield _of_the_theorem(family, request, limit, known)
+        return
+    made = proposal_of(found)
+    yield Proposal(made.controller, parts={**made.parts, "kept": fixed.polynomial, **more})
+
+
+def _of_the_theorem(
+    family: Family, request: Request, limit: LimitReached, known: Diagnosis
+) -> Proposal:
+    """Return the controller of the theorem; the limit of the search if there is none either."""
+    if family.network.given.n > MOST_STATES:
+        raise limit
+    request.tell("the controller of the theorem")
+    try:
+        made = next(network_proposals(family.network, request))
+    except LimitReached:
+        raise limit from None
+    return Proposal(made.controller, made.polynomials, parts={**made.parts, "diagnosis": known})

@@ -1,0 +1,256 @@
+"""How far a plant may be from its values before a controller fails, with a small effort."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any, Literal
+
+from mcexact.analysis.boxes.box_stable import StabilitySearch
+from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
+from mcexact.analysis.boxes.gain_radii import gain_radii
+from mcexact.analysis.boxes.largest_loop_box import failing_loop, refuted_loop
+from mcexact.analysis.boxes.one_thread import one_thread
+from mcexact.analysis.boxes.two_sided import short
+from mcexact.answer.box_stable import BoxStability
+from mcexact.arguments import require_seconds
+from mcexact.errors import LimitReached
+from mcexact.exact.rational import percent, written
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.box import Box
+from mcexact.model.loop import ClosedLoop
+from mcexact.shown import Shown
+
+WithinRadii = Literal["proved", "open", "refuted"]
+"""What is known of all loops within the radii."""
+SIX_DIGITS = Fraction(1, 100_000)
+"""By so large a part rounding to six significant digits, up or down, changes a number at most."""
+_PARTS, _SURE = (0.9, 0.6, 0.3, 0.1), (0.3, 0.1)
+"""Parts of what seems to be the largest box that are tried, and those that are with little work."""
+_POINTS = 2
+_MOST_SIGNALS, _MOST_SEGMENTS, _USUAL = 160, 600, 30
+"""Loops with more states, outputs and inputs are left out; for each box at most so many parts of
+the border are tried."""
+_PER_SECOND = 170
+"""How many parts of the border of a loop with the usual number of signals are tried in a second."""
+_LITTLE = 300
+"""With fewer parts of the border than these, only the boxes that likely have a proof are tried."""
+_ASK = "; `mcexact certify --uncertainty 0.1%` asks about one box with more work"
+_ASK_OWN = "; `mcexact certify` asks about them with more work"
+
+
+@dataclass(frozen=True, repr=False)
+class EveryLoop(Shown):
+    """What is proved for all loops in a box around one loop, and a plant nearby whose loop fails.
+
+    Attributes
+    ----------
+    region : StabilityRegion
+        Where the eigenvalues of all loops are to be.
+    proof : BoxStability or None
+    gains : Fraction or None
+        The part of their moduli by which gains may differ in the proof; None if they are certain.
+    failing : FailingPlant or None
+        A plant whose loop is not stable, with its distance in the radii of the plant, or else as a
+        part of its entries.
+    reason : str
+        Why there is no proof.
+    """
+
+    region: StabilityRegion
+    proof: BoxStability | None
+    gains: Fraction | None
+    failing: FailingPlant | None
+    reason: str = ""
+
+    @property
+    def part(self) -> Fraction | None:
+        """The part of the modulus of each entry of the plant that its radius is in the proof."""
+        return None if self.proof is None else Box(self.proof.about.plant).part
+
+    @property
+    def within_radii(self) -> WithinRadii:
+        """Whether every loop within the radii of the plant is stable, where it has some."""
+        return known_within(self.proof, self.failing)
+
+    def rows(self) -> Iterator[tuple[str, str]]:
+        """Yield a label and a text: why there is no proof."""
+        if self.proof is None:
+            yield "eigenvalues of every loop", self.reason
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the proof, and the plant that fails."""
+        yield "every loop", self.reason if self.proof is None else self.proof
+        if self.failing is not None:
+            yield "plant whose loop fails", self.failing.plant
+
+    def explain(self) -> str:
+        """Say in plain words what is proved."""
+        return f"every loop: {self.reason}" if self.proof is None else self.proof.explain()
+
+    def __repr__(self) -> str:
+        known = "not proved" if self.proof is None else "proved"
+        box = "" if self.part is None else f" within {percent(self.part)} of each entry"
+        return f"EveryLoop({known}: {self.region}{box})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data."""
+        known, failing = self.part, self.failing
+        return {
+            "certified": self.proof is not None,
+            "region": str(self.region),
+            "part": None if known is None else written(known),
+            "gains": None if self.gains is None else written(self.gains),
+            "fails_within": None if failing is None else written(failing.distance),
+            "failing": None if failing is None else failing.plant.to_dict(),
+            "reason": self.reason or None,
+        }
+
+
+@dataclass
+class _Work:
+    """How many parts of the border may still be tried, of each box and of all.
+
+    Attributes
+    ----------
+    each, left : int
+    parts : tuple of float
+        The parts of what seems to be the largest box that are tried.
+    """
+
+    each: int
+    left: int
+    parts: tuple[float, ...]
+
+    @classmethod
+    def of(cls, effort: float, size: int) -> _Work:
+        """So many seconds of work about a loop with so many signals."""
+        total = int(min(effort * _PER_SECOND * (_USUAL / max(size, 1)) ** 2, 1e6))
+        if total < _LITTLE:
+            return cls(2 * total // 3, total, _SURE)
+        return cls(min(total // 3, _MOST_SEGMENTS), total, _PARTS)
+
+    def proof(
+        self, loop: ClosedLoop, region: StabilityRegion, gains: Fraction | None
+    ) -> BoxStability | None:
+        """A proof for the box of the plant, if it is found soon."""
+        if self.left < self.each or not self.each:
+            return None
+        radii = None if gains is None else gain_radii(loop.controller, gains)
+        search = StabilitySearch(loop, region, radii, self.each)
+        found = search.border(Fraction(1))
+        self.left -= search.tested
+        return found
+
+
+def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -> EveryLoop:
+    """Search a proof for all loops in a box around one loop, and a plant whose loop fails.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        Of a plant.  Where it has radii, these are the box, and the region is tried before mere
+        stability; otherwise a large part of all entries is searched within which every loop is
+        stable.
+    region : StabilityRegion
+        Where the eigenvalues of the loop are.
+    effort : float
+        About the seconds that the search of a proof may take; its work is counted and not timed.
+
+    Notes
+    -----
+    Little work is done: `largest_loop_uncertainty` finds larger boxes and nearer plants.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> from mcexact.model.loop import closed_loop
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> loop = closed_loop(plant, local_controllers(plant, [[[-3]]]))
+    >>> found = every_loop(loop, StabilityRegion("continuous"))
+    >>> 0.2 < found.part < found.failing.distance < 0.4, found.gains == SIX_DIGITS
+    (True, True)
+    """
+    whole = StabilityRegion(loop.given.time)
+    if loop.given.subject:
+        return EveryLoop(whole, None, None, None, "not tried, as the system is a derived one")
+    require_seconds(effort, "effort")
+    ports = sum(loop.given.p(i) + loop.given.q(i) for i in range(loop.given.m))
+    size = loop.matrix.nrows + ports
+    if size > _MOST_SIGNALS:
+        return EveryLoop(
+            whole, None, None, None, f"not tried, as the loop has {size} signals{_ASK}"
+        )
+    try:
+        return _searched(loop, region, _Work.of(effort, size))
+    except LimitReached as reached:
+        return EveryLoop(whole, None, None, None, f"not tried: {reached.message}")
+
+
+def known_within(proof: BoxStability | None, failing: FailingPlant | None) -> WithinRadii:
+    """Whether all loops within radii are stable, by a proof or a plant whose loop fails."""
+    if proof is not None:
+        return "proved"
+    return "open" if failing is None or failing.distance > 1 else "refuted"
+
+
+def failing_plant(loop: ClosedLoop) -> FailingPlant | None:
+    """Search a plant whose loop is not stable, near in the radii of the plant of a loop.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        Of a plant with radii.
+
+    Returns
+    -------
+    FailingPlant or None
+        None if none was found, which proves nothing.
+    """
+    with one_thread():
+        return _failing(StabilitySearch(loop, StabilityRegion(loop.given.time)))
+
+
+def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLoop:
+    """The same for a loop of a plant that is not too large."""
+    whole, own = StabilityRegion(loop.given.time), loop.given.uncertainty is not None
+    unit = loop.given if own else Box.relative(loop.given, 1).system
+    with one_thread():
+        search = StabilitySearch(replace(loop, given=unit), whole)
+        failing = _failing(search)
+        if own:
+            boxes = [(loop, each) for each in (StabilityRegion(whole.time, region.bound), whole)]
+            tried = [(*each, gains) for each in boxes for gains in (SIX_DIGITS, None)]
+        else:
+            # A smaller box in which gains may be rounded is worth more than a larger one.
+            smaller = [*_smaller(search, work.parts)]
+            tried = [(each, whole, gains) for gains in (SIX_DIGITS, None) for each in smaller]
+        for about, wanted, gains in dict.fromkeys(tried):
+            proof = work.proof(about, wanted, gains)
+            if proof is not None:
+                return EveryLoop(wanted, proof, gains, failing)
+    box = f"every plant within the radii{_ASK_OWN}" if own else f"any box{_ASK}"
+    return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
+
+
+def _smaller(search: StabilitySearch, parts: tuple[float, ...]) -> Iterator[ClosedLoop]:
+    """The loop with radii that are smaller and smaller parts of the entries."""
+    largest = min((each for each, _ in search.margins()), default=0.0)
+    for times in parts:
+        part = short(times * min(largest, 1e6))
+        if part:
+            yield replace(search.loop, given=Box(search.loop.given).scaled(part).system)
+
+
+def _failing(search: StabilitySearch) -> FailingPlant | None:
+    """A plant nearby whose loop is not stable, which is decided exactly."""
+    found = failing_loop(search, _POINTS)
+    given = search.loop.given
+    known = [*([] if found is None else [found]), *severed_plants(given, Box(given).radii)]
+    for near in sorted(known, key=lambda each: each.distance):
+        refutation = refuted_loop(search, near.plant)
+        if refutation is not None:
+            return replace(near, refutation=refutation)
+    return None
