@@ -30,7 +30,7 @@ from benchmarks import (
 )
 from benchmarks.fixed_spectrum import Row
 from benchmarks.kept_rows import ROWS, chosen, kept, measured
-from mcexact.crosschecks.records import libraries_here
+from mcexact.crosschecks.table import libraries_here
 
 _TABLE = Path(__file__).with_name("SPEED.md")
 _HEAD = """\

@@ -154,13 +154,13 @@ from .model.statespace import loop_from_statespace as loop_from_statespace
 from .model.statespace import to_statespace as to_statespace
 from .model.system import MultiChannelSystem as MultiChannelSystem
 from .model.system import from_stacked as from_stacked
-from .report.frame import to_pandas as to_pandas
+from .report.text import to_pandas as to_pandas
 from .simulation.envelope import Envelope as Envelope
 from .simulation.envelope import proved_envelope as proved_envelope
 from .simulation.network import SignalNotReceived as SignalNotReceived
 from .simulation.trajectory import Trajectory as Trajectory
 from .simulation.trajectory import simulate as simulate
-from .sweeps.records import Record as Record
+from .sweeps.run import Record as Record
 from .sweeps.run import sweep as sweep
 from .synthesis.assessment import Assessment as Assessment
 from .synthesis.assessment import assess as assess

@@ -15,8 +15,7 @@ from mcexact.answer.account import Account
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import ANALYSIS, with_own
 from mcexact.answer.sentence import Given
-from mcexact.arguments import one_of, several
-from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError, one_of, several
 from mcexact.exact.rational import written
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.properties import PROPERTIES

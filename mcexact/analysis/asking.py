@@ -15,8 +15,16 @@ from typing import Any, NoReturn
 from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.account import ShownByAccount
 from mcexact.answer.sentence import Sentences
-from mcexact.arguments import require_seconds, several, telling, told
-from mcexact.errors import InternalError, LimitReached, McexactError, UsageError
+from mcexact.errors import (
+    InternalError,
+    LimitReached,
+    McexactError,
+    UsageError,
+    require_seconds,
+    several,
+    telling,
+    told,
+)
 from mcexact.processes import Child
 
 

@@ -16,8 +16,7 @@ from mcexact.analysis.engine import (
 )
 from mcexact.analysis.structure.parametric_ranks import indices_for_all_values, setpoint_rank
 from mcexact.answer.exceptional_hypersurfaces import ExceptionalHypersurfaces, RankHypersurfaces
-from mcexact.arguments import one_of
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError, UsageError, one_of
 from mcexact.model.parametric import ParametricSystem
 
 Modes = Literal[

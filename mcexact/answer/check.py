@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.protocol import Answer
 from mcexact.answer.verdict import Verdict
-from mcexact.arguments import require_seconds, telling
 from mcexact.checker import Expectation, Limits, check_document
 from mcexact.checker import Verdict as Found
 from mcexact.checker.manifest import NAME, verdicts_of
 from mcexact.checker.reading import Refused
-from mcexact.errors import InputError, InternalError, place_of
+from mcexact.errors import InputError, InternalError, place_of, require_seconds, telling
 from mcexact.processes import Child
 
 if TYPE_CHECKING:

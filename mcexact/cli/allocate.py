@@ -123,7 +123,7 @@ def _answer(
     from mcexact.analysis.accounts import account_of_dimensions, account_of_links
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
-    from mcexact.report.account import tables
+    from mcexact.report.text import tables
 
     system = system_in(*plant, limits)
     region = _region(system.time, question.pop("rate"), question.pop("radius"))
@@ -135,7 +135,7 @@ def _answer(
         least = account.answers["minimal_shared_dimensions"]
     page = None
     if with_page:
-        from mcexact.report.account_page import allocation_page
+        from mcexact.report.pages import allocation_page
 
         page = allocation_page(account)
     return told(account, system_by_digest) | {

@@ -216,7 +216,7 @@ def _answer(
     from mcexact.cli.parameters import for_all_values
     from mcexact.cli.running import told
     from mcexact.model.parametric import ParametricSystem
-    from mcexact.report.account import in_lines, latex, tables
+    from mcexact.report.text import in_lines, latex, tables
 
     given = plant_in(*plant, limits, at)
     if isinstance(given, ParametricSystem):
@@ -236,7 +236,7 @@ def _answer(
     lines = _WITH_LINKS if "linked_fixed_spectrum" in account.answers else _LINES_OF_WORDS
     page = None
     if with_page:
-        from mcexact.report.account_page import account_page
+        from mcexact.report.pages import account_page
 
         page = account_page(account)
         more = (*uncertainty.tables(largest), *effort_tables(found.effort()))

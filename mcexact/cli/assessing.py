@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from mcexact.answer.account import Account
     from mcexact.model.loop import ClosedLoop
-    from mcexact.report.picture import EmbeddedPicture
+    from mcexact.report.html import EmbeddedPicture
     from mcexact.report.text import Table
     from mcexact.synthesis.assessment import Assessment
 
@@ -35,7 +35,7 @@ def assessed(
     said += [f"note: {each}" for each in found.notes]
     page = None
     if with_page:
-        from mcexact.report.loop_page import loop_page
+        from mcexact.report.pages import loop_page
         from mcexact.synthesis.optimum.diagnosis import curves_of
 
         curves = curves_of(loop, found.region)

@@ -159,8 +159,7 @@ def _certified(
     from mcexact.model.controller import controller_text, read_controller
     from mcexact.model.loop import closed_loop
     from mcexact.model.parametric import ParametricSystem
-    from mcexact.report.account import tables
-    from mcexact.report.text import Table
+    from mcexact.report.text import Table, tables
     from mcexact.synthesis.assessment import BASIS, assessed_loop
     from mcexact.synthesis.certify import account_of_verdict, certify_controller, enclosed_outside
     from mcexact.synthesis.optimum.diagnosis import rounded_controller

@@ -64,8 +64,8 @@ def command(file: str | None, exhibits: bool, html: Path | None, **given: Any) -
 def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, Any]:
     """Answer and format the answers, in the child process."""
     from mcexact.cli.files import system_in
+    from mcexact.crosschecks.gallery import crosscheck_tables, crosscheck_view
     from mcexact.crosschecks.table import crosscheck
-    from mcexact.crosschecks.view import crosscheck_tables, crosscheck_view
 
     system = system_in(place, data, limits)
     found = crosscheck(system)
@@ -75,8 +75,13 @@ def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, 
 
 def _exhibited() -> dict[str, Any]:
     """Answer every exhibit's question on this machine, in the child process."""
-    from mcexact.crosschecks.gallery import exhibits, shown
-    from mcexact.crosschecks.view import exhibit_tables, exhibits_page, exhibits_view
+    from mcexact.crosschecks.gallery import (
+        exhibit_tables,
+        exhibits,
+        exhibits_page,
+        exhibits_view,
+        shown,
+    )
 
     found = [shown(each) for each in exhibits()]
     return {

@@ -14,8 +14,11 @@ from mcexact.cli.options import as_json
 def command(as_json: bool) -> None:
     """Show two wrong answers of floating point, recorded and recomputed, with the exact ones."""
     from mcexact.cli.output import emit, emit_json
-    from mcexact.crosschecks.demonstration import demonstration
-    from mcexact.crosschecks.demonstration_view import demonstration_text, demonstration_view
+    from mcexact.crosschecks.demonstration import (
+        demonstration,
+        demonstration_text,
+        demonstration_view,
+    )
 
     shown = demonstration()
     if as_json:

@@ -184,7 +184,7 @@ def _designed(
     from mcexact.exact.roots import StabilityRegion
     from mcexact.model.controller import controller_text
     from mcexact.model.text import parse
-    from mcexact.report.account import measured, tables
+    from mcexact.report.text import measured, tables
     from mcexact.synthesis.assessment import assess
     from mcexact.synthesis.gate import Warned
     from mcexact.synthesis.optimum.figures import Aims

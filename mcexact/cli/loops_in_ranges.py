@@ -121,8 +121,7 @@ def _tables(account: Account, found: LargestRanges, proved: bool) -> tuple[Any, 
 
 def _page(account: Account, said: str, found: LargestRanges, proved: bool) -> Any:
     """The page of the answer."""
-    from mcexact.report.answer_page import AnswerPage
-    from mcexact.report.plant import shown_plant
+    from mcexact.report.html import AnswerPage, shown_plant
 
     system = account.given.system
     return AnswerPage(

@@ -79,7 +79,7 @@ def for_all_values(
     from mcexact.analysis.parametric_analysis import ParametricAnalysis
     from mcexact.cli.effort import effort_tables
     from mcexact.errors import UsageError
-    from mcexact.report.parameters import parameter_latex, parameter_page, parameter_tables
+    from mcexact.report.pages import parameter_latex, parameter_page, parameter_tables
     from mcexact.report.text import WIDTH, wrapped
 
     if refused or not ParametricAnalysis.questions.keys() >= {*also}:

@@ -164,7 +164,7 @@ def _simulated(
     from mcexact.exact.rational import Limits
     from mcexact.model.controller import read_controller
     from mcexact.report.simulation import SimulationReport
-    from mcexact.simulation.run import simulated_loop
+    from mcexact.simulation.envelope import simulated_loop
     from mcexact.synthesis.certify import account_of_verdict
 
     system = system_in(*plant, limits)

@@ -20,7 +20,7 @@ from mcexact.sweeps.questions import KNOWN
 if TYPE_CHECKING:
     from mcexact.exact.rational import Limits
     from mcexact.sweeps.jobs import Job, Source
-    from mcexact.sweeps.records import Record
+    from mcexact.sweeps.run import Record
 
 # The status of a sweep is the first of these with which some system ended.
 _PRECEDENCE = (70, 3, 2, 4, 0)
@@ -112,9 +112,14 @@ def command(
     from mcexact.derived.drawn.systems import Draw
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.report.sweep_view import skipped_table, sweep_page, sweep_tables, sweep_view
+    from mcexact.report.sweep import (
+        skipped_table,
+        sweep_page,
+        sweep_tables,
+        sweep_view,
+        tolerance_tables,
+    )
     from mcexact.report.text import WIDE
-    from mcexact.report.tolerances import tolerance_tables
     from mcexact.sweeps.jobs import decide
     from mcexact.sweeps.run import sweep
 

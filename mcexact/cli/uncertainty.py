@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from mcexact.exact.roots import StabilityRegion
     from mcexact.model.controller import Controller
     from mcexact.model.system import MultiChannelSystem
-    from mcexact.report.picture import EmbeddedPicture
+    from mcexact.report.html import EmbeddedPicture
     from mcexact.report.text import Table
     from mcexact.synthesis.robustness import WithinRadii
 
@@ -102,7 +102,7 @@ def view(found: LargestUncertainty | None) -> dict[str, Any]:
 
 def pictures(found: LargestUncertainty | None) -> tuple[EmbeddedPicture, ...]:
     """The search as a picture for a page."""
-    from mcexact.report.picture import Picture
+    from mcexact.report.html import Picture
 
     if found is None:
         return ()

@@ -12,8 +12,7 @@ from typing import Any
 
 from mcexact.crosschecks.demonstration import floating_answers
 from mcexact.crosschecks.gallery import exhibits
-from mcexact.crosschecks.records import RECORDS, libraries_here
-from mcexact.crosschecks.table import crosscheck
+from mcexact.crosschecks.table import RECORDS, crosscheck, libraries_here
 from mcexact.model.text import write_text
 
 _PLACE = Path(__file__).with_name(RECORDS)

@@ -1,11 +1,19 @@
-"""`crosscheck`, which compares each floating-point verdict on a system with the exact one."""
+"""Floating-point verdicts beside exact ones, and recorded ones.
+
+Recorded floating-point answers, with the libraries and the BLAS kernel that computed them.
+
+A wrong answer often depends on the sign of a rounding error, which differs between processors.  The
+records ship with the package; `recording` writes them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import json
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
+from functools import cache, partial
+from importlib import metadata, resources
 from typing import TYPE_CHECKING, Any
 
 from mcexact.analysis.boxes.failing_plants import FailingPlant
@@ -20,13 +28,12 @@ from mcexact.analysis.structure.controllability_indices import (
 )
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.crosschecks.records import Libraries, libraries_here
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import matrix_to_float
 from mcexact.exact.roots import StabilityRegion
-from mcexact.floating import anderson_clements, controllability, fixed_modes, margins
-from mcexact.floating.transfer_graph import transfer_edges
+from mcexact.floating import margins, verdicts
+from mcexact.floating.verdicts import transfer_edges
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.shown import Shown, grid
 
@@ -35,6 +42,104 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
+
+
+# Recorded floating-point answers, with the libraries and the BLAS kernel that computed them.
+
+RECORDS = "records.json"
+_LIBRARIES = ("numpy", "scipy", "control")
+
+
+@dataclass(frozen=True)
+class Libraries:
+    """The libraries that compute in floating point, and the BLAS kernel that multiplies matrices.
+
+    Attributes
+    ----------
+    versions : tuple of (str, str)
+        Names and versions; the last library contains the kernel.
+    kernel : str or None
+        The kernel that this library chose for the processor; None if it is unknown.
+
+    Examples
+    --------
+    >>> str(Libraries((("numpy", "2.4.6"), ("OpenBLAS", "0.3.31")), "Haswell"))
+    'numpy 2.4.6, OpenBLAS 0.3.31 (kernel Haswell)'
+    """
+
+    versions: tuple[tuple[str, str], ...]
+    kernel: str | None
+
+    def __str__(self) -> str:
+        listed = ", ".join(" ".join(each) for each in self.versions)
+        return f"{listed} (kernel {self.kernel or 'unknown'})"
+
+    def document(self) -> dict[str, Any]:
+        """The libraries as plain data of a JSON document."""
+        return {"versions": dict(self.versions), "kernel": self.kernel}
+
+
+@dataclass(frozen=True)
+class Record:
+    """A floating-point answer and the libraries that computed it.
+
+    Attributes
+    ----------
+    floating : str
+        The answer, worded as in `CrossCheck`.
+    libraries : Libraries
+    """
+
+    floating: str
+    libraries: Libraries
+
+
+def libraries_here() -> Libraries:
+    """Return the libraries of this process.
+
+    Examples
+    --------
+    >>> libraries_here().versions[0][0]
+    'numpy'
+    """
+    import numpy as np
+    from threadpoolctl import threadpool_info
+
+    versions = [(name, version) for name in _LIBRARIES if (version := _version(name))]
+    products = [each for each in threadpool_info() if each["user_api"] == "blas"]
+    # scipy may contain a BLAS library of its own; numpy's computes most of the answers.
+    products.sort(key=lambda each: np.__name__ not in each["filepath"])
+    if not products:
+        return Libraries(tuple(versions), None)
+    name = products[0]["internal_api"].replace("openblas", "OpenBLAS")
+    version = products[0]["version"]
+    return Libraries(
+        (*versions, *([(name, version)] if version else ())), products[0].get("architecture")
+    )
+
+
+def _version(distribution: str) -> str | None:
+    """The installed version of a package."""
+    try:
+        return metadata.version(distribution)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+@cache
+def recorded() -> Mapping[str, Any]:
+    """Return the document of records, keyed by what was answered."""
+    text = resources.files("mcexact.crosschecks").joinpath(RECORDS).read_text("utf-8")
+    document: dict[str, Any] = json.loads(text)
+    return document
+
+
+def libraries_of(document: Mapping[str, Any]) -> Libraries:
+    """Return the libraries that a record names."""
+    return Libraries(tuple(document["versions"].items()), document["kernel"])
+
+
+# `crosscheck`, which compares each floating-point verdict on a system with the exact one.
 
 _SEED = 0
 _DIGITS = (6, 8, 10)
@@ -241,7 +346,7 @@ def _controllability(system: MultiChannelSystem, floats: _Floats) -> list[CrossC
         ("controllability", joint_controllability(system), "B", "ctrb", floats.inputs),
         ("observability", joint_observability(system), "C", "obsv", floats.outputs),
     ):
-        ranked = controllability.ctrb_rank if call == "ctrb" else controllability.obsv_rank
+        ranked = verdicts.ctrb_rank if call == "ctrb" else verdicts.obsv_rank
         rows.append(
             _row(
                 f"joint {name}",
@@ -257,7 +362,7 @@ def _controllability(system: MultiChannelSystem, floats: _Floats) -> list[CrossC
             _row(
                 f"joint {name}, Hautus",
                 f"numpy.linalg.matrix_rank({shown}) for x in numpy.linalg.eigvals(A)",
-                _answer(partial(controllability.hautus_controllable, *pair)),
+                _answer(partial(verdicts.hautus_controllable, *pair)),
                 truth.controllable,
                 _yes,
             )
@@ -286,7 +391,7 @@ def _indices(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
             _row(
                 f"{name} index",
                 f"least k with numpy.linalg.matrix_rank({blocks}) = n",
-                _answer(partial(controllability.controllability_index, *pair)),
+                _answer(partial(verdicts.controllability_index, *pair)),
                 truth.index,
                 lambda index: "none" if index is None else str(index),
             )
@@ -308,12 +413,10 @@ def _fixed_modes(
         found = rounded if isinstance(rounded, _NoAnswer) else len(rounded)
         call = f"numpy.round(numpy.linalg.eigvals(A + sum B_i F_i C_i), {digits}) of 5 draws"
         rows.append(_row(f"fixed modes, {digits} digits", call, found, count, words))
-    tried = anderson_clements.few_subsets(system.m)
+    tried = verdicts.few_subsets(system.m)
     named = {frozenset(system.index(c) for c in f.channels) for f in spectrum.factors}
     modes = _answer(
-        lambda: bool(
-            anderson_clements.pencil_fixed_modes(floats.A, floats.B, floats.C, tried | named)
-        )
+        lambda: bool(verdicts.pencil_fixed_modes(floats.A, floats.B, floats.C, tried | named))
     )
     call = "numpy.linalg.matrix_rank([x*I - A, B; C, 0]) < n for x in numpy.linalg.eigvals(A)"
     rows.append(_row("any fixed mode, pencils", call, modes, not spectrum.empty, _yes))
@@ -322,7 +425,7 @@ def _fixed_modes(
 
 def _rounded(floats: _Floats, digits: int) -> tuple[complex, ...]:
     """The eigenvalues that the loops of drawn gains have in common when rounded to some digits."""
-    return fixed_modes.rounded_fixed_modes(floats.A, floats.B, floats.C, digits=digits, seed=_SEED)
+    return verdicts.rounded_fixed_modes(floats.A, floats.B, floats.C, digits=digits, seed=_SEED)
 
 
 def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:

@@ -10,8 +10,7 @@ from functools import cached_property
 from itertools import accumulate, count
 from typing import Any, ClassVar, Literal, get_args, overload
 
-from mcexact.arguments import one_of, several
-from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError, one_of, several
 from mcexact.exact.matrix import (
     Matrix,
     Rounding,

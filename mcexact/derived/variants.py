@@ -13,9 +13,8 @@ from fractions import Fraction
 from functools import partial
 from typing import Any, Literal
 
-from mcexact.arguments import several
 from mcexact.derived.constructions import augmented_outputs
-from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError, several
 from mcexact.exact.rational import as_fraction, written
 from mcexact.model.box import Box
 from mcexact.model.graph import NeighborGraph

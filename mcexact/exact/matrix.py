@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args, overload
 import flint
 
 from mcexact import shown
-from mcexact.arguments import one_of
-from mcexact.errors import FloatRefused, InputError, LimitReached
+from mcexact.errors import FloatRefused, InputError, LimitReached, one_of
 from mcexact.exact import tables
 from mcexact.exact.rational import (
     TWO_WAYS_IN,

@@ -12,8 +12,7 @@ from typing import Any, Literal, get_args
 
 import flint
 
-from mcexact.arguments import one_of
-from mcexact.errors import InputError, InternalError, UsageError
+from mcexact.errors import InputError, InternalError, UsageError, one_of
 from mcexact.exact.matrix import Matrix, as_requested, hstack, vstack
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import digits_of, written

@@ -26,8 +26,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, cast, get_args
 
-from mcexact.arguments import one_of
-from mcexact.errors import InputError, NotWritten
+from mcexact.errors import InputError, NotWritten, one_of
 from mcexact.exact.matrix import (
     Matrix,
     Rounding,

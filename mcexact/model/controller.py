@@ -309,8 +309,8 @@ class Controller(Shown):
                 _require(each.reference, nrows, system.q(i), f"{where}.reference")
 
     def plot(self, ax: Any = None) -> Any:
-        """Draw the gains as a colored matrix; see `mcexact.plot.gains`."""
-        from mcexact.plot.gains import gains
+        """Draw the gains as a colored matrix; see `mcexact.plot.graphs`."""
+        from mcexact.plot.graphs import gains
 
         return gains(self, ax)
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from mcexact.arguments import several
-from mcexact.errors import FloatRefused, InputError, UsageError
+from mcexact.errors import FloatRefused, InputError, UsageError, several
 from mcexact.model.text import checked_name, checked_names, nearest, quoted
 from mcexact.shown import LINE, Shown
 

@@ -9,8 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar
 
-from mcexact.arguments import told
-from mcexact.errors import InputError, LimitReached
+from mcexact.errors import InputError, LimitReached, told
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction, rational_text, written
 from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction

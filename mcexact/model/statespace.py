@@ -6,8 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from mcexact.arguments import several
-from mcexact.errors import FloatRefused, InputError, MissingExtra, UsageError
+from mcexact.errors import FloatRefused, InputError, MissingExtra, UsageError, several
 from mcexact.exact.balls import exponential
 from mcexact.exact.matrix import (
     Matrix,

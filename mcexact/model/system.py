@@ -12,8 +12,7 @@ from math import lcm
 from typing import Any, ClassVar, Generic, Self, SupportsIndex, TypeVar, overload
 
 from mcexact import shown
-from mcexact.arguments import several, told
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError, UsageError, several, told
 from mcexact.exact.matrix import Matrix, Rounding, hstack, matrix_from_float, vstack
 from mcexact.exact.rational import as_fraction, rational_text
 from mcexact.exact.rational_functions import FunctionMatrix

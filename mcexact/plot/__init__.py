@@ -7,13 +7,13 @@ numbers and objects with the named attributes, and needs the extra ``plot``.
 """
 
 from mcexact.plot.eigenvalues import eigenvalues as eigenvalues
-from mcexact.plot.gains import gains as gains
+from mcexact.plot.graphs import gains as gains
 from mcexact.plot.graphs import graph as graph
 from mcexact.plot.graphs import structure as structure
-from mcexact.plot.loops import loop as loop
 from mcexact.plot.parameters import hypersurfaces as hypersurfaces
 from mcexact.plot.parameters import parameter_modes as parameter_modes
+from mcexact.plot.parameters import uncertainty as uncertainty
+from mcexact.plot.parameters import uncertainty_shares as uncertainty_shares
 from mcexact.plot.responses import decay as decay
+from mcexact.plot.responses import loop as loop
 from mcexact.plot.responses import responses as responses
-from mcexact.plot.uncertainty import uncertainty as uncertainty
-from mcexact.plot.uncertainty import uncertainty_shares as uncertainty_shares

@@ -1,23 +1,27 @@
-"""Pictures of trajectories with what is proved of them, and of the eigenvalues of a closed loop."""
+"""Pictures of trajectories, graphs and dimensions."""
 
 from __future__ import annotations
 
 import io
 import math
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
+from mcexact.answer.account import Account
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.exact.matrix import to_float
 from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import PANEL, empty_figure, one_axis
 from mcexact.plot.eigenvalues import eigenvalues
-from mcexact.plot.gains import gains
+from mcexact.plot.graphs import MARKED, gains, graph, graph_size, structure
 from mcexact.plot.responses import decay, has_bounds, rate_text, responses
-from mcexact.report.picture import Picture
-from mcexact.simulation.envelope import Envelope
-from mcexact.simulation.run import SimulatedLoop
+from mcexact.report.html import Picture
+from mcexact.simulation.envelope import Envelope, SimulatedLoop
 from mcexact.simulation.trajectory import Trajectory
+
+# Pictures of trajectories with what is proved of them, and of the eigenvalues of a closed loop.
 
 
 def simulation_pictures(done: SimulatedLoop) -> list[Picture]:
@@ -188,3 +192,131 @@ def decay_pictures(
         words = f"The largest estimation error ends at {last:.3g}.{line}"
         drawn.append(Picture(figure, f"{title} of the estimation errors", words))
     return drawn
+
+
+# Pictures of the dimensions that agents share, beside the bound of the paper.
+
+LEAST = {
+    "outputs+states": "minimal_shared_dimensions_outputs_states",
+    "states": "minimal_shared_dimensions_states",
+}
+"""The question about each way of sharing."""
+_BOUNDS = {
+    "outputs+states": "shared_dimension_bound_outputs_states",
+    "states": "shared_dimension_bound_states",
+}
+_SHARING = ("sufficient to share", "least to share")
+_NAMED = 12
+"""The largest number of agents whose names stand upright below their bars."""
+
+
+def dimensions_picture(account: Account) -> Picture:
+    """Draw bars for every agent: the least dimensions for each way of sharing, and the bound.
+
+    Parameters
+    ----------
+    account : Account
+        An account with the least dimensions for some way of sharing.
+    """
+    names, said, answers = account.given.names, account.sentences, account.answers
+    least = {share: answers[name] for share, name in LEAST.items() if name in answers}
+    told = [each for each in said.at("table") if each.template.label in _SHARING]
+    read = {file for each in told for file, *_ in each.because}
+    holds = any(file.startswith("shared_dimension_bound") for file in read)
+    figure = empty_figure(4.4 * len(least), 3.2)
+    for axis, (share, found) in zip(
+        figure.subplots(1, len(least), squeeze=False)[0], least.items(), strict=True
+    ):
+        sizes = (0,) * len(names) if found.dimensions is None else found.dimensions
+        bound = answers[_BOUNDS[share]].deficiency if holds else None
+        _draw_bars(axis, names, sizes, bound, share)
+    caption = "; ".join(each.line for each in told) + "."
+    return Picture(figure, "".join(said.at("dimensions.title")), caption)
+
+
+def allocation_picture(account: Account) -> Picture:
+    """Draw bars for every agent: the least dimensions, and the bound if its hypotheses hold.
+
+    Parameters
+    ----------
+    account : Account
+        An account as `account_of_dimensions` returns it, with dimensions that suffice.
+    """
+    least, said = account.answers["minimal_shared_dimensions"], account.sentences
+    compared = any(each.template.key == "allocate-total-bound" for each in said.at("table"))
+    bound = account.answers["shared_dimension_bound"].deficiency if compared else None
+    names = account.given.names
+    figure = empty_figure(max(4.4, min(1.5 + 0.3 * len(names), 9.0)), 3.2)
+    _draw_bars(figure.subplots(), names, least.dimensions, bound, least.share)
+    words = "The least dimension that each agent shares."
+    return Picture(
+        figure, "Dimensions", words + (" Gray: the bound of the paper." if compared else "")
+    )
+
+
+def _draw_bars(
+    axis: Any, names: Sequence[str], sizes: Sequence[int], bound: int | None, title: str
+) -> None:
+    """A bar for each agent, beside a gray one for the bound."""
+    places = range(len(names))
+    if bound is not None:
+        axis.bar(
+            [k - 0.2 for k in places],
+            [bound] * len(names),
+            0.4,
+            color="#bbbbbb",
+            label="bound of the paper",
+        )
+    axis.bar([k + 0.2 for k in places], sizes, 0.4, color=MARKED, label="least")
+    turned = 90 if len(names) > _NAMED or max(map(len, names)) > _NAMED else 0
+    axis.set_xticks(list(places), names, parse_math=False, rotation=turned)
+    axis.set_yticks(range(max(bound or 0, *sizes, 1) + 1))
+    axis.set_xlabel("agent")
+    axis.set_ylabel("shared dimension")
+    axis.set_title(title, fontsize="medium")
+    axis.legend(fontsize="small", loc="upper center")
+    axis.margins(y=0.35)
+
+
+# Pictures of neighbor and transfer graphs with a colored obstruction, and of links to add.
+
+_NEIGHBORS, _TRANSFER = "picture-neighbor-graph", "picture-transfer-graph"
+
+
+def graph_pictures(account: Account) -> list[Picture]:
+    """Draw the neighbor graph, if there is one, and the transfer graph, one picture for each.
+
+    Parameters
+    ----------
+    account : Account
+        An account with the transfer graph and the fixed spectrum; see `structure`.
+    """
+    system, said, answers = account.given.system, account.sentences, account.answers
+    panels = [_NEIGHBORS, _TRANSFER] if system.neighbors is not None else [_TRANSFER]
+    axes = [one_axis(None, *graph_size(system.m)) for _ in panels]
+    structure(system, answers["fixed_spectrum"], answers["transfer_graph"], axes)
+    title, sentences = "".join(said.at("graphs.title")), said.at("graphs")
+    pictures = []
+    for panel, axis in zip(panels, axes, strict=True):
+        others = {_NEIGHBORS, _TRANSFER} - {panel}
+        told = [each for each in sentences if each.template.key not in others]
+        pictures.append(Picture(axis.figure, title, "; ".join(told) + "."))
+    return pictures
+
+
+def links_picture(account: Account) -> Picture:
+    """Draw the neighbor graph with the links to add.
+
+    Parameters
+    ----------
+    account : Account
+        An account with links to add, as `account_of_links` returns it.
+    """
+    system, added = account.given.system, account.answers["minimal_communication"].added
+    names, there = system.names, system.neighbors
+    edges = [] if there is None else [(names[j], names[i]) for j, i in there.edges()]
+    axis = one_axis(None, *graph_size(system.m))
+    graph((names, [*edges, *added]), axis, added=added, title="neighbor graph")
+    told = ", ".join(f"{start} → {end}" for start, end in added)
+    words = f"Blue: the links to add, {told}." if added else "No links have to be added."
+    return Picture(axis.figure, "Links", words)

@@ -1,11 +1,16 @@
-"""Find the formulas in plain text, such as ``A + Σ B_i F_i`` and ``[λI − A, B_i; C_s, 0]``."""
+"""Formulas in plain text, and their LaTeX and MathML."""
 
 from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from html import escape
+
+from mcexact.shown import escaped
+
+# Find the formulas in plain text, such as ``A + Σ B_i F_i`` and ``[λI − A, B_i; C_s, 0]``.
 
 RELATIONS = ["=", "≠", "≥", "≤", "<", ">", "∈", "⊂", "→"]
 OPERATORS = ["+", "−", "∖", "∪", "∩", "·", "×", "⊗", "/"]
@@ -301,3 +306,214 @@ def formulas(text: str) -> Iterator[str | Node]:
         at = words = reader.at
     if words < len(plain):
         yield unicodedata.normalize("NFC", plain[words:])
+
+
+# Plain text with its formulas in LaTeX.
+
+_ACCENTS = {"\u0302": "hat", "\u0303": "tilde", "\u0304": "bar", "\u0307": "dot"}
+_NAMES = {
+    "≠": r"\ne",
+    "≥": r"\ge",
+    "≤": r"\le",
+    "∈": r"\in",
+    "⊂": r"\subset",
+    "→": r"\to",
+    "−": "-",
+    "∖": r"\setminus",
+    "∪": r"\cup",
+    "∩": r"\cap",
+    "·": r"\cdot",
+    "×": r"\times",
+    "⊗": r"\otimes",
+    "∅": r"\emptyset",
+    "…": r"\dots",
+    "λ": r"\lambda",
+    "φ": r"\varphi",
+    "ε": r"\epsilon",
+    "σ": r"\sigma",
+    "Λ": r"\Lambda",
+    "′": r"\prime",
+}
+_BRACES = {"{": r"\{", "}": r"\}"}
+
+
+def typeset_latex(text: str) -> str:
+    r"""Set the formulas in a text in LaTeX and names in backticks as code, and escape the rest.
+
+    Parameters
+    ----------
+    text : str
+
+    Examples
+    --------
+    >>> print(typeset_latex("if n_i ≥ 1"))
+    if $n_{i} \ge 1$
+    """
+    made = [
+        rf"\texttt{{{escaped(piece)}}}" if k % 2 else _with_formulas(piece)
+        for k, piece in enumerate(text.split("`"))
+    ]
+    return "".join(made)
+
+
+def _with_formulas(text: str) -> str:
+    """A text without code."""
+    return "".join(
+        escaped(each).replace("…", r"\dots{}") if isinstance(each, str) else f"${_set(each)}$"
+        for each in formulas(text)
+    )
+
+
+def _set(node: Node) -> str:
+    """A formula in LaTeX."""
+    match node.kind:
+        case "letter" | "operator":
+            return _letter(node.text)
+        case "number":
+            return node.text
+        case "name":
+            return rf"\operatorname{{{node.text}}}"
+        case "sum":
+            return r"\textstyle\sum"
+        case "index":
+            return f"{_set(node.parts[0])}_{{{_set(node.parts[1])}}}"
+        case "power":
+            return f"{{{_set(node.parts[0])}}}^{{{_set(node.parts[1])}}}"
+        case "fenced":
+            opening, closing = (_BRACES.get(each, each) for each in (node.text[0], node.text[1]))
+            return f"{opening}{', '.join(map(_set, node.parts))}{closing}"
+        case "matrix":
+            rows = r" \\ ".join(" & ".join(map(_set, row.parts)) for row in node.parts)
+            return rf"\left[\begin{{smallmatrix}} {rows} \end{{smallmatrix}}\right]"
+        case _:
+            return " ".join(map(_set, node.parts))
+
+
+def _letter(text: str) -> str:
+    """A letter, perhaps with an accent, or a sign."""
+    base = _NAMES.get(text[0], escaped(text[0]))
+    return rf"\{_ACCENTS[text[1]]}{{{base}}}" if text[1:] else base
+
+
+# Plain text with its formulas, and matrices, in MathML.
+
+_MATHML_ACCENTS = {"\u0302": "^", "\u0303": "~", "\u0304": "¯", "\u0307": "˙"}
+
+
+class Markup(str):
+    """A text in which everything is escaped that has to be."""
+
+    __slots__ = ()
+
+    def __html__(self) -> str:
+        """The text itself, which templates insert as it is."""
+        return self
+
+
+def typeset(text: str) -> Markup:
+    """Set the formulas in a text as MathML and names in backticks as code, and escape the rest.
+
+    Parameters
+    ----------
+    text : str
+
+    Examples
+    --------
+    >>> typeset("if n_i < m")
+    'if <math><msub><mi>n</mi><mi>i</mi></msub><mo>&lt;</mo><mi>m</mi></math>'
+    """
+    pieces = text.split("`")
+    made = [
+        f"<code>{escape(piece, quote=False)}</code>" if k % 2 else _with_mathml(piece)
+        for k, piece in enumerate(pieces)
+    ]
+    return Markup("".join(made))
+
+
+def _with_mathml(text: str) -> str:
+    """A text without code; a sign after a formula stays on its line."""
+    made: list[str] = []
+    for each in formulas(text):
+        if isinstance(each, Node):
+            made.append(f"<math>{_mathml_set(each)}</math>")
+            continue
+        said = escape(each, quote=False)
+        if made and said[0] in ",.;:)":
+            made[-1] = f'<span class="kept">{made[-1]}{said[0]}</span>'
+            said = said[1:]
+        made.append(said)
+    return "".join(made)
+
+
+def matrix(name: str, rows: Sequence[Sequence[str]]) -> Markup:
+    """Set an equation of a symbol and a matrix.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``B_1``.
+    rows : sequence of sequences of str
+
+    Examples
+    --------
+    >>> matrix("A", [["1"]])
+    '<math><mi>A</mi><mo>=</mo><mo>[</mo><mtable><mtr><mtd><mn>1</mn></mtd></mtr></mtable><mo>]\
+</mo></math>'
+    """
+    (left,) = (_mathml_set(each) for each in formulas(name) if isinstance(each, Node))
+    cells = [[f"<mn>{escape(entry)}</mn>" for entry in row] for row in rows]
+    return Markup(f"<math>{left}<mo>=</mo>{_table(cells)}</math>")
+
+
+def _table(cells: Sequence[Sequence[str]]) -> str:
+    """A matrix in square brackets."""
+    rows = "".join(f"<mtr>{''.join(f'<mtd>{cell}</mtd>' for cell in row)}</mtr>" for row in cells)
+    return f"<mo>[</mo><mtable>{rows}</mtable><mo>]</mo>"
+
+
+def _mathml_set(node: Node) -> str:
+    """A formula in MathML."""
+    match node.kind:
+        case "letter":
+            return _mathml_letter(node.text)
+        case "number":
+            return f"<mn>{node.text}</mn>"
+        case "name":
+            return f"<mi>{node.text}</mi><mspace width='0.2em'></mspace>"
+        case "sum":
+            return "<mo>∑</mo>"
+        case "operator":
+            return f"<mo>{escape(node.text)}</mo>"
+        case "power" if set(node.parts[1].text) == {"′"}:
+            # The sign is raised already.
+            return f"{_one(node.parts[0])}<mo>{node.parts[1].text}</mo>"
+        case "index" | "power":
+            base, mark = (_one(part) for part in node.parts)
+            name = "msub" if node.kind == "index" else "msup"
+            return f"<{name}>{base}{mark}</{name}>"
+        case "fenced":
+            inside = "<mo>,</mo>".join(map(_mathml_set, node.parts))
+            fence = "<mo stretchy='false'>"
+            return f"{fence}{node.text[0]}</mo>{inside}{fence}{node.text[1]}</mo>"
+        case "matrix" if len(node.parts) == 1:
+            inside = "<mspace width='0.5em'></mspace>".join(map(_mathml_set, node.parts[0].parts))
+            return f"<mo>[</mo>{inside}<mo>]</mo>"
+        case "matrix":
+            return _table([[_mathml_set(cell) for cell in row.parts] for row in node.parts])
+        case _:
+            return "".join(map(_mathml_set, node.parts))
+
+
+def _one(node: Node) -> str:
+    """A formula as one element."""
+    made = _mathml_set(node)
+    single = node.kind in ("letter", "number", "operator", "index", "power", "sum")
+    return made if single and made.count("<mo>′") == 0 else f"<mrow>{made}</mrow>"
+
+
+def _mathml_letter(text: str) -> str:
+    """A letter, perhaps with an accent."""
+    base = f"<mi>{unicodedata.normalize('NFC', text[0])}</mi>"
+    if text[1:]:
+        return f'<mover accent="true">{base}<mo>{_MATHML_ACCENTS[text[1]]}</mo></mover>'
+    return base

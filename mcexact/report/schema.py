@@ -1,4 +1,15 @@
-"""JSON Schemas (2020-12) of every file and of the JSON of every command.
+"""JSON Schemas of files and of what commands print.
+
+The schemas of files: systems, controllers, certificates, manifests and records of sweeps.
+
+They have exactly the keys that are named.
+
+The schemas of what commands print with ``--json``.
+
+Documents can get further keys within a version, and programs that read them ignore those that they
+do not know.
+
+JSON Schemas (2020-12) of every file and of the JSON of every command.
 
 What users write, and certificates, have exactly the keys that are named.  What commands print can
 get further keys within a version, and programs that read it ignore those that they do not know.
@@ -12,42 +23,610 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from mcexact.answer.schema import RATIONAL, Schema
+from mcexact.answer.parametric_account import LABELS
+from mcexact.answer.schema import (
+    RATIONAL,
+    Schema,
+    claim_schema,
+    kinds,
+    view_schemas,
+    witness_schema,
+)
+from mcexact.answer.wording.parameters import WITHIN_RANGES
 from mcexact.errors import UsageError
 from mcexact.model.text import nearest, quoted
-from mcexact.report import command_schemas as commands
-from mcexact.report import file_schemas as files
-from mcexact.report.schema_terms import MATRIX, NUMBER
+
+# The terms of which schemas are made: texts, numbers, matrices, tables and records.
+
+TEXT: Schema = {"type": "string"}
+WHOLE: Schema = {"type": "integer", "minimum": 0}
+YES: Schema = {"type": "boolean"}
+FLOAT: Schema = {"type": "number"}
+DIGEST: Schema = {"type": "string", "pattern": "^[0-9a-f]{64}$"}
+TIME: Schema = {"enum": ["continuous", "discrete"]}
+NAME: Schema = {"type": "string", "minLength": 1, "maxLength": 256}
+NUMBER: Schema = {
+    "description": 'an exact number as typed: 2, -0.5, 1e-3, "0.1" or "1/3"',
+    "anyOf": [
+        {"type": "number"},
+        {"type": "string", "pattern": r"^-?([0-9]+/[0-9]+|[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?)$"},
+    ],
+}
+
+
+def some(schema: Schema) -> Schema:
+    """A value or null."""
+    return {"anyOf": [schema, {"type": "null"}]}
+
+
+def rows(schema: Schema, **more: Any) -> Schema:
+    """A list."""
+    return {"type": "array", "items": schema, **more}
+
+
+def table(schema: Schema) -> Schema:
+    """An object with any keys."""
+    return {"type": "object", "additionalProperties": schema}
+
+
+def record(
+    required: Schema, optional: Schema | None = None, *, closed: bool = False, says: str = ""
+) -> Schema:
+    """An object with some keys, and others unless it is closed."""
+    made: Schema = {"description": says} if says else {}
+    made |= {
+        "type": "object",
+        "properties": required | (optional or {}),
+        "required": list(required),
+    }
+    return made | ({"additionalProperties": False} if closed else {})
+
+
+def named(format_name: str) -> Schema:
+    """The key ``format`` with its value."""
+    return {"format": {"const": format_name}}
+
+
+def matrix(entry: Schema, says: str) -> Schema:
+    """A matrix in either of its two forms."""
+    return {
+        "description": says,
+        "anyOf": [
+            rows(rows(entry)),
+            record(
+                {
+                    "shape": rows(WHOLE, minItems=2, maxItems=2),
+                    "entries": rows(
+                        {"type": "array", "prefixItems": [WHOLE, WHOLE, entry], "items": False,
+                         "minItems": 3}
+                    ),
+                },
+                closed=True,
+            ),
+        ],
+    }  # fmt: skip
+
+
+_MATRIX = "rows of numbers, or the shape and the entries [row, column, value] that are not 0"
+MATRIX = matrix(NUMBER, _MATRIX)
+
+
+# The schemas of files: systems, controllers, certificates, manifests and records of sweeps.
+
+NEIGHBORS = table(rows(NAME)) | {
+    "description": "for each agent those whose messages it receives; others receive nothing"
+}
+DELAYS = table(table(WHOLE)) | {"description": "the steps that messages take, receiver by receiver"}
+
+
+def _uncertainty() -> Schema:
+    """How far the entries of a system may be from their values, in one of three ways."""
+    by_channel = table(MATRIX)
+    radii = record(
+        {},
+        {
+            "relative": NUMBER | {"description": "each radius is this part of the entry's modulus"},
+            "digits": {"const": "as typed"},
+            "absolute": record({}, {"A": MATRIX, "B": by_channel, "C": by_channel}, closed=True),
+        },
+        closed=True,
+        says="how far entries may be from their values; an entry without a radius is certain",
+    )
+    return radii | {"minProperties": 1, "maxProperties": 1}
+
+
+def system() -> Schema:
+    """System files."""
+    channel = {"name": NAME | {"description": "by default the number of the channel"}}
+    exact = record(
+        named("mcexact-system/1")
+        | {
+            "time": TIME,
+            "A": MATRIX,
+            "channels": rows(
+                record({"B": MATRIX, "C": MATRIX}, channel | {"D": MATRIX}, closed=True),
+                minItems=1,
+            ),
+        },
+        {
+            "name": TEXT | {"maxLength": 10_000},
+            "source": TEXT | {"maxLength": 10_000},
+            "sample_time": NUMBER,
+            "neighbors": NEIGHBORS,
+            "delays": DELAYS,
+            "D": MATRIX,
+            "uncertainty": _uncertainty(),
+        },
+        closed=True,
+        says="a plant x' = A x + B_1 u_1 + …, y_i = C_i x (discrete time: x(t+1))",
+    )
+    entry = {"anyOf": [{"type": "number"}, {"type": "string", "minLength": 1}]}
+    functions = matrix(entry, 'a matrix of numbers and expressions such as "1/2 + 3*t^2"')
+    ends = rows(some(NUMBER), minItems=2, maxItems=2)
+    parametric = record(
+        named("mcexact-system/1")
+        | {
+            "time": TIME,
+            "parameters": table(record({}, {"range": ends}, closed=True)) | {"minProperties": 1},
+            "A": functions,
+            "channels": rows(
+                record({"B": functions, "C": functions}, channel, closed=True), minItems=1
+            ),
+        },
+        {"name": TEXT | {"maxLength": 10_000}, "source": TEXT | {"maxLength": 10_000}},
+        closed=True,
+        says="a plant whose entries are rational functions of parameters",
+    )
+    return {
+        "type": "object",
+        "if": {"required": ["parameters"]},
+        "then": parametric,
+        "else": exact,
+    }
+
+
+def agents() -> Schema:
+    """The time domain and the agents of a controller."""
+    linear = record(
+        {},
+        {
+            "outputs": table(MATRIX) | {"description": "the coefficients of y_j, by the agent j"},
+            "shared": table(MATRIX) | {"description": "the coefficients of x_j, by the agent j"},
+            "private": MATRIX | {"description": "the coefficients of z_i"},
+            "reference": MATRIX | {"description": "the coefficients of the set-points r_i"},
+        },
+        closed=True,
+    )
+    agent = record(
+        {
+            "name": NAME,
+            "shared": WHOLE | {"description": "the dimension of x_i, which followers receive"},
+            "private": WHOLE | {"description": "the dimension of z_i, which nobody receives"},
+            "shared_update": linear,
+            "private_update": linear,
+            "input": linear,
+        },
+        {"hold": table(WHOLE)},
+        closed=True,
+    )
+    return {"time": TIME, "agents": rows(agent, minItems=1)}
+
+
+def controller() -> Schema:
+    """Controller files."""
+    system = {"system": TEXT | {"description": "the digest of the plant, or an empty text"}}
+    return record(named("mcexact-controller/1") | system | agents(), closed=True)
+
+
+def certificate() -> Schema:
+    """A certificate of any kind; claim and witness are those of its kind."""
+    head = record(
+        named("mcexact-certificate/1")
+        | {
+            "kind": {"enum": list(kinds())},
+            "system": {"anyOf": [{"type": "object"}, DIGEST]},
+            "subject": rows(record({"construction": TEXT})),
+            "claim": {"type": "object"},
+            "witness": {"type": "object"},
+        },
+        closed=True,
+    )
+    cases = [
+        {
+            "if": {"properties": {"kind": {"const": name}}},
+            "then": {"properties": {"claim": claim_schema(kind), "witness": witness_schema(kind)}},
+        }
+        for name, kind in kinds().items()
+    ]
+    return head | {"allOf": cases}
+
+
+def manifest() -> Schema:
+    """Manifests."""
+    because = {"type": "array", "prefixItems": [TEXT, TEXT, {}], "items": False, "minItems": 3}
+    sentence = record(
+        {"text": TEXT, "rule": TEXT, "theorem": TEXT, "because": rows(because)}, closed=True
+    )
+    return record(
+        named("mcexact-manifest/1")
+        | {"certificates": table(DIGEST), "sentences": rows(sentence, minItems=1)},
+        {"subject": rows(record({"construction": TEXT})), "nearby": rows(TEXT)},
+        closed=True,
+    )
+
+
+def sweep_record() -> Schema:
+    """A line of the file that a sweep writes."""
+    claims = [claim_schema(kind) for kind in kinds().values()]
+    answer = record(
+        {"claim": {"anyOf": claims}, "statement": TEXT}, {"member": {"type": "object"}}, closed=True
+    )
+    decided = {
+        "system": record({"n": WHOLE, "m": WHOLE, "time": TIME}),
+        "digest": DIGEST,
+        "answers": table(answer),
+        "seconds": FLOAT,
+    }
+    failed = {
+        "error": record({"status": WHOLE, "message": TEXT}, {"other_format": YES}, closed=True)
+    }
+    return record(
+        named("mcexact-sweep/1") | {"number": WHOLE, "name": TEXT, "key": TEXT},
+        decided | failed,
+        closed=True,
+        says="a line of the file of a sweep: the answers about one system, or its error",
+    ) | {
+        "if": {"required": ["error"]},
+        "else": {"required": list(decided)},
+    }
+
+
+# The schemas of what commands print with ``--json``.
+
+SENTENCES: Schema = {
+    "answer": rows(TEXT) | {"description": "the sentences that answer the question"},
+    "sentences": rows(record({"text": TEXT, "rule": TEXT, "theorem": TEXT})),
+    "re_checked": record(
+        {"valid": WHOLE, "open": rows({})},
+        says="how many certificates the independent checker accepted, and which it left open",
+    ),
+}
+_SYSTEM_IN_SHORT = record(
+    {"name": some(TEXT), "n": WHOLE, "m": WHOLE, "time": TIME, "channels": rows(TEXT)}
+)
+
+
+_RANGES = table(record({}, {"range": rows(some(NUMBER), minItems=2, maxItems=2)}, closed=True))
+"""Parameters with their ranges."""
+
+
+def _account(required: Schema, optional: Schema | None = None) -> Schema:
+    """The JSON of a command whose answers have certificates."""
+    known = named("mcexact-analysis/1") | {"system": _SYSTEM_IN_SHORT} | SENTENCES
+    views = [view for kind in kinds().values() for view in view_schemas(kind)]
+    return record(known | required, optional) | {
+        "additionalProperties": {
+            "description": "an answer, by its name; its certificate is the file of this name",
+            "if": {"type": "object", "required": ["certificate"]},
+            "then": {"anyOf": views},
+        }
+    }
+
+
+_FIGURES = table({"type": ["number", "null", "integer"]})
+ASSESSMENT = record(
+    {"basis": TEXT, "install": TEXT, "verdict": TEXT, "warnings": rows(TEXT), "notes": rows(TEXT)},
+    {
+        "states_of_each_agent": table(WHOLE),
+        "order": FLOAT,
+        "largest_gain": some(FLOAT),
+        "bound": some(FLOAT),
+        "margin": some(FLOAT),
+        "peak": some(FLOAT),
+        "cost": some(FLOAT),
+        "relative_cost": some(FLOAT),
+        "digits_that_suffice": some(WHOLE),
+        "without_a_controller": some(_FIGURES),
+        "links": rows(record({"sender": TEXT, "receiver": TEXT, "numbers": WHOLE})),
+    },
+    says="figures of the loop, computed in floating point and not certified",
+)
+
+
+EVERY_LOOP = record(
+    {"certified": YES, "region": TEXT},
+    {
+        "part": some(NUMBER),
+        "gains": some(NUMBER),
+        "fails_within": some(NUMBER),
+        "failing": some({"type": "object"}),
+        "reason": some(TEXT),
+    },
+    says="what is proved of all loops in a box around the plant, and a plant whose loop fails",
+)
+
+
+def design() -> Schema:
+    """The JSON of `mcexact design`."""
+    made = {
+        "method": TEXT,
+        "arithmetic": TEXT,
+        "order": WHOLE,
+        "certified_bound": some(TEXT),
+        "region": TEXT,
+        "closed_loop_polynomial": some(rows(RATIONAL)),
+        "bits_of_longest_number": WHOLE,
+        "floating_point": _FIGURES,
+        "controller": record(agents(), closed=True),
+        "assessment": ASSESSMENT,
+    }
+    parts: Schema = {
+        key: {}
+        for key in (
+            "agent", "network", "dimensions", "observer_order", "feedback_polynomial",
+            "error_polynomial", "blocks", "kept",
+        )
+    }  # fmt: skip
+    refused = {"possible": {"const": False}, "reason": TEXT}
+    schema = _account({"design": TEXT}, made | parts | refused | {"every_loop": EVERY_LOOP})
+    return schema | {
+        "if": {"required": ["possible"]},
+        "then": {"required": ["reason"]},
+        "else": {"required": list(made)},
+    }
+
+
+_LARGEST = record(
+    {
+        "property": TEXT,
+        "relative": YES,
+        "lower": NUMBER,
+        "upper": some(TEXT),
+        "failing": some({"type": "object"}),
+        "channels": some(rows(TEXT)),
+    }
+)
+
+
+def certify() -> Schema:
+    """The JSON of `mcexact certify`."""
+    return _account(
+        {
+            "certified": YES,
+            "region": TEXT,
+            "bound": some(TEXT),
+            "method": TEXT,
+            "states": WHOLE,
+            "blocks": rows(WHOLE),
+            "largest": some(TEXT),
+            "warnings": rows(TEXT),
+            "rounded_to_digits": some(WHOLE),
+            "eigenvalue_outside": some(record({"re": TEXT, "im": TEXT, "radius": TEXT})),
+            "assessment": ASSESSMENT,
+        },
+        {
+            "every_loop": EVERY_LOOP,
+            "largest_uncertainty": _LARGEST,
+            "safe_digits": record({"safe": some(WHOLE), "too_few": some(WHOLE)}),
+        },
+    )
+
+
+def certify_parameters() -> Schema:
+    """The JSON of `mcexact certify` about a system with parameters."""
+    largest = record(
+        {
+            "property": TEXT,
+            "lower": NUMBER,
+            "ranges": some(_RANGES),
+            "upper": some(NUMBER),
+            "failing": some(table(NUMBER)),
+        },
+        says="a part of the ranges that is proved, and values at which the loop fails",
+    )
+    return _account(
+        {
+            "certified": YES,
+            "refuted": YES,
+            "region": TEXT,
+            "bound": some(TEXT),
+            "parameters": _RANGES,
+            "largest_ranges": largest,
+            "warnings": rows(TEXT),
+        }
+    )
+
+
+_QUESTION = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, {"reason": TEXT})
+
+
+def analyze() -> Schema:
+    """The JSON of `mcexact analyze`."""
+    return _account(
+        {"information": {"enum": ["own", "outputs"]}, "questions": rows(_QUESTION)},
+        {"largest_uncertainty": _LARGEST, "failing_within_radii": table({"type": "object"})},
+    )
+
+
+def analyze_parameters() -> Schema:
+    """Answers about a system with parameters, for all values."""
+    row = record({"where": TEXT, "what": TEXT, "because": TEXT}, closed=True)
+    line = record({"certificate": TEXT, "line": TEXT}, closed=True)
+    answer = record({"rows": rows(row), "certificates": rows(TEXT)}, {"along": rows(line)})
+    return record(
+        named("mcexact-parametric-analysis/1")
+        | {
+            "system": _SYSTEM_IN_SHORT,
+            "parameters": _RANGES,
+            "questions": rows(_QUESTION),
+            "table": rows(rows(TEXT)) | {"description": "labels, and what holds"},
+            **SENTENCES,
+        },
+        dict.fromkeys((*LABELS, *WITHIN_RANGES), answer),
+        closed=True,
+        says="what holds for all values of parameters, and where something else",
+    )
+
+
+def simulate() -> Schema:
+    """The JSON of `mcexact simulate`."""
+    return {
+        "description": "a run of the loop: times, and the signals of the plant and of each agent",
+        "type": "object",
+        "properties": named("mcexact-analysis/1") | {"system": _SYSTEM_IN_SHORT},
+        "required": ["format", "time", "arithmetic", "times", "state", "agents"],
+    }
+
+
+def allocate() -> Schema:
+    """The JSON of `mcexact allocate`."""
+    sizes = record({"least": WHOLE, "bound": some(WHOLE)})
+    said = "the least dimensions, and those of the theorem's bound where its hypotheses hold"
+    return _account({}, {"shares": record({"by_agent": table(sizes), "total": sizes}, says=said)})
+
+
+def check() -> Schema:
+    """The JSON of `mcexact check`."""
+    verdict = record(
+        {
+            "verdict": {
+                "enum": [
+                    *("VALID", "INVALID", "MALFORMED", "INCOMPLETE"),
+                    *("IMPLIED", "REMARK", "COUNTED"),
+                ]
+            },
+            "statement": TEXT,
+            "statement_digest": TEXT,
+            "system_digest": TEXT,
+            "controller_digest": TEXT,
+            "code": TEXT,
+            "place": TEXT,
+            "message": TEXT,
+            "spent": WHOLE,
+        }
+    )
+    return record(named("mcexact-verdicts/1") | {"verdicts": rows(verdict)})
+
+
+def crosscheck() -> Schema:
+    """The JSON of `mcexact crosscheck`."""
+    row = record(
+        {"question": TEXT, "call": TEXT, "floating": TEXT, "exact": TEXT, "agree": some(YES)}
+    )
+    libraries = record({"versions": table(TEXT), "kernel": TEXT})
+    return record(
+        named("mcexact-crosscheck/1"),
+        {
+            "libraries": libraries,
+            "system": record({"n": WHOLE, "m": WHOLE, "time": TIME}),
+            "rows": rows(row),
+            "disagreements": rows({}),
+            "exhibits": rows({}),
+            "fixed_mode_nearby": some(
+                record({"within": NUMBER, "channels": rows(TEXT), "plant": {"type": "object"}})
+            ),
+        },
+    )
+
+
+def demo() -> Schema:
+    """The JSON of `mcexact demo`."""
+    return record(
+        named("mcexact-demo/1")
+        | {
+            "controllability": {"type": "object"},
+            "fixed_modes": {"type": "object"},
+            "numpy": record({"runs": WHOLE, "recorded": {"type": "object"}, "here": {}}),
+        }
+    )
+
+
+def error() -> Schema:
+    """What a command prints that fails."""
+    return record(
+        named("mcexact-error/1")
+        | {
+            "status": {"type": "integer", "description": "the exit status, as in mcexact --help"},
+            "message": TEXT,
+        },
+        closed=True,
+        says="what a command with --json prints in place of its document when it fails",
+    )
+
+
+def gallery() -> Schema:
+    """The JSON of `mcexact gallery`."""
+    plant = {"name": TEXT, "n": WHOLE, "m": WHOLE, "parameters": rows(TEXT), "time": TIME}
+    plant |= {"source": TEXT, "shows": TEXT}
+    return record(named("mcexact-gallery/1") | {"plants": rows(record(plant))})
+
+
+def sweep() -> Schema:
+    """The JSON of `mcexact sweep`."""
+    skipped = record({"name": TEXT, "reason": TEXT}, closed=True)
+    numbers = {"plants": WHOLE, "proved": WHOLE, "failing": WHOLE}
+    tolerance = record({"question": TEXT, "part": NUMBER} | numbers, closed=True)
+    return record(
+        named("mcexact-sweep-summary/1")
+        | {
+            "counts": table(WHOLE),
+            "tolerances": rows(tolerance),
+            "records": rows(sweep_record()),
+            "skipped": rows(skipped),
+        }
+    )
+
+
+def reproduce() -> Schema:
+    """The JSON of `mcexact reproduce`."""
+    statement = record(
+        {"number": WHOLE, "section": TEXT, "says": TEXT, "status": TEXT, "holds": YES}
+    )
+    examination = record(
+        {"key": TEXT, "title": TEXT, "section": TEXT, "holds": YES, "status": TEXT}
+    )
+    return record(
+        named("mcexact-reproduction/1")
+        | {
+            "holds": YES,
+            "counts": table(WHOLE),
+            "statements": rows(statement),
+            "examinations": rows(examination),
+        }
+    )
+
+
+# JSON Schemas (2020-12) of every file and of the JSON of every command.
 
 FOLDER = Path(__file__).with_name("schemas")
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 DOCUMENTS = {
-    "system": (files.system, "system files: the plants that users write"),
-    "controller": (files.controller, "controller files: a program for each agent"),
-    "certificate": (files.certificate, "certificates: a claim about a plant with its proof"),
-    "manifest": (files.manifest, "manifests: sentences with the certificates that imply them"),
-    "sweep-record": (files.sweep_record, "the lines of the file that a sweep writes"),
-    "analyze": (commands.analyze, "mcexact analyze --json"),
+    "system": (system, "system files: the plants that users write"),
+    "controller": (controller, "controller files: a program for each agent"),
+    "certificate": (certificate, "certificates: a claim about a plant with its proof"),
+    "manifest": (manifest, "manifests: sentences with the certificates that imply them"),
+    "sweep-record": (sweep_record, "the lines of the file that a sweep writes"),
+    "analyze": (analyze, "mcexact analyze --json"),
     "analyze-parameters": (
-        commands.analyze_parameters,
+        analyze_parameters,
         "mcexact analyze --json about a system with parameters",
     ),
-    "allocate": (commands.allocate, "mcexact allocate --json"),
-    "design": (commands.design, "mcexact design … --json, also where no controller exists"),
-    "certify": (commands.certify, "mcexact certify --json"),
+    "allocate": (allocate, "mcexact allocate --json"),
+    "design": (design, "mcexact design … --json, also where no controller exists"),
+    "certify": (certify, "mcexact certify --json"),
     "certify-parameters": (
-        commands.certify_parameters,
+        certify_parameters,
         "mcexact certify --json about a system with parameters",
     ),
-    "simulate": (commands.simulate, "mcexact simulate --json"),
-    "check": (commands.check, "mcexact check --json"),
-    "crosscheck": (commands.crosscheck, "mcexact crosscheck --json"),
-    "sweep": (commands.sweep, "mcexact sweep --json"),
-    "reproduce": (commands.reproduce, "mcexact reproduce --json"),
-    "demo": (commands.demo, "mcexact demo --json"),
-    "gallery": (commands.gallery, "mcexact gallery --json"),
-    "error": (commands.error, "every command with --json that fails"),
+    "simulate": (simulate, "mcexact simulate --json"),
+    "check": (check, "mcexact check --json"),
+    "crosscheck": (crosscheck, "mcexact crosscheck --json"),
+    "sweep": (sweep, "mcexact sweep --json"),
+    "reproduce": (reproduce, "mcexact reproduce --json"),
+    "demo": (demo, "mcexact demo --json"),
+    "gallery": (gallery, "mcexact gallery --json"),
+    "error": (error, "every command with --json that fails"),
 }
 """The documents with their makers, and what each describes.  `sample`, `convert` and `c2d` print
 system files."""

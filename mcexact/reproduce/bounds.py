@@ -23,7 +23,7 @@ from mcexact.derived.constructions import Share, augmented_outputs, extended_sys
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.dimension_figures import LEAST, dimensions_picture
+from mcexact.report.figures import LEAST, dimensions_picture
 from mcexact.reproduce.extended import SHARING
 from mcexact.reproduce.material import (
     PAPER,

@@ -15,7 +15,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import TIMES
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.graph_figures import graph_pictures
+from mcexact.report.figures import graph_pictures
 from mcexact.reproduce.equations import outputs, stacked
 from mcexact.reproduce.material import (
     PAPER,

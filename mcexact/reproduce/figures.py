@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from mcexact.exact.matrix import to_float
 from mcexact.plot.canvas import empty_figure
-from mcexact.report.picture import Picture
+from mcexact.report.html import Picture
 from mcexact.simulation.trajectory import Trajectory
 
 

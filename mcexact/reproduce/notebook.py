@@ -11,7 +11,7 @@ from mcexact.answer import codec
 from mcexact.answer.check import checked
 from mcexact.answer.protocol import Answer
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.picture import EmbeddedPicture, Picture
+from mcexact.report.html import EmbeddedPicture, Picture
 from mcexact.reproduce.ledger import examination
 from mcexact.reproduce.material import Instance
 from mcexact.reproduce.properties import in_common

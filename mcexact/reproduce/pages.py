@@ -7,9 +7,8 @@ from itertools import groupby
 from typing import Any
 
 from mcexact.answer.formats import count
-from mcexact.report.formula_latex import typeset_latex
-from mcexact.report.mathml import matrix, typeset
-from mcexact.report.page import page
+from mcexact.report.formulas import matrix, typeset, typeset_latex
+from mcexact.report.html import page
 from mcexact.reproduce.reproduction import SECTIONS, Reproduction, Row
 from mcexact.reproduce.statements import STATUSES, Statement, counted
 

@@ -10,7 +10,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.equations import driven, outputs, stacked
 from mcexact.reproduce.material import PAPER, Numbers, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.simulation.start import InitialState
+from mcexact.simulation.network import InitialState
 from mcexact.simulation.trajectory import simulate
 
 

@@ -1,10 +1,11 @@
-"""Proved bounds on a trajectory, which follow from a certificate of its loop."""
+"""A trajectory with what is proved about its loop."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.stability.stability import certify_stability
@@ -15,7 +16,11 @@ from mcexact.exact.balls import exponential_above, power_above
 from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.roots import StabilityRegion, is_discrete, root_above, steady_point
-from mcexact.simulation.trajectory import Trajectory
+from mcexact.model.controller import Controller
+from mcexact.model.system import MultiChannelSystem
+from mcexact.simulation.trajectory import Trajectory, simulate
+
+# Proved bounds on a trajectory, which follow from a certificate of its loop.
 
 LARGEST = 80
 """The most states of a loop whose spectrum and envelope are computed: seconds at this size."""
@@ -166,3 +171,52 @@ def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Mat
 def _first(run: Trajectory, rows: Matrix, k: int) -> Fraction:
     """The value of a row of the state at the start; all rows are about x alone."""
     return sum((rows[k, j] * entry for j, entry in enumerate(run.start.plant)), Fraction(0))
+
+
+# A simulation together with what is proved about its loop, which the simulation does not use.
+
+
+@dataclass(frozen=True)
+class SimulatedLoop:
+    """A simulation, with the spectrum of the closed loop if it was computed.
+
+    Attributes
+    ----------
+    title : str
+    run : Trajectory
+    spectrum : LoopSpectrum or None
+    envelope : Envelope or None
+        Proved bounds on the trajectory.
+    warnings : tuple of str
+    """
+
+    title: str
+    run: Trajectory
+    spectrum: LoopSpectrum | None
+    envelope: Envelope | None
+    warnings: tuple[str, ...]
+
+
+def simulated_loop(
+    system: MultiChannelSystem, controller: Controller, **options: Any
+) -> SimulatedLoop:
+    """Simulate a controller, and compute the spectrum of its loop, proved bounds and warnings.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    controller : Controller
+    **options
+        As in `simulate`.
+    """
+    run = simulate(system, controller, **options)
+    spectrum = None
+    if run.loop.dimension <= LARGEST:
+        spectrum = closed_loop_spectrum(run.loop.matrix, system.time)
+    return SimulatedLoop(
+        system.name or "simulation",
+        run,
+        spectrum,
+        proved_envelope(run, spectrum),
+        controller.warnings_for(system) + (() if run.warning is None else (run.warning,)),
+    )

@@ -1,19 +1,190 @@
-"""Agents on a network: each knows its own program, its own output, and the messages it receives."""
+"""Agents on a network: arithmetic, signals, messages and initial states.
+
+The arithmetics of a simulation: rational numbers, multiple precision, or double precision.
+
+Vectors are columns that can be added, scaled and multiplied by matrices from the left.  The code of
+the agents and of the plant uses these operations alone, so it is the same for all arithmetics.
+"""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any, Protocol
 
-from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix
+from mcexact.errors import InputError, LimitReached, UsageError, several, told
+from mcexact.exact.matrix import Matrix, Rounding, from_float, matrix_to_float, to_float
+from mcexact.exact.rational import as_fraction, is_inexact
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import quoted
-from mcexact.simulation.arithmetic import Arithmetic, Native
+
+# The arithmetics of a simulation: rational numbers, multiple precision, or double precision.
+
+Native = Any
+"""A matrix or column of an arithmetic: `Matrix`, ``mpmath.matrix`` or ``numpy.ndarray``."""
+
+
+class Arithmetic(Protocol):
+    """The numbers of a simulation, into which exact matrices are converted."""
+
+    @property
+    def name(self) -> str:
+        """The name that `simulate` takes for it."""
+        ...
+
+    def convert(self, M: Matrix) -> Native:
+        """A matrix or column in native numbers."""
+        ...
+
+    def scalar(self, value: Fraction) -> Any:
+        """A number by which native matrices can be multiplied."""
+        ...
+
+    def entries(self, column: Native) -> list[Any]:
+        """The entries of a column as native numbers."""
+        ...
+
+    def largest(self, column: Native) -> float:
+        """The largest absolute value, as a float for control and display."""
+        ...
+
+
+@dataclass(frozen=True)
+class ExactArithmetic:
+    """Rational numbers."""
+
+    name: str = "exact"
+
+    def convert(self, M: Matrix) -> Native:
+        """The matrix itself."""
+        return M
+
+    def scalar(self, value: Fraction) -> Fraction:
+        """The number itself."""
+        return value
+
+    def entries(self, column: Matrix) -> list[Any]:
+        """Fractions."""
+        return [Fraction(row[0], column.denominator) for row in column.numerators]
+
+    def largest(self, column: Matrix) -> float:
+        """The largest absolute value; infinity where it exceeds every float."""
+        return to_float(max(map(abs, self.entries(column)), default=0))
+
+
+class MultiprecisionArithmetic:
+    """Floating point with a given number of decimal digits (mpmath).
+
+    Parameters
+    ----------
+    digits : int
+        The number of digits that the results should have; half as many more are computed.
+    """
+
+    name = "multiprecision"
+
+    def __init__(self, digits: int) -> None:
+        from mpmath import MPContext
+
+        self.context = MPContext()
+        # The terms of a Taylor series may exceed their sum by some digits, which these make up for.
+        self.context.dps = digits + digits // 2 + 10
+
+    def convert(self, M: Matrix) -> Native:
+        """An ``mpmath.matrix``, every entry rounded once."""
+        converted = self.context.matrix(M.nrows, M.ncols)
+        for i, row in enumerate(M.numerators):
+            for j, entry in enumerate(row):
+                if entry:
+                    converted[i, j] = self.context.mpf(entry) / M.denominator
+        return converted
+
+    def scalar(self, value: Fraction) -> Any:
+        """A multiple-precision number."""
+        return self.context.mpf(value.numerator) / value.denominator
+
+    def entries(self, column: Native) -> list[Any]:
+        """Multiple-precision numbers."""
+        return [column[i, 0] for i in range(column.rows)]
+
+    def largest(self, column: Native) -> float:
+        """The largest absolute value."""
+        return max((abs(float(entry)) for entry in self.entries(column)), default=0.0)
+
+
+@dataclass(frozen=True)
+class DoubleArithmetic:
+    """Double precision (numpy)."""
+
+    name: str = "float"
+
+    def convert(self, M: Matrix) -> Native:
+        """An array of floats, every entry rounded once.
+
+        Raises
+        ------
+        LimitReached
+            If an entry exceeds the range of floats.
+        """
+        return representable(matrix_to_float(M))
+
+    def scalar(self, value: Fraction) -> float:
+        """A float."""
+        return to_float(value)
+
+    def entries(self, column: Native) -> list[Any]:
+        """Floats."""
+        return [float(entry) for entry in column[:, 0]]
+
+    def largest(self, column: Native) -> float:
+        """The largest absolute value."""
+        return float(abs(column).max()) if column.size else 0.0
+
+
+def representable(numbers: Any) -> Any:
+    """Return an array of floats, which has no infinity and no NaN.
+
+    Raises
+    ------
+    LimitReached
+        If it has one.
+    """
+    import numpy as np
+
+    if not np.all(np.isfinite(numbers)):
+        raise LimitReached(
+            "the trajectory has numbers beyond the range of double precision; "
+            "use multiprecision arithmetic or a shorter horizon"
+        )
+    return numbers
+
+
+def arithmetic_named(name: str, digits: int = 60) -> Arithmetic:
+    """Return the arithmetic with a name: "exact", "multiprecision" or "float".
+
+    Raises
+    ------
+    UsageError
+        If the name is none of these.
+    """
+    if name == "exact":
+        return ExactArithmetic()
+    if name == "multiprecision":
+        return MultiprecisionArithmetic(digits)
+    if name == "float":
+        return DoubleArithmetic()
+    raise UsageError(
+        f"expected the arithmetic exact, multiprecision or float, found {name!r}",
+        where="arithmetic",
+    )
+
+
+# Agents on a network: each knows its own program, its own output, and the messages it receives.
 
 
 class SignalNotReceived(InputError):
@@ -278,3 +449,316 @@ class Network:
         for agent, B, u in zip(self.agents, self._B, inputs, strict=True):
             state = state + B @ (u + agent.disturbance)
         return inputs, state, [agent.update() for agent in self.agents]
+
+
+# Signals that enter a simulation from outside: set-points and disturbances, in steps and ramps.
+
+Columns = list[Matrix]
+"""One column for each channel."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """Numbers that are added to a signal from a time on: a step, or a ramp with these slopes.
+
+    Attributes
+    ----------
+    time : Fraction
+    columns : list of Matrix
+        For each channel the numbers, or in a ramp the slopes.
+    ramp : bool
+    """
+
+    time: Fraction
+    columns: Columns
+    ramp: bool = False
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A signal of each channel, a sum of steps and ramps.
+
+    Attributes
+    ----------
+    zeros : list of Matrix
+    changes : tuple of Change
+    """
+
+    zeros: Columns
+    changes: tuple[Change, ...] = ()
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether nothing changes after the start."""
+        return all(change.time <= 0 and not change.ramp for change in self.changes)
+
+    def at(self, time: Fraction) -> Columns:
+        """The values at a time; at the time of a step those after it."""
+        return self._sum(
+            (change, time - change.time if change.ramp else Fraction(1))
+            for change in self.changes
+            if change.time <= time
+        )
+
+    def slope(self, time: Fraction) -> Columns:
+        """The slopes after a time, until the next change."""
+        return self._sum(
+            (change, Fraction(1)) for change in self.changes if change.ramp and change.time <= time
+        )
+
+    def _sum(self, parts: Iterable[tuple[Change, Fraction]]) -> Columns:
+        total = self.zeros
+        for change, factor in parts:
+            total = [a + b * factor for a, b in zip(total, change.columns, strict=True)]
+        return total
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What enters a network from outside during a run.
+
+    Attributes
+    ----------
+    references, disturbances : Signal
+        r_i, and what is added to u_i at the plant.
+    """
+
+    references: Signal
+    disturbances: Signal
+
+    @property
+    def changes(self) -> tuple[Change, ...]:
+        """All steps and ramps."""
+        return (*self.references.changes, *self.disturbances.changes)
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether nothing changes after the start."""
+        return self.references.is_constant and self.disturbances.is_constant
+
+    def pieces(self, times: Sequence[Fraction]) -> Iterator[tuple[Fraction, ...]]:
+        """Divide times at those where a signal changes.
+
+        Every piece starts where the one before ended, and its last time starts the next one.
+        """
+        inside = {change.time for change in self.changes if times[0] < change.time < times[-1]}
+        ends = [times[0], *sorted(inside), times[-1]]
+        for start, end in pairwise(ends):
+            yield start, *(t for t in times if start < t < end), end
+
+    def apply(self, network: Network, time: Fraction) -> None:
+        """Give a network the values at a time."""
+        _give(network, self.references.at(time), self.disturbances.at(time))
+
+    def apply_derivative(
+        self, network: Network, time: Fraction, order: int, step: Fraction
+    ) -> None:
+        """Give a network the derivatives of an order at a time, times the order's power of a step.
+
+        The signals are linear between their changes.
+        """
+        if order == 0:
+            self.apply(network, time)
+            return
+        factor = step if order == 1 else Fraction(0)
+        slopes = self.references.slope(time), self.disturbances.slope(time)
+        _give(network, *([M * factor for M in each] for each in slopes))
+
+
+def _give(network: Network, references: Columns, disturbances: Columns) -> None:
+    convert = network.arithmetic.convert
+    network.set_signals(list(map(convert, references)), list(map(convert, disturbances)))
+
+
+def numbers_of(
+    values: Sequence[Any], rounding: Rounding | None, where: str
+) -> tuple[Fraction, ...]:
+    """Convert numbers exactly; floats by a named rounding.
+
+    Parameters
+    ----------
+    values : sequence
+    rounding : {"decimal", "dyadic"} or None
+        How floats become exact, as in `MultiChannelSystem.from_float`; None refuses them.
+    where : str
+        The name of the argument in errors.
+
+    Raises
+    ------
+    FloatRefused
+        If a number is a float and no rounding is given.
+    InputError
+        If something is not a number.
+
+    Examples
+    --------
+    >>> numbers_of([1, 0.5, "1/3"], "dyadic", "initial")
+    (Fraction(1, 1), Fraction(1, 2), Fraction(1, 3))
+    """
+
+    def exact(value: Any, place: str) -> Fraction:
+        if rounding is not None and is_inexact(value):
+            return from_float(value, rounding, where=place)
+        return as_fraction(value, where=place)
+
+    listed = several(values, where, "numbers")
+    return tuple(exact(value, f"{where}[{k}]") for k, value in enumerate(listed))
+
+
+def by_channel(
+    values: Sequence[Any], sizes: Sequence[int], rounding: Rounding | None, where: str
+) -> Columns:
+    """Convert numbers to one column for each channel.
+
+    Parameters
+    ----------
+    values : sequence of sequences of numbers, or sequence of numbers
+        One sequence for each channel, or all numbers in the order of the channels.
+    sizes : sequence of int
+        How many numbers each channel has.
+    rounding : {"decimal", "dyadic"} or None
+        As in `numbers_of`.
+    where : str
+
+    Raises
+    ------
+    InputError
+        If there are too few or too many numbers.
+
+    Examples
+    --------
+    >>> [M.rows() for M in by_channel([1, 2, 3], [2, 1], None, "reference")]
+    [((Fraction(1, 1),), (Fraction(2, 1),)), ((Fraction(3, 1),),)]
+    """
+    listed = list(several(values, where, "numbers"))
+    if any(_is_listed(each) for each in listed):
+        if len(listed) != len(sizes):
+            raise InputError(f"expected {len(sizes)} channels, found {len(listed)}", where=where)
+        parts = [list(each) if _is_listed(each) else [each] for each in listed]
+        for i, (part, size) in enumerate(zip(parts, sizes, strict=True)):
+            if len(part) != size:
+                raise InputError(
+                    f"expected {size} numbers, found {len(part)}", where=f"{where}[{i}]"
+                )
+        listed = [number for part in parts for number in part]
+    if len(listed) != sum(sizes):
+        raise InputError(f"expected {sum(sizes)} numbers, found {len(listed)}", where=where)
+    exact, columns, start = numbers_of(listed, rounding, where), [], 0
+    for size in sizes:
+        columns.append(Matrix.column(exact[start : start + size]))
+        start += size
+    return columns
+
+
+def _is_listed(value: Any) -> bool:
+    return not isinstance(value, str) and hasattr(value, "__len__")
+
+
+def signal_of(
+    sizes: Sequence[int],
+    level: Sequence[Any] | None,
+    steps: Sequence[tuple[Any, Sequence[Any]]],
+    ramps: Sequence[tuple[Any, Sequence[Any]]],
+    rounding: Rounding | None,
+    where: tuple[str, str, str],
+) -> Signal:
+    """Make a signal of its parts.
+
+    Parameters
+    ----------
+    sizes : sequence of int
+    level : sequence, optional
+        The values from the start on; 0 by default.
+    steps, ramps : sequences of (time, numbers)
+        What is added from a time on, and with which slopes.
+    rounding : {"decimal", "dyadic"} or None
+    where : tuple of str
+        The names of the three arguments in errors.
+    """
+    changes = []
+    if level is not None:
+        changes.append(Change(Fraction(0), by_channel(level, sizes, rounding, where[0])))
+    for name, given, ramp in ((where[1], steps, False), (where[2], ramps, True)):
+        for k, change in enumerate(several(given, name, "pairs (time, numbers)")):
+            place = f"{name}[{k}]"
+            if not _is_listed(change) or len(change) != 2:
+                raise InputError(
+                    f"expected a pair (time, numbers), found {told(change)}", where=place
+                )
+            time, values = change
+            [start] = numbers_of([time], rounding, place)
+            if start < 0:
+                raise InputError(f"expected a time of at least 0, found {start}", where=place)
+            changes.append(Change(start, by_channel(values, sizes, rounding, place), ramp))
+    return Signal([Matrix.zeros(size, 1) for size in sizes], tuple(changes))
+
+
+# The state in which a simulation starts.
+
+
+@dataclass(frozen=True)
+class InitialState:
+    """The state in which a simulation starts.
+
+    Attributes
+    ----------
+    plant : tuple of Fraction
+        x(0).
+    shared, private : tuple of tuples of Fraction
+        x_i(0) and z_i(0) of each agent.
+    """
+
+    plant: tuple[Fraction, ...]
+    shared: tuple[tuple[Fraction, ...], ...]
+    private: tuple[tuple[Fraction, ...], ...]
+
+
+def initial_state(
+    initial: InitialState | Sequence[Any] | None,
+    system: MultiChannelSystem,
+    controller: Controller,
+    rounding: Rounding | None,
+) -> InitialState:
+    """Return the initial state; by default x(0) = (1, …, 1), and all agents are at 0."""
+    if isinstance(initial, InitialState):
+        return initial
+    zero, one = Fraction(0), Fraction(1)
+    x = (one,) * system.n if initial is None else numbers_of(initial, rounding, "initial")
+    if len(x) != system.n:
+        raise InputError(f"expected {system.n} numbers, found {len(x)}", where="initial")
+    return InitialState(
+        x,
+        tuple((zero,) * agent.shared for agent in controller.agents),
+        tuple((zero,) * agent.private for agent in controller.agents),
+    )
+
+
+def set_initial(
+    network: Network, start: InitialState, system: MultiChannelSystem, controller: Controller
+) -> None:
+    """Check the sizes of an initial state, convert it and set it."""
+    if not len(start.shared) == len(start.private) == system.m:
+        raise InputError(
+            f"expected shared and private states of {system.m} agents, "
+            f"found {len(start.shared)} and {len(start.private)}",
+            where="initial",
+        )
+    expected = [
+        (system.n, start.plant, "x"),
+        *(
+            (size, values, f"agent {agent.name!r}")
+            for agent, x_i, z_i in zip(controller.agents, start.shared, start.private, strict=True)
+            for size, values in ((agent.shared, x_i), (agent.private, z_i))
+        ),
+    ]
+    for size, values, where in expected:
+        if len(values) != size:
+            raise InputError(f"expected {size} numbers, found {len(values)}", where=where)
+
+    def column(values: Sequence[Fraction]) -> Native:
+        return network.arithmetic.convert(Matrix.column(values))
+
+    parts = [
+        (column(x_i), column(z_i)) for x_i, z_i in zip(start.shared, start.private, strict=True)
+    ]
+    network.set_state(column(start.plant), parts)

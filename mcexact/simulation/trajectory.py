@@ -1,16 +1,17 @@
-"""`simulate` runs a controller as a network of agents and returns the trajectory."""
+"""simulate: trajectories in discrete and continuous time."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, pairwise
 from typing import Any
 
-from mcexact.arguments import told
-from mcexact.errors import InputError, UsageError
-from mcexact.exact.matrix import Rounding, to_float
+from mcexact.errors import InputError, LimitReached, UsageError, told
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.matrix import Rounding, largest_entry, matrix_to_float, to_float
 from mcexact.exact.rational import number
 from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import Controller
@@ -19,13 +20,353 @@ from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem, with_links
 from mcexact.plot.responses import responses
 from mcexact.shown import Shown
-from mcexact.simulation.arithmetic import arithmetic_named, representable
-from mcexact.simulation.continuous import integrated, taylor
-from mcexact.simulation.horizon import Grid, chosen_grid
-from mcexact.simulation.network import Network, Snapshot
-from mcexact.simulation.precision import double_precision_warning
-from mcexact.simulation.signals import Drive, numbers_of, signal_of
-from mcexact.simulation.start import InitialState, initial_state, set_initial
+from mcexact.simulation.network import (
+    Arithmetic,
+    Columns,
+    Drive,
+    InitialState,
+    Native,
+    Network,
+    Snapshot,
+    arithmetic_named,
+    initial_state,
+    numbers_of,
+    representable,
+    set_initial,
+    signal_of,
+)
+
+# Trajectories in continuous time, integrated from the equations of the plant and of each agent.
+
+STIFF = 20_000.0
+"""The largest product of the horizon and the fastest mode for an explicit method."""
+
+
+def integrated(
+    network: Network, times: Sequence[Fraction], drive: Drive, fastest: float = 0.0
+) -> list[Snapshot]:
+    """Integrate the derivatives that the plant and the agents compute, in double precision.
+
+    Parameters
+    ----------
+    network : Network
+        At its initial state.
+    times : sequence of Fraction
+        Ascending.
+    drive : Drive
+    fastest : float
+        The modulus of the fastest mode; where it is large, the method is implicit.
+
+    Raises
+    ------
+    LimitReached
+        If a number exceeds the range of double precision, or scipy's integration stops early.
+    """
+    import numpy as np
+    from scipy.integrate import solve_ivp
+
+    sizes = [len(network.state)]
+    for agent in network.agents:
+        sizes += [len(agent.shared), len(agent.private)]
+    ends = np.cumsum(sizes)[:-1]
+    numbers = network.arithmetic
+
+    def load(flat: Any) -> None:
+        pieces = np.split(flat.reshape(-1, 1), ends)
+        network.set_state(pieces[0], list(zip(pieces[1::2], pieces[2::2], strict=True)))
+
+    def gathered(state: Any, parts: Any) -> Any:
+        return np.concatenate([state, *(piece for part in parts for piece in part)])[:, 0]
+
+    def floats(signal: Columns) -> list[Native]:
+        return [numbers.convert(M) for M in signal]
+
+    representable(np.array([to_float(t) for t in times]))
+    flat = gathered(network.state, [(agent.shared, agent.private) for agent in network.agents])
+    scale = max(1.0, float(np.abs(flat).max(initial=0.0)))
+    stiff = fastest * to_float(times[-1] - times[0]) > STIFF
+    accuracy: dict[str, Any] = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-13 * scale}
+    if stiff:
+        accuracy = {"method": "Radau", "rtol": 1e-8, "atol": 1e-11 * scale}
+    wanted, snapshots = set(times), list[Snapshot]()
+    for piece in drive.pieces(times):
+        level, slope = (
+            [floats(each) for each in (kind.at(piece[0]), kind.slope(piece[0]))]
+            for kind in (drive.references, drive.disturbances)
+        )
+        grid = representable(np.array([to_float(t) for t in piece]))
+
+        def derivative(
+            t: float, flat: Any, level: Any = level, slope: Any = slope, start: Any = grid[0]
+        ) -> Any:
+            load(flat)
+            network.set_signals(
+                *(
+                    [r + s * (t - start) for r, s in zip(*kind, strict=True)]
+                    for kind in (level, slope)
+                )
+            )
+            return representable(gathered(*network.evolution()))
+
+        with np.errstate(over="ignore", invalid="ignore"):
+            solved = solve_ivp(derivative, (grid[0], grid[-1]), flat, t_eval=grid, **accuracy)
+        if not solved.success:
+            raise LimitReached(f"the integration stopped: {solved.message}")
+        for time, column in zip(piece, solved.y.T, strict=True):
+            # The next piece starts with the last time of this one, after the change.
+            if time in wanted and (time != piece[-1] or time == times[-1]):
+                load(column)
+                drive.apply(network, time)
+                snapshots.append(network.round()[0])
+        flat = solved.y[:, -1]
+    return snapshots
+
+
+def taylor(
+    network: Network, times: Sequence[Fraction], drive: Drive, digits: int
+) -> list[Snapshot]:
+    """Sum Taylor series in multiple precision until further terms change nothing.
+
+    Parameters
+    ----------
+    network : Network
+        At its initial state, with arithmetic in multiple precision; afterwards at the last time.
+    times : sequence of Fraction
+        Ascending; the first one belongs to the initial state.
+    drive : Drive
+    digits : int
+        The decimal digits of the arithmetic.
+
+    Returns
+    -------
+    list of Snapshot
+        One for each time.  These numbers are not enclosed, and prove nothing.
+    """
+    wanted = set(times)
+
+    def shown(time: Fraction) -> list[Snapshot]:
+        drive.apply(network, time)
+        return [network.round()[0]] if time in wanted else []
+
+    snapshots = shown(times[0])
+    for piece in drive.pieces(times):
+        for before, after in pairwise(piece):
+            step = after - before
+            now = before
+            while now < after:
+                step = min(step, after - now)
+                if _taylor_step(network, now, step, drive, digits):
+                    now += step
+                else:
+                    step /= 2
+            snapshots += shown(after)
+    return snapshots
+
+
+def _taylor_step(
+    network: Network, time: Fraction, step: Fraction, drive: Drive, digits: int
+) -> bool:
+    """Take a step x(t + h) = Σ h^k x^(k) / k!; return False and change nothing if the terms grow.
+
+    The network computes the derivatives: one round at x gives x'.  Since the programs are linear,
+    one round at x^(k) with the k-th derivatives of all signals gives x^(k+1).
+    """
+    numbers = network.arithmetic
+    parts = [(agent.shared, agent.private) for agent in network.agents]
+    start = network.state, parts
+    total = term = start
+    limit = 0.0
+    for k in range(1, 40 * digits):
+        # The state is h^(k−1) x^(k−1) / (k−1)!, and the signals have the same factor.
+        drive.apply_derivative(network, time, k - 1, step)
+        term = _scaled(network.evolution(), numbers.scalar(step / k))
+        network.set_state(*term)
+        total = _added(total, term)
+        size = _size(numbers, term)
+        if k == 1:
+            limit = 10.0 ** (digits // 4) * max(_size(numbers, start), size)
+        if not size <= limit:
+            break
+        if k > 1 and size <= _size(numbers, total) * 10.0**-digits:
+            network.set_state(*total)
+            return True
+    network.set_state(*start)
+    return False
+
+
+Parts = tuple[Native, list[tuple[Native, Native]]]
+
+
+def _scaled(value: Parts, factor: Any) -> Parts:
+    return value[0] * factor, [(x * factor, z * factor) for x, z in value[1]]
+
+
+def _added(a: Parts, b: Parts) -> Parts:
+    pairs = zip(a[1], b[1], strict=True)
+    return a[0] + b[0], [(x + u, z + v) for (x, z), (u, v) in pairs]
+
+
+def _size(numbers: Arithmetic, value: Parts) -> float:
+    columns = [value[0], *(piece for part in value[1] for piece in part)]
+    return max(numbers.largest(column) for column in columns)
+
+
+# The times of a simulation, chosen from the slowest and the fastest mode of the loop.
+
+CONSTANTS = 6
+"""How many time constants of the slowest mode are shown; e⁻⁶ is 0.0025."""
+FEWEST, MOST = 200, 1000
+"""The least and the largest number of intervals in continuous time."""
+STEPS = 300
+"""The largest number of steps that is chosen in discrete time."""
+_PER_RADIAN = 5
+_NICE = (10, 12, 15, 20, 25, 30, 40, 50, 60, 80, 100)
+_SLOW = 1e-9
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The times of a run.
+
+    Attributes
+    ----------
+    times : tuple of Fraction
+    fastest : float
+        The largest modulus of an eigenvalue of the loop, in floating point; 0 if it is unknown.
+    note : str or None
+        What these times do not show.
+    """
+
+    times: tuple[Fraction, ...]
+    fastest: float = 0.0
+    note: str | None = None
+
+
+def chosen_grid(
+    loop: ClosedLoop, last: Fraction, horizon: Fraction | None = None, points: int | None = None
+) -> Grid:
+    """Choose the times of a run.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    last : Fraction
+        The time of the last change of a signal, after which the loop should be seen to settle.
+    horizon : Fraction, optional
+        The last time, or the number of steps in discrete time.  By default `CONSTANTS` time
+        constants of the slowest mode after the last change, rounded up to a short number.
+    points : int, optional
+        The number of equal intervals in continuous time, by default several for each radian of the
+        fastest mode, within limits.
+
+    Notes
+    -----
+    Eigenvalues in floating point; only in discrete time the characteristic polynomial as well,
+    which says exactly how many eigenvalues are 0, where floating point cannot.
+    """
+    if is_discrete(loop.given.time):
+        chosen = last + _steps(loop, _eigenvalues(loop)) if horizon is None else horizon
+        return Grid(tuple(Fraction(k) for k in range(math.ceil(chosen) + 1)))
+    modes = _eigenvalues(loop)
+    fastest = max(map(abs, modes), default=0.0)
+    end = _nice(last + _duration(modes)) if horizon is None else horizon
+    needed = math.ceil(min(to_float(end) * fastest * _PER_RADIAN, 1e9)) if fastest else FEWEST
+    count = min(max(needed, FEWEST), MOST) if points is None else points
+    note = None
+    if points is None and needed > _PER_RADIAN * MOST:
+        note = (
+            f"the fastest mode has |λ| = {fastest:.3g}, too fast for times that are "
+            f"{to_float(end / count):.3g} apart; a shorter horizon shows it"
+        )
+    return Grid(tuple(end * k / count for k in range(count + 1)), fastest, note)
+
+
+def _eigenvalues(loop: ClosedLoop) -> list[complex]:
+    """The eigenvalues in floating point; none if entries exceed floats."""
+    import numpy as np
+
+    M = matrix_to_float(loop.matrix)
+    if not M.size or not np.all(np.isfinite(M)):
+        return []
+    return [complex(each) for each in np.linalg.eigvals(M)]
+
+
+def _duration(modes: list[complex]) -> Fraction:
+    """Some time constants of the slowest mode, or the time in which unstable modes grow as much."""
+    if not modes:
+        return Fraction(10)
+    scale = max(map(abs, modes))
+    rate = -max(each.real for each in modes)
+    if rate < -_SLOW * scale:
+        # An unstable loop is shown until it has grown e³ times.
+        return Fraction(CONSTANTS / -rate / 2)
+    if rate <= _SLOW * scale:
+        moving = [abs(each) for each in modes if abs(each) > _SLOW * scale]
+        return Fraction(CONSTANTS * math.pi / min(moving)) if moving else Fraction(10)
+    return Fraction(CONSTANTS / rate)
+
+
+def _steps(loop: ClosedLoop, modes: list[complex]) -> int:
+    """The same in discrete time, as a number of steps."""
+    states = loop.dimension
+    if states <= STEPS // 5:
+        # A mode 0 is gone after as many steps as it has states.
+        zeros = characteristic_polynomial(loop.matrix).numerators
+        at_rest = next((k for k, c in enumerate(zeros) if c), 0)
+        modes = sorted(modes, key=abs)[at_rest:]
+    radius = max(map(abs, modes), default=0.0)
+    if radius <= _SLOW:
+        return min(states + 3, STEPS)
+    constant = abs(math.log(radius))
+    if constant < CONSTANTS / STEPS:
+        return STEPS
+    return min(max(states + 3, math.ceil(_nice(Fraction(CONSTANTS / constant)))), STEPS)
+
+
+def _nice(value: Fraction) -> Fraction:
+    """Round up to a number of two digits that is easily read.
+
+    Examples
+    --------
+    >>> [str(_nice(Fraction(x))) for x in ("0.0163", "491", "8", "1/3")]
+    ['1/50', '500', '8', '2/5']
+    """
+    exponent = math.floor(math.log10(value)) - 1
+    unit = Fraction(10) ** exponent
+    digits = next((each for each in _NICE if each * unit >= value), 100)
+    return digits * unit
+
+
+# A warning where double precision cannot represent a closed loop well enough to simulate it.
+
+LARGEST_FOR_DOUBLES = 10**5
+
+
+def double_precision_warning(loop: ClosedLoop) -> str | None:
+    """Return a warning if the matrix of a closed loop has an entry of 10⁵ or more, else None.
+
+    Notes
+    -----
+    A matrix with large entries and small eigenvalues is far from normal, so rounding its entries
+    moves its eigenvalues far.  In one example with n = 6 and m = 5 the spectral abscissa is −1, but
+    +9 once the entries are rounded to double precision.
+    """
+    largest = largest_entry([loop.matrix])
+    if largest < LARGEST_FOR_DOUBLES:
+        return None
+    return (
+        f"the closed loop has entries up to {_power(largest)}, so that double precision does not "
+        "show how the exact design behaves; use exact or multiprecision arithmetic"
+    )
+
+
+def _power(value: Fraction) -> str:
+    """The order of magnitude of a number of 1 or more, such as 3e+20."""
+    digits = str(int(value))
+    return f"{digits[0]}e+{len(digits) - 1:02d}"
+
+
+# `simulate` runs a controller as a network of agents and returns the trajectory.
 
 SIGNALS = {"outputs": "y", "inputs": "u", "reference": "r"}
 """The letters of the signals of all agents, keyed by their names in a `Snapshot`."""

@@ -6,8 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from mcexact.analysis.questions import QUESTIONS as ALL
-from mcexact.arguments import several
-from mcexact.errors import UsageError
+from mcexact.errors import UsageError, several
 from mcexact.model.properties import PROPERTIES
 
 QUESTIONS = {

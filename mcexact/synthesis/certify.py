@@ -30,8 +30,7 @@ from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import VERDICT
 from mcexact.answer.sentence import Given
 from mcexact.answer.stability import StabilityVerdict
-from mcexact.arguments import one_of, telling
-from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError, one_of, telling
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 from mcexact.exact.rational import Entry
 from mcexact.exact.roots import StabilityRegion

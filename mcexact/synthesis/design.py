@@ -174,7 +174,7 @@ class Design(ShownByAccount):
         Computed in floating point, not certified; the page of ``mcexact design --html`` shows the
         same.  `Controller.plot` draws the gains, and `Trajectory.plot` what `simulate` returns.
         """
-        from mcexact.plot.loops import loop
+        from mcexact.plot.responses import loop
         from mcexact.synthesis.optimum.diagnosis import curves_of
 
         curves = curves_of(self.loop.closed, self.region)

@@ -15,9 +15,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from mcexact.arguments import one_of
 from mcexact.derived.constructions import checked_gains, closed_by, error_system
-from mcexact.errors import Impossible, InputError, LimitReached, McexactError, UsageError
+from mcexact.errors import Impossible, InputError, LimitReached, McexactError, UsageError, one_of
 from mcexact.exact.matrix import Matrix, Rounding, matrix_from_float, matrix_to_float
 from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.floating.margins import is_within

@@ -13,9 +13,8 @@ from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.distributed_observer import DistributedObserver
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules.refusals import refusal
-from mcexact.arguments import one_of, telling
 from mcexact.derived.modular import generator
-from mcexact.errors import Impossible, InternalError, LimitReached, UsageError
+from mcexact.errors import Impossible, InternalError, LimitReached, UsageError, one_of, telling
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import StabilityRegion

@@ -11,7 +11,6 @@ from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, share
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.shared_dimensions import SharedDimensions
-from mcexact.arguments import one_of
 from mcexact.derived.constructions import (
     Share,
     checked_dimensions,
@@ -20,7 +19,7 @@ from mcexact.derived.constructions import (
     lifted_system,
     setpoint_system,
 )
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError, UsageError, one_of
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.roots import StabilityRegion

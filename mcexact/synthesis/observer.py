@@ -15,10 +15,9 @@ from mcexact.analysis.fixed_modes.gains import ReachingGains, error_gain_draws, 
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
-from mcexact.arguments import one_of
 from mcexact.derived.constructions import closed_by, error_system
 from mcexact.derived.modular import generator
-from mcexact.errors import Impossible, InputError, InternalError, LimitReached, UsageError
+from mcexact.errors import Impossible, InputError, InternalError, LimitReached, UsageError, one_of
 from mcexact.exact.linear_algebra import inverse, row_echelon
 from mcexact.exact.matrix import Matrix, block, dyadic_matrix, matrix_to_float, to_float, vstack
 from mcexact.exact.polynomial import Polynomial

@@ -10,8 +10,7 @@ from typing import Any
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.arguments import telling
-from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError, telling
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.design import Design

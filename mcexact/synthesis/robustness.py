@@ -14,8 +14,7 @@ from mcexact.analysis.boxes.largest_loop_box import failing_loop, refuted_loop
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.two_sided import short
 from mcexact.answer.box_stable import BoxStability
-from mcexact.arguments import require_seconds
-from mcexact.errors import LimitReached
+from mcexact.errors import LimitReached, require_seconds
 from mcexact.exact.rational import percent, written
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box

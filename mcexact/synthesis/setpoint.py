@@ -12,9 +12,8 @@ from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.answer.wording import refusals as say
-from mcexact.arguments import one_of
 from mcexact.derived.constructions import setpoint_system
-from mcexact.errors import Impossible, InputError, InternalError, LimitReached, OutOfReach
+from mcexact.errors import Impossible, InputError, InternalError, LimitReached, OutOfReach, one_of
 from mcexact.exact.matrix import Matrix, block, hstack, vstack
 from mcexact.exact.polynomial import product
 from mcexact.exact.roots import StabilityRegion, steady_point

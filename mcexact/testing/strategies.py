@@ -1,21 +1,84 @@
-"""Hypothesis strategies for systems with known structure and for neighbor graphs."""
+"""Hypothesis strategies and assertions."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-from typing import TypeVar
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, replace
+from fractions import Fraction
+from typing import Any, TypeVar
 
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
+from mcexact.answer.check import check
+from mcexact.answer.protocol import Answer
 from mcexact.derived.drawn import systems as drawn
 from mcexact.derived.drawn import systems as structure
 from mcexact.derived.drawn.networks import drawn_graph
-from mcexact.derived.drawn.systems import Drawn, system_with_deficiency
-from mcexact.exact.roots import TIMES
+from mcexact.derived.drawn.systems import Drawn as Drawn
+from mcexact.derived.drawn.systems import system_with_deficiency
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import written
+from mcexact.exact.roots import TIMES, is_discrete
+from mcexact.model.box import Box
+from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
-from mcexact.testing.printing import printed, printed_graph
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system import MultiChannelSystem
+
+# Drawn systems that Hypothesis prints as code, which a counterexample can be pasted from.
+
+
+def printed(draw: DrawFn, found: Drawn) -> Drawn:
+    """Return an equal drawn system, which Hypothesis prints as calls of constructors.
+
+    Hypothesis prints what ``st.builds`` made by the call that made it, so the values are built once
+    more here, from their arguments.
+    """
+    known = {
+        each.name: value
+        for each in fields(found)
+        if each.name != "system" and (value := getattr(found, each.name)) is not None
+    }
+    made: Drawn = _built(draw, Drawn, system=_system(draw, found.system), **known)
+    return made
+
+
+def printed_graph(draw: DrawFn, graph: NeighborGraph) -> NeighborGraph:
+    """Return an equal graph, which Hypothesis prints as a call of its constructor."""
+    delays = {"delays": graph.delays} if graph.delays else {}
+    arguments = {"names": graph.names, "neighbors": graph.neighbors, **delays}
+    made: NeighborGraph = _built(draw, NeighborGraph, **arguments)
+    return made
+
+
+def _built(draw: DrawFn, made: Any, **arguments: Any) -> Any:
+    return draw(st.builds(made, **{name: st.just(value) for name, value in arguments.items()}))
+
+
+def _system(draw: DrawFn, system: MultiChannelSystem) -> MultiChannelSystem:
+    arguments: dict[str, Any] = {
+        "A": _rows(system.A),
+        "B": [_rows(channel.B) for channel in system.channels],
+        "C": [_rows(channel.C) for channel in system.channels],
+    }
+    if is_discrete(system.time):
+        arguments["time"] = system.time
+    if system.names != tuple(str(i + 1) for i in range(system.m)):
+        arguments["names"] = system.names
+    if system.neighbors is not None:
+        arguments["neighbors"] = printed_graph(draw, system.neighbors)
+    found: MultiChannelSystem = _built(draw, MultiChannelSystem, **arguments)
+    return found
+
+
+def _rows(M: Matrix) -> Any:
+    """The rows as lists; a matrix without entries as it is, since a list would lose its shape."""
+    return [[written(x) for x in row] for row in M] if M.nrows and M.ncols else M
+
+
+# Hypothesis strategies for systems with known structure and for neighbor graphs.
 
 T = TypeVar("T")
 
@@ -398,3 +461,158 @@ def incomplete_systems(
     time : {"continuous", "discrete"}, optional
     """
     return _incomplete(reason, max_states, max_channels, time)
+
+
+# Hypothesis strategies that draw members of boxes of plants.
+
+_STEPS = 2**10
+
+
+@st.composite
+def _members(draw: DrawFn, box: Box, vertices: bool) -> MultiChannelSystem:
+    part = st.sampled_from([1, -1]) if vertices else st.integers(-_STEPS, _STEPS)
+    steps = 1 if vertices else _STEPS
+    return box.moved(lambda: Fraction(draw(part), steps))
+
+
+def members(box: Box, *, vertices: bool = False) -> SearchStrategy[MultiChannelSystem]:
+    """Draw plants in a box, each uncertain entry anywhere in its interval.
+
+    Parameters
+    ----------
+    box : Box
+    vertices : bool
+        Whether every uncertain entry is at one of the two ends of its interval.
+
+    Returns
+    -------
+    SearchStrategy of MultiChannelSystem
+        Plants of exact numbers; they shrink towards the nominal plant, or the upper ends.
+    """
+    return _members(box, vertices)
+
+
+# Hypothesis strategies that draw systems with parameters.
+
+_ONES = ("0", "1", "-1", "2")
+_SHAPES = ("{t}", "-{t}", "{t} + 1", "2*{t} - 1", "{t}^2 - 2", "{t}^2 + {t} + 1")
+_QUOTIENTS = ("1/({t} - 3)", "{t}/({t}^2 + 1)")
+_RANGES = (None, (0, 1), ("1/2", None), (None, -1))
+
+
+@st.composite
+def _parametric(
+    draw: DrawFn,
+    max_states: int,
+    max_channels: int,
+    parameters: tuple[str, ...],
+    denominators: bool,
+    ranges: bool,
+    time: str | None,
+) -> ParametricSystem:
+    shapes = _SHAPES + (_QUOTIENTS if denominators else ())
+    depending = [shape.format(t=name) for shape in shapes for name in parameters]
+    entry = st.one_of(st.sampled_from(_ONES), st.sampled_from(depending))
+
+    def matrix(r: int, c: int) -> list[list[str]]:
+        return [[draw(entry) for _ in range(c)] for _ in range(r)]
+
+    n, m = draw(st.integers(1, max_states)), draw(st.integers(1, max_channels))
+    # Beyond these states no input reaches, which makes fixed modes of every degree.
+    reached = draw(st.one_of(st.just(n), st.integers(0, n)))
+    A, unreached = matrix(n, n), [["0"]] * (n - reached)
+    arguments = {
+        "A": A[:reached] + [["0"] * reached + row[reached:] for row in A[reached:]],
+        "B": [matrix(reached, 1) + unreached for _ in range(m)],
+        "C": [matrix(1, n) for _ in range(m)],
+        "parameters": list(parameters),
+        "time": draw(st.sampled_from(TIMES)) if time is None else time,
+    }
+    if ranges:
+        drawn = {name: draw(st.sampled_from(_RANGES)) for name in parameters}
+        arguments["assume"] = {name: bounds for name, bounds in drawn.items() if bounds}
+    # What is built is printed as the call that made it.
+    made: ParametricSystem = draw(
+        st.builds(ParametricSystem, **{name: st.just(value) for name, value in arguments.items()})
+    )
+    return made
+
+
+def parametric_systems(
+    max_states: int = 3,
+    max_channels: int = 2,
+    *,
+    parameters: Sequence[str] = ("t",),
+    denominators: bool = False,
+    ranges: bool = False,
+    time: str | None = None,
+) -> SearchStrategy[ParametricSystem]:
+    """Draw systems whose entries are small polynomials in parameters, of one input and output each.
+
+    In some of them no input reaches some states, whose modes are fixed for every value.
+
+    Parameters
+    ----------
+    max_states, max_channels : int
+    parameters : sequence of str
+    denominators : bool
+        Whether entries may be quotients of polynomials.
+    ranges : bool
+        Whether parameters may be assumed to be in ranges.
+    time : {"continuous", "discrete"}, optional
+        Both are drawn by default.
+
+    Returns
+    -------
+    SearchStrategy of ParametricSystem
+        They shrink towards one state and entries that are 0.
+    """
+    return _parametric(max_states, max_channels, tuple(parameters), denominators, ranges, time)
+
+
+# An assertion for tests that make or keep certificates.
+
+
+def assert_valid(
+    certificate: Answer | str | os.PathLike[str],
+    system: MultiChannelSystem | None = None,
+    controller: Controller | str | os.PathLike[str] | None = None,
+    expect: str | Mapping[str, Any] | None = None,
+) -> str:
+    """Assert that the independent checker accepts a certificate.
+
+    Parameters
+    ----------
+    certificate : Answer or path
+    system : MultiChannelSystem, optional
+    controller : Controller or path, optional
+    expect : str or mapping, optional
+        What the certificate must be about, and what it must say, as in `check`.
+
+    Returns
+    -------
+    str
+        The verified statement.
+
+    Raises
+    ------
+    AssertionError
+        If the verdict is not VALID; the message says why.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem, fixed_spectrum
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> assert_valid(fixed_spectrum(plant), plant).startswith("For the plant ")
+    True
+    >>> other = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
+    >>> assert_valid(fixed_spectrum(plant), other)  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    AssertionError: INVALID system system: about another system, of digest ...
+    """
+    __tracebackhide__ = True
+    found = check(certificate, system, controller, expect)
+    if not found.valid:
+        raise AssertionError(found.explain())
+    return found.statement

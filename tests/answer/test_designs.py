@@ -22,8 +22,7 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.account import tables
-from mcexact.report.text import plain
+from mcexact.report.text import plain, tables
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.design import Design

@@ -20,10 +20,9 @@ from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.account import answer, in_lines, latex, tables
-from mcexact.report.account_page import account_page
-from mcexact.report.picture import EmbeddedPicture, Picture
-from mcexact.report.text import plain
+from mcexact.report.html import EmbeddedPicture, Picture
+from mcexact.report.pages import account_page
+from mcexact.report.text import answer, in_lines, latex, plain, tables
 from tests.answer.asking import asked as asking
 from tests.answer.reading import leaves, texts_of_html, texts_of_latex, texts_of_plain
 from tests.oracle.draws import exact, sparse_system

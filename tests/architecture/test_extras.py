@@ -57,7 +57,7 @@ def drawn_before(path: Path, library: str) -> bool:
     """Whether a module draws on figures that canvas.py has made, or saves them."""
     place = str(path.relative_to(PACKAGE))
     drawing = place.startswith("plot/") and place != "plot/canvas.py"
-    return library == "matplotlib" and (drawing or place == "report/picture.py")
+    return library == "matplotlib" and (drawing or place == "report/html.py")
 
 
 def test_the_page_of_installation_lists_every_extra_of_users() -> None:

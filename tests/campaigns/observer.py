@@ -25,7 +25,7 @@ from mcexact.exact.matrix import Matrix, largest_entry
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller import Controller, controller_text
 from mcexact.model.system import MultiChannelSystem
-from mcexact.simulation.start import InitialState
+from mcexact.simulation.network import InitialState
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer

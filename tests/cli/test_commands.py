@@ -14,7 +14,7 @@ from mcexact.analysis.questions import QUESTIONS
 from mcexact.cli import main
 from mcexact.cli.commands import COMMANDS
 from mcexact.crosschecks import demonstration
-from mcexact.crosschecks.records import libraries_here
+from mcexact.crosschecks.table import libraries_here
 from mcexact.model import gallery
 from mcexact.model.files import load_system
 from tests.checker.manifests import write

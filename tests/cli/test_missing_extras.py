@@ -10,7 +10,7 @@ import pytest
 
 from mcexact import MissingExtra
 from mcexact.cli import main
-from mcexact.floating.controllability import ctrb_rank
+from mcexact.floating.verdicts import ctrb_rank
 from mcexact.model import gallery
 from mcexact.plot.canvas import _figure_class, empty_figure
 

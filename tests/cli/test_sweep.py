@@ -19,7 +19,7 @@ from mcexact.model import gallery
 from mcexact.model.controller import save_controller
 from mcexact.model.files import save_system
 from mcexact.model.statespace import local_controllers
-from mcexact.report.sweep_view import sweep_tables
+from mcexact.report.sweep import sweep_tables
 from mcexact.sweeps.questions import QUESTIONS
 from tests.effort import PATIENCE
 from tests.end_to_end.command_line import interruptible, without_notes

@@ -7,8 +7,7 @@ only where every kernel has to fail.
 import pytest
 
 from mcexact.crosschecks.gallery import exhibit, exhibits, shown, shown_in
-from mcexact.crosschecks.records import recorded
-from mcexact.crosschecks.table import crosscheck
+from mcexact.crosschecks.table import crosscheck, recorded
 from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem

@@ -2,9 +2,9 @@
 
 import pytest
 
-from mcexact.crosschecks import gallery, recording, records
+from mcexact.crosschecks import gallery, recording, table
 from mcexact.crosschecks.demonstration import FloatingAnswers
-from mcexact.crosschecks.records import Libraries, libraries_here, libraries_of
+from mcexact.crosschecks.table import Libraries, libraries_here, libraries_of
 from mcexact.model.system import MultiChannelSystem
 
 ELSEWHERE = Libraries((("numpy", "1.26"), ("OpenBLAS", "0.3.23")), "Haswell")
@@ -85,6 +85,6 @@ def test_numpys_own_library_is_named_and_not_scipys(monkeypatch):
 
 
 def test_a_library_that_is_not_installed_is_left_out(monkeypatch):
-    monkeypatch.setattr(records, "_LIBRARIES", ("numpy", "no-such-distribution"))
+    monkeypatch.setattr(table, "_LIBRARIES", ("numpy", "no-such-distribution"))
     assert libraries_here().versions[0][0] == "numpy"
     assert "no-such-distribution" not in str(libraries_here())

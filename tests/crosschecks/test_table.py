@@ -5,7 +5,7 @@ import pytest
 import mcexact
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.crosschecks.table import crosscheck
-from mcexact.floating import controllability
+from mcexact.floating import verdicts
 from mcexact.model.system import MultiChannelSystem
 from tests.synthesis.three_channels import three_channels
 
@@ -50,7 +50,7 @@ def test_a_library_that_is_missing_gives_no_answer(monkeypatch):
     def missing(*_):
         raise ModuleNotFoundError("No module named 'control'", name="control")
 
-    monkeypatch.setattr(controllability, "ctrb_rank", missing)
+    monkeypatch.setattr(verdicts, "ctrb_rank", missing)
     [row] = [row for row in crosscheck(PLAIN).rows if row.question == "joint controllability"]
     assert row.agree is None and row.floating == "no answer (control is not installed)"
 
@@ -59,7 +59,7 @@ def test_a_library_that_cannot_be_loaded_is_not_called_missing(monkeypatch):
     def unmapped(*_):
         raise ImportError("failed to map segment from shared object", name="control")
 
-    monkeypatch.setattr(controllability, "ctrb_rank", unmapped)
+    monkeypatch.setattr(verdicts, "ctrb_rank", unmapped)
     with pytest.raises(ImportError, match="failed to map"):
         crosscheck(PLAIN)
 

@@ -10,8 +10,7 @@ import pytest
 
 import mcexact
 from mcexact import Aims, MultiChannelSystem, NeighborGraph, StabilityRegion
-from mcexact.arguments import one_of, several, told
-from mcexact.errors import FloatRefused, InputError, UsageError
+from mcexact.errors import FloatRefused, InputError, UsageError, one_of, several, told
 
 ONES = [[[1]], [[1]]]
 PLANT = MultiChannelSystem([[1]], ONES, ONES, names=["pump", "valve"])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mcexact.floating.fixed_mode_distance import distance_at
+from mcexact.floating.verdicts import distance_at
 
 
 def test_it_is_not_above_the_distance_to_uncontrollability() -> None:

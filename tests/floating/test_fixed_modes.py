@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
-from mcexact.floating.controllability import controllability_matrix, controllability_rank
-from mcexact.floating.fixed_modes import rounded_fixed_modes
+from mcexact.floating.verdicts import (
+    controllability_matrix,
+    controllability_rank,
+    rounded_fixed_modes,
+)
 
 
 def test_the_controllability_matrix_has_the_powers_of_A() -> None:

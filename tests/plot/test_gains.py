@@ -6,7 +6,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.plot.gains import gains
+from mcexact.plot.graphs import gains
 
 
 def texts(figure: object) -> dict[tuple[int, int], str]:

@@ -11,8 +11,7 @@ from mcexact.errors import UsageError
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.responses import decay, responses
-from mcexact.simulation.envelope import proved_envelope
-from mcexact.simulation.run import simulated_loop
+from mcexact.simulation.envelope import proved_envelope, simulated_loop
 from mcexact.simulation.trajectory import Trajectory, simulate
 from mcexact.synthesis.setpoint import design_setpoint
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from mcexact.errors import UsageError
-from mcexact.plot.uncertainty import uncertainty, uncertainty_shares
+from mcexact.plot.parameters import uncertainty, uncertainty_shares
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,7 @@ import pytest
 
 from mcexact import MultiChannelSystem, NeighborGraph
 from mcexact.model import gallery
-from mcexact.report.account import answer, in_lines, tables
-from mcexact.report.text import plain, show
+from mcexact.report.text import answer, in_lines, plain, show, tables
 from tests.answer.asking import account_of
 
 EXAMPLE: dict[str, Any] = {

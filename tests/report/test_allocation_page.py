@@ -14,10 +14,9 @@ from mcexact.model.files import save_system
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.graphs import ADDED
-from mcexact.report.account_page import allocation_page
-from mcexact.report.dimension_figures import allocation_picture
-from mcexact.report.graph_figures import links_picture
-from mcexact.report.sweep_view import sweep_page
+from mcexact.report.figures import allocation_picture, links_picture
+from mcexact.report.pages import allocation_page
+from mcexact.report.sweep import sweep_page
 from tests.report.strict_html import external_addresses
 
 PLANT = gallery.load("liu2020-3ch-no-communication")

@@ -4,23 +4,26 @@ import json
 
 import pytest
 
-from mcexact.crosschecks.demonstration import Demonstration, FloatingAnswers
-from mcexact.crosschecks.demonstration_view import demonstration_text, demonstration_view
-from mcexact.crosschecks.gallery import exhibit, shown
-from mcexact.crosschecks.records import Libraries
-from mcexact.crosschecks.table import crosscheck
-from mcexact.crosschecks.view import (
+from mcexact.crosschecks.demonstration import (
+    Demonstration,
+    FloatingAnswers,
+    demonstration_text,
+    demonstration_view,
+)
+from mcexact.crosschecks.gallery import (
     crosscheck_tables,
     crosscheck_view,
+    exhibit,
     exhibit_tables,
     exhibits_page,
     exhibits_view,
+    shown,
 )
+from mcexact.crosschecks.table import Libraries, crosscheck
 from mcexact.model import gallery
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.account import measured, tables
-from mcexact.report.text import plain
+from mcexact.report.text import measured, plain, tables
 from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.distributed_observer import design_observer

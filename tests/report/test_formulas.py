@@ -6,9 +6,7 @@ import re
 
 import pytest
 
-from mcexact.report.formula_latex import typeset_latex
-from mcexact.report.formulas import Node, formulas
-from mcexact.report.mathml import typeset
+from mcexact.report.formulas import Node, formulas, typeset, typeset_latex
 from mcexact.reproduce.ledger import examinations
 from mcexact.reproduce.statements import statements
 

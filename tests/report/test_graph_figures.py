@@ -5,7 +5,7 @@ from matplotlib.colors import to_hex
 from mcexact.analysis.analyze import analyze
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.plot.graphs import LARGEST, MARKED, SENDERS
-from mcexact.report.graph_figures import graph_pictures
+from mcexact.report.figures import graph_pictures
 
 
 def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:

@@ -6,7 +6,7 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model.loop import closed_loop
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.loop_page import loop_pictures
+from mcexact.report.pages import loop_pictures
 from mcexact.synthesis.optimum.diagnosis import curves_of
 from mcexact.synthesis.setpoint import design_setpoint
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact.report.mathml import matrix, typeset
+from mcexact.report.formulas import matrix, typeset
 
 SET = [
     ("no formula & none", "no formula &amp; none"),

@@ -16,7 +16,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.responses import rate_text
 from mcexact.report.figures import spectrum_picture
 from mcexact.report.simulation import radius_text
-from mcexact.report.tolerances import tolerance_tables
+from mcexact.report.sweep import tolerance_tables
 from mcexact.synthesis.certify import certify_controller
 
 EXTREMES = [

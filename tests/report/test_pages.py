@@ -13,9 +13,9 @@ from mcexact.exact import matrix
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.account import latex
-from mcexact.report.account_page import account_page
-from mcexact.report.graph_figures import graph_pictures
+from mcexact.report.figures import graph_pictures
+from mcexact.report.pages import account_page
+from mcexact.report.text import latex
 from tests.answer.asking import account_of
 from tests.report.strict_html import Page, external_addresses
 

@@ -8,8 +8,7 @@ import pytest
 
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.plant import CUT, LARGEST, shown_plant
-from mcexact.report.stamp import stamp
+from mcexact.report.html import CUT, LARGEST, shown_plant, stamp
 
 
 def plant_of(n: int, m: int = 1, entry: object = 1) -> MultiChannelSystem:

@@ -12,10 +12,8 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap, save_c
 from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import simulation_pictures, simulation_png
-from mcexact.report.simulation import SimulationReport
-from mcexact.report.trajectory import shown_times, trajectory_csv
-from mcexact.simulation.envelope import LARGEST
-from mcexact.simulation.run import simulated_loop
+from mcexact.report.simulation import SimulationReport, shown_times, trajectory_csv
+from mcexact.simulation.envelope import LARGEST, simulated_loop
 from mcexact.simulation.trajectory import simulate
 from tests.report.strict_html import external_addresses
 

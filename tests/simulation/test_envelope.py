@@ -12,8 +12,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.simulation import SimulationReport
-from mcexact.simulation.envelope import Envelope, proved_envelope
-from mcexact.simulation.run import SimulatedLoop, simulated_loop
+from mcexact.simulation.envelope import Envelope, SimulatedLoop, proved_envelope, simulated_loop
 from mcexact.simulation.trajectory import Trajectory, simulate
 
 

@@ -10,7 +10,7 @@ import pytest
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.simulation.horizon import FEWEST, MOST, STEPS, Grid, chosen_grid
+from mcexact.simulation.trajectory import FEWEST, MOST, STEPS, Grid, chosen_grid
 
 
 def loop_of(A: list[list[Any]], time: str = "continuous") -> ClosedLoop:

@@ -13,9 +13,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap, controller_text
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.simulation.arithmetic import ExactArithmetic
-from mcexact.simulation.network import Network, SignalNotReceived
-from mcexact.simulation.start import InitialState
+from mcexact.simulation.network import ExactArithmetic, InitialState, Network, SignalNotReceived
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.distributed_observer import design_observer
 from tests.campaigns.observer import compare_discrete, one_design

@@ -25,8 +25,7 @@ from mcexact.model.system_file import system_text
 from mcexact.model.text import canonical
 from mcexact.sweeps.jobs import Job, Outcome, decide
 from mcexact.sweeps.questions import QUESTIONS
-from mcexact.sweeps.records import Record, read_records
-from mcexact.sweeps.run import sweep
+from mcexact.sweeps.run import Record, read_records, sweep
 
 DRAWS = [Draw(seed, states=3, fixed_degree=1 if seed % 2 else None) for seed in range(6)]
 

@@ -18,8 +18,7 @@ from mcexact.analysis.boxes.parametric_box_stable import LoopSearch
 from mcexact.analysis.boxes.two_sided import Search, largest_factor
 from mcexact.answer.parametric_box_stable import ParametricBoxStability
 from mcexact.answer.stability import StabilityVerdict
-from mcexact.arguments import require_seconds
-from mcexact.errors import InputError, LimitReached
+from mcexact.errors import InputError, LimitReached, require_seconds
 from mcexact.exact.matrix import matrix_to_float, to_float
 from mcexact.exact.rational import percent, written
 from mcexact.exact.roots import StabilityRegion

@@ -13,11 +13,11 @@ from typing import Any
 from mcexact.analysis.boxes.failing_plants import FailingPlant
 from mcexact.answer.mode_words import blame
 from mcexact.answer.protocol import Answer
-from mcexact.arguments import require_seconds
+from mcexact.errors import require_seconds
 from mcexact.exact.matrix import to_float
 from mcexact.exact.rational import percent, three_digits
 from mcexact.model.system import MultiChannelSystem
-from mcexact.plot.uncertainty import uncertainty
+from mcexact.plot.parameters import uncertainty
 from mcexact.shown import Shown
 
 _STEPS = 14

@@ -15,7 +15,6 @@ from mcexact.answer.single_channel_gains import (
     StuckWitness,
     UnreachedWitness,
 )
-from mcexact.arguments import one_of, told
 from mcexact.derived.constructions import closed_by, dual, full_output
 from mcexact.derived.modular import (
     ModularSystem,
@@ -24,7 +23,7 @@ from mcexact.derived.modular import (
     generator,
     residue_systems,
 )
-from mcexact.errors import InputError, InternalError, UsageError
+from mcexact.errors import InputError, InternalError, UsageError, one_of, told
 from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix, hstack

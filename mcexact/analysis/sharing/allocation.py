@@ -17,10 +17,9 @@ from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.covering import ConnectivityCut
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.shared_dimensions import SharedDimensions
-from mcexact.arguments import several
 from mcexact.derived.constructions import Share, augmented_outputs, checked_share, extended_system
 from mcexact.derived.modular import generator
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError, UsageError, several
 from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.matrix import as_requested
 from mcexact.exact.rational import Entry

@@ -20,7 +20,6 @@ from mcexact.analysis.sharing.cut_generation import CoveringProblem, covering_op
 from mcexact.analysis.sharing.separation import least_minimizers, violating_factors
 from mcexact.answer.communication import MinimalCommunication
 from mcexact.answer.covering import LinkCut
-from mcexact.arguments import one_of, several, told
 from mcexact.derived.constructions import (
     Share,
     add_links,
@@ -29,7 +28,7 @@ from mcexact.derived.constructions import (
     selector,
 )
 from mcexact.derived.modular import generator
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError, UsageError, one_of, several, told
 from mcexact.exact.matrix import Matrix, as_requested, block_diagonal
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry

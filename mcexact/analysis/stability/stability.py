@@ -18,9 +18,8 @@ from mcexact.answer.stability import (
     StabilityVerdict,
     Transformation,
 )
-from mcexact.arguments import one_of
 from mcexact.derived.modular import generator
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError, UsageError, one_of
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues

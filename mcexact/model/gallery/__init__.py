@@ -16,8 +16,7 @@ from functools import cache
 from importlib import resources
 from typing import Any, overload
 
-from mcexact.arguments import told
-from mcexact.errors import UsageError
+from mcexact.errors import UsageError, told
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_parametric_system, read_system

@@ -27,8 +27,8 @@ from mcexact.exact.balls import even_powers, response, states_at_doubling_steps
 from mcexact.exact.linear_algebra import characteristic_polynomial, solve_nonsingular
 from mcexact.exact.matrix import Matrix, matrix_from_float, matrix_to_float, to_float, vstack
 from mcexact.exact.roots import StabilityRegion, is_discrete, steady_point
-from mcexact.floating.fixed_mode_distance import distance_at
 from mcexact.floating.margins import is_within
+from mcexact.floating.verdicts import distance_at
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem

@@ -12,9 +12,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import eig, expm, lapack, rsf2csf
 
-from mcexact.arguments import require_seconds, told
 from mcexact.derived.constructions import merged
-from mcexact.errors import UsageError
+from mcexact.errors import UsageError, require_seconds, told
 from mcexact.exact.matrix import as_requested, to_float
 from mcexact.exact.rational import Entry
 from mcexact.exact.roots import StabilityRegion

@@ -1,0 +1,269 @@
+"""The pages of analyze, allocate and certify."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+from mcexact.answer.account import Account
+from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces
+from mcexact.answer.parametric_account import LABELS, MODES, PROOFS, PROVED, ParametricAccount
+from mcexact.exact.rational import digits_outward
+from mcexact.model.controller import Controller
+from mcexact.plot.canvas import NAMED, PANEL, one_axis
+from mcexact.plot.eigenvalues import circle_near
+from mcexact.plot.parameters import hypersurfaces, parameter_modes
+from mcexact.plot.responses import LoopCurves, effort, loop_decay, poles, sensitivity, steps
+from mcexact.report.figures import (
+    LEAST,
+    allocation_picture,
+    dimensions_picture,
+    gains_pictures,
+    graph_pictures,
+    links_picture,
+)
+from mcexact.report.html import AnswerPage, Picture, shown_plant
+from mcexact.report.text import Table, answer, tables
+from mcexact.shown import array, escaped
+
+# The pages that `mcexact analyze --html` and `mcexact allocate --html` write.
+
+_SHARED = (
+    "The least that the agents must share, with a proof that less does not suffice.",
+    "The least dimensions",
+)
+_LINKS = (
+    "The cheapest links to add, with a proof that cheaper ones do not suffice.",
+    "The links to add",
+)
+
+
+def account_page(account: Account) -> AnswerPage:
+    """Return the page of an analysis."""
+    system, said = account.given.system, account.sentences
+    first, *rest = tables(said)
+    spectrum = account.answers.get("fixed_spectrum")
+    return AnswerPage(
+        title=system.name or "A multi-channel system",
+        heading="".join(said.at("page")),
+        good=spectrum is None or spectrum.stabilizable,
+        answer=tuple(answer(said)),
+        pictures=tuple(drawn.embedded() for drawn in _pictures(account)),
+        tables=(replace(first, title="All answers"), *rest),
+        plant=shown_plant(system),
+    )
+
+
+def _pictures(account: Account) -> list[Picture]:
+    """Return pictures of the graphs, and of shared dimensions if these were asked about."""
+    drawn = []
+    if {"fixed_spectrum", "transfer_graph"} <= account.answers.keys():
+        drawn += graph_pictures(account)
+    if set(LEAST.values()) & account.answers.keys():
+        drawn.append(dimensions_picture(account))
+    return drawn
+
+
+def allocation_page(account: Account) -> AnswerPage:
+    """Return the page of the least dimensions, or of the links to add.
+
+    Parameters
+    ----------
+    account : Account
+        As `account_of_dimensions` or `account_of_links` returns it.
+    """
+    system, said = account.given.system, account.sentences
+    linked = account.answers.get("minimal_communication")
+    least = account.answers["minimal_shared_dimensions"] if linked is None else linked
+    heading, title = _SHARED if linked is None else _LINKS
+    drawn = []
+    if least.feasible:
+        drawn.append((allocation_picture if linked is None else links_picture)(account))
+    first, *rest = tables(said)
+    found = [replace(first, title=title)] if first.rows else []
+    words = said.at("title", *([] if first.rows else ["table.note"]))
+    return AnswerPage(
+        title=system.name or "A multi-channel system",
+        heading=heading,
+        good=least.feasible,
+        answer=tuple(words),
+        pictures=tuple(each.embedded() for each in drawn),
+        tables=(*found, *rest),
+        plant=shown_plant(system),
+    )
+
+
+# The page of a controller: the verdict, its figures, and the certificates.
+
+
+def loop_page(
+    account: Account,
+    install: str,
+    said: Sequence[str],
+    tables: Sequence[Table],
+    curves: LoopCurves | None,
+    controller: Controller,
+) -> AnswerPage:
+    """Return the contents of the page.
+
+    Parameters
+    ----------
+    account : Account
+    install : {"yes", "with care", "no"}
+    said : sequence of str
+        The verdict, warnings and notes.
+    tables : sequence of Table
+    curves : LoopCurves or None
+        None if the loop is not stable, which leaves out their pictures.
+    controller : Controller
+    """
+    system = account.given.system
+    pictures = [*([] if curves is None else loop_pictures(curves)), *gains_pictures(controller)]
+    return AnswerPage(
+        title=system.name or "A closed loop",
+        heading="A controller and its closed loop. Its figures are computed, not certified; the "
+        "certificates prove where the eigenvalues lie.",
+        good=install == "yes",
+        answer=tuple(said),
+        pictures=tuple(each.embedded() for each in pictures),
+        tables=tuple(tables),
+        plant=shown_plant(system),
+    )
+
+
+def loop_pictures(curves: LoopCurves) -> list[Picture]:
+    """Draw the eigenvalues, the sensitivity, the decay, and the effort or the step responses."""
+    drawn = [_eigenvalues(curves), _sensitivity(curves), _decay(curves)]
+    return [*drawn, _steps(curves) if curves.steps else _effort(curves)]
+
+
+def _picture(
+    draw: Callable[[LoopCurves, Any], Any], curves: LoopCurves, title: str, told: str
+) -> Picture:
+    """A picture that two of fit beside each other."""
+    figure = draw(curves, one_axis(None, *PANEL))
+    return Picture(figure, title, f"{told} Computed, not certified.")
+
+
+def _eigenvalues(curves: LoopCurves) -> Picture:
+    count, within = len(curves.eigenvalues), sum(map(curves.keeps, curves.eigenvalues))
+    many = f"The {count} eigenvalues" if count != 1 else "The eigenvalue"
+    inside = "inside" if within == count else f"{within} of them inside"
+    told = f"{many} of the loop, {inside} {' and '.join(_edges(curves))}."
+    return _picture(poles, curves, "Eigenvalues", told)
+
+
+def _edges(curves: LoopCurves) -> list[str]:
+    """What bounds the region that was asked for, as it is drawn."""
+    region = curves.region
+    limits = region.limits
+    if region.discrete:
+        return [f"the dashed circle of radius {digits_outward(region.edge, up=True)}"]
+    found = [f"the dashed line at {digits_outward(-region.edge, up=True)}"]
+    if "damping" in limits:
+        ratio = digits_outward(limits["damping"], up=False)
+        found.append(f"the dashed lines of the damping ratio {ratio}")
+    if "largest_modulus" in limits:
+        circle = f"circle of radius {digits_outward(limits['largest_modulus'], up=True)}"
+        near = circle_near(curves.eigenvalues, limits)
+        found.append(f"the dashed {circle}" if near else f"the {circle}, beyond the picture")
+    return found
+
+
+def _sensitivity(curves: LoopCurves) -> Picture:
+    largest = max(curves.sensitivity, default=0.0)
+    margin = "infinite" if not largest else f"{1 / largest:.3g}"
+    told = (
+        "The complementary sensitivity T at all inputs of the plant together, at most "
+        f"{largest:.3g}, so that the margin is {margin}. It should stay below the dashed line, "
+        "which is a margin of 0.3."
+    )
+    return _picture(sensitivity, curves, "Robustness", told)
+
+
+def _decay(curves: LoopCurves) -> Picture:
+    told = (
+        "The largest norm of the plant's state from a start of norm 1, at most "
+        f"{max(curves.growth, default=0.0):.3g}."
+    )
+    return _picture(loop_decay, curves, "Decay", told)
+
+
+def _effort(curves: LoopCurves) -> Picture:
+    told = (
+        "The largest norm of all inputs from the same start, at most "
+        f"{max(curves.effort, default=0.0):.3g}."
+    )
+    return _picture(effort, curves, "Effort", told)
+
+
+def _steps(curves: LoopCurves) -> Picture:
+    told = (
+        "Each output after a unit step of its own set-point, at most "
+        f"{max(max(each) for _, each in curves.steps):.3g}."
+    )
+    if len(curves.steps) > NAMED:
+        told += f" Of {len(curves.steps)} outputs the first {NAMED} are named."
+    return _picture(steps, curves, "Step responses", told)
+
+
+# What is decided about a system with parameters: tables, a page, and LaTeX.
+
+
+def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tuple[Table, ...]:
+    """Return the table of all answers, then one for each question of which it says too little.
+
+    Parameters
+    ----------
+    account : ParametricAccount
+    whole : bool
+        Whether all questions have a table, and not only those about modes: on a page.
+    """
+    said = account.sentences
+    rows = tuple(each.cells for each in said.at("table"))
+    title = "All answers" if whole else "".join(said.at("title"))
+    first = (Table(title, (), rows),) if rows else ()
+    shown = account.detailed(LABELS) if whole else account.detailed(MODES)
+    proofs = account.proofs(LABELS if whole else MODES)
+    told = (Table(PROVED, PROOFS, proofs),) if proofs else ()
+    return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *told)
+
+
+def parameter_page(account: ParametricAccount) -> AnswerPage:
+    """Return the page of an analysis for all values of parameters."""
+    return AnswerPage(
+        title=account.plant.name or "A system with parameters",
+        heading="".join(account.sentences.at("title")),
+        good=None,
+        answer=tuple(account.at("answer")),
+        pictures=tuple(drawn.embedded() for drawn in _parameter_pictures(account)),
+        tables=parameter_tables(account, whole=True),
+        plant=shown_plant(account.plant),
+    )
+
+
+def _parameter_pictures(account: ParametricAccount) -> list[Picture]:
+    """The modes against one parameter, or the hypersurfaces of two."""
+    spectrum, said = account.answers.get("fixed_spectrum"), " ".join(account.at("answer")[:2])
+    if spectrum is None:
+        return []
+    if not isinstance(spectrum, Hypersurfaces):
+        return [Picture(parameter_modes(spectrum), "Modes against the parameter", said)]
+    if len(account.plant.parameters) == 2 and spectrum.hypersurfaces:
+        return [Picture(hypersurfaces(spectrum), "Where another mode is fixed", said)]
+    return []
+
+
+def parameter_latex(account: ParametricAccount) -> str:
+    """Return the system and the answers in LaTeX."""
+    lines = [f"% {escaped(account.plant.name or 'system')}", rf"\[ {account.plant._latex()} \]"]
+    lines += [escaped(said) for said in account.at("answer")]
+    lines += [escaped(said.line) for said in account.sentences.at("table")]
+    for name in account.detailed():
+        rows = ((where, "; ".join(filter(None, rest))) for where, *rest in account.rows(name))
+        lines.append(rf"\[ {array(rows)} \]")
+    if proofs := account.proofs(MODES):
+        rows = ((about, "; ".join(rest)) for about, *rest in proofs)
+        lines += [escaped(PROVED), rf"\[ {array(rows)} \]"]
+    return "\n".join(lines) + "\n"
