@@ -44,9 +44,9 @@ from mcexact import (
     load_system,
     local_controllers,
 )
-from mcexact.analysis.boxes.box_fixed import FixedModeSearch
 from mcexact.analysis.boxes.cover import Outside
-from mcexact.analysis.boxes.radii import radii_of
+from mcexact.analysis.boxes.members import FixedModeSearch
+from mcexact.analysis.boxes.pencils import radii_of
 from mcexact.answer.codec import encode
 from mcexact.derived.drawn.networks import network_system
 from mcexact.derived.drawn.primary_form import SeededChoices

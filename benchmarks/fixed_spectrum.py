@@ -14,8 +14,7 @@ from pathlib import Path
 from benchmarks import peers
 from benchmarks.measure import interleaved, processor_seconds
 from mcexact import analyze, checker
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.answer.codec import encode
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.drawn.primary_form import SeededChoices

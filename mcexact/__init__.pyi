@@ -2,62 +2,54 @@
 
 from . import plot as plot
 from .analysis.analyze import Analysis as Analysis
+from .analysis.analyze import ParametricAnalysis as ParametricAnalysis
 from .analysis.analyze import analyze as analyze
-from .analysis.boxes.box_controllable import box_controllability as box_controllability
-from .analysis.boxes.box_controllable import box_observability as box_observability
-from .analysis.boxes.box_fixed import box_fixed_modes as box_fixed_modes
-from .analysis.boxes.box_fixed import box_stabilizability as box_stabilizability
-from .analysis.boxes.box_setpoints import box_setpoints as box_setpoints
-from .analysis.boxes.box_stable import box_stability as box_stability
-from .analysis.boxes.largest_box import largest_uncertainty as largest_uncertainty
-from .analysis.boxes.largest_loop_box import (
-    largest_loop_uncertainty as largest_loop_uncertainty,
-)
-from .analysis.boxes.largest_loop_ranges import LargestRanges as LargestRanges
-from .analysis.boxes.largest_loop_ranges import largest_loop_ranges as largest_loop_ranges
-from .analysis.boxes.two_sided import LargestUncertainty as LargestUncertainty
-from .analysis.engine.parametric_sharing import ParametricSharing as ParametricSharing
-from .analysis.engine.parametric_sharing import (
-    shared_dimensions_for_every_value as shared_dimensions_for_every_value,
-)
-from .analysis.engine.parametric_structure import ParametricCompleteness as ParametricCompleteness
-from .analysis.engine.parametric_structure import ParametricTransferGraph as ParametricTransferGraph
-from .analysis.exceptional_hypersurfaces import (
+from .analysis.boxes.largest import LargestRanges as LargestRanges
+from .analysis.boxes.largest import LargestUncertainty as LargestUncertainty
+from .analysis.boxes.largest import largest_loop_ranges as largest_loop_ranges
+from .analysis.boxes.largest import largest_loop_uncertainty as largest_loop_uncertainty
+from .analysis.boxes.largest import largest_uncertainty as largest_uncertainty
+from .analysis.boxes.loops import box_stability as box_stability
+from .analysis.boxes.members import box_controllability as box_controllability
+from .analysis.boxes.members import box_fixed_modes as box_fixed_modes
+from .analysis.boxes.members import box_observability as box_observability
+from .analysis.boxes.members import box_setpoints as box_setpoints
+from .analysis.boxes.members import box_stabilizability as box_stabilizability
+from .analysis.controllability import ExceptionalGains as ExceptionalGains
+from .analysis.controllability import controllability_indices as controllability_indices
+from .analysis.controllability import exceptional_gains as exceptional_gains
+from .analysis.controllability import joint_controllability as joint_controllability
+from .analysis.controllability import joint_observability as joint_observability
+from .analysis.controllability import observability_indices as observability_indices
+from .analysis.fixed_modes import assignability as assignability
+from .analysis.fixed_modes import completeness as completeness
+from .analysis.fixed_modes import fixed_spectrum as fixed_spectrum
+from .analysis.fixed_modes import pencil_rank as pencil_rank
+from .analysis.fixed_modes import pencil_ranks as pencil_ranks
+from .analysis.parameters.hypersurfaces import ParametricCompleteness as ParametricCompleteness
+from .analysis.parameters.hypersurfaces import ParametricTransferGraph as ParametricTransferGraph
+from .analysis.parameters.hypersurfaces import (
     exceptional_hypersurfaces as exceptional_hypersurfaces,
 )
-from .analysis.fixed_modes.assignability import assignability as assignability
-from .analysis.fixed_modes.completeness import completeness as completeness
-from .analysis.fixed_modes.error_gains import ErrorGains as ErrorGains
-from .analysis.fixed_modes.error_gains import error_gains as error_gains
-from .analysis.fixed_modes.fixed_spectrum import fixed_spectrum as fixed_spectrum
-from .analysis.fixed_modes.pencil import pencil_rank as pencil_rank
-from .analysis.fixed_modes.pencil import pencil_ranks as pencil_ranks
-from .analysis.fixed_modes.single_channel_gains import single_channel_gains as single_channel_gains
-from .analysis.parametric_analysis import ParametricAnalysis as ParametricAnalysis
-from .analysis.sharing.allocation import minimal_shared_dimensions as minimal_shared_dimensions
-from .analysis.sharing.allocation import shared_dimension_bound as shared_dimension_bound
-from .analysis.sharing.common_dimension import common_dimension as common_dimension
-from .analysis.sharing.communication import minimal_communication as minimal_communication
-from .analysis.sharing.neighbor_graph import neighbor_graph as neighbor_graph
-from .analysis.stability.closed_loop_spectrum import open_loop_spectrum as open_loop_spectrum
-from .analysis.stability.stability import certify_stability as certify_stability
-from .analysis.stability.stability import matrix_system as matrix_system
-from .analysis.structure.complementary_subsystem import (
-    complementary_subsystem as complementary_subsystem,
+from .analysis.parameters.modes import ParametricSharing as ParametricSharing
+from .analysis.parameters.modes import (
+    shared_dimensions_for_every_value as shared_dimensions_for_every_value,
 )
-from .analysis.structure.controllability import joint_controllability as joint_controllability
-from .analysis.structure.controllability import joint_observability as joint_observability
-from .analysis.structure.controllability_indices import (
-    controllability_indices as controllability_indices,
-)
-from .analysis.structure.controllability_indices import (
-    observability_indices as observability_indices,
-)
-from .analysis.structure.exceptional_gains import ExceptionalGains as ExceptionalGains
-from .analysis.structure.exceptional_gains import exceptional_gains as exceptional_gains
-from .analysis.structure.parametric_ranks import signal_solvability as signal_solvability
-from .analysis.structure.setpoint import setpoint_solvability as setpoint_solvability
-from .analysis.structure.transfer_graph import transfer_graph as transfer_graph
+from .analysis.parameters.ranks import signal_solvability as signal_solvability
+from .analysis.sharing import common_dimension as common_dimension
+from .analysis.sharing import minimal_communication as minimal_communication
+from .analysis.sharing import minimal_shared_dimensions as minimal_shared_dimensions
+from .analysis.sharing import neighbor_graph as neighbor_graph
+from .analysis.sharing import shared_dimension_bound as shared_dimension_bound
+from .analysis.single_channel import ErrorGains as ErrorGains
+from .analysis.single_channel import error_gains as error_gains
+from .analysis.single_channel import single_channel_gains as single_channel_gains
+from .analysis.stability import certify_stability as certify_stability
+from .analysis.stability import matrix_system as matrix_system
+from .analysis.stability import open_loop_spectrum as open_loop_spectrum
+from .analysis.structure import complementary_subsystem as complementary_subsystem
+from .analysis.structure import setpoint_solvability as setpoint_solvability
+from .analysis.structure import transfer_graph as transfer_graph
 from .answer.assignability import Assignability as Assignability
 from .answer.box_controllable import BoxControllability as BoxControllability
 from .answer.box_fixed import BoxFixedModes as BoxFixedModes

@@ -141,12 +141,12 @@ _SPECTRUM = {"spectrum": "fixed_spectrum"}
 QUESTIONS: Mapping[str, Question] = MappingProxyType(
     {
         "fixed_spectrum": Question(
-            "fixed_modes.fixed_spectrum:fixed_spectrum",
+            "fixed_modes:fixed_spectrum",
             "which modes no linear time-invariant decentralized control moves",
             for_all_values=True,
         ),
         "linked_fixed_spectrum": Question(
-            "fixed_modes.fixed_spectrum:fixed_spectrum",
+            "fixed_modes:fixed_spectrum",
             "which modes stay fixed where each agent also feeds back the outputs of its neighbors; "
             "by default if some mode is fixed without these",
             about="linked",
@@ -155,20 +155,20 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             kind="fixed_spectrum",
         ),
         "completeness": Question(
-            "fixed_modes.completeness:completeness",
+            "fixed_modes:completeness",
             "whether any single channel can control and observe everything",
             reuses=_SPECTRUM,
             for_all_values=True,
         ),
         **{f"joint_{name}": question for name, question in _JOINT.items()},
         "controllability_indices": Question(
-            "structure.controllability_indices:controllability_indices",
+            "controllability:controllability_indices",
             "the controllability indices",
             ports="inputs",
             for_all_values=True,
         ),
         "observability_indices": Question(
-            "structure.controllability_indices:observability_indices",
+            "controllability:observability_indices",
             "the observability indices",
             ports="outputs",
             kind="controllability_indices",
@@ -176,36 +176,36 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             for_all_values=True,
         ),
         "transfer_graph": Question(
-            "structure.transfer_graph:transfer_graph",
+            "structure:transfer_graph",
             "which channels' inputs affect which outputs",
             for_all_values=True,
         ),
         "assignability": Question(
-            "fixed_modes.assignability:assignability",
+            "fixed_modes:assignability",
             "the parts into which the closed-loop spectrum splits",
             reuses={"graph": "transfer_graph"},
             most=_DENSE,
         ),
         "setpoint": Question(
-            "structure.setpoint:setpoint_solvability",
+            "structure:setpoint_solvability",
             "whether every output can be held at any value",
             about="plant",
             most=_DENSE,
             for_all_values=True,
         ),
         "complementary_subsystem": Question(
-            "structure.complementary_subsystem:complementary_subsystem",
+            "structure:complementary_subsystem",
             "rank, zeros and remnant polynomial of the pencil of a set of channels",
             needs="subset",
         ),
         "spectrum_of_A": Question(
-            "stability.closed_loop_spectrum:open_loop_spectrum",
+            "stability:open_loop_spectrum",
             "the modes of the plant",
             unbidden=False,
             kind="closed_loop_spectrum",
         ),
         "pencil_rank": Question(
-            "fixed_modes.pencil:pencil_ranks",
+            "fixed_modes:pencil_ranks",
             "the rank of the pencil of a set of channels at every mode",
             needs="subset",
             reuses={"spectrum": "spectrum_of_A"},
@@ -213,7 +213,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         **{f"channel_{name}": question for name, question in _ALONE.items()},
         **{
             f"channel_gains_{want}": Question(
-                "fixed_modes.single_channel_gains:single_channel_gains",
+                "single_channel:single_channel_gains",
                 f"whether gains make one channel {said}",
                 needs="channel",
                 given={"want": want},
@@ -226,14 +226,14 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             )
         },
         "every_channel": Question(
-            "fixed_modes.single_channel_gains:single_channel_gains",
+            "single_channel:single_channel_gains",
             "gains with which every channel controls and observes the whole plant",
             unbidden=False,
             option="every-channel",
             kind="single_channel_gains",
         ),
         "neighbor_graph": Question(
-            "sharing.neighbor_graph:neighbor_graph",
+            "sharing:neighbor_graph",
             "whether the neighbor graph is strongly connected",
             about="plant",
             needs="neighbors",
@@ -270,7 +270,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             )
         },
         "box_setpoints": Question(
-            "boxes.box_setpoints:box_setpoints",
+            "boxes.members:box_setpoints",
             "whether a controller of its own holds every plant within the radii at any constant "
             "set-points",
             about="plant",
@@ -279,7 +279,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             kind="box_fixed",
         ),
         "minimal_communication": Question(
-            "sharing.communication:minimal_communication",
+            "sharing:minimal_communication",
             "the fewest links over which sending outputs leaves no mode fixed",
             about="plant",
             unbidden=False,
@@ -291,7 +291,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             for network in ("lifted", "held")
             for name, question in {
                 "fixed_spectrum": Question(
-                    "fixed_modes.fixed_spectrum:fixed_spectrum",
+                    "fixed_modes:fixed_spectrum",
                     "which modes are fixed with the delays of the neighbor graph, lifted and held",
                     about=network,
                     needs="neighbors",

@@ -120,7 +120,7 @@ def _answer(
     system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
-    from mcexact.analysis.accounts import account_of_dimensions, account_of_links
+    from mcexact.analysis.analyze import account_of_dimensions, account_of_links
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
     from mcexact.report.text import tables

@@ -17,7 +17,7 @@ from mcexact.cli.parameters import at_values
 from mcexact.model.properties import PROPERTIES, Property, question_about
 
 if TYPE_CHECKING:
-    from mcexact.analysis.boxes.two_sided import LargestUncertainty
+    from mcexact.analysis.boxes.largest import LargestUncertainty
     from mcexact.cli.running import Known
     from mcexact.cli.supervision import Reporting
     from mcexact.model.system import MultiChannelSystem

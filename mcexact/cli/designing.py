@@ -139,7 +139,7 @@ def _advice(
 
     Over the links that the plant has a controller may exist, which then is what is named.
     """
-    from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+    from mcexact.analysis.fixed_modes import fixed_spectrum
     from mcexact.answer.fixed_spectrum import FixedSpectrum
     from mcexact.derived.constructions import augmented_outputs
     from mcexact.exact.rational import written

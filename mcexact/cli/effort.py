@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mcexact.analysis.asking import Effort
+    from mcexact.analysis.analyze import Effort
     from mcexact.report.text import Table
 
 _LONG = 10.0

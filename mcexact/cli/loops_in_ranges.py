@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from mcexact.analysis.boxes.largest_loop_ranges import LargestRanges
+    from mcexact.analysis.boxes.largest import LargestRanges
     from mcexact.answer.account import Account
     from mcexact.model.controller import Controller
     from mcexact.model.parametric import ParametricSystem
@@ -42,7 +42,7 @@ def certified(
     UsageError
         If something is asked that is only decided for systems without parameters.
     """
-    from mcexact.analysis.boxes.largest_loop_ranges import largest_loop_ranges
+    from mcexact.analysis.boxes.largest import largest_loop_ranges
     from mcexact.errors import UsageError
     from mcexact.exact.roots import StabilityRegion
 

@@ -76,7 +76,7 @@ def for_all_values(
     """
     from dataclasses import replace
 
-    from mcexact.analysis.parametric_analysis import ParametricAnalysis
+    from mcexact.analysis.analyze import ParametricAnalysis
     from mcexact.cli.effort import effort_tables
     from mcexact.errors import UsageError
     from mcexact.report.pages import parameter_latex, parameter_page, parameter_tables

@@ -14,7 +14,7 @@ from mcexact.cli.deadline import Deadline
 from mcexact.cli.rechecking import Rechecked, rechecked
 
 if TYPE_CHECKING:
-    from mcexact.analysis.asking import Asking
+    from mcexact.analysis.analyze import Asking
     from mcexact.answer.account import Account
     from mcexact.cli.supervision import Reporting
     from mcexact.errors import LimitReached

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 from mcexact.model.properties import PROPERTIES, Property
 
 if TYPE_CHECKING:
-    from mcexact.analysis.boxes.failing_plants import FailingPlant
-    from mcexact.analysis.boxes.two_sided import LargestUncertainty
+    from mcexact.analysis.boxes.failure import FailingPlant
+    from mcexact.analysis.boxes.largest import LargestUncertainty
     from mcexact.answer.account import Account
     from mcexact.answer.box_stable import BoxStability
     from mcexact.answer.protocol import Answer
@@ -46,7 +46,7 @@ def of(
     from mcexact.model.box import Box
 
     if effort is not None:
-        from mcexact.analysis.boxes.largest_box import largest_uncertainty
+        from mcexact.analysis.boxes.largest import largest_uncertainty
 
         found = largest_uncertainty(system, wanted, effort=effort)
         return _within(system, found), found
@@ -57,7 +57,7 @@ def of_loop(
     system: MultiChannelSystem, controller: Controller, region: StabilityRegion, effort: float
 ) -> tuple[MultiChannelSystem, LargestUncertainty]:
     """The system with the largest radii within which every loop is in a region, and the search."""
-    from mcexact.analysis.boxes.largest_loop_box import largest_loop_uncertainty
+    from mcexact.analysis.boxes.largest import largest_loop_uncertainty
 
     given: dict[str, Any] = {region.word: region.bound}
     found = largest_loop_uncertainty(system, controller, effort=effort, **given)
@@ -229,7 +229,7 @@ def _proof(
 
     What is ``known`` is not proved again.
     """
-    from mcexact.analysis.boxes.box_stable import box_stability
+    from mcexact.analysis.boxes.loops import box_stability
     from mcexact.answer.box_stable import BoxStability
     from mcexact.errors import LimitReached
     from mcexact.exact.roots import StabilityRegion

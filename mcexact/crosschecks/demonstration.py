@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.crosschecks.table import Libraries, libraries_here, libraries_of, recorded
 from mcexact.exact.matrix import matrix_to_float
 from mcexact.floating.verdicts import controllability_rank, rounded_fixed_modes

@@ -16,17 +16,16 @@ from functools import cache, partial
 from importlib import metadata, resources
 from typing import TYPE_CHECKING, Any
 
-from mcexact.analysis.boxes.failing_plants import FailingPlant
-from mcexact.analysis.boxes.largest_box import nearest_fixed
-from mcexact.analysis.engine import strong_components
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.controllability_indices import (
+from mcexact.analysis.boxes.failure import FailingPlant
+from mcexact.analysis.boxes.largest import nearest_fixed
+from mcexact.analysis.controllability import (
     controllability_indices,
+    joint_controllability,
+    joint_observability,
     observability_indices,
 )
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
+from mcexact.analysis.structure import strong_components, transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.linear_algebra import characteristic_polynomial

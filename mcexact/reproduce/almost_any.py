@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.structure.controllability import joint_controllability
-from mcexact.analysis.structure.controllability_indices import controllability_indices
-from mcexact.analysis.structure.exceptional_gains import exceptional_gains
+from mcexact.analysis.controllability import (
+    controllability_indices,
+    exceptional_gains,
+    joint_controllability,
+)
+from mcexact.analysis.fixed_modes import completeness
 from mcexact.derived.constructions import closed_by, error_system, extended_system
 from mcexact.exact.matrix import Matrix, hstack
 from mcexact.model.system import MultiChannelSystem

@@ -6,17 +6,16 @@ from collections.abc import Iterator
 from itertools import product
 
 from mcexact.analysis.analyze import analyze
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.pencil import pencil_rank
+from mcexact.analysis.controllability import joint_observability
+from mcexact.analysis.fixed_modes import fixed_spectrum, pencil_rank
 from mcexact.analysis.questions import SHARES
-from mcexact.analysis.sharing.allocation import (
+from mcexact.analysis.sharing import (
     base_system,
+    common_dimension,
     minimal_shared_dimensions,
+    neighbor_graph,
     shared_dimension_bound,
 )
-from mcexact.analysis.sharing.common_dimension import common_dimension
-from mcexact.analysis.sharing.neighbor_graph import neighbor_graph
-from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.pencil_rank import PencilRank
 from mcexact.derived.constructions import Share, augmented_outputs, extended_system

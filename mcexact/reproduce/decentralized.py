@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import reduce
 
-from mcexact.analysis.fixed_modes.assignability import assignability
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.pencil import pencil_rank
-from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum, pencil_rank
+from mcexact.analysis.single_channel import single_channel_gains
+from mcexact.analysis.structure import transfer_graph
 from mcexact.derived.constructions import augmented_outputs, closed_by
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_deficiency

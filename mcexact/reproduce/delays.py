@@ -7,13 +7,11 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import partial, reduce
 
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.sharing.allocation import shared_dimension_bound
-from mcexact.analysis.sharing.common_dimension import common_dimension
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
+from mcexact.analysis.sharing import common_dimension, shared_dimension_bound
+from mcexact.analysis.stability import closed_loop_spectrum
+from mcexact.analysis.structure import transfer_graph
 from mcexact.derived.constructions import Share, closed_by, lifted_system, shift
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
 from mcexact.exact.matrix import Matrix, vstack

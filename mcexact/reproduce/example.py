@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from mcexact.analysis.analyze import analyze
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.pencil import pencil_rank
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.fixed_modes import fixed_spectrum, pencil_rank
+from mcexact.analysis.stability import closed_loop_spectrum
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.constructions import augmented_outputs, closed_by, extended_system
 from mcexact.errors import Impossible

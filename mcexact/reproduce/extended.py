@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.derived.constructions import Share, extended_system
 from mcexact.reproduce.equations import messages_agree
 from mcexact.reproduce.material import (

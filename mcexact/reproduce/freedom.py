@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.fixed_modes.assignability import assignability
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
-from mcexact.analysis.sharing.allocation import shared_dimension_bound
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.structure.controllability_indices import (
-    controllability_indices,
-    observability_indices,
-)
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.controllability import controllability_indices, observability_indices
+from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum
+from mcexact.analysis.sharing import shared_dimension_bound
+from mcexact.analysis.single_channel import single_channel_gains
+from mcexact.analysis.stability import closed_loop_spectrum
+from mcexact.analysis.structure import transfer_graph
 from mcexact.derived.constructions import closed_by, extended_system, feedback
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.sharing.allocation import shared_dimension_bound
-from mcexact.analysis.structure.controllability import joint_controllability
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
+from mcexact.analysis.sharing import shared_dimension_bound
+from mcexact.analysis.structure import transfer_graph
 from mcexact.derived.constructions import held_system, lifted_system
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.structure.controllability import joint_observability
-from mcexact.analysis.structure.controllability_indices import controllability_indices
-from mcexact.analysis.structure.exceptional_gains import exceptional_gains
+from mcexact.analysis.controllability import (
+    controllability_indices,
+    exceptional_gains,
+    joint_observability,
+)
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.single_channel import single_channel_gains
+from mcexact.analysis.stability import closed_loop_spectrum
 from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.derived.constructions import error_system, feedback
 from mcexact.exact.linear_algebra import characteristic_polynomial

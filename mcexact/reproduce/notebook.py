@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain
 
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.answer import codec
 from mcexact.answer.check import checked
 from mcexact.answer.protocol import Answer

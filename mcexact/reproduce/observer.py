@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.single_channel import single_channel_gains
+from mcexact.analysis.stability import closed_loop_spectrum
 from mcexact.derived.constructions import error_system
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank

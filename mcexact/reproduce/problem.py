@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.derived.constructions import feedback
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap

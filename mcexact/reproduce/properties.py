@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.exact.roots import TIMES
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import PAPER

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.derived.constructions import setpoint_system
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve

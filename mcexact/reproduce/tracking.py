@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.exact.linear_algebra import solve
 from mcexact.exact.matrix import Matrix, block, hstack, kronecker, vstack
 from mcexact.exact.polynomial import Polynomial

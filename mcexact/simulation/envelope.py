@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.stability.stability import certify_stability
+from mcexact.analysis.stability import certify_stability, closed_loop_spectrum
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.answer.stability import LyapunovMethod, StabilityVerdict
 from mcexact.errors import InputError, McexactError

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from mcexact.analysis.boxes.largest_box import failing_member
+from mcexact.analysis.boxes.largest import failing_member
 from mcexact.answer import codec
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.derived.variants import Variant

@@ -10,17 +10,15 @@ from typing import Any, get_args
 import numpy as np
 from scipy.linalg import eig
 
-from mcexact.analysis.boxes.box_stable import box_stability
-from mcexact.analysis.boxes.failing_plants import FAILING, FailingPlant
-from mcexact.analysis.boxes.float_pencils import Floats
-from mcexact.analysis.boxes.gain_radii import digit_radii, rounded_ends, with_gains
-from mcexact.analysis.boxes.one_thread import one_thread
-from mcexact.analysis.stability.closed_loop_spectrum import eigenvalue_outside
-from mcexact.analysis.stability.stability import (
+from mcexact.analysis.boxes.failure import FAILING, FailingPlant
+from mcexact.analysis.boxes.loops import box_stability, digit_radii, rounded_ends, with_gains
+from mcexact.analysis.boxes.pencils import Floats, one_thread
+from mcexact.analysis.stability import (
     POLYNOMIAL_LIMIT,
     Method,
     Separation,
     certify_stability,
+    eigenvalue_outside,
     fastest_region,
 )
 from mcexact.answer.account import Account

@@ -9,7 +9,7 @@ from fractions import Fraction
 from random import Random
 from typing import TYPE_CHECKING
 
-from mcexact.analysis.fixed_modes.gains import drawn_integers, reach_index
+from mcexact.analysis.single_channel import drawn_integers, reach_index
 from mcexact.derived.modular import ModularSystem, generator, residue_systems
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.krylov import controllable_subspace

@@ -8,8 +8,8 @@ from functools import cached_property
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Literal
 
-from mcexact.analysis.boxes.failing_plants import FAILING
-from mcexact.analysis.stability.stability import certify_stability
+from mcexact.analysis.boxes.failure import FAILING
+from mcexact.analysis.stability import certify_stability
 from mcexact.answer.account import Account, ShownByAccount
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import DESIGN

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field, replace
 from itertools import accumulate
 from typing import Any, Literal, get_args
 
-from mcexact.analysis.stability.closed_loop_spectrum import agreeing_moduli
-from mcexact.analysis.stability.stability import Method, Separation, certify_stability
+from mcexact.analysis.stability import Method, Separation, agreeing_moduli, certify_stability
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.distributed_observer import DistributedObserver
 from mcexact.answer.protocol import Answer

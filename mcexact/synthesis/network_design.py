@@ -8,9 +8,9 @@ from fractions import Fraction
 from math import ceil
 from typing import Any
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.single_channel import single_channel_gains
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say

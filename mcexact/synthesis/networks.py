@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.analysis.sharing import minimal_shared_dimensions, shared_dimension_bound
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.shared_dimensions import SharedDimensions

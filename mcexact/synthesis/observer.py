@@ -9,10 +9,9 @@ from itertools import islice
 from math import ceil
 from typing import TYPE_CHECKING, Any, Literal
 
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.gains import ReachingGains, error_gain_draws, reaching_gains
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
+from mcexact.analysis.single_channel import ReachingGains, error_gain_draws, reaching_gains
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.constructions import closed_by, error_system

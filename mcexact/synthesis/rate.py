@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.errors import InputError, LimitReached, UsageError, telling
 from mcexact.exact.roots import StabilityRegion

@@ -7,12 +7,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal
 
-from mcexact.analysis.boxes.box_stable import StabilitySearch
-from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
-from mcexact.analysis.boxes.gain_radii import gain_radii
-from mcexact.analysis.boxes.largest_loop_box import failing_loop, refuted_loop
-from mcexact.analysis.boxes.one_thread import one_thread
-from mcexact.analysis.boxes.two_sided import short
+from mcexact.analysis.boxes.failure import FailingPlant, severed_plants
+from mcexact.analysis.boxes.largest import failing_loop, refuted_loop, short
+from mcexact.analysis.boxes.loops import StabilitySearch, gain_radii
+from mcexact.analysis.boxes.pencils import one_thread
 from mcexact.answer.box_stable import BoxStability
 from mcexact.errors import LimitReached, require_seconds
 from mcexact.exact.rational import percent, written

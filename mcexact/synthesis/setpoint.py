@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal
 
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.answer.wording import refusals as say

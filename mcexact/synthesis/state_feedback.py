@@ -16,8 +16,8 @@ from math import ceil
 from random import Random
 from typing import Any
 
-from mcexact.analysis.fixed_modes.gains import drawn_integers
-from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.single_channel import drawn_integers
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.modular import generator

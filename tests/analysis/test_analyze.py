@@ -229,7 +229,7 @@ def endless(*_: Any, **__: Any) -> None:
 
 
 PARAMETRIC = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
-INDICES = "mcexact.analysis.structure.controllability_indices.controllability_indices"
+INDICES = "mcexact.analysis.controllability.controllability_indices"
 
 
 def test_a_limit_on_time_keeps_what_was_decided(

@@ -10,7 +10,7 @@ from typing import Any, get_args
 
 import pytest
 
-from mcexact.analysis.accounts import account_of_dimensions, account_of_links
+from mcexact.analysis.analyze import account_of_dimensions, account_of_links
 from mcexact.answer.account import Account
 from mcexact.answer.sentence import Given, Sentences
 from mcexact.answer.template import Sentence

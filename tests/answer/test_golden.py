@@ -19,12 +19,10 @@ import pytest
 import scipy
 
 import mcexact
-from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.analysis.sharing import deficiency
-from mcexact.analysis.sharing.neighbor_graph import neighbor_graph
-from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
-from mcexact.analysis.structure import controllability, transfer_graph
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis import controllability, fixed_modes, sharing, structure
+from mcexact.analysis.sharing import neighbor_graph
+from mcexact.analysis.stability import open_loop_spectrum
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.derived.constructions import Share
 from mcexact.derived.drawn.networks import NETWORKS, network_system
@@ -97,14 +95,14 @@ def of_large_systems(system: MultiChannelSystem) -> Answers:
     """The evidence that large sparse systems have, for a small one."""
     with (
         mock.patch.object(controllability, "_SMALL", -1),
-        mock.patch.object(deficiency, "_SMALL", -1),
-        mock.patch.object(transfer_graph, "is_large_and_sparse", lambda system: True),
-        mock.patch.object(fixed_spectrum, "_is_large_and_sparse", lambda system: True),
+        mock.patch.object(sharing, "_SMALL", -1),
+        mock.patch.object(structure, "is_large_and_sparse", lambda system: True),
+        mock.patch.object(fixed_modes, "_is_large_and_sparse", lambda system: True),
     ):
         found = {
             "controllability_by_blocks": mcexact.joint_controllability(system),
             "observability_by_blocks": mcexact.joint_observability(system),
-            "deficiency_by_blocks": deficiency.deficiency(system),
+            "deficiency_by_blocks": sharing.deficiency(system),
             "transfer_graph_by_paths": mcexact.transfer_graph(system),
             "fixed_spectrum_by_products": mcexact.fixed_spectrum(system),
         }

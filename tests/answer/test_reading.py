@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import mcexact
-from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
+from mcexact.analysis.stability import open_loop_spectrum
 from mcexact.derived.constructions import add_links, feedback, full_output
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop

@@ -8,7 +8,7 @@ from functools import reduce
 
 import pytest
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.account import Account
 from mcexact.derived.constructions import Share, extended_system, feedback, setpoint_system
 from mcexact.exact.linear_algebra import characteristic_polynomial

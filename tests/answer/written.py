@@ -8,12 +8,11 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from mcexact.analysis.boxes.box_controllable import box_controllability
-from mcexact.analysis.boxes.box_fixed import box_fixed_modes
-from mcexact.analysis.boxes.box_stable import box_stability
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.exceptional_gains import exceptional_gains
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis.boxes.loops import box_stability
+from mcexact.analysis.boxes.members import box_controllability, box_fixed_modes
+from mcexact.analysis.controllability import exceptional_gains
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.codec import save_certificate
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix

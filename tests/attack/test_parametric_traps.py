@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem, fixed_spectrum
-from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
+from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer import codec
 from mcexact.checker import check_document, moved_modes, parametric_rank
 from mcexact.checker.arithmetic import cleared, coprime, poly_modulo

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from mcexact.analysis.engine import bounded_blocks, modes_left, state_blocks
-from mcexact.analysis.fixed_modes import fixed_spectrum as module
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis import fixed_modes as module
+from mcexact.analysis.blocks import bounded_blocks, modes_left, state_blocks
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.codec import encode
 from mcexact.answer.evidence import Block, CoprimePolynomials
 from mcexact.answer.fixed_spectrum import ByBlocks, FixedSpectrum, TwoPolynomials

@@ -11,8 +11,11 @@ from collections import Counter
 from fractions import Fraction
 from typing import get_args
 
-from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
-from mcexact.analysis.sharing.communication import minimal_communication
+from mcexact.analysis.sharing import (
+    minimal_communication,
+    minimal_shared_dimensions,
+    shared_dimension_bound,
+)
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import Share

@@ -15,7 +15,7 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from mcexact.analysis.structure.exceptional_gains import exceptional_gains
+from mcexact.analysis.controllability import exceptional_gains
 from mcexact.answer.codec import document, save_certificate
 from mcexact.answer.sentence import MANIFEST
 from mcexact.checker.command import main as check

@@ -13,10 +13,10 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.sharing.allocation import shared_dimension_bound
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import completeness
+from mcexact.analysis.sharing import shared_dimension_bound
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import extended_system

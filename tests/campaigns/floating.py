@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 import mcexact.checker
-from mcexact.analysis.stability.stability import certify_stability, matrix_system
+from mcexact.analysis.stability import certify_stability, matrix_system
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.networks import drawn_graph

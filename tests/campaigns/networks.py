@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.controllability import JointControllability
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.transfer_graph import TransferGraph

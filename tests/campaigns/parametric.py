@@ -29,7 +29,7 @@ from mcexact import (
     setpoint_solvability,
     transfer_graph,
 )
-from mcexact.analysis.engine.parametric_structure import parametric_completeness
+from mcexact.analysis.parameters.hypersurfaces import parametric_completeness
 from mcexact.derived.constructions import Share
 from mcexact.errors import InputError
 from tests.campaigns.resumed import Examined, main

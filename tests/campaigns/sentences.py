@@ -19,10 +19,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from mcexact.analysis.accounts import account_of_dimensions, account_of_links
-from mcexact.analysis.analyze import analyze
-from mcexact.analysis.boxes.box_stable import box_stability
-from mcexact.analysis.boxes.largest_loop_ranges import largest_loop_ranges
+from mcexact.analysis.analyze import account_of_dimensions, account_of_links, analyze
+from mcexact.analysis.boxes.largest import largest_loop_ranges
+from mcexact.analysis.boxes.loops import box_stability
 from mcexact.analysis.questions import asked_by
 from mcexact.answer import codec
 from mcexact.answer.account import Account

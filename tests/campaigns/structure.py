@@ -17,19 +17,14 @@ from typing import Any
 
 from sympy import QQ, Poly, Symbol
 
-from mcexact.analysis.fixed_modes.assignability import assignability
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.error_gains import error_gains
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.pencil import pencil_rank
-from mcexact.analysis.fixed_modes.single_channel_gains import Want, single_channel_gains
-from mcexact.analysis.structure.complementary_subsystem import complementary_subsystem
-from mcexact.analysis.structure.controllability_indices import (
+from mcexact.analysis.controllability import (
     controllability_indices,
+    exceptional_gains,
     observability_indices,
 )
-from mcexact.analysis.structure.exceptional_gains import exceptional_gains
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum, pencil_rank
+from mcexact.analysis.single_channel import Want, error_gains, single_channel_gains
+from mcexact.analysis.structure import complementary_subsystem, transfer_graph
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.primary_form import SeededChoices

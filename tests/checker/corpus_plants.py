@@ -11,18 +11,17 @@ from functools import partial
 from typing import Any, get_args
 
 from mcexact.analysis.analyze import analyze
-from mcexact.analysis.boxes.box_fixed import box_fixed_modes
-from mcexact.analysis.boxes.box_setpoints import box_setpoints
-from mcexact.analysis.fixed_modes.assignability import assignability
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.boxes.members import box_fixed_modes, box_setpoints
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum
 from mcexact.analysis.questions import asked_by
-from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
-from mcexact.analysis.sharing.common_dimension import common_dimension
-from mcexact.analysis.sharing.communication import minimal_communication
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis.sharing import (
+    common_dimension,
+    minimal_communication,
+    minimal_shared_dimensions,
+)
+from mcexact.analysis.single_channel import single_channel_gains
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.codec import document
 from mcexact.derived.constructions import Share, error_system, extended_system, setpoint_system
 from mcexact.errors import McexactError

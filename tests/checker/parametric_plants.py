@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 from mcexact import ParametricSystem
-from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
+from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer.codec import document
 
 Document = dict[str, Any]

@@ -13,5 +13,5 @@ from tests.checker.handmade import Document
 
 def by_polynomials(decide: Callable[..., Answer], *arguments: Any, **keywords: Any) -> Document:
     """The certificate of a decision about what agents share."""
-    with mock.patch("mcexact.analysis.sharing.separation.free_blocks", return_value=None):
+    with mock.patch("mcexact.analysis.sharing.free_blocks", return_value=None):
         return document(decide(*arguments, **keywords))

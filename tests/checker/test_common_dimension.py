@@ -11,9 +11,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.sharing.allocation import shared_dimension_bound
-from mcexact.analysis.sharing.common_dimension import common_dimension
-from mcexact.analysis.sharing.separation import absence
+from mcexact.analysis.sharing import absence, common_dimension, shared_dimension_bound
 from mcexact.answer.codec import document
 from mcexact.derived.constructions import extended_system
 from mcexact.derived.modular import generator

@@ -22,7 +22,7 @@ from mcexact import (
     restricted,
     setpoint_solvability,
 )
-from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
+from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer.codec import document
 from mcexact.answer.reading import constructed
 from mcexact.checker.budget import Budget, Refused, limited

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from mcexact import ParametricSystem
-from mcexact.analysis.engine.named_matrices import Named
-from mcexact.analysis.engine.parametric_minors import parametric_rank
+from mcexact.analysis.parameters.ranks import Named, parametric_rank
 from mcexact.answer.codec import document
 from mcexact.answer.parametric_rank import ControllabilityMatrix, SetpointMatrix, TransferColumn
 from tests.checker.handmade import changed, checked, without

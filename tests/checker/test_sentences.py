@@ -13,14 +13,12 @@ from typing import Any, get_args
 
 import pytest
 
-from mcexact.analysis.accounts import account_of_dimensions, account_of_links
-from mcexact.analysis.analyze import analyze
-from mcexact.analysis.boxes.box_setpoints import box_setpoints
-from mcexact.analysis.fixed_modes.assignability import assignability
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.analyze import account_of_dimensions, account_of_links, analyze
+from mcexact.analysis.boxes.members import box_setpoints
+from mcexact.analysis.fixed_modes import assignability, fixed_spectrum
 from mcexact.analysis.questions import asked_by
-from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.sharing import minimal_shared_dimensions
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.account import Account
 from mcexact.answer.codec import document
 from mcexact.answer.listing import everything

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.boxes.box_stable import box_stability
+from mcexact.analysis.boxes.loops import box_stability
 from mcexact.answer.codec import document
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.sentences_boxes import least

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.codec import document
 from mcexact.checker import Verdict
 from mcexact.checker.sentence import RULES

@@ -206,7 +206,7 @@ def test_what_is_not_implied_is_refused_with_its_reason(name: str, tmp_path: Pat
 
 
 def test_channels_that_are_merged_in_part_do_not_stand_for_all(tmp_path: Path) -> None:
-    from mcexact.analysis.engine import parametric_fixed_spectrum
+    from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
     from mcexact.answer.codec import document
     from mcexact.derived.constructions import full_output, merged, moved
 

@@ -137,7 +137,7 @@ def test_what_is_done_in_time_leaves_no_alarm_behind() -> None:
     assert signal.getsignal(signal.SIGALRM) is before
 
 
-INDICES = "mcexact.analysis.structure.controllability_indices.controllability_indices"
+INDICES = "mcexact.analysis.controllability.controllability_indices"
 LIMITED = ("analyze", "gallery:hidden-triple-mode", "--timeout", "6")
 
 
@@ -172,7 +172,7 @@ def test_an_answer_that_was_decided_counts_more_than_a_limit(
 def test_a_limit_keeps_answers_about_parameters_and_names_a_search_that_it_ended(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("mcexact.analysis.structure.setpoint.setpoint_solvability", endless)
+    monkeypatch.setattr("mcexact.analysis.structure.setpoint_solvability", endless)
     plant = "gallery:liu2020-3ch-parametric-a11"
     status, out, err = call("analyze", plant, "--timeout", "6", "--json")
     told = json.loads(out)
@@ -181,6 +181,6 @@ def test_a_limit_keeps_answers_about_parameters_and_names_a_search_that_it_ended
     assert (status, left) == (4, {"setpoint", "controllability_indices", "observability_indices"})
     assert "certificate" in told["fixed_spectrum"] and "not decided: " in err
     monkeypatch.undo()
-    monkeypatch.setattr("mcexact.analysis.boxes.largest_box.largest_uncertainty", endless)
+    monkeypatch.setattr("mcexact.analysis.boxes.largest.largest_uncertainty", endless)
     status, _, err = call(*LIMITED, "--largest-uncertainty")
     assert (status, "nothing has been decided" in err) == (4, True)

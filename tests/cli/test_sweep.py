@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer import codec
 from mcexact.cli import main
 from mcexact.derived.drawn.systems import Draw, drawn_system

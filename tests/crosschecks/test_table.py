@@ -3,7 +3,7 @@
 import pytest
 
 import mcexact
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.crosschecks.table import crosscheck
 from mcexact.floating import verdicts
 from mcexact.model.system import MultiChannelSystem

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.structure import transfer_graph
 from mcexact.derived.constructions import augmented_outputs, merged
 from mcexact.errors import InputError, UsageError
 from mcexact.model import gallery

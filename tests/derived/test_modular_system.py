@@ -5,7 +5,7 @@ from itertools import islice
 
 import pytest
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer import codec
 from mcexact.answer.fixed_spectrum import ByBlocks
 from mcexact.checker import check_document

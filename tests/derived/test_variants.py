@@ -6,7 +6,7 @@ from fractions import Fraction
 import networkx
 import pytest
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.derived.constructions import augmented_outputs
 from mcexact.derived.variants import neighbor_graph_variants, parameter_grid, sensor_variants
 from mcexact.errors import InputError, LimitReached, UsageError

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import sympy
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import closed_by

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.analysis.stability.stability import certify_stability
+from mcexact.analysis.stability import certify_stability
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.derived.constructions import feedback

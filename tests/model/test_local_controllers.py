@@ -3,7 +3,7 @@
 import control
 import pytest
 
-from mcexact.analysis.stability.stability import certify_stability
+from mcexact.analysis.stability import certify_stability
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import controller_text, read_controller

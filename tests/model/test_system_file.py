@@ -19,7 +19,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.controllability import joint_controllability
 from mcexact.answer import codec
 from mcexact.checker import Limits as CheckerLimits
 from mcexact.checker import check_document

@@ -10,12 +10,10 @@ import sys
 from collections.abc import Iterable
 from typing import Any
 
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.pencil import pencil_rank
-from mcexact.analysis.sharing.deficiency import deficiency
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum, pencil_rank
+from mcexact.analysis.sharing import deficiency
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer import codec
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.checker import check_document

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum, open_loop_spectrum
+from mcexact.analysis.stability import closed_loop_spectrum, open_loop_spectrum
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from matplotlib.colors import to_hex
 
-from mcexact.analysis.accounts import account_of_dimensions, account_of_links
+from mcexact.analysis.analyze import account_of_dimensions, account_of_links
 from mcexact.cli import main
 from mcexact.model import gallery
 from mcexact.model.files import save_system

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
+from mcexact.analysis.stability import closed_loop_spectrum
 from mcexact.cli.uncertainty import loops
 from mcexact.exact.matrix import Matrix, float_above, float_below
 from mcexact.exact.rational import digits_outward

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.controllability import joint_controllability
 from mcexact.answer import codec
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import InputError, NotWritten, UsageError

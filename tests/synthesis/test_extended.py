@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.stability.stability import certify_stability
+from mcexact.analysis.stability import certify_stability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.networks import drawn_graph

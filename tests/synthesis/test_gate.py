@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.stability.closed_loop_spectrum import agreeing_moduli, coefficient_bound
+from mcexact.analysis.stability import agreeing_moduli, coefficient_bound
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, InternalError, LimitReached, UsageError

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact import MultiChannelSystem, certify_controller, check, local_controllers
-from mcexact.analysis.boxes.gain_radii import digit_radii, rounded_ends
+from mcexact.analysis.boxes.loops import digit_radii, rounded_ends
 from mcexact.synthesis.certify import safe_digits
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mcexact import MultiChannelSystem, check, local_controllers
-from mcexact.analysis.boxes.gain_radii import with_gains
+from mcexact.analysis.boxes.loops import with_gains
 from mcexact.exact.matrix import Matrix, matrix_to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, Controller, LinearMap

@@ -20,8 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import eig, expm, matrix_balance
 
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.stability.stability import POLYNOMIAL_LIMIT
+from mcexact.analysis.stability import POLYNOMIAL_LIMIT, closed_loop_spectrum
 from mcexact.errors import LimitReached
 from mcexact.exact.balls import even_powers, response, states_at_doubling_steps
 from mcexact.exact.linear_algebra import characteristic_polynomial, solve_nonsingular

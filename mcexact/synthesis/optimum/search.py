@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached, OutOfReach, UsageError
 from mcexact.model.controller import Controller

@@ -17,7 +17,7 @@ from mcexact import (
     joint_observability,
     testing,
 )
-from mcexact.analysis.boxes.box_controllable import box_controllability, box_observability
+from mcexact.analysis.boxes.members import box_controllability, box_observability
 from mcexact.errors import LimitReached
 
 

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mcexact import Box, MultiChannelSystem, check, dual, fixed_spectrum, gallery, testing
-from mcexact.analysis.boxes.box_fixed import box_fixed_modes, box_stabilizability
-from mcexact.analysis.boxes.radii import radii_of
+from mcexact.analysis.boxes.members import box_fixed_modes, box_stabilizability
+from mcexact.analysis.boxes.pencils import radii_of
 from mcexact.answer.box_fixed import BoxFixedModes
 from mcexact.derived.constructions import (
     augmented_outputs,

@@ -6,10 +6,9 @@ import random
 
 import pytest
 
-from mcexact.analysis.boxes.box_fixed import box_fixed_modes
-from mcexact.analysis.boxes.box_setpoints import box_setpoints
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis.boxes.members import box_fixed_modes, box_setpoints
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.check import check
 from mcexact.derived.constructions import setpoint_system
 from mcexact.errors import LimitReached

@@ -21,8 +21,7 @@ from mcexact import (
     local_controllers,
     testing,
 )
-from mcexact.analysis.boxes.box_stable import box_stability
-from mcexact.analysis.boxes.gain_radii import gain_radii
+from mcexact.analysis.boxes.loops import box_stability, gain_radii
 from mcexact.errors import LimitReached
 from mcexact.exact.linear_algebra import solve
 from mcexact.model.loop import LoopPencil, closed_loop

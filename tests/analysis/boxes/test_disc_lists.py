@@ -16,11 +16,10 @@ from mcexact import (
     check,
     fixed_spectrum,
 )
-from mcexact.analysis.boxes import box_controllable, box_fixed
-from mcexact.analysis.boxes import disc_lists as disc_lists_module
-from mcexact.analysis.boxes.cover import Outside
-from mcexact.analysis.boxes.disc_lists import GainBox, disc_lists
-from mcexact.analysis.boxes.float_pencils import FloatBox
+from mcexact.analysis.boxes import cover as disc_lists_module
+from mcexact.analysis.boxes import members
+from mcexact.analysis.boxes.cover import GainBox, Outside, disc_lists
+from mcexact.analysis.boxes.pencils import FloatBox
 from mcexact.errors import LimitReached
 from mcexact.model.gallery import load
 
@@ -38,7 +37,7 @@ def of_box(box: Box) -> GainBox:
 def large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have gains drawn for small plants, too."""
     monkeypatch.setattr(disc_lists_module, "_DRAWS", 4)
-    for module in (box_fixed, box_controllable):
+    for module in (members, members):
         monkeypatch.setattr(module, "MANY", 1)
 
 

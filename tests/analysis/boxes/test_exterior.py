@@ -9,10 +9,8 @@ import numpy as np
 from hypothesis import given, settings
 
 from mcexact import Box, MultiChannelSystem, testing
-from mcexact.analysis.boxes.cover import Cover, Outside
-from mcexact.analysis.boxes.exterior import exterior
-from mcexact.analysis.boxes.float_pencils import FloatBox
-from mcexact.analysis.boxes.regular_discs import Point
+from mcexact.analysis.boxes.cover import Cover, Outside, exterior
+from mcexact.analysis.boxes.pencils import FloatBox, Point
 from mcexact.answer.evidence import RootDisc
 
 

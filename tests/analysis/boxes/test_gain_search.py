@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from mcexact import Box, MultiChannelSystem
-from mcexact.analysis.boxes.float_pencils import FloatBox, gain_pencil
-from mcexact.analysis.boxes.gain_search import best_gains, exact_gains
+from mcexact.analysis.boxes.members import best_gains, exact_gains
+from mcexact.analysis.boxes.pencils import FloatBox, gain_pencil
 
 PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
 

@@ -22,10 +22,9 @@ from mcexact import (
     largest_uncertainty,
     testing,
 )
-from mcexact.analysis.boxes.failing_plants import failing_plant, severed_plants, tried_sets
-from mcexact.analysis.boxes.one_thread import one_thread
-from mcexact.analysis.boxes.rank_drops import rational_point
-from mcexact.analysis.boxes.two_sided import Search, largest_factor
+from mcexact.analysis.boxes.failure import failing_plant, rational_point, severed_plants, tried_sets
+from mcexact.analysis.boxes.largest import Search, largest_factor
+from mcexact.analysis.boxes.pencils import one_thread
 from mcexact.answer.box_fixed import BoxFixedModes
 from mcexact.errors import UsageError
 

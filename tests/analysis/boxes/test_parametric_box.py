@@ -23,8 +23,8 @@ from mcexact import (
     load_certificate,
     save_certificate,
 )
-from mcexact.analysis.boxes.parameter_cells import box_of_cell, whole_cell
-from mcexact.analysis.boxes.parametric_box import parametric_box_fixed_modes
+from mcexact.analysis.boxes.cells import box_of_cell, whole_cell
+from mcexact.analysis.boxes.members import parametric_box_fixed_modes
 from mcexact.checker.parameter_cells import box_of_cell as checked_box
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.errors import LimitReached, UsageError

@@ -24,9 +24,9 @@ from mcexact import (
     local_controllers,
     save_certificate,
 )
-from mcexact.analysis.boxes.largest_loop_ranges import LargestRanges
-from mcexact.analysis.boxes.parameter_cells import box_of_cell, whole_cell
-from mcexact.analysis.boxes.parametric_box_stable import LoopSearch
+from mcexact.analysis.boxes.cells import box_of_cell, whole_cell
+from mcexact.analysis.boxes.largest import LargestRanges
+from mcexact.analysis.boxes.loops import LoopSearch
 from mcexact.answer.parametric_box_stable import ParametricBoxStability
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion

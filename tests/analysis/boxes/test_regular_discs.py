@@ -9,8 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcexact.analysis.boxes.float_pencils import gain_pencil, perron, weights
-from mcexact.analysis.boxes.regular_discs import dyadic, modulus_above, whole_weights
+from mcexact.analysis.boxes.pencils import (
+    dyadic,
+    gain_pencil,
+    modulus_above,
+    perron,
+    weights,
+    whole_weights,
+)
 from mcexact.exact.matrix import Matrix
 from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem

@@ -6,14 +6,14 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.engine.covering import (
+from mcexact.analysis.covering import (
     CoveringCut,
     CoveringProgram,
     branch_tree,
     leaf_bound,
     minimize,
 )
-from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
+from mcexact.analysis.sharing import minimal_shared_dimensions
 from mcexact.errors import LimitReached
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph

@@ -6,17 +6,18 @@ import random
 
 import pytest
 
-from mcexact.analysis.engine import (
+from mcexact.analysis import blocks
+from mcexact.analysis.blocks import (
+    MODULI,
+    STARTS,
     best_sequences,
     bounded_blocks,
     free_blocks,
     modes_left,
-    one_channel,
     state_blocks,
 )
-from mcexact.analysis.engine.one_channel import MODULI, STARTS
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.codec import encode
 from mcexact.answer.evidence import KrylovSequence
 from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials
@@ -173,7 +174,7 @@ def test_a_sparse_system_has_the_same_sequences_as_a_dense_one(
 
 def test_large_systems_begin_with_a_larger_modulus(monkeypatch: pytest.MonkeyPatch) -> None:
     assert next(best_sequences(ring(999, 250))).modulus == MODULI[0]
-    monkeypatch.setattr(one_channel, "LARGE", 1000)
+    monkeypatch.setattr(blocks, "LARGE", 1000)
     system = ring(1000, 250)
     found = next(best_sequences(system))
     assert (found.modulus, found.degree) == (MODULI[1], 1000)

@@ -4,9 +4,8 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.engine.rate import best_rate, located
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.stability import best_rate, closed_loop_spectrum, located
 from mcexact.answer import codec
 from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.checker import check_document

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from mcexact.analysis.stability.stability import Separation, certify_stability, matrix_system
+from mcexact.analysis.stability import Separation, certify_stability, matrix_system
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import UsageError

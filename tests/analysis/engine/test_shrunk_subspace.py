@@ -6,11 +6,7 @@ from collections.abc import Sequence
 
 import pytest
 
-from mcexact.analysis.engine.shrunk_subspace import (
-    exact_subspace,
-    obstruction_modulo,
-    shrunk_subspace,
-)
+from mcexact.analysis.subspaces import exact_subspace, obstruction_modulo, shrunk_subspace
 from mcexact.derived.modular import ModularSystem, closed_loop, drawn_gains
 from mcexact.exact.linear_algebra import PolynomialMatrix, rank
 from mcexact.exact.matrix import Matrix

@@ -4,8 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.engine.lyapunov import decrease, is_dominant, quadratic_form
-from mcexact.analysis.engine.smith_doubling import doubled_lyapunov
+from mcexact.analysis.lyapunov import decrease, doubled_lyapunov, is_dominant, quadratic_form
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
 

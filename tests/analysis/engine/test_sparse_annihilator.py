@@ -6,7 +6,9 @@ import random
 
 import pytest
 
-from mcexact.analysis.engine import annihilator, measured_system, sparse_annihilator
+from mcexact.analysis import sparse
+from mcexact.analysis.blocks import measured_system
+from mcexact.analysis.sparse import annihilator
 from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix, vstack
@@ -51,5 +53,5 @@ def test_what_is_not_found_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     part, _ = measured_system(beside(10**9 + 7), [0])
     assert annihilator(part, 2) is None
     assert annihilator(part, 10**4) is None
-    monkeypatch.setattr(sparse_annihilator, "MOST_PRIMES", 1)
+    monkeypatch.setattr(sparse, "MOST_PRIMES", 1)
     assert annihilator(part, 1) is None

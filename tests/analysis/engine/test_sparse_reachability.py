@@ -7,11 +7,12 @@ from collections import Counter
 
 import pytest
 
-from mcexact.analysis.engine import edge_modulus, reachable_pairs, sparse_reachability
-from mcexact.analysis.fixed_modes import completeness as completeness_module
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.structure import transfer_graph as graph_module
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis import fixed_modes as completeness_module
+from mcexact.analysis import sparse
+from mcexact.analysis import structure as graph_module
+from mcexact.analysis.fixed_modes import completeness
+from mcexact.analysis.sparse import edge_modulus, reachable_pairs
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.codec import encode
 from mcexact.answer.completeness import BlocksWitness
 from mcexact.checker import check_document
@@ -95,7 +96,7 @@ def test_a_sparse_system_of_400_states() -> None:
 
 
 def test_too_many_channels_are_said(by_structure: pytest.MonkeyPatch) -> None:
-    by_structure.setattr(sparse_reachability, "_MOST_NUMBERS", 100)
+    by_structure.setattr(sparse, "_MOST_NUMBERS", 100)
     with pytest.raises(LimitReached, match="too many Markov parameters"):
         transfer_graph(planted(60, 6, 1))
 
@@ -103,7 +104,7 @@ def test_too_many_channels_are_said(by_structure: pytest.MonkeyPatch) -> None:
 def test_a_search_that_ends_early_leaves_the_decision_to_dense_matrices(
     by_structure: pytest.MonkeyPatch,
 ) -> None:
-    by_structure.setattr(sparse_reachability, "_MOST_PRODUCTS", 0)
+    by_structure.setattr(sparse, "_MOST_PRODUCTS", 0)
     n = 4
     A = [[int(i == j + 1) for j in range(n)] for i in range(n)]
     found = transfer_graph(

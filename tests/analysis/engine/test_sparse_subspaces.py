@@ -8,8 +8,9 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.engine import decide, sparse_subspaces
-from mcexact.analysis.engine.sparse_subspaces import fixed_subspaces
+from mcexact.analysis import sparse as sparse_subspaces
+from mcexact.analysis.sparse import fixed_subspaces
+from mcexact.analysis.subspaces import decide
 from mcexact.derived.modular import generator
 from mcexact.errors import LimitReached
 from mcexact.exact.matrix import Matrix

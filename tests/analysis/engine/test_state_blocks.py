@@ -8,15 +8,15 @@ from typing import Any
 import networkx
 import pytest
 
-from mcexact.analysis.engine import (
+from mcexact.analysis.blocks import (
     bounded_blocks,
     completed_blocks,
     free_blocks,
     modes_left,
     state_blocks,
 )
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.sharing.deficiency import deficiency
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.sharing import deficiency
 from mcexact.answer.codec import encode
 from mcexact.answer.evidence import CoprimePolynomials, KrylovSequence
 from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials

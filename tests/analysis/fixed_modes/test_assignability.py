@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 
 from mcexact import MultiChannelSystem, assignability, fixed_spectrum
-from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.controllability import joint_controllability
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.exact.linear_algebra import characteristic_polynomial

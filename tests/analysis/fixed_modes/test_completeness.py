@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from mcexact.analysis.fixed_modes.completeness import completeness
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
+from mcexact.analysis.single_channel import single_channel_gains
 from mcexact.answer import codec
 from mcexact.answer.completeness import (
     BlocksWitness,

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from mcexact.analysis import fixed_modes as module
 from mcexact.analysis.analyze import Analysis, analyze
-from mcexact.analysis.engine import bounded_blocks, modes_left
-from mcexact.analysis.engine.obstructions import CommonFactor, decide
-from mcexact.analysis.fixed_modes import fixed_spectrum as module
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.blocks import bounded_blocks, modes_left
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.subspaces import CommonFactor, decide
 from mcexact.answer import codec
 from mcexact.answer.evidence import Block, CoprimePolynomials
 from mcexact.answer.fixed_spectrum import ByBlocks, FixedFactor, FixedSpectrum

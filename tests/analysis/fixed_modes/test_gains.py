@@ -4,8 +4,8 @@ import random
 
 import pytest
 
-from mcexact.analysis.fixed_modes.gains import error_gain_draws, reaching_gains
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.single_channel import error_gain_draws, reaching_gains
 from mcexact.derived.constructions import error_system, feedback
 from mcexact.derived.drawn.networks import drawn_graph
 from mcexact.derived.drawn.primary_form import SeededChoices

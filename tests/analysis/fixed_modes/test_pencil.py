@@ -2,7 +2,7 @@
 
 import pytest
 
-from mcexact.analysis.fixed_modes.pencil import pencil_rank, pencil_ranks
+from mcexact.analysis.fixed_modes import pencil_rank, pencil_ranks
 from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.errors import FloatRefused, InputError, UsageError

@@ -7,7 +7,7 @@ import random
 import pytest
 
 from mcexact import MultiChannelSystem, completeness, single_channel_gains
-from mcexact.analysis.fixed_modes.single_channel_gains import Want
+from mcexact.analysis.single_channel import Want
 from mcexact.answer.codec import encode
 from mcexact.answer.single_channel_gains import GainsWitness, UnreachedWitness
 from mcexact.checker import check_document

@@ -8,8 +8,11 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
-from mcexact.analysis.sharing.communication import minimal_communication
+from mcexact.analysis.sharing import (
+    minimal_communication,
+    minimal_shared_dimensions,
+    shared_dimension_bound,
+)
 from mcexact.answer.codec import encode
 from mcexact.answer.protocol import Answer
 from mcexact.answer.shared_dimensions import SharedDimensions
@@ -192,7 +195,7 @@ def test_the_node_limit_ends_with_what_is_proved() -> None:
 def test_a_node_limit_that_leaves_no_tree_is_refused_before_any_work(
     limit: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mcexact.analysis.sharing.cut_generation.minimize", pytest.fail)
+    monkeypatch.setattr("mcexact.analysis.sharing.minimize", pytest.fail)
     with pytest.raises(UsageError, match="node_limit: expected an integer of at least 1, found"):
         minimal_shared_dimensions(triangles(2), node_limit=limit)
     with pytest.raises(UsageError, match="node_limit: expected an integer of at least 1, found"):

@@ -7,8 +7,8 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.engine import CoveringCut, CoveringProgram
-from mcexact.analysis.sharing.cut_generation import CoveringProblem, covering_optimum
+from mcexact.analysis.covering import CoveringCut, CoveringProgram
+from mcexact.analysis.sharing import CoveringProblem, covering_optimum
 from mcexact.errors import LimitReached
 from mcexact.model.system import MultiChannelSystem
 

@@ -5,8 +5,8 @@ from collections import Counter
 
 import pytest
 
-from mcexact.analysis.sharing import deficiency as module
-from mcexact.analysis.sharing.deficiency import deficiency
+from mcexact.analysis import sharing as module
+from mcexact.analysis.sharing import deficiency
 from mcexact.answer import codec
 from mcexact.answer.deficiency import ByBlocks
 from mcexact.checker import check_document

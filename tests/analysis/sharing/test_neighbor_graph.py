@@ -2,7 +2,7 @@
 
 import pytest
 
-from mcexact.analysis.sharing.neighbor_graph import neighbor_graph
+from mcexact.analysis.sharing import neighbor_graph
 from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.errors import UsageError

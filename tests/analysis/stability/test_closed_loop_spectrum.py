@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
+from mcexact.analysis.stability import closed_loop_spectrum
 from mcexact.exact.matrix import Matrix
 
 

@@ -7,13 +7,8 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.engine.lyapunov import is_dominant, quadratic_form
-from mcexact.analysis.stability.stability import (
-    Separation,
-    certify_stability,
-    fastest_region,
-    matrix_system,
-)
+from mcexact.analysis.lyapunov import is_dominant, quadratic_form
+from mcexact.analysis.stability import Separation, certify_stability, fastest_region, matrix_system
 from mcexact.answer.codec import encode
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.checker.kinds import check_document

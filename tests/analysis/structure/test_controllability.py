@@ -6,9 +6,9 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.structure import controllability
-from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis import controllability
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer import codec
 from mcexact.answer.controllability import ByBlocks
 from mcexact.checker import check_document

@@ -2,10 +2,7 @@
 
 import random
 
-from mcexact.analysis.structure.controllability_indices import (
-    controllability_indices,
-    observability_indices,
-)
+from mcexact.analysis.controllability import controllability_indices, observability_indices
 from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.exact.matrix import Matrix

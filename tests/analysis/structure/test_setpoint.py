@@ -7,8 +7,8 @@ import random
 import pytest
 import sympy
 
-from mcexact.analysis.structure.controllability import joint_controllability
-from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import setpoint_system

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer import codec
 from mcexact.answer.protocol import Answer
 from mcexact.checker import check_document

@@ -10,12 +10,11 @@ from typing import Any
 from unittest import mock
 
 import mcexact
-from mcexact.analysis.engine.parametric_minors import parametric_rank
-from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
-from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.analysis.sharing import deficiency as deficiency_module
-from mcexact.analysis.sharing.deficiency import deficiency
-from mcexact.analysis.structure import controllability, transfer_graph
+from mcexact.analysis import controllability, fixed_modes, structure
+from mcexact.analysis import sharing as deficiency_module
+from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
+from mcexact.analysis.parameters.ranks import parametric_rank
+from mcexact.analysis.sharing import deficiency
 from mcexact.answer import codec
 from mcexact.answer.parametric_rank import (
     ControllabilityMatrix,
@@ -133,8 +132,8 @@ def _as_large(
         with (
             mock.patch.object(controllability, "_SMALL", -1),
             mock.patch.object(deficiency_module, "_SMALL", -1),
-            mock.patch.object(transfer_graph, "is_large_and_sparse", lambda system: True),
-            mock.patch.object(fixed_spectrum, "_is_large_and_sparse", lambda system: True),
+            mock.patch.object(structure, "is_large_and_sparse", lambda system: True),
+            mock.patch.object(fixed_modes, "_is_large_and_sparse", lambda system: True),
         ):
             return decide(rng, system)
 

@@ -1,0 +1,447 @@
+"""Krylov sequences and blocks of states, which prove that no more is fixed.
+
+Blocks of states whose fixed modes are those of the system, and the proof that each has no more.
+
+A system splits into the strong components of the digraph with an arc b → a between two states if
+A_ab ≠ 0, or if a row a of some B_i and a column b of C_i are not 0.  Every closed loop is block
+triangular, and a channel acts within one block at most, so the blocks share no gain.
+
+Blocks that prove how much some channels control: what they control, feedback of them moves.
+
+Modes that channels do not control are fixed, whatever the channels measure.  So the states that
+they measure can be chosen, and one of them can measure everything.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from mcexact.analysis.subspaces import decide
+from mcexact.answer.evidence import Block, CoprimePolynomials, KrylovSequence
+from mcexact.derived.modular import (
+    Gains,
+    ModularSystem,
+    channel_sequences,
+    drawn_gains,
+    generator,
+    lifted_gains,
+)
+from mcexact.exact.krylov import Start, cofactors, least_recurrence
+from mcexact.exact.matrix import Matrix, from_cells
+from mcexact.exact.modular import ModularPolynomial
+from mcexact.model.system import MultiChannelSystem
+
+# The proof that no more is fixed than what is known: one Krylov sequence of one channel.
+
+MODULI = (19, 31, 2**19 - 1)
+"""Small moduli make certificates that are quick to check; structured plants need larger ones.
+
+Of 700 dense drawn plants with 50 to 800 states the first sequence was too short for 31 % modulo 7,
+15 % modulo 13, 12 % modulo 19 and 6 % modulo 31; an answer took 1.2, 1.04, 1.02 and 1 times as
+long on average, and to check one of 1,000 states 1.6, 1.7, 1.8 and 2.0 s.
+"""
+LARGE = 2**12
+"""From so many states on, a sequence that fails costs more than a small modulus saves."""
+STARTS = 3
+"""How many channels are tried with the same gains: a second one takes a third of the time."""
+
+
+def best_sequences(
+    system: MultiChannelSystem, denominator: int = 1, through: str | None = None
+) -> Iterator[KrylovSequence]:
+    """Draw gains modulo one prime after the other, and yield the longest sequence for each.
+
+    The last one has degree n, or two in a row have the same degree, or all primes are used up.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    denominator : int
+        Moduli that divide it are passed over, as are those that divide one of the system.
+    through : str, optional
+        The name of the only channel that is tried.
+
+    Notes
+    -----
+    If nothing is fixed and the transfer graph is strongly connected, generic gains make the system
+    controllable and observable through each channel with inputs and outputs (Corfmat and Morse
+    1976), and then generic x and y give a sequence of degree n.  Modulo ℓ, gains, x and y that are
+    drawn do so with a probability near (1 − 1/ℓ)².  The draws depend on ℓ and on the sizes of the
+    gains alone.
+    """
+    if not system.m:
+        return
+    denominator *= system.denominator
+    before = -1
+    for ell in MODULI if system.n < LARGE else MODULI[1:]:
+        if denominator % ell:
+            best = _longest(ModularSystem(system, ell), random.Random(ell), through)
+            yield best
+            if best.degree in (before, system.n):
+                return
+            before = best.degree
+
+
+def _longest(modular: ModularSystem, rng: random.Random, through: str | None) -> KrylovSequence:
+    """The longest sequence of a few channels for drawn gains."""
+    system, ell = modular.system, modular.modulus
+    gains, starts = drawn_gains(modular, rng), _starts(system, ell, rng, through)
+    found = []
+    for start, numbers in zip(starts, channel_sequences(modular, gains, starts), strict=False):
+        found.append((least_recurrence(numbers, ell), start, numbers))
+        if found[-1][0].degree == system.n:
+            break
+    return _evidence(modular, gains, *max(found, key=lambda each: each[0].degree))
+
+
+def _starts(
+    system: MultiChannelSystem, ell: int, rng: random.Random, through: str | None
+) -> list[Start]:
+    """Channels with inputs and outputs, with a combination of each; no two alike."""
+    live = (system.active if through is None else (system.index(through),)) or (0,)
+    chosen = rng.sample(live, min(STARTS, len(live)))
+    found: list[Start] = []
+    for k in range(STARTS):
+        q = chosen[k % len(chosen)]
+        start = q, _direction(system.p(q), ell, rng), _direction(system.q(q), ell, rng)
+        if start not in found:
+            found.append(start)
+    return found
+
+
+def _direction(size: int, ell: int, rng: random.Random) -> tuple[int, ...]:
+    """Residues that are not all 0, up to a common factor."""
+    if size == 1:
+        return (1,)
+    drawn = [rng.randrange(ell) for _ in range(size)]
+    return tuple(drawn) if any(drawn) else (1,) * size
+
+
+def _evidence(
+    modular: ModularSystem,
+    gains: Gains,
+    recurrence: ModularPolynomial,
+    start: Start,
+    numbers: Sequence[int],
+) -> KrylovSequence:
+    q, x, y = start
+    a, e = cofactors(recurrence, numbers)
+    return KrylovSequence(
+        modulus=modular.modulus,
+        gains=lifted_gains(modular, gains),
+        channel=modular.system.channels[q].name,
+        inputs=tuple(x),
+        outputs=tuple(y),
+        recurrence=recurrence.coefficients,
+        cofactors=(a.coefficients, e.coefficients),
+    )
+
+
+# Blocks of states whose fixed modes are those of the system, and the proof that each has no more.
+
+# So many entries are compared with 0 by numpy: 0.1 ms at n = 200 in place of 2 ms.
+_LARGE = 2**14
+
+
+@dataclass(frozen=True)
+class StateBlock:
+    """Some states, and the system of these and of the channels that act within them.
+
+    Attributes
+    ----------
+    states : tuple of int
+        Increasing.
+    system : MultiChannelSystem or None
+        None if no channel acts within the block, so that all of its modes are fixed.
+    """
+
+    states: tuple[int, ...]
+    system: MultiChannelSystem | None
+
+
+def state_blocks(system: MultiChannelSystem) -> tuple[StateBlock, ...]:
+    """Split a system into blocks, in an order in which no arc leads from a block to a later one.
+
+    Examples
+    --------
+    >>> chain = MultiChannelSystem([[0, 0], [1, 0]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    >>> [(block.states, block.system.names) for block in state_blocks(chain)]
+    [((1,), ('2',)), ((0,), ('1',))]
+    >>> block, = state_blocks(MultiChannelSystem([[0]], [[[0]]], [[[1]]]))
+    >>> block.system is None
+    True
+    """
+    if not system.A.is_sparse and _connected(_flags(system.A), system.n):
+        states = tuple(range(system.n))
+        return (StateBlock(states, _part(system, states, system.active)),)
+    found = []
+    for component in _components(*_arcs(system)):
+        states = tuple(sorted(v for v in component if v < system.n))
+        if states:
+            acting = sorted(v - system.n for v in component if v >= system.n)
+            found.append(StateBlock(states, _part(system, states, acting)))
+    return tuple(found)
+
+
+def _part(
+    system: MultiChannelSystem, states: Sequence[int], acting: Sequence[int]
+) -> MultiChannelSystem | None:
+    if not acting:
+        return None
+    if len(states) == system.n and len(acting) == system.m:
+        return system
+    at = {state: k for k, state in enumerate(states)}
+    return MultiChannelSystem(
+        _within(system.A, at, at),
+        [_within(system.B(i), at, None) for i in acting],
+        [_within(system.C(i), None, at) for i in acting],
+        time=system.time,
+        names=system.named(acting),
+    )
+
+
+def _within(M: Matrix, rows: dict[int, int] | None, cols: dict[int, int] | None) -> Matrix:
+    """The rows and columns with new positions, which increase; None takes all."""
+    if not M.is_sparse:
+        return M.take(*(None if places is None else tuple(places) for places in (rows, cols)))
+    shape = (M.nrows if rows is None else len(rows), M.ncols if cols is None else len(cols))
+    cells, values = [], []
+    for i, j, x in M.nonzero():
+        if (rows is None or i in rows) and (cols is None or j in cols):
+            a, b = i if rows is None else rows[i], j if cols is None else cols[j]
+            cells.append(a * shape[1] + b)
+            values.append(x)
+    return from_cells(shape, cells, values, M.denominator)
+
+
+def _connected(flags: bytes, n: int) -> bool:
+    """Whether n ≥ 1 states drive each other by A alone; a dense A shows it by a few rows."""
+    rows = (lambda a: flags[a * n : a * n + n]), (lambda b: flags[b::n])
+    return n > 0 and all(_reaches_all(arcs, n) for arcs in rows)
+
+
+def _reaches_all(arcs: Callable[[int], bytes], n: int) -> bool:
+    reached, looked_at, every = 1, 0, _number(b"\1" * n)
+    while reached != every:
+        rest = reached & ~looked_at
+        if not rest:
+            return False
+        bit = rest & -rest
+        looked_at |= bit
+        reached |= _number(arcs(bit.bit_length() // 8))
+    return True
+
+
+def _arcs(system: MultiChannelSystem) -> tuple[list[list[int]], list[list[int]]]:
+    """For each state, then each channel, where arcs come from and lead to, in increasing order."""
+    n = system.n
+    into: list[list[int]] = [[] for _ in range(n + system.m)]
+    out: list[list[int]] = [[] for _ in range(n + system.m)]
+    for a, b, _ in system.A.nonzero():
+        into[a].append(b)
+        out[b].append(a)
+    for i, channel in enumerate(system.channels, start=n):
+        out[i] = sorted({a for a, _, _ in channel.B.nonzero()})
+        into[i] = sorted({b for _, b, _ in channel.C.nonzero()})
+        for a in out[i]:
+            into[a].append(i)
+        for b in into[i]:
+            out[b].append(i)
+    return into, out
+
+
+def _flags(M: Matrix) -> bytes:
+    """A byte for each entry, row by row: 1 if it is not 0."""
+    words = M.words
+    if words is None:
+        return bytes(entry != 0 for row in M.numerators for entry in row)
+    if len(words) < _LARGE:
+        return bytes(map(bool, words))
+    import numpy as np
+
+    return bytes(np.frombuffer(words, dtype=np.int64) != 0)
+
+
+def _number(flags: bytes) -> int:
+    return int.from_bytes(flags, "little")
+
+
+def _components(into: list[list[int]], out: list[list[int]]) -> list[list[int]]:
+    """The strong components, by two depth-first searches; each is reached from later ones alone."""
+    unseen, found = bytearray(b"\1" * len(into)), []
+    order = _finished(into, range(len(into)), unseen)
+    unseen = bytearray(b"\1" * len(into))
+    for root in reversed(order):
+        component = _finished(out, [root], unseen)
+        if component:
+            found.append(component)
+    return found
+
+
+def _finished(arcs: list[list[int]], roots: Iterable[int], unseen: bytearray) -> list[int]:
+    """The unseen nodes that are reached, in the order in which the search leaves them."""
+    order = []
+    for root in roots:
+        if not unseen[root]:
+            continue
+        unseen[root] = 0
+        path = [(root, iter(arcs[root]))]
+        while path:
+            node, rest = path[-1]
+            for other in rest:
+                if unseen[other]:
+                    unseen[other] = 0
+                    path.append((other, iter(arcs[other])))
+                    break
+            else:
+                order.append(node)
+                path.pop()
+    return order
+
+
+def bounded_blocks(system: MultiChannelSystem, through: str | None = None) -> tuple[Block, ...]:
+    """The blocks, each with the longest sequence that is found for it.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    through : str, optional
+        The name of a channel: only this one is tried, in the block in which it acts.
+    """
+    return tuple(
+        Block(block.states, _longest_of_block(block, system.denominator, through))
+        for block in state_blocks(system)
+    )
+
+
+def _longest_of_block(
+    block: StateBlock, denominator: int, through: str | None
+) -> KrylovSequence | None:
+    if block.system is None or not (through is None or through in block.system.names):
+        return None
+    found = best_sequences(block.system, denominator, through)
+    return max(found, key=lambda each: each.degree, default=None)
+
+
+def modes_left(blocks: Sequence[Block]) -> int:
+    """How many modes the evidence leaves, with their multiplicities, that may be fixed."""
+    return sum(_left(block) for block in blocks)
+
+
+def _left(block: Block) -> int:
+    if isinstance(block.evidence, CoprimePolynomials):
+        return 0
+    return len(block.states) - (0 if block.evidence is None else block.evidence.degree)
+
+
+def completed_blocks(system: MultiChannelSystem, blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """The same blocks with two polynomials where no mode is fixed and the sequence is too short."""
+    return tuple(
+        _completed(part, block, system.denominator) if _left(block) else block
+        for part, block in zip(state_blocks(system), blocks, strict=True)
+    )
+
+
+def _completed(part: StateBlock, block: Block, denominator: int) -> Block:
+    if part.system is None:
+        return block
+    decision = decide(part.system, generator(part.system, "fixed_spectrum"))
+    ell = decision.modular.modulus
+    if decision.obstructions or denominator % ell == 0:
+        return block
+    gains = lifted_gains(decision.modular, decision.gains)
+    return Block(block.states, CoprimePolynomials(gains, ell))
+
+
+def free_blocks(system: MultiChannelSystem) -> tuple[Block, ...] | None:
+    """Blocks with the proof that no mode of any is fixed; None if it is not found.
+
+    Where the whole system is one block, it is not found by two polynomials.
+    """
+    blocks = bounded_blocks(system)
+    if modes_left(blocks) and len(blocks) > 1:
+        blocks = completed_blocks(system, blocks)
+    return None if modes_left(blocks) else blocks
+
+
+# Blocks that prove how much some channels control: what they control, feedback of them moves.
+
+Measured = tuple[tuple[int, ...], ...]
+"""The states that each channel measures."""
+
+
+def measured_system(
+    system: MultiChannelSystem, T: Sequence[int]
+) -> tuple[MultiChannelSystem, Measured]:
+    """The system of some channels, at least one, that measure states; and these states.
+
+    Notes
+    -----
+    The first channel with inputs measures all states.  Every other channel measures states that its
+    own inputs and those of the channel before it drive, and a share of all states that is drawn: so
+    what T reaches is one block, and generic gains mostly move all that T controls, observed and
+    controlled through that first channel.
+    """
+    driven = [_driven(system.B(i)) for i in T]
+    live = [k for k, states in enumerate(driven) if states]
+    chosen: list[set[int]] = [set() for _ in T]
+    states = list(range(system.n))
+    random.Random(system.n).shuffle(states)
+    for share, (before, k) in enumerate(pairwise(live)):
+        chosen[k] = {*driven[k], driven[before][0], *states[share :: len(live) - 1]}
+    if live:
+        chosen[live[0]] = set(range(system.n))
+    measured = tuple(tuple(sorted(states)) for states in chosen)
+    part = MultiChannelSystem(
+        system.A,
+        [system.B(i) for i in T],
+        [_picking(states, system.n) for states in measured],
+        time=system.time,
+        names=system.named(T),
+    )
+    return part, measured
+
+
+def measured_blocks(part: MultiChannelSystem) -> tuple[Block, ...]:
+    """Blocks of a system of `measured_system`, which leave n − d modes if enough is found."""
+    names = [c.name for c in part.channels if not c.B.is_zero()]
+    return bounded_blocks(part, (names or part.names)[0])
+
+
+def _driven(B: Matrix) -> list[int]:
+    """For each input the first state that it drives."""
+    found: dict[int, int] = {}
+    for a, j, _ in B.nonzero():
+        found.setdefault(j, a)
+    return sorted(set(found.values()))
+
+
+def _picking(states: Sequence[int], n: int) -> Matrix:
+    return Matrix.from_entries((len(states), n), [(k, a, 1) for k, a in enumerate(states)])
+
+
+def transposed_blocks(blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """The same evidence about the dual system: c Mᵏ b = b' M'ᵏ c', and arcs turn round."""
+    return tuple(Block(block.states, _transposed(block.evidence)) for block in reversed(blocks))
+
+
+def _transposed(
+    found: KrylovSequence | CoprimePolynomials | None,
+) -> KrylovSequence | CoprimePolynomials | None:
+    if found is None:
+        return None
+    gains = tuple(F.T for F in found.gains)
+    if isinstance(found, CoprimePolynomials):
+        return CoprimePolynomials(gains, found.modulus)
+    return KrylovSequence(
+        modulus=found.modulus,
+        gains=gains,
+        channel=found.channel,
+        inputs=found.outputs,
+        outputs=found.inputs,
+        recurrence=found.recurrence,
+        cofactors=found.cofactors,
+    )

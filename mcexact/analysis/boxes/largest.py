@@ -1,0 +1,875 @@
+"""The largest family that is certified, from both sides.
+
+Both ends of what is known about a property near a plant: proved up to one, failing at another.
+
+Every search for a largest box is an instance of `Search`, which `two_sided` carries out.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any, get_args
+
+import numpy as np
+
+from mcexact.analysis.boxes.cells import Cell, values_in_words, whole_cell
+from mcexact.analysis.boxes.cover import Outside
+from mcexact.analysis.boxes.failure import (
+    FailingPlant,
+    Freedom,
+    Uncertain,
+    failing_plant,
+    severed_plants,
+    tried_sets,
+)
+from mcexact.analysis.boxes.loops import LoopSearch, StabilitySearch, gain_radii
+from mcexact.analysis.boxes.members import ControllabilitySearch, FixedModeSearch
+from mcexact.analysis.boxes.pencils import Floats, one_thread, radii_of
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.stability import certify_stability
+from mcexact.answer.mode_words import blame
+from mcexact.answer.parametric_box_stable import ParametricBoxStability
+from mcexact.answer.protocol import Answer
+from mcexact.answer.reading import constructed
+from mcexact.answer.stability import StabilityVerdict
+from mcexact.derived.constructions import dual
+from mcexact.errors import InputError, LimitReached, UsageError, require_seconds
+from mcexact.exact.matrix import Matrix, largest_entry, matrix_to_float, to_float
+from mcexact.exact.rational import percent, three_digits, written
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.box import Box
+from mcexact.model.controller import Controller
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.loop import LoopPencil, closed_loop
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.properties import Property
+from mcexact.model.radii import Radii
+from mcexact.model.system import MultiChannelSystem
+from mcexact.plot.parameters import uncertainty
+from mcexact.shown import Shown
+
+# Both ends of what is known about a property near a plant: proved up to one, failing at another.
+
+_STEPS = 14
+_CLOSE = 1.03
+_LEAST = 1e-12
+"""A computed largest factor below this is reported as 0."""
+_SQUARES, _TRIES = 2000, 4
+"""For a second of effort: how many squares are tested, and how many sets and modes are tried for a
+plant that fails."""
+_MOST_TRIES = 40
+
+
+@dataclass(frozen=True, repr=False)
+class LargestUncertainty(Shown):
+    """A box for which a property is proved, and a plant outside of it that lacks the property.
+
+    Attributes
+    ----------
+    wanted : str
+        The property.
+    relative : bool
+        Whether factors are parts of the moduli of entries; otherwise they are multiples of the
+        radii that the plant has.
+    lower : Fraction
+        The factor for which every member has the property; 0 if none is proved.
+    proof : Answer or None
+        The answer that proves it.
+    upper : Fraction or None
+        The factor within which a plant lacks it; None if none was found.
+    failing : MultiChannelSystem or None
+        That plant.
+    refutation : Answer or None
+        The exact answer about it.
+    channels : tuple of str or None
+        The channels whose outputs do not show the mode that is fixed there.
+    """
+
+    wanted: str
+    relative: bool
+    lower: Fraction
+    proof: Answer | None
+    upper: Fraction | None
+    failing: MultiChannelSystem | None
+    refutation: Answer | None
+    channels: tuple[str, ...] | None
+
+    def explain(self) -> str:
+        """Say in plain words up to where the property is proved, and where it fails."""
+        proved = f"{self.wanted}: for every plant within {self.proved_part}"
+        if not self.lower:
+            proved = f"{self.wanted}: not proved for any box"
+        if self.upper is None:
+            return f"{proved}; no plant that fails was found"
+        near = _number(self.upper, self.relative, up=True)
+        return f"{proved}; not for a plant within {near}{self._unit}"
+
+    @property
+    def proved_part(self) -> str:
+        """The largest radii with a proof in words: a percentage of the entries, or a multiple."""
+        return f"{_number(self.lower, self.relative)}{self._unit}"
+
+    @property
+    def _unit(self) -> str:
+        return " of each entry" if self.relative else " times the radii"
+
+    @property
+    def nearby(self) -> FailingPlant | None:
+        """The plant that fails, its distance in the radii with a proof, or in the given unit."""
+        if self.failing is None or self.upper is None:
+            return None
+        distance, channels = self.upper / (self.lower or 1), self.channels or ()
+        return FailingPlant(self.failing, distance, complex("nan"), channels, self.refutation)
+
+    def rows(self) -> Iterator[tuple[str, str]]:
+        """Yield labels and texts: the property, and up to where it is proved and where it fails."""
+        unit = "" if self.relative else " times the radii"
+        yield "property", self.wanted
+        proved = f"within {_number(self.lower, self.relative)}{unit}" if self.lower else "no box"
+        yield "proved for every plant", proved
+        near = "not found"
+        if self.upper is not None:
+            near = f"{_number(self.upper, self.relative, up=True)}{unit}"
+        yield "a plant fails within", near
+        told = self.wanted == "no fixed mode"
+        if told and self.channels is not None and self.failing is not None:
+            yield "the mode that is fixed there", blame(self.channels, self.failing.names)
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the property, the factors, and the plant that fails."""
+        yield from self.rows()
+        if self.failing is not None:
+            yield "plant that fails", self.failing
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data."""
+        from mcexact.exact.rational import written
+
+        return {
+            "property": self.wanted,
+            "relative": self.relative,
+            "lower": written(self.lower),
+            "upper": None if self.upper is None else _above(self.upper),
+            "failing": None if self.failing is None else self.failing.to_dict(),
+            "channels": None if self.channels is None else list(self.channels),
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the proved part in blue, and where a plant fails in red.
+
+        Parameters
+        ----------
+        ax : axes of matplotlib, optional
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        return uncertainty(self, ax)
+
+    def __repr__(self) -> str:
+        return f"LargestUncertainty({self.explain()})"
+
+
+def _number(factor: Fraction, relative: bool, *, up: bool = False) -> str:
+    """A factor with three digits, rounded down or up, as a percentage if it is relative."""
+    return percent(factor, up=up) if relative else three_digits(factor, up=up)
+
+
+def _above(factor: Fraction) -> str:
+    """A factor rounded up to about six digits, as text."""
+    digits = 6
+    while factor * 10**digits < 10**5 and digits < 40:
+        digits += 1
+    return f"{-(-factor.numerator * 10**digits // factor.denominator)}e-{digits}"
+
+
+@dataclass
+class Search:
+    """What is proved for one factor of the radii, and a plant that fails.
+
+    Attributes
+    ----------
+    capacity : callable
+        About how far the radii can grow.
+    proof : callable
+        The answer for a factor of the radii, or None.
+    refuted : callable
+        The exact answer about a plant that fails, or None.
+    failing : callable
+        A plant that is thought to fail, found with so many tries.
+    severed : callable
+        Plants that may fail as their channels do nothing.
+    work : callable
+        The work done so far.
+    likely : callable
+        A factor of the radii for which a proof is likely; it is tried first.
+    rounds : int
+        How often factors that failed are tried again: a search that learns may prove them then.
+    """
+
+    capacity: Callable[[], float]
+    proof: Callable[[Fraction], Answer | None]
+    refuted: Callable[[MultiChannelSystem], Answer | None]
+    failing: Callable[[int], FailingPlant | None]
+    severed: Callable[[], Iterable[FailingPlant]]
+    work: Callable[[], float]
+    likely: Callable[[], float] = lambda: float("inf")
+    rounds: int = 1
+
+
+def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> LargestUncertainty:
+    """Search both ends; see `largest_uncertainty`."""
+    require_seconds(effort, "effort")
+    near, refutation = nearest(search, min(1 + int(_TRIES * effort), _MOST_TRIES))
+    beyond = 1e6 if near is None else to_float(near.distance)
+    lower, proof = largest_factor(search, _SQUARES * effort, beyond)
+    return LargestUncertainty(
+        wanted,
+        relative,
+        lower,
+        proof,
+        None if near is None else near.distance,
+        None if near is None else near.plant,
+        refutation,
+        None if near is None else near.channels,
+    )
+
+
+def nearest(search: Search, tries: int) -> tuple[FailingPlant | None, Answer | None]:
+    """The nearest plant found that fails, and the exact answer about it."""
+    found = search.failing(tries)
+    known = [*([] if found is None else [found]), *search.severed()]
+    for near in sorted(known, key=lambda each: each.distance):
+        refutation = search.refuted(near.plant)
+        if refutation is not None:
+            return near, refutation
+    return None, None
+
+
+def largest_factor(search: Search, work: float, beyond: float) -> tuple[Fraction, Answer | None]:
+    """Bisect for the largest factor of the radii with a proof; beyond some factor there is none."""
+    most = min(search.capacity(), beyond) if beyond > 0 else 0.0
+    low, best = Fraction(0), None
+    if not most > _LEAST:
+        return low, best
+    likely = search.likely()
+    tried = [0.97 * most, 0.97 * likely] if likely < most else [0.97 * most]
+    ended = search.work() + work
+    for _ in range(search.rounds):
+        began, high = low, most
+        for step in range(_STEPS):
+            if low and high < _CLOSE * low:
+                break
+            middle = (float(low) * high) ** 0.5 if low else high * (0.5 if step < 3 else 0.1)
+            x = tried.pop() if tried else middle
+            growth = short(x)
+            found = search.proof(growth) if growth > 0 else None
+            if found is None:
+                high, tried = x, []
+            else:
+                low, best = growth, found
+            if search.work() > ended or high < _LEAST:
+                return low, best
+        if low == began:
+            break
+    return low, best
+
+
+def short(x: float) -> Fraction:
+    """A number with three significant digits, rounded down.
+
+    Examples
+    --------
+    >>> short(0.012345), short(-1.0)
+    (Fraction(123, 10000), Fraction(0, 1))
+    """
+    if not x > 0:
+        return Fraction(0)
+    exponent = 0
+    while x * 10**exponent < 100:
+        exponent += 1
+    while x * 10.0**exponent >= 1000:
+        exponent -= 1
+    return Fraction(int(x * 10.0**exponent)) / Fraction(10) ** exponent
+
+
+# How far data may be from their values: a largest certified box, and a plant that fails.
+
+_ROUNDS = 2
+_GAINS = 50
+"""A search for gains counts as much as so many squares that are tested."""
+_NEVER_ENOUGH = 1e30
+_MORE_GAINS = 4
+
+
+def largest_uncertainty(
+    system: MultiChannelSystem,
+    wanted: Property = "no fixed mode",
+    *,
+    effort: float = 10.0,
+) -> LargestUncertainty:
+    """Search the largest box of plants with a property, and the nearest plant without it.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant.  If it has radii, boxes are multiples of these; otherwise each radius is a part of
+        the modulus of its entry, and zeros are certain.
+    wanted : {"no fixed mode", "stabilizable", "controllable", "observable"}
+        By decentralized linear time-invariant control, each member by a controller of its own.
+    effort : float
+        About the seconds that the search may take; its work is counted and not timed.
+
+    Returns
+    -------
+    LargestUncertainty
+        Both ends are proved: the lower one for every member of the box, the upper one by a plant
+        that fails.  Which ends are found depends on the processor and on the effort.
+
+    Raises
+    ------
+    UsageError
+        If the property is another one, or the system is a derived one.
+
+    Notes
+    -----
+    Plants that fail are found by sequential linear programs, and plants whose channels do nothing
+    fail, too: where radii are parts of the entries, these are within the whole entries.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+    >>> found = largest_uncertainty(plant)
+    >>> found.relative, 0.1 < found.lower < found.upper < 0.5
+    (True, True)
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    if wanted not in get_args(Property):
+        known = ", ".join(map(repr, get_args(Property)))
+        raise UsageError(f"expected one of {known}, found {wanted!r}", where="wanted")
+    if system.subject:
+        raise UsageError("the box is that of a plant, and not of a derived system")
+    relative = system.uncertainty is None
+    unit = Box.relative(system, 1).system if relative else system
+    with one_thread():
+        return two_sided(_searches(unit, wanted), wanted, relative, effort)
+
+
+def nearest_fixed(system: MultiChannelSystem, tries: int) -> FailingPlant | None:
+    """Search a plant near a system that has a fixed mode, which is decided exactly.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant without fixed modes.  Zeros may change, too: distances are parts of the largest
+        entries of A, of all B_i and of all C_i.
+    tries : int
+        How many sets of channels and modes are tried.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[["1e-3"], [1]]], [[[1, 1]]])
+    >>> near = nearest_fixed(plant, 4)
+    >>> near is not None and near.distance < Fraction(1, 900)
+    True
+    """
+    radii = Radii(*(_of_sizes(given) for given in (system.A, system.B, system.C)))
+    with one_thread():
+        return nearest(_searches(Box(system, radii).system, "no fixed mode"), tries)[0]
+
+
+def failing_member(
+    system: MultiChannelSystem, wanted: Property = "no fixed mode", tries: int = 8
+) -> Answer | None:
+    """Search a plant within the radii of a system that lacks a property.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant with radii.
+    wanted : {"no fixed mode", "stabilizable", "controllable", "observable"}
+    tries : int
+        How many sets of channels and modes are tried.
+
+    Returns
+    -------
+    Answer or None
+        The exact answer about that plant; None proves nothing.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+    >>> failing = failing_member(Box.relative(plant, "1/2").system)
+    >>> failing.empty, Box.relative(plant, "1/2").contains(failing.about.plant)
+    (False, True)
+    >>> failing_member(Box.relative(plant, "1/10").system) is None
+    True
+    """
+    with one_thread():
+        search = _searches(system, wanted)
+        known = search.refuted(Box(system).nominal)
+        if known is not None:
+            return known
+        near, refutation = nearest(search, tries)
+    return refutation if near is not None and near.distance <= 1 else None
+
+
+def _of_sizes(given: Any) -> Any:
+    """Matrices whose entries are all the largest modulus of one matrix, or of several."""
+    several = [given] if isinstance(given, Matrix) else list(given)
+    size = largest_entry(several)
+    found = [Matrix.from_rows([[size] * M.ncols] * M.nrows, M.ncols) for M in several]
+    return found[0] if isinstance(given, Matrix) else found
+
+
+def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
+    """The search for one property."""
+    if wanted in ("controllable", "observable"):
+        return _controllability(unit, wanted)
+    region = StabilityRegion(unit.time) if wanted == "stabilizable" else None
+    bound = None if region is None else region.edge
+    search = FixedModeSearch(unit, radii_of(unit))
+
+    def failing(tries: int) -> FailingPlant | None:
+        return failing_plant(unit, search.radii, tried_sets(unit.m), tries, region)
+
+    def refuted(plant: MultiChannelSystem) -> Answer | None:
+        found = fixed_spectrum(plant)
+        return None if found.empty or (region is not None and found.stabilizable) else found
+
+    def capacity() -> float:
+        outside = Outside(unit.time, bound)
+        least = search.prepare(_NEVER_ENOUGH, outside)
+        return search.improve(outside, _MORE_GAINS) if search.known else least
+
+    return Search(
+        capacity,
+        lambda growth: _about(search.cover(growth, bound), growth),
+        refuted,
+        failing,
+        lambda: severed_plants(unit, search.radii),
+        lambda: search.tested + _GAINS * len(search.known),
+        # What leaves no fixed mode anywhere leaves none outside of a region: where the plant has no
+        # mode outside, nothing else tells how far the radii can grow.
+        lambda: search.prepare(_NEVER_ENOUGH, Outside(unit.time, None)),
+        _ROUNDS,
+    )
+
+
+def _controllability(unit: MultiChannelSystem, wanted: str) -> Search:
+    system = dual(unit) if wanted == "observable" else unit
+    radii, every = radii_of(system), tuple(range(unit.m))
+    search = ControllabilitySearch(system, radii, every)
+
+    def failing(tries: int) -> FailingPlant | None:
+        found = failing_plant(system, radii, [()], tries)
+        return None if found is None else turned(found)
+
+    def turned(found: FailingPlant) -> FailingPlant:
+        """The same for the plant of which the system is the dual."""
+        if system is unit:
+            return found
+        back = dual(found.plant)
+        plant = MultiChannelSystem(
+            back.A, back.B, back.C, time=unit.time, names=unit.names, neighbors=unit.neighbors
+        )
+        return replace(found, plant=plant)
+
+    def refuted(plant: MultiChannelSystem) -> Answer | None:
+        found = joint_controllability(plant if system is unit else dual(plant))
+        return None if found.controllable else found
+
+    return Search(
+        lambda: search.capacity(Outside(unit.time, None)),
+        lambda growth: _about(search.cover(growth, None), growth),
+        refuted,
+        failing,
+        lambda: (turned(each) for each in severed_plants(system, radii, inputs=True)),
+        lambda: search.tested,
+    )
+
+
+def _about(found: Answer | None, growth: Fraction) -> Answer | None:
+    """The same answer, about the box whose radii are multiplied by the factor."""
+    if found is None:
+        return None
+    plant = Box(found.about.plant).scaled(growth).system
+    return replace(found, about=constructed(plant, found.about.subject))
+
+
+# How far data may be from their values before a controller fails, from both sides.
+
+
+def largest_loop_uncertainty(
+    system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    rate: Any = None,
+    radius: Any = None,
+    gains: bool = False,
+    effort: float = 10.0,
+) -> LargestUncertainty:
+    """Search the largest box in which a controller keeps all loops in a region, and one it fails.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant.  If it has radii, boxes are multiples of these; otherwise each radius is a part of
+        the modulus of its entry, and zeros are certain.
+    controller : Controller
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    rate, radius : rational, optional
+        A rate in continuous time, a radius in discrete time; by default stability is meant.
+    gains : bool
+        Whether the proof also allows each gain to differ by the same part of its modulus.
+    effort : float
+        About the seconds that the search may take; its work is counted and not timed.
+
+    Returns
+    -------
+    LargestUncertainty
+        The loop of the plant that fails, with the gains as they are, has an eigenvalue on the
+        border of the region; or outside, if the plant itself fails.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> found = largest_loop_uncertainty(plant, local_controllers(plant, [[[-3]]]))
+    >>> 0.2 < found.lower < found.upper < 0.4
+    True
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    region = StabilityRegion.of(system.time, rate, radius)
+    relative = system.uncertainty is None
+    unit = Box.relative(system, 1).system if relative else system
+    loop = closed_loop(unit, controller, graph)
+
+    with one_thread():
+        search = StabilitySearch(loop, region, gain_radii(controller, 1) if gains else None)
+        tested, itself = [0], FailingPlant(Box(unit).nominal, Fraction(0), complex("nan"), ())
+
+        def proof(growth: Fraction) -> Answer | None:
+            found = search.border(growth)
+            tested[0] += 100 if found is None else len(found.segments)
+            return found
+
+        made = Search(
+            lambda: min((each for each, _ in search.margins()), default=0.0),
+            proof,
+            lambda plant: refuted_loop(search, plant),
+            lambda tries: failing_loop(search, tries),
+            lambda: (itself, *severed_plants(unit, Box(unit).radii)),
+            lambda: tested[0],
+        )
+        return two_sided(made, f"every eigenvalue satisfies {region}", relative, effort)
+
+
+def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> StabilityVerdict | None:
+    """The exact answer that the loop of a plant has an eigenvalue outside; None if it has none."""
+    loop = replace(search.loop, given=plant).system
+    # With an eigenvalue on the border only the polynomial decides.
+    found = certify_stability(loop, search.region, method="polynomial")
+    return None if found.stable else found
+
+
+def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
+    """A plant near the nominal one whose loop has an eigenvalue on the border.
+
+    Parameters
+    ----------
+    search : StabilitySearch
+    tries : int
+        How many points of the border are tried, those that seem nearest first.
+    """
+    loop, nominal = search.loop, Box(search.loop.given).nominal
+    signals = LoopPencil(loop.given, loop.controller, loop.graph)
+    spread = Box(loop.given).radii
+    plant = MultiChannelSystem(spread.A, spread.B, spread.C, time=loop.given.time)
+    D = signals.with_entries(plant, gain_radii(loop.controller, 0), 0)
+    pencil = Uncertain(signals.matrix, D, signals.states, signals.dimension - 1)
+    freedom: Freedom = "circle" if search.region.discrete else "line"
+    best: FailingPlant | None = None
+    for _, point in search.margins()[:tries]:
+        near = pencil.drop(point, freedom)
+        if near is None or (best is not None and near.size >= best.distance):
+            continue
+        made = pencil.exact(near, freedom)
+        if made is not None and (best is None or made[1] < best.distance):
+            moved = _changed(nominal, signals, made[0])
+            best = FailingPlant(moved, made[1], near.point, ())
+    return best
+
+
+def _changed(plant: MultiChannelSystem, signals: LoopPencil, change: Matrix) -> MultiChannelSystem:
+    """The plant whose entries are moved as those of the pencil are."""
+
+    def part(rows: tuple[str, int], cols: tuple[str, int]) -> Matrix:
+        (top, height), (left, width) = (signals.blocks[kind, j, 0] for kind, j in (rows, cols))
+        return change.take(range(top, top + height), range(left, left + width))
+
+    return MultiChannelSystem(
+        plant.A + part(("x", 0), ("x", 0)),
+        [B + part(("x", 0), ("u_", j)) for j, B in enumerate(plant.B)],
+        [C + part(("y_", j), ("x", 0)) for j, C in enumerate(plant.C)],
+        time=plant.time,
+        names=plant.names,
+        neighbors=plant.neighbors,
+    )
+
+
+# How much of the ranges of parameters a controller is stable for, from both sides.
+
+_SEGMENTS, _DIRECTIONS, _MOST = 200, 6, 200
+"""For a second of effort: how many parts of the border are tested, and how many directions are
+tried; and the parts that are tried at most in a cell."""
+_MOST_CORNERS, _GRID, _HALVINGS, _DIGITS = 16, 8, 12, 10**4
+
+
+@dataclass(frozen=True, repr=False)
+class LargestRanges(Shown):
+    """A part of the ranges in which a loop is proved, and values at which it fails.
+
+    Attributes
+    ----------
+    wanted : str
+        The property of the loop.
+    lower : Fraction
+        The part of all ranges, around their middles, for which it is proved; 0 if for none.
+    proof : ParametricBoxStability or None
+        The answer that proves it, about the plant with these smaller ranges.
+    upper : Fraction or None
+        The part within which the loop fails at some values; None if no such values were found.
+    failing : mapping or None
+        These values, by the names of the parameters.
+    refutation : StabilityVerdict or None
+        The exact answer about the loop there.
+    """
+
+    wanted: str
+    lower: Fraction
+    proof: ParametricBoxStability | None
+    upper: Fraction | None
+    failing: Mapping[str, Fraction] | None
+    refutation: StabilityVerdict | None
+
+    def rows(self) -> Iterator[tuple[str, str]]:
+        """Yield labels and texts: the property, where it is proved, and where it fails."""
+        yield "property", self.wanted
+        if self.proof is None:
+            yield "proved for all values", "of no part of the ranges"
+        else:
+            ranges = ", ".join(self.proof.about.plant.parameters_in_words)
+            part = f"{percent(self.lower)} of the ranges around their middle"
+            yield "proved for all values", f"{ranges} ({part})"
+        if self.failing is None:
+            yield "fails", "at no values that were found"
+        else:
+            at = values_in_words(tuple(self.failing), tuple(self.failing.values()))
+            near = f"within {percent(self.upper or Fraction(0), up=True)} of the ranges"
+            yield "fails", f"at {at}, {near if self.upper else 'the middle of the ranges'}"
+
+    def explain(self) -> str:
+        """Say in plain words where the property is proved, and where it fails."""
+        (_, wanted), *told = self.rows()
+        return f"{wanted}: {'; '.join(f'{label} {text}' for label, text in told)}"
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        yield from self.rows()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data."""
+        ranges = None if self.proof is None else self.proof.about.plant.document()["parameters"]
+        failing = self.failing
+        return {
+            "property": self.wanted,
+            "lower": written(self.lower),
+            "ranges": ranges,
+            "upper": None if self.upper is None else written(self.upper),
+            "failing": None if failing is None else {k: written(x) for k, x in failing.items()},
+        }
+
+    def __repr__(self) -> str:
+        return f"LargestRanges({self.explain()})"
+
+
+def largest_loop_ranges(
+    system: ParametricSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    rate: Any = None,
+    radius: Any = None,
+    gains: Any = None,
+    effort: float = 10.0,
+) -> LargestRanges:
+    """Search the largest part of ranges in which a loop is stable, and values where it fails.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        Every parameter has a range with two ends.  Parts are around the middles of the ranges.
+    controller : Controller
+    graph : NeighborGraph, optional
+        The links between agents, without delays; by default there are none.
+    rate, radius, gains : optional
+        As for `box_stability`.
+    effort : float
+        About the seconds that the search may take; its work is counted and not timed.
+
+    Returns
+    -------
+    LargestRanges
+        The part is proved for all values, and the values at which the loop fails are decided
+        exactly, with the gains as they are.  Which are found depends on the effort and the
+        processor.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = ParametricSystem(
+    ...     [["k"]], [[[1]]], [[[1]]], parameters=["k"], assume={"k": (-4, 8)}
+    ... )
+    >>> found = largest_loop_ranges(plant, local_controllers(plant.at({"k": 1}), [[[-3]]]))
+    >>> 0 < found.lower < found.upper < 1, 3 <= found.failing["k"] < 4
+    (True, True)
+    """
+    InputError.require(system, ParametricSystem, "system")
+    require_seconds(effort, "effort")
+    region = StabilityRegion.of(system.time, rate, radius)
+    search = LoopSearch(system, controller, graph, region, gains, _MOST)
+    with one_thread():
+        failing = _Directions(search, whole_cell(system)).nearest(2 + int(_DIRECTIONS * effort))
+        lower, proof = _largest_part(search, _SEGMENTS * effort, failing)
+    wanted = f"every eigenvalue satisfies {region}"
+    if failing is None:
+        return LargestRanges(wanted, lower, proof, None, None, None)
+    part, values, refutation = failing
+    return LargestRanges(wanted, lower, proof, part, values, refutation)
+
+
+Failing = tuple[Fraction, dict[str, Fraction], StabilityVerdict]
+
+
+def _largest_part(
+    search: LoopSearch, work: float, failing: Failing | None
+) -> tuple[Fraction, ParametricBoxStability | None]:
+    """The largest part of the ranges with a proof, and the proof."""
+
+    def proof(part: Fraction) -> ParametricBoxStability | None:
+        try:
+            return search.proof(_scaled(search.system, part))
+        except LimitReached:
+            return None
+
+    search.limit = search.tested + work
+    whole = proof(Fraction(1)) if failing is None else None
+    if whole is not None:
+        return Fraction(1), whole
+    beyond = 1.0 if failing is None else to_float(failing[0])
+    # severed plants and other plants that fail are a matter of boxes: here values are tried
+    wanted = Search(
+        lambda: 1.0, proof, lambda _: None, lambda _: None, lambda: (), lambda: search.tested
+    )
+    search.limit = search.tested + work
+    lower, found = largest_factor(wanted, work, beyond)
+    return lower, found if isinstance(found, ParametricBoxStability) else None
+
+
+def _scaled(system: ParametricSystem, part: Fraction) -> ParametricSystem:
+    """The system with a part of all ranges, around their middles."""
+    if part == 1:
+        return system
+    ranges = {}
+    for name, (low, high) in zip(system.parameters, whole_cell(system), strict=True):
+        middle, width = (low + high) / 2, (high - low) / 2
+        ranges[name] = middle - part * width, middle + part * width
+    return system.along({}, system.parameters, ranges)
+
+
+@dataclass
+class _Directions:
+    """Values along rays from the middle of the ranges, and whether the loop fails there."""
+
+    search: LoopSearch
+    cell: Cell
+
+    def plant(self, direction: Floats, part: Fraction) -> tuple[MultiChannelSystem | None, Any]:
+        """The plant at a part of the way along a direction, if it is defined, and the values."""
+        values = {}
+        for name, (low, high), d in zip(
+            self.search.system.parameters, self.cell, direction, strict=True
+        ):
+            share = part * Fraction(round(float(d) * 1024), 1024)
+            values[name] = (low + high) / 2 + share * (high - low) / 2
+        try:
+            return self.search.system.at(values), values
+        except InputError:
+            return None, values
+
+    def seems_to_fail(self, direction: Floats, part: Fraction) -> bool:
+        """Whether floating point sees an eigenvalue outside of the region."""
+        plant, _ = self.plant(direction, part)
+        if plant is None:
+            return False
+        A = matrix_to_float(self.search.loop(plant).system.A)
+        if not np.all(np.isfinite(A)):
+            return False
+        values = np.linalg.eigvals(A)
+        edge = to_float(self.search.region.edge)
+        sizes = np.abs(values) - edge if self.search.region.discrete else values.real + edge
+        return bool(sizes.max(initial=-1.0) >= 0)
+
+    def nearest(self, count: int) -> Failing | None:
+        """The values nearest to the middle at which the loop was found to fail."""
+        best: Failing | None = None
+        for direction in itertools.islice(self.tried(), count):
+            most = Fraction(1) if best is None else best[0]
+            best = self.along(direction, most) or best
+        return best
+
+    def tried(self) -> Iterator[Floats]:
+        """The corners of the ranges, the middles of their sides, and drawn directions."""
+        size, rng = len(self.cell), np.random.default_rng(0)
+        corners = itertools.product((1.0, -1.0), repeat=size)
+        yield from map(np.array, itertools.islice(corners, _MOST_CORNERS))
+        if size == 1:
+            return
+        for k in range(size):
+            yield np.eye(size)[k]
+            yield -np.eye(size)[k]
+        while True:
+            drawn = rng.uniform(-1, 1, size)
+            yield drawn / np.abs(drawn).max()
+
+    def along(self, direction: Floats, most: Fraction) -> Failing | None:
+        """The first values along a direction at which the loop fails, decided exactly."""
+        grid = [most * k / _GRID for k in range(_GRID + 1)]
+        last = next((k for k, x in enumerate(grid) if self.seems_to_fail(direction, x)), None)
+        if last is None:
+            return None
+        low, high = grid[max(last - 1, 0)], grid[last]
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            low, high = (low, middle) if self.seems_to_fail(direction, middle) else (middle, high)
+        # A part with few digits is tried first; at the last one floating point saw no border near.
+        near = Fraction(-(-high.numerator * _DIGITS // high.denominator), _DIGITS)
+        for part in (min(near, most), high, grid[last]):
+            plant, values = self.plant(direction, part)
+            found = None if plant is None else self.search.refuted(plant)
+            if found is not None:
+                reached = max(abs(share) for share in self._shares(values))
+                return reached, values, found
+        return None
+
+    def _shares(self, values: Mapping[str, Fraction]) -> Iterator[Fraction]:
+        """The parts of half the ranges by which values differ from the middles."""
+        for (low, high), value in zip(self.cell, values.values(), strict=True):
+            yield (2 * value - low - high) / (high - low) if high > low else Fraction(0)

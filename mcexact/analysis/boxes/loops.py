@@ -1,0 +1,566 @@
+"""Closed loops of every member.
+
+Whether a controller keeps every plant in a box stable: no eigenvalue crosses the border.
+
+The nominal loop is stable, the box is connected, and the loop's pencil is regular for every member
+along the whole border of the region.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+from math import lcm
+from typing import Any, overload
+
+import numpy as np
+
+from mcexact.analysis.boxes.cells import CellBox, proofs_of_cells
+from mcexact.analysis.boxes.pencils import (
+    Frames,
+    Pencil,
+    Point,
+    modulus_above,
+    one_thread,
+    perron,
+    require_float_range,
+    whole_weights,
+)
+from mcexact.analysis.stability import certify_stability
+from mcexact.answer.box_stable import BoxStability
+from mcexact.answer.evidence import InverseFrame
+from mcexact.answer.parametric_box_stable import ParametricBoxStability, StabilityOfCell
+from mcexact.answer.stability import LyapunovMethod, PolynomialMethod, StabilityVerdict
+from mcexact.derived.constructions import add_links, looped
+from mcexact.errors import InputError, InternalError, LimitReached
+from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
+from mcexact.exact.rational import as_fraction
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.box import Box
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.loop import ClosedLoop, LoopPencil, closed_loop
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.radii import Radii, moduli
+from mcexact.model.system import MultiChannelSystem
+
+# Controllers with other gains: their radii, and how rounding to digits moves them.
+
+
+def with_gains(controller: Controller, of: Callable[[Matrix], Matrix]) -> Controller:
+    """The controller with a function of each matrix of gains in its place, without set-points."""
+
+    def made(each: LinearMap) -> LinearMap:
+        return LinearMap(
+            {j: of(M) for j, M in each.outputs.items()},
+            {j: of(M) for j, M in each.shared.items()},
+            None if each.private is None else of(each.private),
+        ).without_zeros()
+
+    def program(agent: AgentProgram) -> AgentProgram:
+        first, second, third = map(made, agent.maps())
+        return replace(agent, shared_update=first, private_update=second, input=third)
+
+    return replace(controller, agents=tuple(map(program, controller.agents)))
+
+
+def gain_radii(controller: Controller, part: Any) -> Controller:
+    """The radii of all entries of a controller that are a part of their moduli, as a controller.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> [agent] = gain_radii(local_controllers(plant, [[[-3]]]), "1/100").agents
+    >>> agent.input.outputs[0][0, 0]
+    Fraction(3, 100)
+    """
+    factor = as_fraction(part, where="gains")
+    return with_gains(controller, lambda M: moduli(M) * factor)
+
+
+def radii_of_gains(controller: Controller, gains: Any) -> Controller | None:
+    """The radii of gains, given as a part of their moduli, as a controller, or None.
+
+    Raises
+    ------
+    InputError
+        If a radius is negative.
+    """
+    if gains is None:
+        return None
+    radii = gains if isinstance(gains, Controller) else gain_radii(controller, gains)
+    if any(x < 0 for M in radii.matrices() for _, _, x in M.nonzero()):
+        raise InputError("expected radii that are at least 0", where="gains")
+    return radii
+
+
+def digit_radii(controller: Controller, digits: int) -> Controller:
+    """The radii by which rounding to significant digits, up or down, moves entries at most.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> [agent] = digit_radii(local_controllers(plant, [[["-31.4"]]]), 2).agents
+    >>> agent.input.outputs[0][0, 0]
+    Fraction(3, 5)
+    """
+
+    def moved(x: Fraction) -> Fraction:
+        low, high = rounded_ends(x, digits)
+        return max(x - low, high - x)
+
+    def radii(M: Matrix) -> Matrix:
+        entries = ((i, j, moved(Fraction(x, M.denominator))) for i, j, x in M.nonzero())
+        return Matrix.from_entries(M.shape, entries)
+
+    return with_gains(controller, radii)
+
+
+def rounded_ends(x: Fraction, digits: int) -> tuple[Fraction, Fraction]:
+    """The numbers with so many significant digits next to one that is not 0, below and above.
+
+    Examples
+    --------
+    >>> rounded_ends(Fraction(-314, 10), 2), rounded_ends(Fraction(5), 1)
+    ((Fraction(-32, 1), Fraction(-31, 1)), (Fraction(5, 1), Fraction(5, 1)))
+    """
+    unit = _unit(abs(x), digits)
+    low = x // unit * unit
+    return low, low if low == x else low + unit
+
+
+def _unit(x: Fraction, digits: int) -> Fraction:
+    """One unit of a significant digit of a number above 0."""
+    bits = x.numerator.bit_length() - x.denominator.bit_length()
+    e = int(bits * 0.30103)
+    while Fraction(10) ** e > x:
+        e -= 1
+    while Fraction(10) ** (e + 1) <= x:
+        e += 1
+    return Fraction(10) ** (e - digits + 1)
+
+
+# Whether a controller keeps every plant in a box stable: no eigenvalue crosses the border.
+
+_MOST_SEGMENTS = 4000
+_SHORTEST = Fraction(1, 10**12)
+"""The part of the whole border below which a segment is not cut again."""
+
+
+@dataclass
+class StabilitySearch:
+    """The search for evidence about one loop, for several factors of all radii.
+
+    Attributes
+    ----------
+    loop : ClosedLoop
+        Of a plant, whose radii are those of the box.
+    region : StabilityRegion
+    radii : Controller or None
+        The radii of the gains, as a controller; None if they are certain.
+    most : int
+        The parts of the border that are tried at most for one factor.
+    spread : Radii, optional
+        The radii of the plant, by default those of its box.
+    tied : tuple of MultiChannelSystem
+        What may be added to the plant, each with a factor from −1 to 1.
+    tested : int
+        How many were tried so far.
+    """
+
+    loop: ClosedLoop
+    region: StabilityRegion
+    radii: Controller | None = None
+    most: int = _MOST_SEGMENTS
+    spread: Radii | None = None
+    tied: tuple[MultiChannelSystem, ...] = ()
+    tested: int = 0
+
+    def __post_init__(self) -> None:
+        from scipy.linalg import matrix_balance
+
+        signals = LoopPencil(self.loop.given, self.loop.controller, self.loop.graph)
+        spread = self.spread or Box(self.loop.given).radii
+        plant = MultiChannelSystem(spread.A, spread.B, spread.C, time=self.loop.given.time)
+        certain = gain_radii(self.loop.controller, 0)
+        Z0, D = signals.matrix, signals.with_entries(plant, self.radii or certain, 0)
+        tied = tuple(signals.with_entries(each, certain, 0) for each in self.tied)
+        require_float_range([Z0], [D, *tied])
+        _, (s, _) = matrix_balance(matrix_to_float(Z0), permute=False, separate=True)
+        self.pencil = Pencil(Z0, D, signals.states, s, tied)
+
+    def margins(self) -> list[tuple[float, complex]]:
+        """About how far the radii can grow at points of the border, the least first.
+
+        The least is an upper limit of what can be proved, and itself proves nothing.
+        """
+        Z0, _, _ = self.pencil.balanced
+        N, edge = self.pencil.n, to_float(self.region.edge)
+        S = Z0[N:, N:]
+        M = Z0[:N, :N] - Z0[:N, N:] @ np.linalg.solve(S, Z0[N:, :N]) if len(S) else Z0[:N, :N]
+        values = np.linalg.eigvals(M)
+        if self.region.discrete:
+            angles = np.concatenate([np.abs(np.angle(values)), np.linspace(0, np.pi, 100)])
+            points = [edge * np.exp(1j * angle) for angle in angles]
+        else:
+            top = max(np.abs(values).max(initial=1e-6), 1e-12)
+            spread = np.geomspace(
+                max(np.abs(values).min(initial=top), 1e-6 * top) / 10, 10 * top, 100
+            )
+            heights = np.concatenate([[0.0], np.abs(values), np.abs(values.imag), spread])
+            points = [complex(-edge, height) for height in heights]
+        margins = ((self.pencil.margin(complex(point)), complex(point)) for point in points)
+        return sorted(margins, key=lambda each: each[0])
+
+    def border(self, growth: Fraction) -> BoxStability | None:
+        """The answer for radii that are multiplied by a factor; None if no proof is found."""
+        found = self.evidence(growth)
+        if found is None:
+            return None
+        radii = None if self.radii is None else _scaled(self.radii, growth).document()
+        parts = (getattr(found, each.name) for each in fields(found))
+        return BoxStability(self._about(growth), self.region.bound, radii, *parts)
+
+    def evidence(self, growth: Fraction) -> StabilityOfCell | None:
+        """Evidence for radii that are multiplied by a factor; None if there is none."""
+        nominal = certify_stability(self.loop.system, self.region)
+        if not nominal.stable:
+            return None
+        evidence = nominal.evidence
+        if not isinstance(evidence, (PolynomialMethod, LyapunovMethod)):
+            raise InternalError("a stable loop has another proof than its own two")
+        far = None if self.region.discrete else _growth(self.pencil, growth)
+        if far is None and not self.region.discrete:
+            return None
+        frames = Frames()
+        segment, last = _arc(self.region.edge), Fraction(2)
+        if far is not None:
+            segment, last = _interval(self.region.edge), far[0]
+
+        def test(a: Fraction, b: Fraction) -> int | None:
+            self.tested += 1
+            c, rho = segment(a, b)
+            k = frames.one_for(c, rho)
+            if k is not None:
+                return k
+            near = complex(to_float(c[0]), to_float(c[1]))
+            proposed = self.pencil.proposal(near, to_float(rho), growth)
+            return None if proposed is None else frames.added(proposed, c, rho)
+
+        found = _segments(test, last, self.most)
+        if found is None:
+            return None
+        ends = [b for _, b, _ in found]
+        points = ends if far is not None else [_tangent(b) for b in ends[:-1]]
+        return StabilityOfCell(
+            evidence,
+            tuple(points),
+            None if far is None else far[1],
+            tuple(k for _, _, k in found),
+            tuple(InverseFrame(V.evidence(), w) for V, w in frames.evidence),
+        )
+
+    def _about(self, growth: Fraction) -> MultiChannelSystem:
+        """The loop of the box whose radii are multiplied by a factor."""
+        if growth == 1:
+            return self.loop.system
+        return replace(self.loop, given=Box(self.loop.given).scaled(growth).system).system
+
+
+def _scaled(radii: Controller, growth: Fraction) -> Controller:
+    return radii if growth == 1 else gain_radii(radii, growth)
+
+
+def _segments(
+    test: Callable[[Fraction, Fraction], int | None], last: Fraction, most: int
+) -> list[tuple[Fraction, Fraction, int]] | None:
+    """Cut [0, last] into intervals that pass a test, each with what the test returns."""
+    left = [(Fraction(0), last)]
+    found: list[tuple[Fraction, Fraction, int]] = []
+    tested = 0
+    while left:
+        a, b = left.pop()
+        tested += 1
+        k = test(a, b)
+        if k is not None:
+            found.append((a, b, k))
+            continue
+        if tested > most or b - a < _SHORTEST * last:
+            return None
+        middle = b / 4 if a == 0 and b > 4 else (a + b) / 2 if b < 4 * a or a == 0 else 2 * a
+        left += [(middle, b), (a, middle)]
+    return found
+
+
+def _interval(rate: Fraction) -> Callable[[Fraction, Fraction], tuple[Point, Fraction]]:
+    """The disc whose diameter is the segment from a to b of the line Re λ = −rate."""
+    return lambda a, b: ((-rate, (a + b) / 2), (b - a) / 2)
+
+
+def _arc(radius: Fraction) -> Callable[[Fraction, Fraction], tuple[Point, Fraction]]:
+    """The disc whose diameter is the chord between two points of the upper half circle."""
+
+    def point(a: Fraction) -> Point:
+        if a == 2:
+            return -radius, Fraction(0)
+        t = _tangent(a)
+        return radius * (1 - t * t) / (1 + t * t), radius * 2 * t / (1 + t * t)
+
+    def disc(a: Fraction, b: Fraction) -> tuple[Point, Fraction]:
+        p, q = point(a), point(b)
+        x, y = (p[0] - q[0]) / 2, (p[1] - q[1]) / 2
+        d = lcm(x.denominator, y.denominator) << 32
+        size = Fraction(modulus_above(int(x * d), int(y * d)), d)
+        return ((p[0] + q[0]) / 2, (p[1] + q[1]) / 2), size
+
+    return disc
+
+
+def _tangent(a: Fraction) -> Fraction:
+    """The tangent of half the angle, for a from 0 to 1 itself, and above 1 that of 1/(2 − a)."""
+    return a if a <= 1 else 1 / (2 - a)
+
+
+def _growth(pencil: Pencil, growth: Fraction) -> tuple[Fraction, tuple[int, ...]] | None:
+    """A number R, and weights of the states by which no member has an eigenvalue of modulus ≥ R."""
+    Z0, D, _ = pencil.balanced
+    moved = D + sum(map(np.abs, pencil.balanced_ties))
+    top, N = np.abs(Z0) + float(growth) * moved, pencil.n
+    X = np.vstack([np.eye(N), np.zeros((len(top) - N, N))])
+    for i in range(N, len(top)):
+        X[i] = top[i, :i] @ X[:i]
+    H = top[:N] @ X
+    if not N or not np.all(np.isfinite(H)):
+        return (Fraction(1), ()) if not N else None
+    w = np.maximum(perron(H, 20)[1], 1e-6)
+    g = whole_weights(w * pencil.scale[:N])
+    return _least_radius(pencil, growth, g), g
+
+
+def _least_radius(pencil: Pencil, growth: Fraction, g: tuple[int, ...]) -> Fraction:
+    """An integer R above Σ_j (|Z0| + D)_ij g_j / g_i for every dynamic row i, D with the ties."""
+    most = moduli(pencil.Z0) + sum(map(moduli, pencil.tied), pencil.D) * growth
+    rows, d = most.numerators, most.denominator
+    sizes = [Fraction(x) for x in g]
+    for row in rows[pencil.n :]:
+        sizes.append(sum((x * y for x, y in zip(row, sizes, strict=False) if x), Fraction(0)) / d)
+    ratios: list[Fraction] = []
+    for i, row in enumerate(rows[: pencil.n]):
+        ratios.append(
+            sum((x * y for x, y in zip(row, sizes, strict=True) if x), Fraction(0)) / d / g[i]
+        )
+    return Fraction(int(max(ratios)) + 1)
+
+
+@overload
+def box_stability(
+    system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = ...,
+    *,
+    rate: Any = ...,
+    radius: Any = ...,
+    gains: Any = ...,
+) -> BoxStability: ...
+@overload
+def box_stability(
+    system: ParametricSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = ...,
+    *,
+    rate: Any = ...,
+    radius: Any = ...,
+    gains: Any = ...,
+) -> ParametricBoxStability: ...
+def box_stability(
+    system: MultiChannelSystem | ParametricSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    rate: Any = None,
+    radius: Any = None,
+    gains: Any = None,
+) -> BoxStability | ParametricBoxStability:
+    """Prove that one controller keeps every plant in a box stable, or fast enough.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem or ParametricSystem
+        A plant with radii, such as ``Box.relative(plant, "1/100").system``; or one with parameters,
+        each with a range of two ends: then the loop is proved for all values within the ranges
+        (`ParametricBoxStability`).
+    controller : Controller
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    rate, radius : rational, optional
+        A rate in continuous time, a radius in discrete time; by default stability is proved.
+    gains : rational or Controller, optional
+        The radii of the controller's entries: a part of their moduli, such as "1/100", or a
+        controller that has radii as its entries.  By default the gains are certain.
+
+    Raises
+    ------
+    InputError
+        If a radius of a gain is negative.
+    LimitReached
+        If no proof was found, which proves nothing; if the loop is unstable at some values of
+        parameters, the message names them.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> gain = local_controllers(plant, [[[-3]]])
+    >>> str(box_stability(Box.relative(plant, "1/10").system, gain, rate="1/2").bound)
+    '1/2'
+    >>> box_stability(Box.relative(plant, "6/10").system, gain)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: no proof was found that every loop in the box has Re λ < 0
+    """
+    if isinstance(system, ParametricSystem):
+        return parametric_box_stability(
+            system, controller, graph, rate=rate, radius=radius, gains=gains
+        )
+    InputError.require(system, MultiChannelSystem, "system")
+    InputError.require(controller, Controller, "controller")
+    region, radii = StabilityRegion.of(system.time, rate, radius), radii_of_gains(controller, gains)
+    with one_thread():
+        search = StabilitySearch(closed_loop(system, controller, graph), region, radii)
+        found = search.border(Fraction(1))
+    if found is None:
+        raise LimitReached(f"no proof was found that every loop in the box has {region}")
+    return found
+
+
+# Every loop of one controller and a plant whose parameters are within ranges.
+
+_MOST_SEGMENTS_OF_CELL = 1000
+"""The parts of the border that are tried at most; a cell that needs more is cut."""
+
+
+def parametric_box_stability(
+    system: ParametricSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    rate: Any = None,
+    radius: Any = None,
+    gains: Any = None,
+) -> ParametricBoxStability:
+    """Prove that a loop is stable, or fast enough, at all values of parameters within their ranges.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        Every parameter has a range with two ends.
+    controller : Controller
+    graph : NeighborGraph, optional
+        The links between agents, without delays; by default there are none.
+    rate, radius, gains : optional
+        As for `box_stability`.
+
+    Raises
+    ------
+    LimitReached
+        If no proof was found; if the loop is unstable at some values, the message names them.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = ParametricSystem(
+    ...     [["k"]], [[["k"]]], [[[1]]], parameters=["k"], assume={"k": ("1/2", 2)}
+    ... )
+    >>> gain = local_controllers(plant.at({"k": 1}), [[[-3]]])
+    >>> str(parametric_box_stability(plant, gain, rate="1/2").bound)
+    '1/2'
+    >>> parametric_box_stability(plant, gain, rate=2)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: not every eigenvalue has Re λ < -2 at k = 7/8
+    """
+    InputError.require(system, ParametricSystem, "system")
+    region = StabilityRegion.of(system.time, rate, radius)
+    return LoopSearch(system, controller, graph, region, gains).proof(system)
+
+
+@dataclass
+class LoopSearch:
+    """The search for evidence about one controller, for several ranges of the parameters.
+
+    Attributes
+    ----------
+    system : ParametricSystem
+    controller : Controller
+    graph : NeighborGraph or None
+        The links between agents, without delays.
+    region : StabilityRegion
+    gains : rational or Controller, optional
+        As for `box_stability`.
+    most : int
+        The parts of the border that are tried at most in a cell.
+    limit : float
+        How many parts of the border may be tested; then no cell is proved any more.
+    tested : int
+        About how many were tested so far.
+    """
+
+    system: ParametricSystem
+    controller: Controller
+    graph: NeighborGraph | None
+    region: StabilityRegion
+    gains: Any = None
+    most: int = _MOST_SEGMENTS_OF_CELL
+    limit: float = math.inf
+    tested: int = 0
+
+    def __post_init__(self) -> None:
+        InputError.require(self.controller, Controller, "controller")
+        self.radii = radii_of_gains(self.controller, self.gains)
+
+    def loop(self, plant: MultiChannelSystem) -> ClosedLoop:
+        """The loop of the plant at some values."""
+        if self.graph is not None:
+            plant = add_links(plant.with_neighbors({}), self.graph.edges())
+        return closed_loop(plant, self.controller)
+
+    def refuted(self, plant: MultiChannelSystem) -> StabilityVerdict | None:
+        """The exact answer that a loop has an eigenvalue outside; None if it has none."""
+        found = certify_stability(self.loop(plant).system, self.region)
+        return None if found.stable else found
+
+    def proof(self, system: ParametricSystem) -> ParametricBoxStability:
+        """The answer for the system with these ranges.
+
+        Raises
+        ------
+        LimitReached
+            If no proof was found.
+        """
+        about = looped(system, lambda plant: self.loop(plant).system)
+        cuts, parts = proofs_of_cells(
+            system,
+            self._of_cell,
+            lambda plant: self.refuted(plant) is not None,
+            f"not every eigenvalue has {self.region}",
+        )
+        claimed = None if self.radii is None else self.radii.document()
+        return ParametricBoxStability(about, self.region.bound, claimed, cuts, parts)
+
+    def _of_cell(self, box: CellBox) -> StabilityOfCell | None:
+        """The evidence about a box around the plants of a cell."""
+        if self.tested > self.limit:
+            return None
+        loop = self.loop(box.system)
+        search = StabilitySearch(loop, self.region, self.radii, self.most, box.radii, box.tied)
+        # Where floating point sees that the radii are too large, nothing is tested.
+        least = min((each for each, _ in search.margins()), default=0.0)
+        found = search.evidence(Fraction(1)) if least > 1 else None
+        self.tested += 1 if least <= 1 else self.most if found is None else len(found.segments)
+        return found

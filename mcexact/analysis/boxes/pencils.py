@@ -1,0 +1,699 @@
+"""Radii, pencils in floating point, and the exact test of a disc.
+
+The exact test that a matrix function is nonsingular on a disc, for every member of a box.
+
+For a square V with I − V Z(λ) = K − λ L, a member's Z(λ) is nonsingular on |λ − c| ≤ ρ if
+
+    Σ_j |K − c L|_ij w_j + p_i + ρ r_i < w_i    for every row i,
+
+w > 0, where p_i and r_i bound what the radii and the distance from c contribute: the matrix
+I − V Z(λ) then has a norm below 1.  With R on the other side, I − Z(λ) R is of the same form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+from math import isqrt, lcm
+from operator import mul
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from threadpoolctl import threadpool_limits
+
+from mcexact.answer.evidence import ComplexMatrix
+from mcexact.answer.reading import constructed
+from mcexact.errors import LimitReached, UsageError
+from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float, vstack
+from mcexact.model.box import Box
+from mcexact.model.radii import Radii, moduli
+from mcexact.model.system import MultiChannelSystem
+
+# The exact test that a matrix function is nonsingular on a disc, for every member of a box.
+
+Complex = npt.NDArray[np.complexfloating[Any, Any]]
+Floats = npt.NDArray[np.floating[Any]]
+
+Point = tuple[Fraction, Fraction]
+"""The real and the imaginary part of a complex number."""
+
+_MARGIN = 2**20
+"""A disc is used only if each sum is below w_i by this part of it, whoever rounds the moduli."""
+_WEIGHT_BITS, _LARGEST_WEIGHT = 16, 2.0**900
+_STEP = 2.0**-26
+_RECENT = 12
+
+
+@dataclass(frozen=True)
+class ComplexRows:
+    """A complex matrix, M = (re + i·im) / d with integer rows."""
+
+    re: Matrix
+    im: Matrix
+
+    @classmethod
+    def of(cls, re: Matrix, im: Matrix | None = None) -> ComplexRows:
+        """Make it of its real and imaginary parts."""
+        return cls(re, re * 0 if im is None else im)
+
+    @property
+    def denominator(self) -> int:
+        """The least common denominator."""
+        return lcm(self.re.denominator, self.im.denominator)
+
+    def integers(self, denominator: int) -> tuple[list[list[int]], list[list[int]]]:
+        """The rows times a multiple of the denominator."""
+        found = []
+        for part in (self.re, self.im):
+            f = denominator // part.denominator
+            found.append([[x * f for x in row] for row in part.numerators])
+        return found[0], found[1]
+
+    def __matmul__(self, other: ComplexRows) -> ComplexRows:
+        return ComplexRows(
+            self.re @ other.re - self.im @ other.im, self.re @ other.im + self.im @ other.re
+        )
+
+    def before(self, M: Matrix) -> ComplexRows:
+        """The product with a real matrix on the right."""
+        return ComplexRows(self.re @ M, self.im @ M)
+
+    def after(self, M: Matrix) -> ComplexRows:
+        """The product with a real matrix on the left."""
+        return ComplexRows(M @ self.re, M @ self.im)
+
+    def __add__(self, other: ComplexRows) -> ComplexRows:
+        return ComplexRows(self.re + other.re, self.im + other.im)
+
+    def take(self, rows: range, cols: range) -> ComplexRows:
+        """The submatrix of some rows and columns."""
+        return ComplexRows(self.re.take(rows, cols), self.im.take(rows, cols))
+
+    def evidence(self) -> ComplexMatrix:
+        """The matrix as a part of a witness."""
+        d = self.denominator
+        re, im = (tuple(map(tuple, rows)) for rows in self.integers(d))
+        return ComplexMatrix(d, re, im)
+
+    def moduli(self) -> Matrix:
+        """Upper limits of the moduli of the entries."""
+        d = self.denominator
+        rows = [list(map(modulus_above, a, b)) for a, b in zip(*self.integers(d), strict=True)]
+        return Matrix.from_integers(rows, d, self.re.ncols)
+
+
+def modulus_above(a: int, b: int) -> int:
+    """An integer that is at least |a + bi|, and at most 1 more.
+
+    Examples
+    --------
+    >>> modulus_above(3, 4), modulus_above(0, -2), modulus_above(1, 1)
+    (5, 2, 2)
+    """
+    if not a or not b:
+        return abs(a) + abs(b)
+    square = a * a + b * b
+    root = isqrt(square)
+    return root + (root * root < square)
+
+
+@dataclass(frozen=True, eq=False)
+class RegularDiscs:
+    """The test of discs with one V and w.
+
+    Attributes
+    ----------
+    V : ComplexRows
+        The evidence from which K and L are made.
+    K, L : ComplexRows
+        N × N: I − V Z(λ) = K − λ L.
+    w : tuple of int
+        The weights, above 0.
+    fixed : tuple of Fraction
+        p_i.
+    step : tuple of Fraction
+        r_i.
+    """
+
+    V: ComplexRows
+    K: ComplexRows
+    L: ComplexRows
+    w: tuple[int, ...]
+    fixed: tuple[Fraction, ...]
+    step: tuple[Fraction, ...]
+
+    def __post_init__(self) -> None:
+        import numpy as np
+
+        d = lcm(self.K.denominator, self.L.denominator)
+        object.__setattr__(self, "_d", d)
+        object.__setattr__(self, "_K", self.K.integers(d))
+        object.__setattr__(self, "_L", self.L.integers(d))
+        w = np.array([float(x) for x in self.w])
+        ratio = w[None, :] / w[:, None]
+
+        def floats(M: ComplexRows) -> Any:
+            return (matrix_to_float(M.re) + 1j * matrix_to_float(M.im)) * ratio
+
+        object.__setattr__(self, "_near", (floats(self.K), floats(self.L)))
+        for key, part in (("_p", self.fixed), ("_r", self.step)):
+            found = np.array([to_float(x / y) for x, y in zip(part, self.w, strict=True)])
+            object.__setattr__(self, key, found)
+
+    def seem(self, c: complex, rho: float) -> bool:
+        """Whether a disc passes in floating point."""
+        import numpy as np
+
+        own: Any = self
+        K, L = own._near
+        sums = np.abs(K - c * L).sum(axis=1) + own._p + rho * own._r
+        return bool(np.all(sums < 0.9999))
+
+    def hold(self, c: Point, rho: Fraction) -> bool:
+        """Whether a disc passes, in integers, with a margin."""
+        own: Any = self
+        dc = lcm(c[0].denominator, c[1].denominator)
+        a, b = int(c[0] * dc), int(c[1] * dc)
+        scale, one = own._d * dc, _MARGIN - 1
+        weights = self.w
+        (K_re, K_im), (L_re, L_im) = own._K, own._L
+        for i, (k, l, x, y) in enumerate(zip(K_re, K_im, L_re, L_im, strict=True)):
+            moduli = (
+                modulus_above(p * dc - a * r + b * s, q * dc - a * s - b * r)
+                for p, q, r, s in zip(k, l, x, y, strict=True)
+            )
+            total = Fraction(sum(map(mul, moduli, weights)), scale)
+            if (total + self.fixed[i] + rho * self.step[i]) * _MARGIN >= weights[i] * one:
+                return False
+        return True
+
+
+@dataclass
+class Frames:
+    """The evidence that passed tests, for use on other discs as well.
+
+    Attributes
+    ----------
+    evidence : list of (ComplexRows, tuple of int)
+        V and w of each frame.
+    """
+
+    evidence: list[tuple[ComplexRows, tuple[int, ...]]] = field(default_factory=list)
+    tests: list[RegularDiscs] = field(default_factory=list)
+
+    def one_for(self, c: Point, rho: Fraction) -> int | None:
+        """The position of a recent frame that passes on a disc."""
+        near, size = complex(to_float(c[0]), to_float(c[1])), to_float(rho)
+        for k in range(len(self.tests) - 1, max(len(self.tests) - 1 - _RECENT, -1), -1):
+            if self.tests[k].seem(near, size) and self.tests[k].hold(c, rho):
+                return k
+        return None
+
+    def added(self, proposed: RegularDiscs, c: Point, rho: Fraction) -> int | None:
+        """The position of a new frame, if it passes."""
+        if not proposed.hold(c, rho):
+            return None
+        self.tests.append(proposed)
+        self.evidence.append((proposed.V, proposed.w))
+        return len(self.tests) - 1
+
+
+def whole_weights(w: Floats) -> tuple[int, ...]:
+    """Round weights above 0 to integers, to 16 bits each, the largest ones down.
+
+    Weights are only proposed; sums of them are to remain within the range of floats.
+    """
+    import numpy as np
+
+    with np.errstate(over="ignore"):
+        mantissa, exponent = np.frexp(np.minimum(w / w.min(), _LARGEST_WEIGHT))
+    found = []
+    for m, e in zip(mantissa, exponent, strict=True):
+        found.append(int(np.ceil(np.ldexp(m, _WEIGHT_BITS))) << max(int(e), 0))
+    return tuple(found)
+
+
+def dyadic(V: Complex, unit: Floats) -> ComplexRows:
+    """Round a complex matrix so that no entry changes by more than a small part of its unit.
+
+    Parameters
+    ----------
+    V : ndarray of complex, r × c
+    unit : ndarray of float, r × c
+        What each entry may change by, times 2²⁶.
+    """
+    import numpy as np
+
+    steps = np.floor(np.log2(np.maximum(unit * _STEP, 1e-290))).astype(int)
+    finest = int(steps.min(initial=0))
+    parts = []
+    for part in (V.real, V.imag):
+        whole = np.rint(np.ldexp(part, -steps))
+        rows = [
+            [int(x) << int(e - finest) for x, e in zip(row, exponents, strict=True)]
+            for row, exponents in zip(whole.tolist(), steps, strict=True)
+        ]
+        made = Matrix.from_integers(rows, 1, V.shape[1])
+        parts.append(made * (Fraction(2) ** finest))
+    return ComplexRows(parts[0], parts[1])
+
+
+def column(values: tuple[int, ...]) -> Matrix:
+    """Integers as a matrix with one column."""
+    return Matrix.from_integers([[x] for x in values], 1, 1)
+
+
+def entries(M: Matrix) -> tuple[Fraction, ...]:
+    """The entries of a matrix with one column."""
+    return tuple(Fraction(row[0], M.denominator) for row in M.numerators)
+
+
+# Pencils λE − Z0 of boxes in floating point, and the evidence that they propose for a disc.
+
+_ROOM = 0.998
+"""The part of 1 below which the norm is to be in floating point."""
+_ROOT = 4
+
+
+@dataclass(frozen=True)
+class FloatBox:
+    """The matrices of a box in coordinates that are balanced by powers of 2.
+
+    Attributes
+    ----------
+    A, DA : ndarray, n × n
+    B, C, DB, DC : tuples of ndarray
+        Radii are those of entries that are independent, with the moduli of those that are tied.
+    rest_A : ndarray, n × n
+        The radii of A without those of entries that are tied.
+    tied_A : tuple of ndarray
+        What may be added to A with a factor from −1 to 1.
+    scale : ndarray, n
+        x = scale · z, where z are the balanced states.
+    """
+
+    A: Floats
+    B: tuple[Floats, ...]
+    C: tuple[Floats, ...]
+    DA: Floats
+    DB: tuple[Floats, ...]
+    DC: tuple[Floats, ...]
+    rest_A: Floats
+    tied_A: tuple[Floats, ...]
+    scale: Floats
+
+    @classmethod
+    def of(
+        cls, system: MultiChannelSystem, radii: Radii, tied: Sequence[MultiChannelSystem] = ()
+    ) -> FloatBox:
+        """Make it of a system, the radii of its entries, and what may be added to it."""
+        from scipy.linalg import matrix_balance
+
+        free = independent(radii, tied)
+
+        A = matrix_to_float(system.A)
+        s: Floats = np.ones(system.n)
+        if system.n:
+            _, (s, _) = matrix_balance(A, permute=False, separate=True)
+        rows, cols = (1 / s)[:, None], s[None, :]
+        return cls(
+            A * rows * cols,
+            tuple(matrix_to_float(M) * rows for M in system.B),
+            tuple(matrix_to_float(M) * cols for M in system.C),
+            matrix_to_float(free.A) * rows * cols,
+            tuple(matrix_to_float(M) * rows for M in free.B),
+            tuple(matrix_to_float(M) * cols for M in free.C),
+            matrix_to_float(radii.A) * rows * cols,
+            tuple(matrix_to_float(each.A) * rows * cols for each in tied),
+            s,
+        )
+
+    def moved(self, Y: Complex, T: Complex) -> Floats:
+        """An upper limit of the moduli of Y (A' − A) T for all members A'."""
+        rest = np.abs(Y) @ self.rest_A @ np.abs(T)
+        return np.asarray(rest + sum(np.abs(Y @ M @ T) for M in self.tied_A))
+
+    def wider(self, size: float) -> FloatBox:
+        """The box in which the diagonal of A may change by so much more.
+
+        What is regular at a point for all its members is regular for those of this box on the disc
+        around the point with that radius.
+        """
+        return replace(self, DA=self.DA + size * np.eye(self.n))
+
+    @property
+    def n(self) -> int:
+        """The number of states."""
+        return len(self.A)
+
+    def modes(self) -> list[complex]:
+        """One number near each group of eigenvalues of A in the closed upper half-plane."""
+        found: list[complex] = []
+        size = np.linalg.norm(self.A)
+        for value in np.linalg.eigvals(self.A):
+            near = (abs(value - x) <= 1e-3 * max(abs(value), 1e-9 * size) for x in found)
+            if value.imag >= -1e-12 * abs(value) and not any(near):
+                found.append(complex(value.real, max(value.imag, 0.0)))
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class Pencil:
+    """Z(λ) = λE − Z0 with E = diag(I_n, 0) and radii D, exactly.
+
+    Attributes
+    ----------
+    Z0, D : Matrix, N × N
+    n : int
+    scale : ndarray, N
+        Powers of 2, by which the coordinates are balanced.
+    tied : tuple of Matrix
+        What may be added to Z0, each with a factor from −1 to 1.
+    """
+
+    Z0: Matrix
+    D: Matrix
+    n: int
+    scale: Floats
+    tied: tuple[Matrix, ...] = ()
+
+    @cached_property
+    def balanced(self) -> tuple[Floats, Floats, Floats]:
+        """Z0, D and the diagonal of E, in balanced coordinates."""
+        rows, cols = (1 / self.scale)[:, None], self.scale[None, :]
+        E = np.zeros(len(self.scale))
+        E[: self.n] = 1
+        return matrix_to_float(self.Z0) * rows * cols, matrix_to_float(self.D) * rows * cols, E
+
+    @cached_property
+    def balanced_ties(self) -> tuple[Floats, ...]:
+        """What may be added to Z0, in balanced coordinates."""
+        rows, cols = (1 / self.scale)[:, None], self.scale[None, :]
+        return tuple(matrix_to_float(M) * rows * cols for M in self.tied)
+
+    def moved(self, V: Complex) -> Floats:
+        """An upper limit of the moduli of V (Z0' − Z0) for all members Z0'."""
+        return np.asarray(
+            np.abs(V) @ self.balanced[1] + sum(np.abs(V @ M) for M in self.balanced_ties)
+        )
+
+    def inverse(self, c: complex) -> Complex | None:
+        """Z(c)⁻¹ of the nominal pencil in balanced coordinates, if it exists."""
+        Z0, _, E = self.balanced
+        try:
+            Y = np.linalg.inv(c * np.diag(E) - Z0)
+        except np.linalg.LinAlgError:
+            return None
+        return np.asarray(Y, dtype=np.complex128) if np.all(np.isfinite(Y)) else None
+
+    def margin(self, c: complex) -> float:
+        """The factor up to which the radii can grow while the pencil stays regular at a point."""
+        Y = self.inverse(c)
+        if Y is None:
+            return 0.0
+        size, _, _ = perron(self.moved(Y))
+        return 1 / size if size > 0 else np.inf
+
+    def proposal(self, c: complex, rho: float, growth: Fraction) -> RegularDiscs | None:
+        """Evidence that the pencil is regular on a disc, if floating point finds some.
+
+        Parameters
+        ----------
+        c, rho
+            Center and radius.
+        growth : Fraction
+            The factor of all radii.
+        """
+        g = float(growth)
+        V = self.inverse(c)
+        if V is None:
+            return None
+        Z0, D, E = self.balanced
+        w = weights(g * self.moved(V) + rho * np.abs(V) @ np.diag(E))
+        if w is None:
+            return None
+        free = D + sum(map(np.abs, self.balanced_ties))
+        unit = w[:, None] / (len(w) * (np.abs(c * np.diag(E) - Z0) @ w + g * free @ w))[None, :]
+        turned = self.scale[:, None] / self.scale[None, :]
+        exact = dyadic(V * turned, unit * turned)
+        return self.tested(exact, whole_weights(w * self.scale), growth)
+
+    def tested(self, V: ComplexRows, w: tuple[int, ...], growth: Fraction) -> RegularDiscs:
+        """The exact test with V and w, of radii that are multiplied by a factor."""
+        N = len(w)
+        one, heavy = ComplexRows.of(Matrix.identity(N)), column(w)
+        K = one + V.before(self.Z0)
+        E = Matrix.from_entries((N, N), ((i, i, 1) for i in range(self.n)))
+        size = V.moduli()
+        moved = size @ (self.D @ heavy)
+        for M in self.tied:
+            moved = moved + V.before(M).moduli() @ heavy
+        return RegularDiscs(
+            V,
+            K,
+            V.before(E),
+            w,
+            entries(moved * growth),
+            entries(size @ (E @ heavy)),
+        )
+
+
+def independent(radii: Radii, tied: Sequence[MultiChannelSystem]) -> Radii:
+    """The radii of a box of independent entries that contains all members."""
+    A, B, C = radii.A, list(radii.B), list(radii.C)
+    for each in tied:
+        A = A + moduli(each.A)
+        B = [D + moduli(M) for D, M in zip(B, each.B, strict=True)]
+        C = [D + moduli(M) for D, M in zip(C, each.C, strict=True)]
+    return Radii(A, B, C)
+
+
+def gain_pencil(
+    system: MultiChannelSystem,
+    radii: Radii,
+    scale: Floats,
+    X: Sequence[Matrix] | None = None,
+    W: Sequence[Matrix] | None = None,
+    tied: Sequence[MultiChannelSystem] = (),
+) -> Pencil:
+    """The pencil [[λI − A, −B], [XC, W]], which is regular where λ is not fixed.
+
+    Without gains it is λI − A.  X and W are block diagonal by channel:
+
+        Z0 = [[A, B], [−X C, −W]],   D = [[D_A, D_B], [|X| D_C, 0]].
+    """
+    n = system.n
+    if X is None or W is None:
+        return Pencil(system.A, radii.A, n, scale, tuple(each.A for each in tied))
+    p = sum(system.p(i) for i in range(system.m))
+
+    def whole(A: Matrix, B: Sequence[Matrix], XC: list[Matrix], W: list[Matrix]) -> Matrix:
+        rows, start = [hstack([A, *B], nrows=n)], 0
+        for below, W_i in zip(XC, W, strict=True):
+            size = W_i.nrows
+            left, right = Matrix.zeros(size, start), Matrix.zeros(size, p - start - size)
+            rows.append(hstack([below, left, W_i, right], nrows=size))
+            start += size
+        return vstack(rows, ncols=n + p)
+
+    def of(each: MultiChannelSystem, last: list[Matrix]) -> Matrix:
+        XC = [-(X_i @ C_i) for X_i, C_i in zip(X, each.C, strict=True)]
+        return whole(each.A, each.B, XC, last)
+
+    zeros = [Matrix.zeros(*W_i.shape) for W_i in W]
+    moved = [moduli(X_i) @ DC_i for X_i, DC_i in zip(X, radii.C, strict=True)]
+    return Pencil(
+        of(system, [-W_i for W_i in W]),
+        whole(radii.A, radii.B, moved, zeros),
+        n,
+        np.concatenate([scale, np.ones(p)]),
+        tuple(of(each, zeros) for each in tied),
+    )
+
+
+def weights(N: Floats) -> Floats | None:
+    """A vector w > 0 with N w < w, for N ≥ 0; None if floating point finds none."""
+    if not np.all(np.isfinite(N)):
+        return None
+    try:
+        w = np.linalg.solve(np.eye(len(N)) - N / _ROOM, np.ones(len(N)))
+    except np.linalg.LinAlgError:
+        return None
+    # For N ≥ 0, a positive solution exists exactly if the spectral radius is below the room.
+    good = np.all(np.isfinite(w)) and np.all(w > 0) and np.all(N @ w < w)
+    return w if good else None
+
+
+def perron(N: Floats, squarings: int = 8) -> tuple[float, Floats, Floats]:
+    """The spectral radius of a matrix N ≥ 0, and about its right and left positive vectors.
+
+    Examples
+    --------
+    >>> round(perron(np.array([[0, 1e6], [1e-6, 0]]))[0], 6)
+    1.0
+    """
+    size = len(N)
+    top = N.sum(axis=1).max(initial=0.0)
+    if not (np.isfinite(top) and top > 0):
+        return float(top), np.ones(size), np.ones(size)
+    top *= _root_of_power(N / top)
+    # The shift keeps powers from alternating, and all entries above 0.
+    P = N / top + 0.1 * np.eye(size) + 1e-13 / size
+    for _ in range(squarings):
+        P = P @ P
+        P /= P.max()
+    right, left = P.sum(axis=1), P.sum(axis=0)
+    right, left = right / right.max(), left / left.max()
+    value = float(left @ N @ right / (left @ right))
+    return value, right, left
+
+
+def _root_of_power(N: Floats) -> float:
+    """The k-th root of the largest entry of N^k, k a power of 2; 1 if the power is 0.
+
+    Where states are badly scaled, row sums are far above the spectral radius, and this is near it.
+    """
+    logarithm = 0.0
+    for _ in range(_ROOT):
+        N = N @ N
+        largest = N.max()
+        if not largest > 0:
+            return 1.0
+        logarithm = 2 * logarithm + float(np.log(largest))
+        N = N / largest
+    return float(np.exp(logarithm / 2**_ROOT))
+
+
+# The entries with which floating point can search.
+
+_BITS = 200
+"""Products of a few such numbers are still floats."""
+
+
+def require_float_range(values: Iterable[Matrix], radii: Iterable[Matrix]) -> None:
+    """Stop if an entry is so large or so small that its products leave floating point.
+
+    Parameters
+    ----------
+    values, radii : iterable of Matrix
+        Radii may be as small as they like.
+
+    Raises
+    ------
+    LimitReached
+        If the modulus of an entry that is not 0 is above 2²⁰⁰ or below 2⁻²⁰⁰, or about that.
+
+    Examples
+    --------
+    >>> require_float_range([Matrix.from_rows([[0, "1e60", "1e-60"]])], [])
+    >>> require_float_range([Matrix.from_rows([["1e61"]])], [])
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: an entry is above 1e60 or below 1e-60, where floating point finds \
+no proof: choose other units
+    """
+    sizes = [size for M in values for size in _sizes(M)]
+    spread = [size for M in radii for size in _sizes(M)]
+    if max([*sizes, *spread], default=0) > _BITS or min(sizes, default=0) < -_BITS:
+        raise LimitReached(
+            "an entry is above 1e60 or below 1e-60, where floating point finds no proof: "
+            "choose other units"
+        )
+
+
+def _sizes(M: Matrix) -> Iterator[int]:
+    """About the binary logarithms of the moduli of all entries that are not 0."""
+    below = M.denominator.bit_length()
+    return (abs(int(x)).bit_length() - below for _, _, x in M.nonzero())
+
+
+# The radii of the entries of a plant, or of a system that constructions made from it.
+
+
+def radii_of(system: MultiChannelSystem) -> Radii:
+    """Return the radii of all entries of a system; those of constants are 0.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant, or a system made from one by constructions.
+
+    Raises
+    ------
+    LimitReached
+        If floating point cannot search with the entries.
+    UsageError
+        If a construction closes a loop: its stability is a matter of `box_stability`.
+
+    Notes
+    -----
+    With |S| the moduli of all entries, D their radii, and T the constructions, which add and
+    multiply entries, with the moduli of their gains: all T(S') are within T(|S| + D) − T(|S|) of
+    T(S).  Where entries are copied this is the radius of each copy.  A sum, such as A + Σ B_i F_i
+    C_i, may be uncertain in a way that no member is, as its terms are taken as independent.
+
+    Examples
+    --------
+    >>> from mcexact import dual
+    >>> from mcexact.derived.constructions import feedback
+    >>> plant = MultiChannelSystem([[1]], [[[2, 3]]], [[[4]]])
+    >>> box = Box.relative(plant, "1/2").system
+    >>> radii_of(dual(box)).C[0].numerators
+    ((2,), (3,))
+    >>> radii_of(feedback(box, [[[0], [-1]]])).A[0, 0]  # 1/2, and 9/2 · 6 − 3 · 4
+    Fraction(31, 2)
+    """
+    radii = Box(system.plant).radii
+    require_float_range(_matrices(system), (D for _, D in radii.matrices()))
+    if not system.subject:
+        return radii
+    low = _with_entries(system.plant, map(moduli, _matrices(system.plant)))
+    both = zip(_matrices(low), radii.matrices(), strict=True)
+    high = _with_entries(low, (M + D for M, (_, D) in both))
+    for each in system.subject:
+        if each["construction"] == "closed_loop":
+            raise UsageError("radii of a closed loop are a matter of box_stability")
+        low, high = (_made(each, known) for known in (low, high))
+    A, *ports = (M - N for M, N in zip(_matrices(high), _matrices(low), strict=True))
+    return Radii(A, ports[: high.m], ports[high.m :])
+
+
+def _made(construction: Mapping[str, Any], system: MultiChannelSystem) -> MultiChannelSystem:
+    """The moduli of what a construction with the moduli of its gains makes of a system."""
+    given = dict(construction)
+    if "gains" in given:
+        sizes = [moduli(F) for F in given["gains"]]
+        given["gains"] = [{"denominator": F.denominator, "entries": F.numerators} for F in sizes]
+    made: MultiChannelSystem = constructed(system, [given])
+    return _with_entries(made, map(moduli, _matrices(made)))
+
+
+def _matrices(system: MultiChannelSystem) -> list[Matrix]:
+    return [system.A, *(c.B for c in system.channels), *(c.C for c in system.channels)]
+
+
+def _with_entries(system: MultiChannelSystem, entries: Iterable[Matrix]) -> MultiChannelSystem:
+    """A plant with the channels and the neighbors of a system, and these A, B_i and C_i."""
+    A, *ports = entries
+    return MultiChannelSystem(
+        A,
+        ports[: system.m],
+        ports[system.m :],
+        time=system.time,
+        names=system.names,
+        neighbors=system.neighbors,
+    )
+
+
+# Floating point for proposals: in one thread, and without warnings.
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Keep floating point in one thread, and its overflows silent: what it proposes is tested."""
+    with threadpool_limits(1, "blas"), np.errstate(all="ignore"):
+        yield

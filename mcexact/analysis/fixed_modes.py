@@ -1,0 +1,657 @@
+"""The fixed spectrum, completeness, assignability, and ranks of pencils."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Iterator
+from typing import Any, cast, overload
+
+from mcexact.analysis.blocks import MODULI, bounded_blocks, completed_blocks, modes_left
+from mcexact.analysis.parameters.hypersurfaces import (
+    ParametricCompleteness,
+    parametric_completeness,
+)
+from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
+from mcexact.analysis.sparse import (
+    edge_modulus,
+    fixed_subspaces,
+    is_connected,
+    is_large_and_sparse,
+    sparse_powers,
+)
+from mcexact.analysis.stability import located, open_loop_spectrum
+from mcexact.analysis.structure import (
+    Edge,
+    suspected_edges,
+    transfer_graph,
+    witnessed_powers,
+    zero_transfer,
+)
+from mcexact.analysis.subspaces import Decision, Obstruction, decide, evidence
+from mcexact.answer.assignability import Assignability, MinimalRealization, SpectrumBlock
+from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
+from mcexact.answer.completeness import (
+    BlocksWitness,
+    Completeness,
+    CutWitness,
+    Evidence,
+    FixedModeWitness,
+    FreedomWitness,
+)
+from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
+from mcexact.answer.fixed_spectrum import (
+    ByBlocks,
+    Completion,
+    FixedFactor,
+    FixedSpectrum,
+    TwoPolynomials,
+)
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
+from mcexact.answer.pencil_rank import PencilRank
+from mcexact.answer.transfer_graph import TransferGraph
+from mcexact.derived.modular import (
+    ModularSystem,
+    closed_loop,
+    generator,
+    lifted,
+    lifted_gains,
+    residue_systems,
+)
+from mcexact.errors import InputError, InternalError, LimitReached
+from mcexact.exact.krylov import controllable_subspace, krylov_rows, stays_sparse
+from mcexact.exact.linear_algebra import PolynomialMatrix, inflate, kernel_at
+from mcexact.exact.matrix import Matrix, block
+from mcexact.exact.modular import polynomial_residues, primes, random_matrix, residues
+from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.rational import as_fraction
+from mcexact.exact.roots import StabilityRegion, Time
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system import MultiChannelSystem
+
+# The fixed spectrum: the modes that no linear time-invariant decentralized feedback moves.
+
+# Up to this size dense matrices are searched, which finds Jordan chains as well.
+_DENSE = 500
+# Blocks of so many states are decided densely, one after the other.
+_SMALL_BLOCK = 500
+# The subspaces of more fixed modes are not looked for by sparse products.
+_MOST_MODES = 64
+
+
+@overload
+def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum: ...
+
+
+@overload
+def fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectrum: ...
+
+
+def fixed_spectrum(
+    system: MultiChannelSystem | ParametricSystem,
+) -> FixedSpectrum | ParametricFixedSpectrum:
+    """Decide which modes no linear time-invariant decentralized feedback can move.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem or ParametricSystem
+        A plant or a derived system; or a plant with one parameter, for all of whose values the
+        question is decided (`ParametricFixedSpectrum`).
+
+    Notes
+    -----
+    Exact; no subset of channels is enumerated.  In large sparse systems the factors are found by
+    products with sparse matrices, and how often they occur in χ_A is left open.  The certificate
+    splits the states into blocks that share no gain.  For each it has one Krylov sequence of drawn
+    gains and one channel, modulo a small prime, which bounds how much is fixed; for each fixed
+    factor it has a shrunk subspace.
+    Where the blocks leave more than the factors, because a mode is fixed by Jordan chains, the
+    certificate has gains F and a modulus ℓ such that χ_{A_F} is coprime modulo ℓ to χ_A without
+    its fixed factors.  Without fixed modes it takes O(n³), by products in floating point that are
+    exact from 128 states on.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> A = [[1, 0, 0], [0, 1, 0], [0, 1, 1]]
+    >>> B = [[[1], [0], [0]], [[0], [1], [0]], [[1], [0], [0]]]
+    >>> C = [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 1, 0]]]
+    >>> [factor] = fixed_spectrum(MultiChannelSystem(A, B, C)).factors
+    >>> str(factor.polynomial), factor.channels, factor.rank
+    ('x - 1', ('2', '3'), 2)
+    >>> fixed_spectrum(MultiChannelSystem([[1]], [[[1]]], [[[1]]])).empty
+    True
+    """
+    if isinstance(system, ParametricSystem):
+        return parametric_fixed_spectrum(system)
+    InputError.require(system, MultiChannelSystem, "system")
+    blocks = bounded_blocks(system)
+    if not modes_left(blocks):
+        return _found(system, (), None, ByBlocks(blocks, None, ()))
+    if _is_large_and_sparse(system):
+        blocks = _with_small_blocks_completed(system, blocks)
+        if not modes_left(blocks):
+            return _found(system, (), None, ByBlocks(blocks, None, ()))
+        found = _by_sparse_search(system, blocks)
+        if found is not None:
+            return found
+    rng = generator(system, "fixed_spectrum")
+    decision = decide(system, rng)
+    region = StabilityRegion(cast(Time, system.time))
+    discs, rate = located(system.time, [o.polynomial for o in decision.obstructions])
+    subspaces = tuple(evidence(system, o.subspace) for o in decision.obstructions)
+    by_blocks = _by_blocks(system, blocks, decision, subspaces)
+    factors = tuple(
+        _factor(system, decision, o, roots, region, by_blocks is not None)
+        for o, roots in zip(decision.obstructions, discs, strict=True)
+    )
+    if by_blocks is not None:
+        return _found(system, factors, rate, by_blocks)
+    moved = TwoPolynomials(
+        gains=lifted_gains(decision.modular, decision.gains),
+        modulus=decision.modular.modulus,
+        subspaces=subspaces,
+        completion=_completion(decision, rng) if factors else None,
+    )
+    return _found(system, factors, rate, moved)
+
+
+def _is_large_and_sparse(system: MultiChannelSystem) -> bool:
+    channels = system.channels
+    return system.n > _DENSE and stays_sparse(
+        system.A, [c.B for c in channels], [c.C for c in channels]
+    )
+
+
+def _with_small_blocks_completed(
+    system: MultiChannelSystem, blocks: tuple[Block, ...]
+) -> tuple[Block, ...]:
+    """The same blocks with two polynomials where no mode is fixed, if they are small."""
+    short = [block for block in blocks if modes_left([block])]
+    if len(blocks) < 2 or max(len(block.states) for block in short) > _SMALL_BLOCK:
+        return blocks
+    return completed_blocks(system, blocks)
+
+
+def _by_sparse_search(
+    system: MultiChannelSystem, blocks: tuple[Block, ...]
+) -> FixedSpectrum | None:
+    """The fixed spectrum by products with sparse matrices, without χ_A; None if it is not found."""
+    if modes_left(blocks) > _MOST_MODES:
+        return None
+    try:
+        found = fixed_subspaces(system)
+    except LimitReached:
+        return None
+    ell = _separating(product(p for p, _ in found), MODULI[-1])
+    fixed = sum(p.degree * space.deficiency for p, space in found)
+    if modes_left(blocks) != fixed or ell is None:
+        return None
+    region = StabilityRegion(cast(Time, system.time))
+    discs, rate = located(system.time, [p for p, _ in found])
+    factors = tuple(
+        FixedFactor(
+            polynomial=p,
+            multiplicity_in_A=None,
+            multiplicity_at_most=space.deficiency,
+            channels=system.named(i for i in range(system.m) if i not in set(space.channels_T)),
+            rank=system.n - space.deficiency,
+            stable=region.contains_roots_of(p),
+            roots=roots,
+        )
+        for (p, space), roots in zip(found, discs, strict=True)
+    )
+    spaces = tuple(evidence(system, space) for _, space in found)
+    return _found(system, factors, rate, ByBlocks(blocks, ell, spaces))
+
+
+def _found(
+    system: MultiChannelSystem,
+    factors: tuple[FixedFactor, ...],
+    rate: RateInterval | None,
+    proof: ByBlocks | TwoPolynomials,
+) -> FixedSpectrum:
+    return FixedSpectrum(
+        system,
+        polynomial=product(factor.polynomial for factor in factors),
+        factors=factors,
+        stabilizable=all(factor.stable for factor in factors),
+        best_rate=rate,
+        evidence=proof,
+    )
+
+
+def _by_blocks(
+    system: MultiChannelSystem,
+    blocks: tuple[Block, ...],
+    decision: Decision,
+    subspaces: tuple[ShrunkSubspace, ...],
+) -> ByBlocks | None:
+    """The proof by blocks, if they leave no more than the factors with the ranks that they lose."""
+    found = decision.obstructions
+    fixed = sum(o.polynomial.degree * o.subspace.deficiency for o in found)
+    if modes_left(blocks) > fixed and len(blocks) > 1:
+        blocks = completed_blocks(system, blocks)
+    if modes_left(blocks) > fixed:
+        return None
+    if not found:
+        return ByBlocks(blocks, None, ())
+    ell = _separating(product(o.polynomial for o in found), decision.modular.modulus)
+    return None if ell is None else ByBlocks(blocks, ell, subspaces)
+
+
+def _separating(whole: Polynomial, last: int) -> int | None:
+    """A prime modulo which a product of different factors has no multiple root."""
+    for ell in (*MODULI, last):
+        if all(c.denominator % ell for c in whole.coefficients):
+            p = polynomial_residues(whole, ell)
+            if p.gcd(polynomial_residues(whole.derivative(), ell)).degree == 0:
+                return ell
+    return None
+
+
+def _factor(
+    system: MultiChannelSystem,
+    decision: Decision,
+    found: Obstruction,
+    roots: tuple[RootDisc, ...],
+    region: StabilityRegion,
+    by_blocks: bool,
+) -> FixedFactor:
+    T = set(found.subspace.channels_T)
+    p, at_most = found.polynomial, found.subspace.deficiency
+    if not by_blocks:
+        at_most = polynomial_residues(p, decision.closed.modulus).multiplicity_in(decision.closed)
+    return FixedFactor(
+        polynomial=p,
+        multiplicity_in_A=found.multiplicity_in_A,
+        multiplicity_at_most=at_most,
+        channels=system.named(i for i in range(system.m) if i not in T),
+        rank=system.n - found.subspace.deficiency,
+        stable=region.contains_roots_of(p),
+        roots=roots,
+    )
+
+
+def _completion(decision: Decision, rng: random.Random) -> Completion:
+    """Compute B_0 (n × ρ) and C_0 (ρ × n); d columns and rows move the factors of deficiency d."""
+    modular = decision.modular
+    n, ell = modular.system.n, modular.modulus
+    rho = max(o.subspace.deficiency for o in decision.obstructions)
+    closed = closed_loop(modular, decision.gains)
+    stuck: dict[int, Polynomial] = {}
+    for o in decision.obstructions:
+        d = o.subspace.deficiency
+        stuck[d] = stuck.get(d, product([])) * o.polynomial
+    while True:
+        B0, C0 = random_matrix(n, rho, ell, rng), random_matrix(rho, n, ell, rng)
+        for d, factors in stuck.items():
+            cut = closed + B0.take(cols=range(d)) @ C0.take(rows=range(d))
+            freed = cut.characteristic_polynomial().gcd(polynomial_residues(factors, ell))
+            if freed.degree > 0:
+                break
+        else:
+            return Completion(lifted(B0), lifted(C0))
+
+
+# Completeness: a strongly connected transfer graph and no fixed mode.
+
+Freedom = ByBlocks | tuple[Matrix, ...]
+"""The proof that no mode is fixed: by blocks, or gains that move every mode."""
+
+
+@overload
+def completeness(
+    system: MultiChannelSystem, *, spectrum: FixedSpectrum | None = None
+) -> Completeness: ...
+
+
+@overload
+def completeness(system: ParametricSystem) -> ParametricCompleteness: ...
+
+
+def completeness(
+    system: MultiChannelSystem | ParametricSystem, *, spectrum: FixedSpectrum | None = None
+) -> Completeness | ParametricCompleteness:
+    """Decide whether a system is complete.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem or ParametricSystem
+        For a plant with one parameter the answer says whether it is complete for almost every
+        value, and for which values it is not (`ParametricCompleteness`).
+    spectrum : FixedSpectrum, optional
+        ``fixed_spectrum(system)`` of a plant without parameters, if it is known already.
+
+    Notes
+    -----
+    Exact.  The certificate for yes proves that no mode is fixed, and has edges that connect all
+    channels.  The certificate for no has a shrunk subspace for one fixed mode, or a set of channels
+    whose inputs do not affect the outputs of the others.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> I = [[1, 0], [0, 1]]
+    >>> apart = MultiChannelSystem(I, [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    >>> completeness(apart).complete
+    False
+    >>> ring = MultiChannelSystem(I, [[[1], [0]], [[0], [1]]], [[[0, 1]], [[1, 0]]])
+    >>> completeness(ring).complete
+    True
+    >>> completeness(MultiChannelSystem([], [[], []], [[], []])).complete
+    False
+    """
+    known = FixedSpectrum.known(spectrum, system, "spectrum")
+    if isinstance(system, ParametricSystem):
+        return parametric_completeness(system)
+    InputError.require(system, MultiChannelSystem, "system")
+    spectrum = fixed_spectrum(system) if known is None else known
+    rng = generator(system, "completeness")
+    evidence = _evidence(system, spectrum, rng)
+    complete = isinstance(evidence, BlocksWitness | FreedomWitness)
+    return Completeness(system, complete=complete, evidence=evidence)
+
+
+def _evidence(system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.Random) -> Evidence:
+    if not spectrum.empty:
+        return FixedModeWitness(spectrum.factors[0].polynomial, spectrum.evidence.subspaces[0])
+    if isinstance(spectrum.evidence, ByBlocks) and is_large_and_sparse(system):
+        connected = _connected_by_structure(system, spectrum.evidence)
+        if connected is not None:
+            return connected
+    # Some edges vanish by accident, perhaps modulo one prime for all draws.
+    for modular, proof in _freedom(system, spectrum, rng):
+        suspected = suspected_edges(modular, rng)
+        closed = _closed_set(system.m, suspected)
+        if closed is None:
+            return _connected(modular, proof, _connecting_edges(system.m, suspected))
+        found = controllable_subspace(system.A, system.input_matrix(closed), rng)
+        rest = [i for i in range(system.m) if i not in closed]
+        if (system.output_matrix(rest) @ found.X).is_zero():
+            return CutWitness(zero_transfer(system, closed, found))
+    raise InternalError("the stream of primes is endless")
+
+
+def _connected_by_structure(system: MultiChannelSystem, proof: ByBlocks) -> Evidence | None:
+    """Edges of the least powers that connect all channels of a large sparse system, if any do."""
+    ell = edge_modulus(system)
+    if ell is None:
+        return None
+    powers, names = sparse_powers(system, ell, is_connected), system.names
+    if not is_connected(powers >= 0):
+        return None
+    edges = {(int(j), int(i)) for j, i in zip(*(powers >= 0).nonzero(), strict=True)}
+    chosen = sorted(_connecting_edges(system.m, edges))
+    arcs = tuple((names[j], names[i], int(powers[j, i])) for j, i in chosen)
+    return BlocksWitness(proof.blocks, ell, arcs)
+
+
+def _connected(modular: ModularSystem, proof: Freedom, chosen: set[Edge]) -> Evidence:
+    """The evidence for yes, with edges that connect all channels."""
+    powers, names = witnessed_powers(modular, chosen), modular.system.names
+    arcs = tuple((names[j], names[i], powers[j, i]) for j, i in sorted(chosen))
+    if isinstance(proof, ByBlocks):
+        return BlocksWitness(proof.blocks, modular.modulus, arcs)
+    return FreedomWitness(modular.modulus, proof, arcs)
+
+
+def _freedom(
+    system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.Random
+) -> Iterator[tuple[ModularSystem, Freedom]]:
+    """Yield systems modulo primes for the edges, each with a proof that nothing is fixed.
+
+    Gains are proved to move every mode modulo the prime of their own.
+    """
+    if isinstance(spectrum.evidence, ByBlocks):
+        for modular in residue_systems(system, rng):
+            yield modular, spectrum.evidence
+        return
+    yield ModularSystem(system, spectrum.evidence.modulus), spectrum.evidence.gains
+    while True:
+        decision = decide(system, rng)
+        yield decision.modular, lifted_gains(decision.modular, decision.gains)
+
+
+def _reached(m: int, start: int, edges: set[Edge]) -> list[Edge]:
+    """Edges of a tree from ``start`` to every node that it reaches, nearest first."""
+    successors: list[list[int]] = [[] for _ in range(m)]
+    for j, i in sorted(edges):
+        successors[j].append(i)
+    seen, level, tree = {start}, [start], []
+    while level:
+        following = []
+        for j in level:
+            for i in successors[j]:
+                if i not in seen:
+                    seen.add(i)
+                    following.append(i)
+                    tree.append((j, i))
+        level = following
+    return tree
+
+
+def _closed_set(m: int, edges: set[Edge]) -> tuple[int, ...] | None:
+    """A smallest nonempty proper set of nodes that some node reaches and no edge leaves, if any."""
+    sets = []
+    for start in range(m):
+        reached = {start, *(i for _, i in _reached(m, start, edges))}
+        if len(reached) < m:
+            sets.append(tuple(sorted(reached)))
+    return min(sets, key=lambda s: (len(s), s), default=None)
+
+
+def _connecting_edges(m: int, edges: set[Edge]) -> set[Edge]:
+    """At most 2(m − 1) edges of a strongly connected graph that keep it so."""
+    if m < 2:
+        return set()
+    backwards = _reached(m, 0, {(i, j) for j, i in edges})
+    return set(_reached(m, 0, edges)) | {(j, i) for i, j in backwards}
+
+
+# Free assignability of the spectrum, or its partition over the strong components.
+
+
+def assignability(
+    system: MultiChannelSystem, *, graph: TransferGraph | None = None
+) -> Assignability:
+    """Compute the degrees into which det(xI − A_F) splits over the strong components.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : TransferGraph, optional
+        ``transfer_graph(system)``, if it is known already.
+
+    Notes
+    -----
+    Paper, end of section IV-A.  det(xI − A_F) = det(xI − A) det(I − C(xI − A)⁻¹B F), and the
+    transfer matrix is block triangular in an order of the components, so the second factor is the
+    product over the components c of the same for C_c (xI − A)⁻¹ B_c, F_c, which a minimal
+    realization of degree d_c turns into a quotient of polynomials of degree d_c.  This holds with
+    fixed modes, inactive channels and without joint controllability.  Exact.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> B, C = [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]]
+    >>> found = assignability(MultiChannelSystem([[0, 0], [1, 0]], B, C))
+    >>> found.undivided, [(block.channels, block.dimension) for block in found.blocks]
+    (False, [(('1',), 1), (('2',), 1)])
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    known = TransferGraph.known(graph, system, "graph")
+    graph = transfer_graph(system) if known is None else known
+    rng = generator(system, "assignability")
+    realizations, degrees = [], []
+    for component in graph.components:
+        channels = system.indices(component)
+        space = controllable_subspace(system.A, system.input_matrix(channels), rng)
+        inner = (system.A @ space.X).take(rows=space.pivots)
+        seen = controllable_subspace(inner.T, (system.output_matrix(channels) @ space.X).T, rng)
+        realizations.append(MinimalRealization(space.X, space.pivots, seen.X.T, seen.pivots))
+        driven = seen.X.T @ system.input_matrix(channels).take(rows=space.pivots)
+        reduced = (seen.X.T @ inner).take(cols=seen.pivots)
+        measured = (system.output_matrix(channels) @ space.X).take(cols=seen.pivots)
+        degrees.append((seen.dimension, reduced, driven, measured))
+    blocks = tuple(
+        SpectrumBlock(c, d) for c, (d, *_) in zip(graph.components, degrees, strict=True)
+    )
+    return Assignability(
+        system,
+        blocks=blocks,
+        fixed_degree=system.n - sum(block.dimension for block in blocks),
+        modulus=_modulus(system, degrees),
+        transfer_graph=graph,
+        realizations=tuple(realizations),
+    )
+
+
+def _modulus(system: MultiChannelSystem, parts: list[tuple[int, Matrix, Matrix, Matrix]]) -> int:
+    """A prime modulo which every realization is controllable and observable."""
+    for modular in residue_systems(system, generator(system, "assignability"), bits=61):
+        ell = modular.modulus
+        for d, A, B, C in parts:
+            if (A.denominator * B.denominator * C.denominator) % ell == 0:
+                break
+            if len(krylov_rows(A, B, ell)[1]) < d or len(krylov_rows(A.T, C.T, ell)[1]) < d:
+                break
+        else:
+            return ell
+    raise InternalError("the stream of primes is endless")
+
+
+# The rank of the pencil P_s(λ) for a set of channels and a mode.
+
+
+def pencil(system: MultiChannelSystem, s: Iterable[int]) -> tuple[Matrix, Matrix]:
+    """The two coefficients of P_s(x) = M_0 + x M_1.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    s : iterable of int
+        Positions of channels.
+
+    Returns
+    -------
+    M0, M1 : Matrix
+        Both (n + q_s) × (n + p_{m−s}):
+
+            [ xI − A   B_{m−s} ]
+            [   C_s       0    ]
+    """
+    inside = set(s)
+    n = system.n
+    B = system.input_matrix(i for i in range(system.m) if i not in inside)
+    C = system.output_matrix(inside)
+    M0 = block([[-system.A, B], [C, Matrix.zeros(C.nrows, B.ncols)]])
+    M1 = block(
+        [
+            [Matrix.identity(n), Matrix.zeros(n, B.ncols)],
+            [Matrix.zeros(C.nrows, n), Matrix.zeros(C.nrows, B.ncols)],
+        ]
+    )
+    return M0, M1
+
+
+def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) -> PencilRank:
+    """Compute the rank of P_s(λ) = [λI − A, B_{m−s}; C_s, 0].
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    subset : iterable of str
+        Names of channels; the empty set and all channels are allowed.
+    mode : Polynomial, or a rational number
+        An irreducible polynomial whose roots are the λ, or λ itself.
+
+    Raises
+    ------
+    InputError
+        If the polynomial is constant or reducible: its roots could have different ranks.
+    UsageError
+        If there is no channel of that name.
+
+    Notes
+    -----
+    Exact.  The certificate has the kernel over Q[x]/(p), which bounds the rank from above, and a
+    prime modulo which elimination with unit pivots bounds it from below.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> system = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]], [[0], [1]]], [[[1, 1]]] * 2)
+    >>> pencil_rank(system, ["1"], 1).rank
+    2
+    >>> pencil_rank(system, [], 3).rank
+    2
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    p = _irreducible(mode)
+    inside = system.indices(subset)
+    M0, M1 = pencil(system, inside)
+    kernel, pivots = kernel_at(M0, M1, p)
+    rank = M0.ncols - len(pivots)
+    return PencilRank(
+        system,
+        subset=system.named(inside),
+        polynomial=p,
+        rank=rank,
+        modulus=_pencil_modulus(system, M0, M1, p, rank),
+        kernel=kernel,
+        pivots=pivots,
+    )
+
+
+def pencil_ranks(
+    system: MultiChannelSystem,
+    subset: Iterable[str],
+    *,
+    spectrum: ClosedLoopSpectrum | None = None,
+) -> tuple[PencilRank, ...]:
+    """Compute the rank of P_s at every mode of A, one for each irreducible factor of det(xI − A).
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    subset : iterable of str
+        Names of channels.
+    spectrum : ClosedLoopSpectrum, optional
+        ``open_loop_spectrum(system)``, if it is known already.
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    names = system.named(system.indices(subset))
+    known = ClosedLoopSpectrum.known(spectrum, system, "spectrum")
+    found = open_loop_spectrum(system) if known is None else known
+    return tuple(pencil_rank(system, names, mode) for mode, _ in found.polynomial.factor())
+
+
+def _irreducible(mode: Any) -> Polynomial:
+    p = (
+        mode
+        if isinstance(mode, Polynomial)
+        else Polynomial.from_roots([as_fraction(mode, where="mode")])
+    )
+    if p.degree < 1:
+        raise InputError("expected a number or a polynomial of degree at least 1", where="mode")
+    factors = [factor for factor, _ in p.factor()]
+    if factors != [p.monic()]:
+        listed = ", ".join(map(str, factors))
+        raise InputError(
+            f"expected an irreducible polynomial; ask for each of its factors: {listed}",
+            where="mode",
+        )
+    return factors[0]
+
+
+def _pencil_modulus(
+    system: MultiChannelSystem, M0: Matrix, M1: Matrix, p: Polynomial, rank: int
+) -> int:
+    """A prime modulo which the pencil keeps its rank at every root of p."""
+    inflated = inflate(PolynomialMatrix.pencil(M0, M1), p)
+    for ell in primes(generator(system, "pencil_rank").getrandbits(64), bits=61):
+        if (inflated.denominator * M0.denominator) % ell == 0 or p.denominator % ell == 0:
+            continue
+        if residues(inflated, ell).rank() == rank * p.degree:
+            return ell
+    raise InternalError("the stream of primes is endless")

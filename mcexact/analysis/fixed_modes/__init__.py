@@ -1,1 +1,0 @@
-"""Fixed modes, completeness, assignability, and gains."""

@@ -1,0 +1,659 @@
+"""Fixed modes for all values of one parameter, and what follows from them.
+
+Zero blocks, which prove that a mode of a system with a parameter is fixed.
+
+A set T of channels and matrices W, U over R = Q[t]/(q)[x]/(p), or Q[t][x]/(p), with
+
+    W (xI − A) U = 0,   W B_T = 0,   C_i U = 0 for every i outside T
+
+and more than n rows of W and columns of U together, independent, prove that p divides det(xI − A_F)
+over R for every F: λI − A_F has a zero block that is too large.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import random
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mcexact.analysis.subspaces import obstruction_modulo
+from mcexact.answer.evidence import RootDisc, ZeroBlock
+from mcexact.answer.parameter_values import OutsideValue, meets
+from mcexact.answer.parametric_fixed_spectrum import (
+    CommonDivisor,
+    ExceptionalEvidence,
+    ExceptionalMode,
+    ExceptionalValue,
+    MovedModes,
+    ParametricFixedSpectrum,
+    SettledValue,
+)
+from mcexact.derived.constructions import (
+    Share,
+    dual,
+    extended_system,
+    full_output,
+    merged,
+    moved,
+    restricted,
+)
+from mcexact.derived.modular import PolynomialSystem, drawn_gains, generator
+from mcexact.errors import InternalError, LimitReached
+from mcexact.exact import bivariate
+from mcexact.exact.bivariate import (
+    Bivariate,
+    Element,
+    Kernel,
+    Tower,
+    X,
+    characteristic,
+    denominators,
+    difference,
+    entries_of,
+    is_coprime_modulo,
+    line,
+    matrix_of,
+    modulus_at,
+    over_functions,
+    polynomials,
+    residues,
+    roots_modulo,
+    without,
+)
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import long_prime, primes
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import root_discs
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system import MultiChannelSystem
+
+# Gains that move, modulo a prime, all that is not fixed for all values of a parameter.
+
+_SHORT = 8
+"""The degree of values outside the range up to which a common divisor there is computed."""
+
+
+class MovingGains:
+    """det(xI − A_G) for drawn G, and resultants of it and of ψ_1 with ψ_0, all modulo ℓ.
+
+    ψ_0 and ψ_1 are what generic polynomials leave of det(xI − A_E) and det(xI − A_F).
+    """
+
+    def __init__(
+        self,
+        system: PolynomialSystem,
+        psi: Bivariate,
+        moved: Bivariate,
+        gains: list[Matrix],
+        ell: int,
+    ) -> None:
+        self.psi, self.moved, self.gains, self.ell = psi, moved, gains, ell
+        self.loop = bivariate.characteristic_modulo(system.closed(gains), ell)
+        left = bivariate.residues_in_x(psi, ell)
+        right = bivariate.residues_in_x(moved, ell)
+        self.first = bivariate.resultant_modulo(left, right, ell)
+        self.other = bivariate.resultant_modulo(left, self.loop, ell)
+
+    def is_complete(self, q: Any, known: Sequence[Bivariate]) -> bool:
+        """Whether G moves what factors that are known leave of det(xI − A_E) at the roots of q."""
+        left, bottom = bivariate.reduced(self.psi, q), residues(q, self.ell)
+        for p in known:
+            left = without(left, p, q)
+        common = bivariate.resultant_modulo(
+            bivariate.residues_in_x(left, self.ell),
+            [c % bottom for c in self.loop],
+            self.ell,
+        )
+        return is_coprime_modulo(q, common, self.ell)
+
+    def is_nothing_else(self, values: Sequence[Any]) -> bool:
+        """Whether all common roots of both resultants are among these values, modulo ℓ."""
+        rest = self.first
+        if rest.is_zero():
+            return False
+        for q in values:
+            bottom = residues(q, self.ell)
+            while (pair := divmod(rest, bottom))[1].is_zero():
+                rest = pair[0]
+        return bool(rest.gcd(self.other).degree() == 0)
+
+    def is_needed(self, q: Any) -> bool:
+        """Whether the second resultant vanishes at a root of q."""
+        return not is_coprime_modulo(q, self.other, self.ell)
+
+    def common(
+        self, values: Sequence[Any], outside: Sequence[Any]
+    ) -> list[tuple[Any, Bivariate]] | None:
+        """Divisors of ψ_0 and ψ_1 at values that prove how often these divide the first resultant.
+
+        None where they are not enough: a resultant can vanish more often than it has to, and its
+        degree can be less than those of its factors allow.
+        """
+        if self.first.degree() < bivariate.resultant_degree_bound(
+            self.psi, difference(self.moved, self.psi)
+        ):
+            return None
+        found, rest = [], self.first
+        for q in [*values, *outside]:
+            bottom = residues(q, self.ell)
+            if not self.is_needed(q) or not divmod(rest, bottom)[1].is_zero():
+                continue
+            if q in outside and q.degree() > _SHORT:
+                return None
+            first, second = (bivariate.reduced(f, q) for f in (self.psi, self.moved))
+            found.append((q, bivariate.gcd(first, second, q)))
+            for _ in found[-1][1][1:]:
+                rest = divmod(rest, bottom)[0]
+        return found if rest.gcd(self.other).degree() == 0 else None
+
+
+# Zero blocks, which prove that a mode of a system with a parameter is fixed.
+
+_BLOCK_BITS = 60
+_BLOCK_TRIES = 2000
+
+
+def responsible_channels(
+    system: PolynomialSystem, q: Any, p: Bivariate, rng: random.Random
+) -> tuple[int, ...] | None:
+    """T for the roots of p at the roots of q, or None if these are not fixed.
+
+    Gains that move a root modulo a prime move it; so None is proved.
+    """
+    stream = primes(rng.getrandbits(64), _BLOCK_BITS)
+    for _ in range(_BLOCK_TRIES):
+        ell = next(stream)
+        if not system.is_defined_modulo(ell) or any(d % ell == 0 for d in denominators([q, *p])):
+            continue
+        for tau, mu in roots_modulo(q, p, ell):
+            modular = system.modulo(tau, ell)
+            found = obstruction_modulo(modular, drawn_gains(modular, rng), mu)
+            return None if found is None else found.channels_T
+    raise InternalError("no prime has roots of both polynomials")
+
+
+def zero_block(
+    system: PolynomialSystem, T: Sequence[int], q: Any, p: Bivariate
+) -> ZeroBlock | None:
+    """The zero block for T over Q[t]/(q)[x]/(p), or None if T proves nothing there."""
+    entries = _Entries(system, T)
+    columns, W = Tower(q, X).kernel([[[e] for e in row] for row in entries.inputs], system.n)
+    rows, U = Tower(q, p).kernel(entries.pencil([[e[0] for e in w] for w in W], q), system.n)
+    return _block(system, T, rows, U, columns, W, len(p) - 1)
+
+
+def generic_zero_block(
+    system: PolynomialSystem, T: Sequence[int], p: Bivariate
+) -> ZeroBlock | None:
+    """The zero block for T over Q[t][x]/(p), or None if T proves nothing there."""
+    entries, n = _Entries(system, T), system.n
+
+    def left(t: int) -> Kernel:
+        return Tower(line(t), X).kernel([[[e] for e in row] for row in entries.inputs], n)
+
+    columns, W = over_functions(left)
+    functions = [[e[0] for e in w] for w in W]
+
+    def right(t: int) -> Kernel | None:
+        value = modulus_at(p, t)
+        if value is None:
+            return None
+        return Tower(line(t), value).kernel(entries.pencil(functions, line(t)), n)
+
+    rows, U = over_functions(right)
+    return _block(system, T, rows, U, columns, W, len(p) - 1)
+
+
+def _block(
+    system: PolynomialSystem,
+    T: Sequence[int],
+    rows: tuple[int, ...],
+    U: list[list[Element]],
+    columns: tuple[int, ...],
+    W: list[list[Element]],
+    degree: int,
+) -> ZeroBlock | None:
+    if len(rows) + len(columns) <= system.n:
+        return None
+    layers = tuple(
+        matrix_of([[u[i][k] for u in U] for i in range(system.n)], len(U)) for k in range(degree)
+    )
+    return ZeroBlock(
+        channels_T=tuple(system.system.names[i] for i in T),
+        U=layers,
+        W=matrix_of([[e[0] for e in w] for w in W], system.n),
+        row_pivots=rows,
+        column_pivots=columns,
+    )
+
+
+class _Entries:
+    """The entries of B_T', A and C_s as polynomials of flint, s the complement of T."""
+
+    def __init__(self, system: PolynomialSystem, T: Sequence[int]) -> None:
+        self.n = system.n
+        self.A = entries_of(system.A)
+        self.inputs = [
+            list(column) for i in T for column in zip(*entries_of(system.B[i]), strict=True)
+        ]
+        self.C = [
+            row for i in range(system.m) if i not in set(T) for row in entries_of(system.C[i])
+        ]
+
+    def pencil(self, W: list[list[Any]], q: Any) -> list[list[Element]]:
+        """The rows of [W (xI − A); C_s]."""
+        rows: list[list[Element]] = []
+        for w in W:
+            used = [(k, c) for k, c in enumerate(w) if c != 0]
+            row = []
+            for j in range(self.n):
+                total = 0 * w[j]
+                for k, c in used:
+                    total = total - c * self.A[k][j]
+                row.append([total % q, w[j] % q])
+            rows.append(row)
+        return rows + [[[c] for c in row] for row in self.C]
+
+
+# The fixed modes of a system with a parameter, for all values of the parameter.
+
+_DRAWS = 60
+_TRIES = 2
+"""Draws of gains without an exact resultant, which takes most of the work where it is needed."""
+_BITS = 61
+_LONG_BITS = 300
+"""The bits of the moduli of the exact resultant."""
+
+
+def parametric_fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectrum:
+    """Decide which modes are fixed for all values of a parameter, and at which values others are.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        With one parameter; `ParametricSystem.along` makes one from several.
+
+    Raises
+    ------
+    UsageError
+        If there are several parameters.
+
+    Notes
+    -----
+    Exact, for every complex value at which all entries of the plant are defined.  The greatest
+    common divisor of det(xI − A_F) for some gains F, as polynomials in x and t, has the generic
+    fixed modes as roots; the values at which others can be fixed are common roots of resultants,
+    and each of them is decided over its number field.  Values without a real one in the range that
+    is assumed are left out.
+
+    Examples
+    --------
+    >>> from mcexact import ParametricSystem
+    >>> plant = ParametricSystem(
+    ...     [["t", 1], [0, 2]], [[[1], ["t^2 - 2"]]], [[[1, 0]]], parameters=["t"]
+    ... )
+    >>> found = parametric_fixed_spectrum(plant)
+    >>> found.generic
+    ()
+    >>> print(*found.words, sep="\\n")
+    the roots of x - t (no channel controls it) where t^2 + t - 4 = 0 (t about -2.56155, 1.56155)
+    the roots of x - 2 (no channel controls it) where t^2 - 2 = 0 (t about -1.41421, 1.41421)
+    """
+    return _Search(PolynomialSystem(system), generator(system, "parametric_fixed_spectrum")).found()
+
+
+_Mode = tuple[Bivariate, tuple[int, ...], ZeroBlock]
+
+
+@dataclass
+class _Candidate:
+    """A value q, what is fixed there besides generic modes, and divisors of generic ones."""
+
+    q: Any
+    modes: list[_Mode]
+    divisors: list[Bivariate]
+
+
+class _Search:
+    """Draws gains until what they leave is what is fixed."""
+
+    def __init__(self, system: PolynomialSystem, rng: random.Random) -> None:
+        self.system, self.rng = system, rng
+        self.generic: list[tuple[Bivariate, ZeroBlock]] = []
+        self.psi: list[Bivariate] = []
+        self.gains: list[list[Matrix]] = []
+        self.modes: dict[Polynomial, list[_Mode]] = {}
+
+    def found(self) -> ParametricFixedSpectrum:
+        """The answer."""
+        for attempt in range(_DRAWS):
+            if self._draw(1 + attempt):
+                found = self._answer(exactly=attempt >= _TRIES)
+                if found is not None:
+                    return found
+        raise InternalError("no drawn gains leave the fixed modes alone")
+
+    def _answer(self, *, exactly: bool) -> ParametricFixedSpectrum | None:
+        """The answer; without an exact resultant there may be none for these gains."""
+        values = self._values()
+        undefined = [q for q in values if q in self.system.poles]
+        rest = [q for q in values if q not in self.system.poles]
+        outside = [] if not self._has_range else [q for q in rest if not self._in_range(q)]
+        decided = [self._decided(q) for q in rest if q not in outside]
+        moved = self._moved(decided, [*undefined, *outside])
+        exceptional = [each for each in decided if each.modes]
+        # Small gains can agree at a value where nothing happens: it needs no entry.
+        needed = [each for each in decided if not each.modes and moved.is_needed(each.q)]
+        named = [each.q for each in [*exceptional, *needed]] + [q._rational for q in undefined]
+        common = moved.common(named, [q._rational for q in outside])
+        if common is None and not exactly:
+            return None
+        evidence = MovedModes(
+            gains=(tuple(self.gains[0]), tuple(self.gains[1]), tuple(moved.gains)),
+            modulus=moved.ell,
+            moduli=self._moduli() if common is None else (),
+            common=tuple(CommonDivisor(_polynomial(q), polynomials(h)) for q, h in common or ()),
+            generic=tuple(block for _, block in self.generic),
+            exceptional=tuple(
+                ExceptionalEvidence(
+                    modes=tuple(block for _, _, block in each.modes),
+                    divisors=tuple(map(polynomials, each.divisors)),
+                )
+                for each in exceptional
+            ),
+            settled=tuple(
+                SettledValue(_polynomial(each.q), tuple(map(polynomials, each.divisors)))
+                for each in needed
+            ),
+            undefined=tuple(undefined),
+        )
+        return ParametricFixedSpectrum(
+            self.system.system,
+            generic=tuple(polynomials(p) for p, _ in self.generic),
+            exceptional=tuple(map(self._exceptional, exceptional)),
+            outside=tuple(OutsideValue(q, _discs(q)) for q in outside),
+            evidence=evidence,
+        )
+
+    def _draw(self, size: int) -> bool:
+        """Draw gains of this size, and whether what they leave in common is generically fixed."""
+        self.gains = [
+            self.system.drawn_gains(lambda: self.rng.randint(-size, size)) for _ in range(3)
+        ]
+        loops = [characteristic(self.system.closed(F)) for F in self.gains]
+        self.generic = []
+        for p in bivariate.common_factors(loops):
+            t = self.rng.randrange(10**3, 10**6)
+            block = self._generic_block(p, t)
+            if block is None:
+                return False
+            self.generic.append((p, block))
+        self.psi = loops
+        for p, _ in self.generic:
+            self.psi = [without(psi, p) for psi in self.psi]
+        return all(bivariate.are_coprime(self.psi[0], psi) for psi in self.psi[1:])
+
+    def _generic_block(self, p: Bivariate, t: int) -> ZeroBlock | None:
+        """A zero block for the roots of p, if they are fixed at a drawn value of t."""
+        at_t = line(t)
+        factor = bivariate.factors(bivariate.reduced(p, at_t), at_t)[-1]
+        T = responsible_channels(self.system, at_t, factor, self.rng)
+        return None if T is None else generic_zero_block(self.system, T, p)
+
+    @property
+    def _has_range(self) -> bool:
+        return self.system.system.ranges[0] != (None, None)
+
+    def _in_range(self, q: Polynomial) -> bool:
+        bounds = self.system.system.ranges[0]
+        return any(meets(disc, bounds) for disc in _discs(q))
+
+    def _decided(self, value: Polynomial) -> _Candidate:
+        """What is fixed at the roots of an irreducible polynomial."""
+        q = value._rational
+        common = bivariate.reduced(self.psi[0], q)
+        for psi in self.psi[1:]:
+            common = bivariate.gcd(common, bivariate.reduced(psi, q), q)
+        known = [bivariate.reduced(g, q) for g, _ in self.generic]
+        if value not in self.modes:
+            new = [
+                p
+                for p in bivariate.factors(common, q)
+                if all(bivariate.divided(g, p, q)[1] for g in known)
+            ]
+            self.modes[value] = [found for p in new if (found := self._mode(q, p)) is not None]
+        return _Candidate(q, self.modes[value], self._shared(q, known))
+
+    def _mode(self, q: Any, p: Bivariate) -> _Mode | None:
+        """A mode at the roots of q with its evidence, if it is fixed."""
+        T = responsible_channels(self.system, q, p, self.rng)
+        if T is None:
+            return None
+        block = zero_block(self.system, T, q, p)
+        if block is None:
+            raise InternalError("a mode that is fixed modulo a prime is not fixed")
+        return p, T, block
+
+    def _values(self) -> list[Polynomial]:
+        """Candidates: the irreducible factors that two resultants have in common."""
+        stream = primes(self.rng.getrandbits(64), _BITS)
+        # det(xI − A_G) keeps its generic factors, so the second resultant has their roots as well
+        second = functools.reduce(bivariate.product, (p for p, _ in self.generic), self.psi[2])
+        known = [c for f in (*self.psi, second) for c in f]
+        usable = (ell for ell in stream if self._is_defined(known, ell))
+        common = bivariate.common_divisor(self.psi[0], self.psi[1], second, usable)
+        found = {q for q, _ in _polynomial(common).factor()}
+        return sorted(found, key=lambda q: (q.degree, q.coefficients))
+
+    def _is_defined(self, known: list[Any], ell: int) -> bool:
+        """Whether a prime divides no denominator."""
+        denominators = bivariate.denominators(known)
+        return self.system.is_defined_modulo(ell) and all(d % ell for d in denominators)
+
+    def _shared(self, q: Any, known: list[Bivariate]) -> list[Bivariate]:
+        """Divisors of generic polynomials that divide what is left of det(xI − A_E)."""
+        left, found = bivariate.reduced(self.psi[0], q), []
+        for p in known:
+            while len(g := bivariate.gcd(left, p, q)) > 1:
+                found.append(g)
+                left = without(left, g, q)
+        return found
+
+    def _moved(self, decided: list[_Candidate], others: list[Polynomial]) -> MovingGains:
+        """A prime ℓ, and gains that move all that is not fixed, modulo it."""
+        stream = primes(self.rng.getrandbits(64), _BITS)
+        values = [*(each.q for each in decided), *(q._rational for q in others)]
+        known = [c for psi in self.psi for c in psi] + values
+        for _ in range(_DRAWS):
+            ell = next(stream)
+            if not self._is_defined(known, ell):
+                continue
+            gains = self.system.drawn_gains(lambda ell=ell: self.rng.randrange(ell))
+            moved = MovingGains(self.system, self.psi[0], self.psi[1], gains, ell)
+            if all(
+                moved.is_complete(each.q, [*(mode for mode, _, _ in each.modes), *each.divisors])
+                for each in decided
+            ) and moved.is_nothing_else(values):
+                return moved
+        raise InternalError("no drawn gains move all that is not fixed")
+
+    def _moduli(self) -> tuple[int, ...]:
+        """Primes whose product is above twice the coefficients of the first resultant."""
+        first, second = self.psi[0], self.psi[1]
+        sizes = bivariate.size(first), bivariate.size(second)
+        least = 2 * sizes[0] ** (len(second) - 1) * sizes[1] ** (len(first) - 1)
+        found: list[int] = []
+        while math.prod(found) <= least:
+            found.append(long_prime(self.rng, _LONG_BITS))
+        return tuple(found)
+
+    def _exceptional(self, each: _Candidate) -> ExceptionalValue:
+        q, names = _polynomial(each.q), self.system.system.names
+        return ExceptionalValue(
+            value=q,
+            roots=_discs(q),
+            modes=tuple(
+                ExceptionalMode(
+                    polynomials(p), tuple(n for i, n in enumerate(names) if i not in set(T))
+                )
+                for p, T, _ in each.modes
+            ),
+        )
+
+
+def _polynomial(q: Any) -> Polynomial:
+    return polynomials([q])[0]
+
+
+def _discs(q: Polynomial) -> tuple[RootDisc, ...]:
+    return tuple(RootDisc(disc.re, disc.im, disc.radius) for disc in root_discs(q))
+
+
+# For which values of a parameter channels control or observe every mode.
+
+
+def parametric_controllability(
+    system: ParametricSystem, channels: Iterable[str] | None = None, observed: bool = False
+) -> ParametricFixedSpectrum:
+    """Decide for which values of a parameter (A, B_T) is controllable.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    channels : iterable of str, optional
+        T, names of channels, at least one; by default all.
+    observed : bool
+        Whether to ask for observability of (C_T, A), which is controllability of the dual system.
+
+    Returns
+    -------
+    ParametricFixedSpectrum
+        The answer about the system of one channel with the inputs of T that measures the whole
+        state: what is fixed there is what T does not control.
+
+    Examples
+    --------
+    >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
+    >>> print(*parametric_controllability(plant).words)
+    the roots of x - 1 where t = 0
+    """
+    chosen = system.names if channels is None else system.named(system.indices(channels))
+
+    def alone(plain: MultiChannelSystem) -> MultiChannelSystem:
+        made = dual(plain) if observed else plain
+        if set(chosen) != set(made.names):
+            made = restricted(made, chosen)
+        if made.m > 1:
+            made = merged(made, [made.names])
+        return full_output(made, 0)
+
+    return parametric_fixed_spectrum(moved(system, alone))
+
+
+# The least dimensions that agents must share for every value of a parameter.
+
+_MOST = 10_000
+"""The most dimensions that are tried with one sum."""
+
+
+@dataclass(frozen=True)
+class ParametricSharing:
+    """The least dimensions of shared sub-states with which no mode is fixed for any value.
+
+    Attributes
+    ----------
+    dimensions : tuple of int or None
+        n_1 … n_m with the least sum, the lexicographically least of these; None if none suffice.
+    spectrum : ParametricFixedSpectrum
+        The answer about the extended system with these dimensions, or if none suffice with n for
+        each agent.
+    refused : tuple of ParametricFixedSpectrum
+        The answers for all dimensions whose sum is one less, with each of which a mode is fixed for
+        almost every value or at some; fewer dimensions leave no less.
+    """
+
+    dimensions: tuple[int, ...] | None
+    spectrum: ParametricFixedSpectrum
+    refused: tuple[ParametricFixedSpectrum, ...]
+
+    @property
+    def certificates(self) -> tuple[ParametricFixedSpectrum, ...]:
+        """The answers that prove it."""
+        return self.spectrum, *self.refused
+
+
+def shared_dimensions_for_every_value(
+    system: ParametricSystem, graph: NeighborGraph, share: Share = "outputs+states"
+) -> ParametricSharing:
+    """Compute the least dimensions that suffice for every complex value of a parameter.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        With one parameter.
+    graph : NeighborGraph
+        Who receives whose messages, without delay.
+    share : {"outputs+states", "states"}
+
+    Raises
+    ------
+    LimitReached
+        If too many dimensions would have to be tried.
+
+    Notes
+    -----
+    Exact.  All dimensions are tried, sum after sum, and one sum is excluded by what is fixed with
+    each; of these the last are kept.  A range that is assumed counts: values beyond it do not.
+
+    Examples
+    --------
+    >>> plant = ParametricSystem(
+    ...     [[1, 0, 0], ["t", 1, 0], [0, 1, 1]],
+    ...     [[[1], [0], [0]], [[0], [1], [0]], [[1], [0], [0]]],
+    ...     [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 1, 0]]],
+    ...     parameters=["t"],
+    ... )
+    >>> found = shared_dimensions_for_every_value(plant, NeighborGraph.ring(plant.names))
+    >>> found.dimensions, len(found.refused)
+    ((0, 0, 1), 1)
+    >>> alone = shared_dimensions_for_every_value(plant, NeighborGraph.empty(plant.names))
+    >>> alone.dimensions, [str(each.value) for each in alone.spectrum.exceptional]
+    (None, ['x'])
+    """
+
+    def asked(sizes: tuple[int, ...]) -> ParametricFixedSpectrum:
+        return parametric_fixed_spectrum(extended_system(system, sizes, share, graph))
+
+    enough = asked((system.n,) * system.m)
+    if _fixes(enough):
+        return ParametricSharing(None, enough, ())
+    refused: list[ParametricFixedSpectrum] = []
+    for total in range(system.n * system.m):
+        tried: list[ParametricFixedSpectrum] = []
+        for sizes in _with_sum(total, system.m):
+            if len(tried) >= _MOST:
+                raise LimitReached(f"more than {_MOST} dimensions have the sum {total}")
+            tried.append(asked(sizes))
+            if not _fixes(tried[-1]):
+                return ParametricSharing(sizes, tried[-1], tuple(refused))
+        refused = tried
+    return ParametricSharing((system.n,) * system.m, enough, tuple(refused))
+
+
+def _fixes(found: ParametricFixedSpectrum) -> bool:
+    """Whether a mode is fixed for almost every value, or at some."""
+    return bool(found.generic or found.exceptional)
+
+
+def _with_sum(total: int, m: int) -> Iterator[tuple[int, ...]]:
+    """All dimensions of m agents with this sum, in lexicographic order."""
+    if m == 1:
+        yield (total,)
+        return
+    for first in range(total + 1):
+        for rest in _with_sum(total - first, m - 1):
+            yield (first, *rest)

@@ -1,0 +1,621 @@
+"""Ranks of matrices of polynomials for all values of parameters."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice
+from typing import Any, TypeVar
+
+from mcexact.answer.evidence import RootDisc
+from mcexact.answer.exceptional_hypersurfaces import A, Hypersurface, Line, RankHypersurfaces
+from mcexact.answer.parameter_values import OutsideValue, meets
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
+from mcexact.answer.parametric_rank import (
+    ControllabilityMatrix,
+    Kernel,
+    LowerRank,
+    ParametricRank,
+    SetpointMatrix,
+    SignalMatrix,
+    TransferColumn,
+    TwoMinors,
+)
+from mcexact.derived.constructions import along_line, dual, moved, points_of
+from mcexact.derived.modular import PolynomialSystem, generator
+from mcexact.errors import InputError, InternalError, LimitReached
+from mcexact.exact import bivariate, rational_functions
+from mcexact.exact.bivariate import (
+    ZERO,
+    determinant,
+    determinant_modulo,
+    entries_of,
+    generic_kernel,
+    kernel_modulo,
+    matrix_of,
+    matrix_product,
+)
+from mcexact.exact.bivariate import Kernel as Columns
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import ModularMatrix, primes
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
+from mcexact.exact.roots import root_discs, steady_point
+from mcexact.model.parametric import ParametricSystem
+
+# Matrices made from those of a system, by name, over the polynomials in one or more parameters.
+
+Named = SetpointMatrix | SignalMatrix | ControllabilityMatrix | TransferColumn
+Rows = list[list[Any]]
+
+
+@dataclass(frozen=True)
+class Entries:
+    """A', B_i' and C_i' by their entries, polynomials of one ring, and how these are multiplied.
+
+    Attributes
+    ----------
+    names : sequence of str
+        The channels.
+    A, B, C
+        The rows of A', and of each B_i' and C_i'.
+    widths : sequence of int
+        The number of columns of each B_i'.
+    scale : polynomial
+        δ.
+    steady : int
+        The mode of constant signals: 0, or in discrete time 1.
+    zero : polynomial
+    product : callable
+        Multiplies two matrices.
+    """
+
+    names: Sequence[str]
+    A: Rows
+    B: Sequence[Rows]
+    C: Sequence[Rows]
+    widths: Sequence[int]
+    scale: Any
+    steady: int
+    zero: Any
+    product: Callable[[Rows, Rows], Rows]
+
+    def matrix(self, named: Named) -> Rows:
+        """The rows of a matrix, the rank of which is that of the same matrix from A, B_i, C_i."""
+        if isinstance(named, ControllabilityMatrix):
+            return self._controllability(named)
+        if isinstance(named, TransferColumn):
+            return self._transfer(named)
+        p = Polynomial.of(-self.steady, 1)
+        return self._signal(named.polynomial if isinstance(named, SignalMatrix) else p)
+
+    def columns(self, named: Named) -> int:
+        """How many columns it has."""
+        if isinstance(named, TransferColumn):
+            return 1
+        if isinstance(named, ControllabilityMatrix):
+            pairs = zip(self.names, self.widths, strict=True)
+            return named.blocks * sum(width for name, width in pairs if name in named.channels)
+        times = named.polynomial.degree if isinstance(named, SignalMatrix) else 1
+        return times * (len(self.A) + sum(self.widths))
+
+    def _signal(self, p: Polynomial) -> Rows:
+        """[I⊗A' − K⊗δI, I⊗B'; I⊗C', 0], K the companion matrix of p."""
+        d, n, width = p.degree, len(self.A), sum(self.widths)
+        inputs = [[entry for M in self.B for entry in M[k]] for k in range(n)]
+        outputs = [row for M in self.C for row in M]
+        upper, lower = [], []
+        for i in range(d):
+            for k, row in enumerate(self.A):
+                made = [self.zero] * (d * (n + width))
+                made[i * n : (i + 1) * n] = row
+                if i:
+                    made[(i - 1) * n + k] = made[(i - 1) * n + k] - self.scale
+                last = (d - 1) * n + k
+                c = p.coefficients[i]
+                made[last] = made[last] + self.scale * c.numerator / c.denominator
+                made[d * n + i * width : d * n + (i + 1) * width] = inputs[k]
+                upper.append(made)
+            for row in outputs:
+                made = [self.zero] * (d * (n + width))
+                made[i * n : (i + 1) * n] = row
+                lower.append(made)
+        return upper + lower
+
+    def _controllability(self, named: ControllabilityMatrix) -> Rows:
+        chosen = [B for B, name in zip(self.B, self.names, strict=True) if name in named.channels]
+        power = [[entry for M in chosen for entry in M[k]] for k in range(len(self.A))]
+        rows: Rows = [[] for _ in self.A]
+        for _ in range(named.blocks):
+            rows = [row + more for row, more in zip(rows, power, strict=True)]
+            power = self.product(self.A, power)
+        return rows
+
+    def _transfer(self, named: TransferColumn) -> Rows:
+        power = self.B[self.names.index(named.source)]
+        outputs, found = self.C[self.names.index(named.to)], []
+        for _ in self.A:
+            columns = zip(*self.product(outputs, power), strict=True)
+            found += [[entry] for column in columns for entry in column]
+            power = self.product(self.A, power)
+        return found
+
+
+# Ranks of matrices of polynomials in a parameter, for all its values.
+
+_BITS = 61
+_DRAWS = 60
+
+
+def parametric_rank(system: ParametricSystem, matrix: Named) -> ParametricRank:
+    """Decide the rank of a matrix for all values of a parameter.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        With one parameter.
+    matrix : SetpointMatrix, SignalMatrix, ControllabilityMatrix or TransferColumn
+
+    Notes
+    -----
+    Exact, for every complex value at which all entries of the plant are defined.  The roots of one
+    minor of full order are the candidates; each irreducible factor is decided modulo a prime in
+    which it has a root, and what is lost there is proved by a kernel over its number field.  That
+    no other value counts is proved by a second, drawn minor modulo a prime.
+    """
+    return _Search(PolynomialSystem(system), matrix).found()
+
+
+class _Search:
+    """One minor, what is lost at its roots, and another minor that has no other root in common."""
+
+    def __init__(self, system: PolynomialSystem, matrix: Named) -> None:
+        self.system, self.matrix = system, matrix
+        self.rng = generator(system.system, "parametric_rank")
+        entries = _entries(system)
+        self.rows, self.ncols = entries.matrix(matrix), entries.columns(matrix)
+        self.M = matrix_of(self.rows, self.ncols)
+        self.stream = primes(self.rng.getrandbits(64), _BITS)
+
+    def found(self) -> ParametricRank:
+        """The answer."""
+        above, beside = self._pivots()
+        rank, bounds = len(above), self.system.system.ranges[0]
+        minor = determinant(self.M.take(rows=above, cols=beside))
+        factors = [q for q, _ in _polynomial(minor).factor()]
+        undefined = [q for q in factors if q in self.system.poles]
+        lost = [
+            q for q in factors if q not in self.system.poles and self._rank_at(q._rational) < rank
+        ]
+        discs = {q: tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(q)) for q in lost}
+        outside = [
+            q
+            for q in lost
+            if bounds != (None, None) and not any(meets(disc, bounds) for disc in discs[q])
+        ]
+        exceptional = [q for q in lost if q not in outside]
+        kernels = [self._kernel(kernel_modulo(self.rows, self.ncols, q)) for q in exceptional]
+        ranks = [self.ncols - len(kernel.pivots) for kernel in kernels]
+        rest = bivariate.freed(minor, [q._rational for q in [*lost, *undefined]])
+        full = rank == min(len(self.rows), self.ncols)
+        ell, X_, Y = self._drawn(rank, rest, list(zip(exceptional, ranks, strict=True)))
+        return ParametricRank(
+            self.system.system,
+            matrix=self.matrix,
+            rank=rank,
+            exceptional=tuple(
+                LowerRank(q, discs[q], r) for q, r in zip(exceptional, ranks, strict=True)
+            ),
+            outside=tuple(OutsideValue(q, discs[q]) for q in outside),
+            evidence=TwoMinors(
+                kernel=None if full else self._kernel(generic_kernel(self.rows, self.ncols)),
+                rows=above,
+                columns=beside,
+                modulus=ell,
+                compressions=(X_, Y),
+                exceptional=tuple(kernels),
+                undefined=tuple(undefined),
+            ),
+        )
+
+    def _pivots(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Rows and columns of a minor of full order that is not 0."""
+        ell = next(ell for ell in self.stream if self.M.denominator % ell)
+        value = self.M.at_residue(self.rng.randrange(ell), ell)
+        columns = tuple(value.rref()[1])
+        return tuple(value.take(cols=columns).T.rref()[1]), columns
+
+    def _rank_at(self, q: Any) -> int:
+        """The rank at a root of q modulo a prime, which is nearly always that at a root of q."""
+        for ell in self.stream:
+            if self.M.denominator % ell == 0 or int(q.denom()) % ell == 0:
+                continue
+            for root, _ in bivariate.residues(q, ell).roots():
+                return self.M.at_residue(int(root), ell).rank()
+        raise InternalError("no prime has a root of the polynomial")
+
+    def _kernel(self, found: Columns) -> Kernel:
+        pivots, vectors = found
+        rows = [[v[i][0] for v in vectors] for i in range(self.ncols)]
+        return Kernel(matrix_of(rows, len(vectors)), pivots)
+
+    def _drawn(
+        self, rank: int, rest: Any, values: list[tuple[Polynomial, int]]
+    ) -> tuple[int, Matrix, Matrix]:
+        """A prime, and X and Y whose minors have no other root in common with the first one."""
+        for attempt in range(1, _DRAWS):
+            ell = next(self.stream)
+            known = [rest, *(q._rational for q, _ in values)]
+            if self.M.denominator % ell == 0 or any(int(p.denom()) % ell == 0 for p in known):
+                continue
+            X_, Y = (
+                Matrix.from_integers(
+                    [[self.rng.randint(-attempt, attempt) for _ in range(c)] for _ in range(r)],
+                    ncols=c,
+                )
+                for r, c in ((rank, len(self.rows)), (self.ncols, rank))
+            )
+            small = X_ @ self.M @ Y
+            corners = [(q, small.take(rows=range(r), cols=range(r))) for q, r in values]
+            pairs = [(rest, small), *((q._rational, corner) for q, corner in corners)]
+            if all(
+                bivariate.is_coprime_modulo(p, determinant_modulo(M, ell), ell) for p, M in pairs
+            ):
+                return ell, X_, Y
+        raise InternalError("no drawn minors have a root in common where the rank is less")
+
+
+def _polynomial(p: Any) -> Polynomial:
+    return bivariate.polynomials([p])[0]
+
+
+def _entries(system: PolynomialSystem) -> Entries:
+    """The entries of A', B_i' and C_i' as polynomials of flint."""
+    return Entries(
+        names=system.system.names,
+        A=entries_of(system.A),
+        B=[entries_of(M) for M in system.B],
+        C=[entries_of(M) for M in system.C],
+        widths=[M.ncols for M in system.B],
+        scale=system.scale._rational,
+        steady=steady_point(system.system.time),
+        zero=ZERO,
+        product=matrix_product,
+    )
+
+
+# Lines through the space of several parameters, along which candidates are confirmed by proofs.
+
+DRAWS = 60
+"""How often gains or minors are drawn."""
+_LINES = 2
+"""The number of lines along which the answer is proved."""
+Along = ParametricFixedSpectrum | ParametricRank
+Confirmed = dict[RationalFunction, list[Any]]
+"""The exceptional values of all lines on each hypersurface."""
+
+
+def confirming_lines(
+    about: ParametricSystem,
+    decide: Callable[[ParametricSystem], A],
+    is_generic: Callable[[A], bool],
+    candidates: Sequence[RationalFunction],
+    rng: random.Random,
+) -> tuple[tuple[Line[A], ...], Confirmed] | None:
+    """Draw lines along which the candidates are the exceptional values, or some of them are.
+
+    Parameters
+    ----------
+    about : ParametricSystem
+    decide : callable
+        Answers the question about the system along a line, with a proof.
+    is_generic : callable
+        Whether an answer says for almost all values of a line what holds for almost all values.
+    candidates : sequence of RationalFunction
+    rng : random.Random
+
+    Returns
+    -------
+    tuple or None
+        The lines, and the candidates that are exceptional; None if lines disagree.
+    """
+    lines: list[Line[A]] = []
+    confirmed: Confirmed = {}
+    for attempt in range(_LINES + 2):
+        try:
+            line = _line(about, rng, 3 + attempt)
+        except InputError:
+            continue
+        at = points_of(line)
+        met = {h: _values(h, at) for h in candidates}
+        if any(values & {*line.poles} for values in met.values()):
+            continue  # nothing is said where an entry is undefined
+        answer = decide(line)
+        found = _confirmed(answer, met)
+        if found is None or not is_generic(answer):
+            continue
+        if lines and found.keys() != confirmed.keys():
+            return None
+        for h, values in found.items():
+            confirmed.setdefault(h, []).extend(values)
+        lines.append(Line(at, answer))
+        if len(lines) == _LINES:
+            return tuple(lines), confirmed
+    return None
+
+
+def poles(parts: Collection[FunctionMatrix], names: tuple[str, ...]) -> set[RationalFunction]:
+    """The irreducible factors of the denominators of matrices."""
+    return {
+        rational_functions.in_parameters(q, names)
+        for M in parts
+        for q in rational_functions.factors(rational_functions.cleared(M, names)[1])
+    }
+
+
+def in_order(surfaces: Collection[RationalFunction]) -> list[RationalFunction]:
+    """Polynomials in parameters in a fixed order, those of low degree first."""
+    return sorted(surfaces, key=lambda h: (int(h.numerator.total_degree()), str(h)))
+
+
+def _line(about: ParametricSystem, rng: random.Random, size: int) -> ParametricSystem:
+    """The system on a line through a drawn point in a drawn direction.
+
+    Raises
+    ------
+    InputError
+        If an entry is undefined on all of the line.
+    """
+    slopes = [k for k in range(-size, size + 1) if k]
+    drawn = {name: (rng.choice(slopes), rng.randint(-size, size)) for name in about.parameters}
+    point, direction = ({name: ends[k] for name, ends in drawn.items()} for k in (1, 0))
+    return along_line(about, point, direction, _letter(about.parameters))
+
+
+def _letter(parameters: Collection[str]) -> str:
+    """The parameter of the lines, which is none of the system: s, or s1, s2, …"""
+    known = ("s" + str(k or "") for k in range(len(parameters) + 1))
+    return next(s for s in known if s not in parameters)
+
+
+def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Polynomial]:
+    """The values at which a line meets a hypersurface, as monic irreducible polynomials.
+
+    None of them says that all do, or none: along such a line nothing is confirmed.
+    """
+    values = [at[name] for name in h.parameters]
+    met = h.substituted(values, values[0] * 0).polynomials()[0]
+    return set() if met.is_zero() else {q.monic() for q, _ in met.factor()}
+
+
+def _confirmed(answer: Along, met: Mapping[RationalFunction, set[Polynomial]]) -> Confirmed | None:
+    """The candidates that are exceptional; None if they are not all that is."""
+    found = {each.value: each for each in answer.exceptional}
+    if found.keys() - set().union(*met.values()):
+        return None
+    confirmed: Confirmed = {}
+    for h, values in met.items():
+        if not values or 0 < len(values & found.keys()) < len(values):
+            return None
+        if values <= found.keys():
+            confirmed[h] = [found[q] for q in values]
+    return confirmed
+
+
+# Where a matrix of polynomials in several parameters has less than its generic rank.
+
+_LINE_BITS = 61
+
+
+def rank_for_all_values(
+    system: ParametricSystem, matrix: Named
+) -> ParametricRank | RankHypersurfaces:
+    """Decide the rank of a matrix for all values of one parameter, or almost all of several."""
+    if len(system.parameters) == 1:
+        return parametric_rank(system, matrix)
+    return rank_hypersurfaces(system, matrix)
+
+
+def rank_hypersurfaces(
+    system: ParametricSystem, matrix: Named, *, observed: bool = False
+) -> RankHypersurfaces:
+    """Decide the rank of a matrix for almost all values of parameters, and where it is less.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    matrix : SetpointMatrix, SignalMatrix, ControllabilityMatrix or TransferColumn
+    observed : bool
+        Whether it is made from the dual system.
+
+    Notes
+    -----
+    Exact.  Where the rank is less, one minor of full order is 0 that is not 0 everywhere: its
+    irreducible factors are the candidates.  Of these, the ones are kept on which the rank is less
+    along drawn lines, where it is proved for every value.
+    """
+    rng = generator(system, "rank_hypersurfaces")
+    names, entries = (
+        system.parameters,
+        _entries_on_lines(moved(system, dual) if observed else system),
+    )
+    rows, width = entries.matrix(matrix), entries.columns(matrix)
+    parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
+    undefined = poles(parts, names)
+    for ell in islice(primes(rng.getrandbits(64), _LINE_BITS), DRAWS):
+        above, beside = _pivots(rows, width, [rng.randrange(ell) for _ in names], ell)
+        minor = [[rows[i][j] for j in beside] for i in above]
+        factors = rational_functions.factors(rational_functions.determinant(minor, names))
+        candidates = [rational_functions.in_parameters(h, names) for h in factors]
+
+        def is_generic(answer: ParametricRank, rank: int = len(above)) -> bool:
+            return answer.rank == rank
+
+        def decide(line: ParametricSystem) -> ParametricRank:
+            return parametric_rank(moved(line, dual) if observed else line, matrix)
+
+        left = [h for h in candidates if h not in undefined]
+        made = confirming_lines(system, decide, is_generic, left, rng)
+        if made is not None:
+            break
+    else:
+        raise LimitReached("no drawn point has the rank of almost all")
+    lines, confirmed = made
+    return RankHypersurfaces(
+        about=system,
+        hypersurfaces=tuple(
+            Hypersurface(h, rank=max(value.rank for value in confirmed[h]))
+            for h in in_order(confirmed)
+        ),
+        undefined_at=tuple(in_order(undefined)),
+        lines=lines,
+        matrix=matrix,
+        rank=len(above),
+    )
+
+
+def _entries_on_lines(system: ParametricSystem) -> Entries:
+    """The entries of A', B_i' and C_i' as polynomials in all parameters."""
+    names = system.parameters
+    zero = rational_functions.ring(names).constant(0)
+    A, scale = rational_functions.cleared(system.A, names)
+    return Entries(
+        names=system.names,
+        A=A,
+        B=[rational_functions.cleared(c.B, names)[0] for c in system.channels],
+        C=[rational_functions.cleared(c.C, names)[0] for c in system.channels],
+        widths=[c.B.ncols for c in system.channels],
+        scale=scale,
+        steady=steady_point(system.time),
+        zero=zero,
+        product=partial(rational_functions.product, zero=zero),
+    )
+
+
+def _pivots(
+    rows: Rows, width: int, point: list[int], ell: int
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Rows and columns of a minor of full order that is not 0 at a point modulo a prime."""
+
+    def residue(entry: Any) -> int:
+        value = rational_functions.value(entry, point)
+        return int(value.p) * pow(int(value.q), -1, ell) % ell
+
+    table = [[residue(entry) for entry in row] for row in rows]
+    value = ModularMatrix.from_rows(table, ell, ncols=width)
+    columns = tuple(value.rref()[1])
+    return tuple(value.take(cols=columns).T.rref()[1]), columns
+
+
+# Set-points and controllability indices for all values of one parameter or several.
+
+R = TypeVar("R", ParametricRank, RankHypersurfaces)
+
+
+def parametric_setpoints(system: ParametricSystem) -> ParametricRank:
+    """The rank of [A, B; C, 0], or [A − I, B; C, 0], for all values of a parameter.
+
+    Examples
+    --------
+    >>> plant = ParametricSystem([[-1]], [[["1 - t"]]], [[[1]]], parameters=["t"])
+    >>> found = parametric_setpoints(plant)
+    >>> found.words
+    ('rank 2 for almost every t', 'rank 1 where t = 1')
+    """
+    return parametric_rank(system, SetpointMatrix())
+
+
+def setpoint_rank(system: ParametricSystem) -> ParametricRank | RankHypersurfaces:
+    """The same for one parameter or several."""
+    return rank_for_all_values(system, SetpointMatrix())
+
+
+def signal_solvability(
+    system: ParametricSystem, signal: Polynomial
+) -> ParametricRank | RankHypersurfaces:
+    """Decide for which values of parameters all outputs can track the signals of a polynomial.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    signal : Polynomial
+        Its roots are the modes of the signals: s for steps and ramps, s² + ω² for sinusoids of the
+        angular frequency ω, in discrete time z − 1 for steps.  Multiplicities do not matter.
+
+    Returns
+    -------
+    ParametricRank or RankHypersurfaces
+        The rank of [I⊗A − K⊗I, I⊗B; I⊗C, 0], K the companion matrix of the polynomial, of degree d:
+        where it is d (n + Σ q_i), and nowhere else, [A − λI, B; C, 0] has independent rows at every
+        root λ, so that every reference and every disturbance of these signals has a steady state.
+
+    Notes
+    -----
+    Exact.  With one parameter the certificate is about all values; with several there is one along
+    each line.
+
+    Examples
+    --------
+    >>> A = [[0, 1, 0], [0, 0, 1], [-1, -3, -3]]
+    >>> plant = ParametricSystem(A, [[[0], [0], [1]]], [[["t", 0, 1]]], parameters=["t"])
+    >>> signal_solvability(plant, Polynomial.of(4, 0, 1)).words
+    ('rank 8 for almost every t', 'rank 6 where t = 4')
+    >>> signal_solvability(plant, Polynomial.of(0, 1)).words
+    ('rank 4 for almost every t', 'rank 3 where t = 0')
+    """
+    InputError.require(system, ParametricSystem, "system")
+    InputError.require(signal, Polynomial, "signal")
+    if signal.degree < 1:
+        raise InputError(f"expected a polynomial with roots, found {signal}", where="signal")
+    return rank_for_all_values(system, SignalMatrix(signal.monic()))
+
+
+def parametric_indices(
+    system: ParametricSystem, channels: Iterable[str] | None = None, *, observed: bool = False
+) -> tuple[ParametricRank, ...]:
+    """The ranks of [B_T, A B_T, …, A^(k−1) B_T] for k = 1, 2, …, until none grows at any value.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    channels : iterable of str, optional
+        T, by default all.
+    observed : bool
+        Whether they are those of the dual system.
+
+    Returns
+    -------
+    tuple of ParametricRank
+        One for each k; the last two say the same unless the last k is n, so that no rank grows
+        further at any value.
+    """
+    about = moved(system, dual) if observed else system
+    return _growing(about, channels, lambda matrix: parametric_rank(about, matrix))
+
+
+def indices_for_all_values(
+    system: ParametricSystem, channels: Iterable[str] | None = None, *, observed: bool = False
+) -> tuple[ParametricRank | RankHypersurfaces, ...]:
+    """The same for one parameter or several."""
+    if len(system.parameters) == 1:
+        return parametric_indices(system, channels, observed=observed)
+    return _growing(
+        system, channels, lambda matrix: rank_hypersurfaces(system, matrix, observed=observed)
+    )
+
+
+def _growing(
+    system: ParametricSystem,
+    channels: Iterable[str] | None,
+    decide: Callable[[ControllabilityMatrix], R],
+) -> tuple[R, ...]:
+    """The answers for more and more blocks, until two say the same."""
+    chosen = system.names if channels is None else system.named(system.indices(channels))
+    found: list[R] = []
+    for k in range(1, max(system.n, 1) + 1):
+        found.append(decide(ControllabilityMatrix(chosen, k)))
+        if k > 1 and found[-1].said == found[-2].said:
+            break
+    return tuple(found)

@@ -1,1 +1,0 @@
-"""The least that agents must share, and the links over which."""

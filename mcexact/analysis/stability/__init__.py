@@ -1,1 +1,0 @@
-"""The location of the eigenvalues of a closed loop, decided exactly."""

@@ -1,1 +1,0 @@
-"""Structure of a system: controllability, indices, transfer graph, set-points, subsystems."""
