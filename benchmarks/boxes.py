@@ -47,7 +47,7 @@ from mcexact import (
 from mcexact.analysis.boxes.cover import Outside
 from mcexact.analysis.boxes.members import FixedModeSearch
 from mcexact.analysis.boxes.pencils import radii_of
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.derived.drawn.networks import network_system
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode

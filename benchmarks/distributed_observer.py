@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 import mcexact.checker
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.exact.matrix import largest_entry, matrix_to_float
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

@@ -15,8 +15,8 @@ from benchmarks import peers
 from benchmarks.measure import interleaved, processor_seconds
 from mcexact import analyze, checker
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
-from mcexact.answer.codec import encode
-from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.modes import FixedSpectrum
+from mcexact.answer.protocol import encode
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.exact.matrix import Matrix

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from benchmarks.fixed_spectrum import Row, copied_out
 from benchmarks.measure import processor_seconds
 from mcexact import analyze
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.derived.drawn.systems import Draw, drawn_system
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from benchmarks.fixed_spectrum import Row
 from benchmarks.measure import processor_seconds
 from mcexact import ParametricSystem, fixed_spectrum
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.checker import Verdict, check_document
 
 LIMITS = {

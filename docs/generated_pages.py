@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 import mcexact
-from mcexact.answer.formats import count
+from mcexact.answer.templates import count
 from mcexact.cli import command_line
 from mcexact.crosschecks.gallery import exhibits, shown
 from mcexact.model import gallery

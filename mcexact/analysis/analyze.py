@@ -27,10 +27,9 @@ from mcexact.analysis.sharing import (
     neighbor_graph,
     shared_dimension_bound,
 )
-from mcexact.answer.account import Account, ShownByAccount
-from mcexact.answer.parametric_account import ParametricAccount
+from mcexact.answer.account import Account, ParametricAccount, ShownByAccount
 from mcexact.answer.protocol import Answer
-from mcexact.answer.rules import ALLOCATION, ANALYSIS, LINKS, with_own
+from mcexact.answer.rulebook import ALLOCATION, ANALYSIS, LINKS, with_own
 from mcexact.answer.sentence import Given, Sentences
 from mcexact.derived.constructions import Share
 from mcexact.errors import (

@@ -19,14 +19,18 @@ from mcexact.analysis.blocks import (
 from mcexact.analysis.parameters.modes import parametric_controllability
 from mcexact.analysis.parameters.ranks import parametric_indices
 from mcexact.analysis.sparse import annihilator
-from mcexact.answer.controllability import ByBlocks, ByRank, JointControllability
-from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.answer.evidence import Block, RootDisc
-from mcexact.answer.exceptional_gains import ExceptionalFactor, ExceptionalSet
-from mcexact.answer.fixed_spectrum import ByBlocks as FixedByBlocks
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.answer.parametric_rank import ParametricRank
+from mcexact.answer.modes import ByBlocks as FixedByBlocks
+from mcexact.answer.modes import FixedSpectrum
+from mcexact.answer.parameters import ParametricFixedSpectrum, ParametricRank
+from mcexact.answer.structure import (
+    ByBlocks,
+    ByRank,
+    ControllabilityIndices,
+    ExceptionalFactor,
+    ExceptionalSet,
+    JointControllability,
+)
 from mcexact.derived.constructions import dual
 from mcexact.derived.modular import generator, residue_systems
 from mcexact.errors import Impossible, InputError, InternalError

@@ -28,27 +28,27 @@ from mcexact.analysis.structure import (
     zero_transfer,
 )
 from mcexact.analysis.subspaces import Decision, Obstruction, decide, evidence
-from mcexact.answer.assignability import Assignability, MinimalRealization, SpectrumBlock
-from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
-from mcexact.answer.completeness import (
+from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
+from mcexact.answer.loops import ClosedLoopSpectrum
+from mcexact.answer.modes import (
+    Assignability,
     BlocksWitness,
+    ByBlocks,
     Completeness,
+    Completion,
     CutWitness,
     Evidence,
-    FixedModeWitness,
-    FreedomWitness,
-)
-from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
-from mcexact.answer.fixed_spectrum import (
-    ByBlocks,
-    Completion,
     FixedFactor,
+    FixedModeWitness,
     FixedSpectrum,
+    FreedomWitness,
+    MinimalRealization,
+    PencilRank,
+    SpectrumBlock,
     TwoPolynomials,
 )
-from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.answer.pencil_rank import PencilRank
-from mcexact.answer.transfer_graph import TransferGraph
+from mcexact.answer.parameters import ParametricFixedSpectrum
+from mcexact.answer.structure import TransferGraph
 from mcexact.derived.modular import (
     ModularSystem,
     closed_loop,

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from mcexact.answer.stability import InstabilityMethod
+from mcexact.answer.loops import InstabilityMethod
 from mcexact.exact.matrix import (
     Matrix,
     block_diagonal,

@@ -35,13 +35,18 @@ from mcexact.analysis.subspaces import (
     exact_subspace,
     obstruction_modulo,
 )
-from mcexact.answer.common_dimension import CommonDimension
-from mcexact.answer.communication import MinimalCommunication
-from mcexact.answer.covering import Absence, BlocksAbsence, ConnectivityCut, DeficiencyCut, LinkCut
-from mcexact.answer.deficiency import ByBlocks, ByCompletion, Deficiency, RankLoss
-from mcexact.answer.fixed_spectrum import ByBlocks as FixedByBlocks
-from mcexact.answer.neighbor_graph import NeighborGraphVerdict
-from mcexact.answer.shared_dimensions import SharedDimensions
+from mcexact.answer.evidence import Absence, BlocksAbsence, ConnectivityCut, DeficiencyCut, LinkCut
+from mcexact.answer.modes import ByBlocks as FixedByBlocks
+from mcexact.answer.sharing import (
+    ByBlocks,
+    ByCompletion,
+    CommonDimension,
+    Deficiency,
+    MinimalCommunication,
+    NeighborGraphVerdict,
+    RankLoss,
+    SharedDimensions,
+)
 from mcexact.derived.constructions import (
     Share,
     add_links,

@@ -16,7 +16,7 @@ from typing import Any, Literal
 
 from mcexact.analysis.structure import suspected_edges, zero_transfer
 from mcexact.analysis.subspaces import decide, evidence
-from mcexact.answer.single_channel_gains import (
+from mcexact.answer.structure import (
     GainsWitness,
     SingleChannelGains,
     StuckWitness,

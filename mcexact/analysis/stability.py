@@ -10,10 +10,9 @@ from math import isqrt, lcm, prod
 from typing import Any, Literal, get_args
 
 from mcexact.analysis.lyapunov import QuadraticForm, quadratic_form, separated_instability
-from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
-from mcexact.answer.evidence import RateInterval, RootDisc
-from mcexact.answer.loop_spectrum import LoopSpectrum
-from mcexact.answer.stability import (
+from mcexact.answer.evidence import LoopSpectrum, RateInterval, RootDisc
+from mcexact.answer.loops import (
+    ClosedLoopSpectrum,
     InstabilityMethod,
     LyapunovBlock,
     LyapunovForm,

@@ -20,11 +20,9 @@ from mcexact.analysis.sparse import (
     reachable_pairs,
     sparse_powers,
 )
-from mcexact.answer.complementary_subsystem import ComplementarySubsystem
 from mcexact.answer.evidence import ZeroTransfer
-from mcexact.answer.parametric_rank import ParametricRank
-from mcexact.answer.setpoint import SetpointSolvability
-from mcexact.answer.transfer_graph import TransferGraph
+from mcexact.answer.parameters import ParametricRank
+from mcexact.answer.structure import ComplementarySubsystem, SetpointSolvability, TransferGraph
 from mcexact.derived.modular import ModularSystem, generator, residue_systems
 from mcexact.errors import InputError, InternalError, UsageError
 from mcexact.exact.krylov import InvariantSubspace, controllable_subspace

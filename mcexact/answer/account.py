@@ -1,20 +1,107 @@
-"""Accounts: answers about a system, the sentences that follow from them, and their certificates."""
+"""Answers about a system with their sentences, rows and certificates."""
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from typing import Any
 
-from mcexact.answer import codec
-from mcexact.answer.members import leading
+from mcexact.answer import protocol
+from mcexact.answer.parameters import (
+    ON_LINE,
+    RULES,
+    WITHIN_RANGES,
+    apart_from_poles,
+    joined,
+    undefined_where,
+)
+from mcexact.answer.protocol import Answer
 from mcexact.answer.sentence import MANIFEST, Given, Sentences, manifest
+from mcexact.answer.several_parameters import RULES as SEVERAL
+from mcexact.answer.several_parameters import (
+    Hypersurface,
+    Hypersurfaces,
+    Line,
+    sentences_of_several,
+)
+from mcexact.answer.templates import count
+from mcexact.model.box import radii_in_words
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import canonical, write_text
-from mcexact.shown import Shown
+from mcexact.shown import Shown, grid
+
+# What is said first of a plant with radii: the answers about every plant within them.
+
+QUESTIONS = (
+    "box_fixed_modes",
+    "box_stabilizability",
+    "box_controllability",
+    "box_observability",
+    "box_setpoints",
+)
+
+
+FAILS = {
+    "box_fixed_modes": "some plant has a fixed mode",
+    "box_stabilizability": "some plant is not stabilizable by any such controller",
+    "box_controllability": "some plant is not controllable by all channels together",
+    "box_observability": "some plant is not observable by all channels together",
+}
+"""What is said where a plant within the radii is known that lacks what was asked."""
+
+
+def leading(
+    system: MultiChannelSystem,
+    answers: Mapping[str, Any],
+    open_: Collection[str],
+    failing: Collection[str] = (),
+) -> tuple[str, ...]:
+    """How large the radii are, and the sentences about every plant within them.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    answers : mapping
+        The answers about it by name.
+    open_ : collection of str
+        The questions that were asked and have no answer.
+    failing : collection of str
+        Those of them for which a plant within the radii is known that lacks what was asked.
+
+    Returns
+    -------
+    tuple of str
+        The last one says that what follows is about the nominal values; empty if nothing is said
+        of all plants.
+    """
+    known = [name for name in QUESTIONS if name in answers]
+    if "box_fixed_modes" in known and "box_stabilizability" in known:
+        # A plant without fixed modes is stabilizable.
+        known.remove("box_stabilizability")
+    said = [answers[name].explain() for name in known]
+    said += [f"within the radii: {FAILS[name]}" for name in FAILS if name in failing]
+    if left := _left(answers, {*open_} - {*failing}):
+        said.append(f"within the radii: open, as no proof was found: {', '.join(left)}")
+    return (f"radii: {radii_in_words(system)}", *said, "At the nominal values:") if said else ()
+
+
+def _left(answers: Mapping[str, Any], open_: Collection[str]) -> list[str]:
+    """The questions about every plant within the radii that are told to be open."""
+    told = {*open_} - answers.keys()
+    if "box_fixed_modes" in answers:
+        told.discard("box_stabilizability")
+    if "setpoint" in answers and not answers["setpoint"].solvable:
+        # The nominal plant fails, of which its own sentence tells.
+        told.discard("box_setpoints")
+    return [name.removeprefix("box_").replace("_", " ") for name in QUESTIONS if name in told]
+
+
+# Accounts: answers about a system, the sentences that follow from them, and their certificates.
 
 FORMAT = "mcexact-analysis/1"
 _ANSWER = ("answer", "answer.mode")
@@ -56,7 +143,7 @@ class Account(Shown):
     @cached_property
     def certificates(self) -> dict[str, str]:
         """The text of every certificate, keyed by the name of its file."""
-        return {f"{name}.json": codec.encode(answer) for name, answer in self.answers.items()}
+        return {f"{name}.json": protocol.encode(answer) for name, answer in self.answers.items()}
 
     def manifest(self) -> dict[str, Any]:
         """Return the sentences with their premises, and the digests of the certificates."""
@@ -79,7 +166,7 @@ class Account(Shown):
         if system_by_digest:
             own = self.given.system.digest()
             texts = {
-                f"{name}.json": codec.encode(
+                f"{name}.json": protocol.encode(
                     answer, system_by_digest=answer.about.plant.digest() == own
                 )
                 for name, answer in self.answers.items()
@@ -188,3 +275,242 @@ class ShownByAccount(Shown):
 
     def _html(self) -> str:
         return self.account._html()
+
+
+# Answers about a system with parameters by name, with their sentences, rows and certificates.
+
+PARAMETRIC_FORMAT = "mcexact-parametric-analysis/1"
+LABELS = {
+    "fixed_spectrum": "fixed modes",
+    "completeness": "complete",
+    "joint_controllability": "modes that no channel controls",
+    "joint_observability": "modes that no channel observes",
+    "controllability_indices": "ranks of [B, AB, …] by the number of blocks",
+    "observability_indices": "ranks of [C; CA; …] by the number of blocks",
+    "transfer_graph": "edges of the transfer graph",
+    "setpoint": "rank of the matrix of equilibria",
+    "channel_controllability": "modes that the channel does not control",
+    "channel_observability": "modes that the channel does not observe",
+}
+"""The questions, with what their answers are about."""
+COLUMNS = ("where", "what", "because")
+PROVED = "proved for every point of lines"
+PROOFS = ("about", "line", "what holds on it")
+MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
+"""The questions about modes, of which a table says more than a sentence."""
+_OPEN = (
+    "That no mode is fixed for almost all values is proved by a point at which none is. All else "
+    "about almost all values, and the conditions, is proved along drawn lines; between them it is "
+    "computed and not certified. Where several conditions meet is not decided."
+)
+_PLACES = ("title", "answer", "table")
+Row = tuple[str, str, str]
+
+
+@dataclass(frozen=True, repr=False)
+class ParametricAccount(Shown):
+    """Answers about one system with parameters, for almost all values and at exceptional ones.
+
+    Attributes
+    ----------
+    plant : ParametricSystem
+    answers : mapping
+        The answers by the names of their questions.
+    """
+
+    plant: ParametricSystem
+    answers: Mapping[str, Any]
+
+    @property
+    def several(self) -> bool:
+        """Whether the plant has several parameters: then proofs are about lines."""
+        return len(self.plant.parameters) > 1
+
+    @cached_property
+    def parts(self) -> dict[str, Answer]:
+        """The certificates by name: of several for one question, or along lines, numbered."""
+        found: dict[str, Answer] = {}
+        for name, answer in self.answers.items():
+            if isinstance(answer, Answer):
+                found[name] = answer
+            elif name != "completeness":  # it follows from other answers
+                found |= {f"{name}_{k}": each for k, each in enumerate(_proofs(answer), 1)}
+        return found
+
+    @cached_property
+    def proved(self) -> Account:
+        """The sentences that follow from certificates by rules."""
+        rules = SEVERAL if self.several else RULES
+        return Account(self.parts, self._given, rules.sentences(self.parts, self._given))
+
+    @property
+    def _given(self) -> Given:
+        plant = self.plant
+        bottoms = [entry.denominator for row in plant.A.rows for entry in row]
+        whole = all(bottom.is_constant() for bottom in bottoms)
+        divided = "" if whole else ", divided by the denominator of A"
+        asked = {
+            "parameter": ", ".join(plant.parameters),
+            "parameters": ", ".join(plant.parameters_in_words),
+            "outputs": sum(q for _, q in plant.sizes),
+            "scale": None if self.several else plant.A.reduced[1],
+            "undefined": self._undefined,
+            "divided": divided,
+            "apart": "" if self.several else apart_from_poles(plant),
+        }
+        return Given(plant, asked)
+
+    @property
+    def _undefined(self) -> list[str]:
+        """The values within the ranges at which an entry is undefined, as conditions."""
+        if not self.several:
+            return undefined_where(self.plant)
+        spectra = (each for each in self.answers.values() if isinstance(each, Hypersurfaces))
+        surfaces = [Hypersurface(q) for each in spectra for q in each.undefined_at]
+        return [*dict.fromkeys(str(h) for h in surfaces if h.meets(self.plant))]
+
+    @cached_property
+    def sentences(self) -> Sentences:
+        """The sentences; with several parameters also those that no certificate implies alone."""
+        if self.several:
+            told = sentences_of_several(self.answers, self._given)
+            return Sentences((*self.proved.sentences, *told))
+        return self.proved.sentences
+
+    def at(self, *places: str) -> list[str]:
+        """The sentences of a place, with what is left open behind the answer."""
+        told: list[str] = [*self.sentences.at(*places)]
+        return [*told, _OPEN] if self.several and "answer" in places else told
+
+    @property
+    def certificates(self) -> dict[str, str]:
+        """The text of every certificate, keyed by the name of its file."""
+        return {f"{name}.json": protocol.encode(each) for name, each in self.parts.items()}
+
+    def manifest(self) -> dict[str, Any]:
+        """Return the sentences with their premises, and the digests of the certificates."""
+        return self.proved.manifest()
+
+    def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
+        """Return the certificates and the manifest, by the names of files; none without answers."""
+        if not self.parts:
+            return {}
+        return self.proved.files(system_by_digest=system_by_digest)
+
+    @property
+    def about(self) -> str:
+        """The plant of all certificates, as their object ``system``."""
+        return self.plant.canonical_text()
+
+    def rows(self, name: str) -> tuple[Row, ...]:
+        """Where what holds by the answer to a question, and why."""
+        answer = self.answers[name]
+        if name in WITHIN_RANGES:
+            return ((", ".join(self.plant.parameters_in_words), WITHIN_RANGES[name], ""),)
+        if isinstance(answer, tuple):
+            return joined((count(k, "block"), each) for k, each in enumerate(answer, 1))
+        found: tuple[Row, ...] = answer.rows
+        return found
+
+    def along(self, name: str) -> tuple[tuple[str, str], ...]:
+        """With several parameters the certificates of a question, and the line of each."""
+        lines = _lines(self.answers[name]) if self.several and name != "completeness" else []
+        return tuple((f"{name}_{k}.json", str(line)) for k, line in enumerate(lines, 1))
+
+    def proofs(self, names: Collection[str]) -> tuple[tuple[str, ...], ...]:
+        """What is proved on lines about some questions."""
+        keys = {ON_LINE[name].key for name in names if name in ON_LINE}
+        return tuple(each.cells for each in self.sentences.at("line") if each.template.key in keys)
+
+    def table(self, name: str) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+        """The same with the heads of columns, without the reasons where there are none."""
+        rows = self.rows(name)
+        used = len(COLUMNS) - (not any(why for *_, why in rows))
+        return COLUMNS[:used], tuple(row[:used] for row in rows)
+
+    def as_json(self, **more: Any) -> dict[str, Any]:
+        """Return plain data with an entry for each answer, keyed by its name."""
+        plant = self.plant
+        return {
+            "format": PARAMETRIC_FORMAT,
+            "system": {
+                "name": plant.name,
+                "n": plant.n,
+                "m": plant.m,
+                "time": plant.time,
+                "channels": list(plant.names),
+            },
+            "parameters": plant.document()["parameters"],
+            **more,
+            "answer": self.at("answer"),
+            "table": [[*each.cells] for each in self.sentences.at("table")],
+            "sentences": [
+                {"text": each.line, "rule": each.template.key, "theorem": each.template.theorem}
+                for each in self.proved.sentences
+            ],
+            **{name: self._view(name) for name in self.answers},
+        }
+
+    def _view(self, name: str) -> dict[str, Any]:
+        """The answer to a question with the names of its certificates."""
+        answer = self.answers[name]
+        own = re.compile(rf"{name}(_\d+)?")
+        files = [f"{each}.json" for each in self.parts if own.fullmatch(each)]
+        rows = [dict(zip(COLUMNS, row, strict=True)) for row in self.rows(name)]
+        view = {} if isinstance(answer, tuple) else answer.to_dict()
+        found = view | {"rows": rows, "certificates": files}
+        along = [{"certificate": file, "line": line} for file, line in self.along(name)]
+        return found | ({"along": along} if along else {})
+
+    def explain(self) -> str:
+        """Say in plain words what was found, one sentence a line."""
+        told = [each.line for each in self.sentences.at("table")]
+        return "\n".join([*self.at("answer"), *told])
+
+    def __repr__(self) -> str:
+        return f"ParametricAccount({len(self.answers)} answers, {len(self.sentences)} sentences)"
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        yield from (("", said) for said in self.at("answer"))
+        yield from ((each.cells[0], str(each)) for each in self.sentences.at("table"))
+
+    def _html(self) -> str:
+        """Return the sentences and the tables in HTML."""
+        said = "".join(f"<li>{escape(each)}</li>" for each in self.at("answer"))
+        listed = [(each.cells[0], str(each)) for each in self.sentences.at("table")]
+        made = [grid(("", ""), listed, "".join(self.sentences.at("title")))]
+        made += [grid(*self.table(name), LABELS[name]) for name in self.detailed()]
+        if proofs := self.proofs(MODES):
+            made.append(grid(PROOFS, proofs, PROVED))
+        return f'<ul class="said">{said}</ul>' + "".join(made)
+
+    def detailed(self, names: Collection[str] = MODES) -> list[str]:
+        """The questions of which a table says more than a sentence."""
+        return [
+            name
+            for name, answer in self.answers.items()
+            if name in names and self.rows(name) and not _says_all(name, answer)
+        ]
+
+
+def _says_all(name: str, answer: Any) -> bool:
+    """Whether a sentence says all of an answer about modes: none is lost for any value."""
+    return name in MODES and not (answer.generic or answer.exceptional)
+
+
+def _lines(answer: Any) -> list[Line[Any]]:
+    """The lines of the certificates of an answer about several parameters, in their order."""
+    if isinstance(answer, Hypersurfaces):
+        return [*answer.lines]
+    parts = answer if isinstance(answer, tuple) else getattr(answer, "columns", {}).values()
+    return [line for each in parts for line in _lines(each)]
+
+
+def _proofs(answer: Any) -> list[Answer]:
+    """The certificates of an answer that is none itself."""
+    if isinstance(answer, tuple):
+        return [proof for each in answer for proof in _proofs(each)]
+    if isinstance(answer, Answer):
+        return [answer]
+    found = answer.certificates
+    return [*found.values()] if isinstance(found, Mapping) else [*found]

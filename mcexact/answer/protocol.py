@@ -1,59 +1,217 @@
-"""The protocol of answers: a claim about a system with a witness that proves it, declared once.
+"""The protocol of answers: claims, witness, display, and the certificate's JSON.
+
+The protocol of answers: a claim about a system with a witness that proves it, declared once.
 
 A kind of answer is a frozen dataclass in the module of its topic.  Each field is a claim or a part
 of the witness, and everything else is a property of these.  The certificate, reading it back, the
 JSON view and all forms of display are derived from the fields.
+
+Answers written as certificates, in the JSON of ``FORMAT.md``.
+
+Equal answers have equal bytes.  Exact computations find the same evidence on every processor;
+Lyapunov matrices and controllers designed in floating point differ.  ``FORMAT.md`` says which
+certificates are reproducible, and which are only valid.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import importlib
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, Self, TypeVar, dataclass_transform
 
-from mcexact.answer import showing
+from mcexact import shown as shown_module
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import polynomial, rational_text, written
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.text import Document, text_of
-from mcexact.shown import Shown
+from mcexact.model.text import Document, plain, text_of, write_text
+from mcexact.shown import LINE, Shown
+
+# Display of answers: one line, HTML, LaTeX and plain data; items that do not fit are left out.
+
+_CELL = 300
+_MOST = 20
+
+
+def line(answer: Answer) -> str:
+    """Return the claims on one line, in which no number and no name is cut."""
+    values = answer.claim()
+    if answer.subject:
+        values["of"] = tuple(each["construction"] for each in answer.subject)
+    return call(type(answer).__name__, values)
+
+
+def call(head: str, values: Mapping[str, Any]) -> str:
+    """Return values by their names on one line, in which no number and no name is cut.
+
+    Notes
+    -----
+    Each value first gets the space of its shortest form; the remaining space goes to the values
+    with the shortest complete forms.
+    """
+    texts = {key: fitted(value, 0) for key, value in values.items()}
+    room = LINE - len(_call(head, texts))
+    for _, key in sorted((len(fitted(value, LINE)), key) for key, value in values.items()):
+        longer = fitted(values[key], len(texts[key]) + room)
+        room += len(texts[key]) - len(longer)
+        texts[key] = longer
+    return _call(head, texts)
+
+
+def _call(head: str, texts: dict[str, str]) -> str:
+    return f"{head}({', '.join(f'{key}={text}' for key, text in texts.items())})"
+
+
+def fitted(value: Any, room: int) -> str:
+    """Return a value in a number of characters, or in its shortest form if it needs more.
+
+    Examples
+    --------
+    >>> fitted(("1", "2", "3", "4"), 18), fitted(("1", "2"), 0)
+    ("('1', … 3 more)", '(… 2 more)')
+    >>> fitted(Polynomial.of(7, 0, -3, 1), 30), fitted(Polynomial.of(7, 0, -3, 1), 12)
+    ('x^3 - 3*x^2 + 7', '… (degree 3)')
+    """
+    if isinstance(value, (tuple, list)):
+        return _sequence(value, room)
+    if isinstance(value, Polynomial):
+        text = polynomial(value, room)
+        return text if len(text) <= room else f"… (degree {value.degree})"
+    if isinstance(value, Matrix):
+        return f"{value.nrows}×{value.ncols} matrix"
+    if dataclasses.is_dataclass(value):
+        names = getattr(value, "brief", ()) or (dataclasses.fields(value)[0].name,)
+        told = tuple(getattr(value, name) for name in names)
+        return fitted(told[0] if len(told) == 1 else told, room)
+    text = rational_text(value) if isinstance(value, Fraction) else repr(value)
+    short = value is None or isinstance(value, bool)
+    return text if short or len(text) <= room else "…"
+
+
+def _sequence(values: Sequence[Any], room: int) -> str:
+    """Return the first few items, each complete, and the number of the others."""
+    kept: list[str] = []
+    used = len("(,)")
+    for place, value in enumerate(values):
+        left = len(values) - place - 1
+        more = len(f", … {left} more") if left else 0
+        text = fitted(value, LINE)
+        if used + len(text) + more > room:
+            break
+        kept.append(text)
+        used += len(text) + len(", ")
+    left = len(values) - len(kept)
+    if left:
+        kept.append(f"… {left} more")
+    return f"({', '.join(kept)}{',' if len(kept) == 1 and not left else ''})"
+
+
+def plain_view(value: Any) -> Any:
+    """Return plain data, with polynomials and matrices as lists of exact numbers."""
+    if isinstance(value, Polynomial):
+        return [written(c) for c in value.coefficients]
+    if isinstance(value, Matrix):
+        return [[written(entry) for entry in row] for row in value.rows()]
+    if hasattr(value, "document"):
+        return {key: plain_view(item) for key, item in value.document().items()}
+    if isinstance(value, (tuple, list)):
+        return [plain_view(item) for item in value]
+    return plain(value)
+
+
+def flat(value: Any) -> Any:
+    """Return a value for one cell of a table: texts and numbers, or the number of items."""
+    if value is None or isinstance(value, (bool, int, str, Fraction)):
+        return value
+    if isinstance(value, Polynomial):
+        return str(value)
+    if isinstance(value, Matrix):
+        return f"{value.nrows} × {value.ncols}"
+    return len(value) if isinstance(value, (tuple, list)) else fitted(value, _CELL)
+
+
+def displayed(value: Any) -> Any:
+    """Return a value as notebooks show it: parts as a table, and what is long shortened."""
+    if isinstance(value, tuple) and value and len(value) <= _MOST and _is_part(value[0]):
+        return Parts(value)
+    if isinstance(value, (bool, Matrix, Polynomial)) or _is_part(value):
+        return value
+    if isinstance(value, tuple) and value and all(isinstance(each, str) for each in value):
+        told = ", ".join(value)
+        return told if len(told) <= _CELL else fitted(value, _CELL)
+    if isinstance(value, str) and len(value) <= _CELL:
+        return value
+    return "none" if value is None or value == () else fitted(value, _CELL)
+
+
+def _is_part(value: Any) -> bool:
+    return hasattr(value, "document") and hasattr(value, "_labeled")
+
+
+class Parts(Shown):
+    """Several parts of one kind, one row for each."""
+
+    def __init__(self, parts: Sequence[Any]) -> None:
+        self._parts = parts
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield each part with its number."""
+        yield from ((str(k), each) for k, each in enumerate(self._parts, start=1))
+
+    def _rows(self) -> list[list[Any]]:
+        return [[value for _, value in each._labeled()] for each in self._parts]
+
+    def _html(self) -> str:
+        """Return a table in HTML."""
+        return shown_module.grid([label for label, _ in self._parts[0]._labeled()], self._rows())
+
+    def _latex(self) -> str:
+        """Return an array in LaTeX."""
+        return r" \quad ".join(each._latex() for each in self._parts)
+
+
+# The protocol of answers: a claim about a system with a witness that proves it, declared once.
 
 KINDS: dict[str, type[Answer]] = {}
 """The kinds of answers whose modules have been imported, by name."""
 HOMES = {
-    "assignability": "mcexact.answer.assignability",
-    "box_controllable": "mcexact.answer.box_controllable",
-    "box_fixed": "mcexact.answer.box_fixed",
-    "box_stable": "mcexact.answer.box_stable",
-    "closed_loop_spectrum": "mcexact.answer.closed_loop_spectrum",
-    "common_dimension": "mcexact.answer.common_dimension",
-    "communication": "mcexact.answer.communication",
-    "complementary_subsystem": "mcexact.answer.complementary_subsystem",
-    "completeness": "mcexact.answer.completeness",
-    "controllability": "mcexact.answer.controllability",
-    "controllability_indices": "mcexact.answer.controllability_indices",
-    "deficiency": "mcexact.answer.deficiency",
-    "distributed_observer": "mcexact.answer.distributed_observer",
-    "exceptional_gains": "mcexact.answer.exceptional_gains",
-    "fixed_spectrum": "mcexact.answer.fixed_spectrum",
-    "neighbor_graph": "mcexact.answer.neighbor_graph",
-    "parametric_box_controllable": "mcexact.answer.parametric_box_controllable",
-    "parametric_box_fixed": "mcexact.answer.parametric_box_fixed",
-    "parametric_box_stable": "mcexact.answer.parametric_box_stable",
-    "parametric_fixed_spectrum": "mcexact.answer.parametric_fixed_spectrum",
-    "parametric_rank": "mcexact.answer.parametric_rank",
-    "pencil_rank": "mcexact.answer.pencil_rank",
-    "setpoint": "mcexact.answer.setpoint",
-    "shared_dimensions": "mcexact.answer.shared_dimensions",
-    "single_channel_gains": "mcexact.answer.single_channel_gains",
-    "stability": "mcexact.answer.stability",
-    "transfer_graph": "mcexact.answer.transfer_graph",
+    "assignability": "mcexact.answer.modes",
+    "box_controllable": "mcexact.answer.boxes",
+    "box_fixed": "mcexact.answer.boxes",
+    "box_stable": "mcexact.answer.boxes",
+    "closed_loop_spectrum": "mcexact.answer.loops",
+    "common_dimension": "mcexact.answer.sharing",
+    "communication": "mcexact.answer.sharing",
+    "complementary_subsystem": "mcexact.answer.structure",
+    "completeness": "mcexact.answer.modes",
+    "controllability": "mcexact.answer.structure",
+    "controllability_indices": "mcexact.answer.structure",
+    "deficiency": "mcexact.answer.sharing",
+    "distributed_observer": "mcexact.answer.loops",
+    "exceptional_gains": "mcexact.answer.structure",
+    "fixed_spectrum": "mcexact.answer.modes",
+    "neighbor_graph": "mcexact.answer.sharing",
+    "parametric_box_controllable": "mcexact.answer.boxes",
+    "parametric_box_fixed": "mcexact.answer.boxes",
+    "parametric_box_stable": "mcexact.answer.boxes",
+    "parametric_fixed_spectrum": "mcexact.answer.parameters",
+    "parametric_rank": "mcexact.answer.parameters",
+    "pencil_rank": "mcexact.answer.modes",
+    "setpoint": "mcexact.answer.structure",
+    "shared_dimensions": "mcexact.answer.sharing",
+    "single_channel_gains": "mcexact.answer.structure",
+    "stability": "mcexact.answer.loops",
+    "transfer_graph": "mcexact.answer.structure",
 }
 """The module of each kind of answer."""
-_EXPLAINED = "mcexact.answer.explaining", "explained"
+_EXPLAINED = "mcexact.answer.rulebook", "explained"
 """What says an answer in words, which knows the rules of all kinds."""
 
 AnyAnswer = TypeVar("AnyAnswer", bound="Answer")
@@ -118,19 +276,19 @@ class Part(Shown):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the same as plain data."""
-        return {key: showing.plain_view(value) for key, value in self.document().items()}
+        return {key: plain_view(value) for key, value in self.document().items()}
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the labels and values that notebooks show."""
         for key, value in self.document().items():
-            yield _in_words(key), showing.displayed(value)
+            yield _in_words(key), displayed(value)
 
     def __init_subclass__(cls) -> None:
         # dataclasses write a representation of any length where a class has none of its own.
         cls.__repr__ = Part.__repr__  # type: ignore[method-assign]
 
     def __repr__(self) -> str:
-        return showing.call(type(self).__name__, self.document())
+        return call(type(self).__name__, self.document())
 
 
 def _values(system: Any) -> tuple[Any, ...]:
@@ -213,7 +371,7 @@ class Answer(Shown):
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything displayed, as plain data."""
-        return {key: showing.plain_view(value) for key, _, value in self.entries()}
+        return {key: plain_view(value) for key, _, value in self.entries()}
 
     def to_row(self) -> dict[str, Any]:
         """Return one flat row for a table: of long claims, such as factors, their number.
@@ -225,7 +383,7 @@ class Answer(Shown):
         >>> found.to_row()["polynomial"], found.to_row()["factors"], found.to_row()["stabilizable"]
         ('x - 1', 1, False)
         """
-        row = {key: showing.flat(value) for key, _, value in self.entries()}
+        row = {key: flat(value) for key, _, value in self.entries()}
         return {"kind": self.kind, "system": self.about.name, **row}
 
     def _text(self) -> str:
@@ -244,12 +402,12 @@ class Answer(Shown):
         raise TypeError(f"an answer is neither true nor false: ask for {named}")
 
     def __repr__(self) -> str:
-        return showing.line(self)
+        return line(self)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the labels and values that notebooks show."""
         for _, label, value in self.entries():
-            yield label, showing.displayed(value)
+            yield label, displayed(value)
 
     def explain(self) -> str:
         """Say in plain words what is decided, in the sentences of `analyze`.
@@ -331,3 +489,72 @@ def _given(found: Any, fields: Iterable[dataclasses.Field[Any]]) -> dict[str, An
 def _in_words(key: str) -> str:
     """Return a key in words, as a label."""
     return key.replace("_", " ")
+
+
+# Answers written as certificates, in the JSON of ``FORMAT.md``.
+
+FORMAT = "mcexact-certificate/1"
+
+
+def document(answer: Answer) -> dict[str, Any]:
+    """Return the certificate as a JSON object of plain data, with the six keys of ``FORMAT.md``."""
+    return {
+        "format": FORMAT,
+        "kind": answer.kind,
+        "system": answer.system,
+        "subject": plain(answer.subject),
+        "claim": plain(answer.claim()),
+        "witness": plain(answer.witness()),
+    }
+
+
+def encode(answer: Answer, *, system_by_digest: bool = False) -> str:
+    """Return the certificate as JSON text with a final line feed; equal answers give equal text.
+
+    Parameters
+    ----------
+    answer : Answer
+    system_by_digest : bool
+        Whether it names the plant by its digest alone: the checker then needs the system file, too.
+
+    Notes
+    -----
+    The same question gives the same certificate on every processor, unless floating point proposed
+    the evidence: the quadratic forms of the kind ``stability``, and all answers about the loop of a
+    controller designed in floating point.  Such certificates are only valid.
+    """
+    parts = {
+        "claim": text_of(answer.claim()),
+        "format": text_of(FORMAT),
+        "kind": text_of(answer.kind),
+        "subject": text_of(answer.subject),
+        "system": text_of(answer.about.plant.digest())
+        if system_by_digest
+        else answer.about.plant.canonical_text(),
+        "witness": text_of(answer.witness()),
+    }
+    return "{" + ",".join(f'"{key}":{text}' for key, text in parts.items()) + "}\n"
+
+
+def save_certificate(
+    answer: Answer, path: str | os.PathLike[str], *, system_by_digest: bool = False
+) -> None:
+    """Write an answer to a certificate file, completely or not at all.
+
+    Parameters
+    ----------
+    answer : Answer
+    path : path
+    system_by_digest : bool
+        Whether it names the plant by its digest alone, which is much shorter for a large plant: the
+        checker and `load_certificate` then need the plant, too.
+
+    Raises
+    ------
+    NotWritten
+        If the file cannot be written.
+    InputError
+        If the answer is something else.
+    """
+    InputError.require(answer, Answer, "answer")
+    write_text(path, encode(answer, system_by_digest=system_by_digest))

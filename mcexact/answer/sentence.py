@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Any, TypeVar
 
 from mcexact.answer.protocol import Answer
-from mcexact.answer.template import Sentence, Template
+from mcexact.answer.templates import Sentence, Template
 from mcexact.model.text import plain, sha256
 from mcexact.shown import framed
 

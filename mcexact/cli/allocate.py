@@ -148,7 +148,7 @@ def _answer(
 
 def _shares(account: Account) -> dict[str, Any]:
     """The dimensions by agent and in all: the least, and those of a bound that holds."""
-    from mcexact.answer.wording.allocation import ROW_BOUND
+    from mcexact.answer.sharing import ROW_BOUND
 
     least = account.answers.get("minimal_shared_dimensions")
     if least is None or least.dimensions is None:

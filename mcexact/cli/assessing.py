@@ -27,7 +27,7 @@ def assessed(
     page.
     """
     # Help loads every command, and must not load flint with the templates.
-    from mcexact.answer.wording.design import EVERY_LOOP, EVERY_LOOP_PART
+    from mcexact.answer.loops import EVERY_LOOP, EVERY_LOOP_PART
 
     all_loops = (EVERY_LOOP, EVERY_LOOP_PART)
     said = [found.verdict, *(each.line for each in account.sentences if each.template in all_loops)]

@@ -148,7 +148,7 @@ def _certified(
     system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
-    from mcexact.answer.formats import count
+    from mcexact.answer.templates import count
     from mcexact.cli import loops_in_ranges, uncertainty
     from mcexact.cli.assessing import assessed
     from mcexact.cli.files import plant_in

@@ -140,7 +140,7 @@ def _advice(
     Over the links that the plant has a controller may exist, which then is what is named.
     """
     from mcexact.analysis.fixed_modes import fixed_spectrum
-    from mcexact.answer.fixed_spectrum import FixedSpectrum
+    from mcexact.answer.modes import FixedSpectrum
     from mcexact.derived.constructions import augmented_outputs
     from mcexact.exact.rational import written
 
@@ -175,7 +175,7 @@ def _designed(
     import mcexact
     from mcexact.answer.account import Account
     from mcexact.answer.sentence import Given, Sentences
-    from mcexact.answer.template import Sentence
+    from mcexact.answer.templates import Sentence
     from mcexact.cli.assessing import assessed
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told

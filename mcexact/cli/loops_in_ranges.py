@@ -82,21 +82,21 @@ def certified(
 def _account(system: ParametricSystem, found: LargestRanges, gains: Fraction | None) -> Account:
     """The proof for the whole ranges with its sentence, if there is one."""
     from mcexact.answer.account import Account
-    from mcexact.answer.rules.design import EVERY_LOOP
+    from mcexact.answer.loops import EVERY_LOOP_RULES
     from mcexact.answer.sentence import Given
 
     ranges = ", ".join(system.parameters_in_words)
     given = Given(system, {"parameters": ranges, "part_of_gains": gains})
     whole = found.proof is not None and found.lower == 1
     answers: dict[str, Any] = {"box_stability": found.proof} if whole else {}
-    return Account(answers, given, EVERY_LOOP.sentences(answers, given))
+    return Account(answers, given, EVERY_LOOP_RULES.sentences(answers, given))
 
 
 def _evidence(
     account: Account, found: LargestRanges, proved: bool, system_by_digest: bool
 ) -> dict[str, Any]:
     """The certificates: of the whole ranges, or of a part of them and of values that fail."""
-    from mcexact.answer import codec
+    from mcexact.answer import protocol
     from mcexact.cli.running import told
 
     if proved:
@@ -106,7 +106,7 @@ def _evidence(
         "stability_at_values.json": found.refutation,
     }
     known = {name: answer for name, answer in parts.items() if answer is not None}
-    texts = {name: codec.encode(answer) for name, answer in known.items()}
+    texts = {name: protocol.encode(answer) for name, answer in known.items()}
     plants = {name: answer.about.plant.canonical_text() for name, answer in known.items()}
     return {"certificates": texts, "files": texts, "plant": plants}
 

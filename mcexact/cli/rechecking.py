@@ -37,7 +37,7 @@ class Rechecked:
 
     def line(self) -> str:
         """Return a line of text that gives the number of VALID certificates."""
-        from mcexact.answer.formats import count
+        from mcexact.answer.templates import count
 
         if not self.verdicts:
             return "no certificate, as nothing was decided exactly\n"

@@ -31,11 +31,11 @@ def told(account: Account, system_by_digest: bool) -> dict[str, Any]:
     system_by_digest : bool
         Whether the files name the plant by its digest.
     """
-    from mcexact.answer import codec
+    from mcexact.answer import protocol
 
     files, own = account.files(system_by_digest=system_by_digest), account.given.system
     refuted = {f"{name}_refuted.json": answer for name, answer in account.failing.items()}
-    others = {name: codec.encode(answer) for name, answer in refuted.items()}
+    others = {name: protocol.encode(answer) for name, answer in refuted.items()}
     plants = {name: answer.about.plant.canonical_text() for name, answer in refuted.items()}
     return {
         "certificates": account.certificates | others,

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from mcexact.analysis.boxes.failure import FailingPlant
     from mcexact.analysis.boxes.largest import LargestUncertainty
     from mcexact.answer.account import Account
-    from mcexact.answer.box_stable import BoxStability
+    from mcexact.answer.boxes import BoxStability
+    from mcexact.answer.loops import StabilityVerdict
     from mcexact.answer.protocol import Answer
-    from mcexact.answer.stability import StabilityVerdict
     from mcexact.exact.roots import StabilityRegion
     from mcexact.model.controller import Controller
     from mcexact.model.system import MultiChannelSystem
@@ -207,7 +207,7 @@ def loops(
 
 def _within_given(largest: LargestUncertainty) -> WithinRadii | None:
     """Whether all loops are stable within the radii from which a search began with some proof."""
-    from mcexact.answer.box_stable import BoxStability
+    from mcexact.answer.boxes import BoxStability
 
     if largest.relative:
         return None
@@ -230,7 +230,7 @@ def _proof(
     What is ``known`` is not proved again.
     """
     from mcexact.analysis.boxes.loops import box_stability
-    from mcexact.answer.box_stable import BoxStability
+    from mcexact.answer.boxes import BoxStability
     from mcexact.errors import LimitReached
     from mcexact.exact.roots import StabilityRegion
 
@@ -255,7 +255,7 @@ def digits_of(
     system: MultiChannelSystem, controller: Controller, found: StabilityVerdict, most: int
 ) -> Loops:
     """How many digits of the gains are safe, and how many are too few."""
-    from mcexact.answer.formats import count
+    from mcexact.answer.templates import count
     from mcexact.synthesis.certify import safe_digits
 
     region = _of_boxes(found)

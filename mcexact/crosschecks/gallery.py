@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from mcexact.answer.mode_words import blame
+from mcexact.answer.templates import blame
 from mcexact.crosschecks.table import (
     CrossCheck,
     CrossChecks,

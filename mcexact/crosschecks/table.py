@@ -26,7 +26,7 @@ from mcexact.analysis.controllability import (
 )
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.structure import strong_components, transfer_graph
-from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.modes import FixedSpectrum
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import matrix_to_float

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.answer.account import Account
-from mcexact.answer.loop_spectrum import LoopSpectrum
+from mcexact.answer.evidence import LoopSpectrum
 from mcexact.exact.matrix import to_float
 from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller

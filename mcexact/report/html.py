@@ -15,7 +15,7 @@ from itertools import islice
 from typing import Any
 
 from mcexact import __version__
-from mcexact.answer.formats import count
+from mcexact.answer.templates import count
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import approximated
 from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction

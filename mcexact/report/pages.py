@@ -6,9 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from mcexact.answer.account import Account
-from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces
-from mcexact.answer.parametric_account import LABELS, MODES, PROOFS, PROVED, ParametricAccount
+from mcexact.answer.account import LABELS, MODES, PROOFS, PROVED, Account, ParametricAccount
+from mcexact.answer.several_parameters import Hypersurfaces
 from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import NAMED, PANEL, one_axis

@@ -23,7 +23,8 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from mcexact.answer.parametric_account import LABELS
+from mcexact.answer.account import LABELS
+from mcexact.answer.parameters import WITHIN_RANGES
 from mcexact.answer.schema import (
     RATIONAL,
     Schema,
@@ -32,7 +33,6 @@ from mcexact.answer.schema import (
     view_schemas,
     witness_schema,
 )
-from mcexact.answer.wording.parameters import WITHIN_RANGES
 from mcexact.errors import UsageError
 from mcexact.model.text import nearest, quoted
 

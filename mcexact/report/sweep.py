@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from mcexact.answer.formats import count, cut
+from mcexact.answer.templates import count, cut
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import decimal_or_quotient, polynomial, written
 from mcexact.model.properties import PROPERTIES

@@ -11,7 +11,7 @@ from typing import Any, TextIO
 
 from mcexact.answer.account import Account
 from mcexact.answer.sentence import Sentences
-from mcexact.answer.template import Sentence
+from mcexact.answer.templates import Sentence
 from mcexact.errors import InputError, MissingExtra
 from mcexact.exact import matrix
 from mcexact.exact.matrix import Matrix

@@ -16,8 +16,7 @@ from mcexact.analysis.sharing import (
     neighbor_graph,
     shared_dimension_bound,
 )
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.answer.pencil_rank import PencilRank
+from mcexact.answer.modes import FixedSpectrum, PencilRank
 from mcexact.derived.constructions import Share, augmented_outputs, extended_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model.graph import NeighborGraph

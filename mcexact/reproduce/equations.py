@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from mcexact.answer.transfer_graph import TransferGraph
+from mcexact.answer.structure import TransferGraph
 from mcexact.exact.matrix import Matrix, vstack
 from mcexact.exact.roots import is_discrete
 from mcexact.model.graph import NeighborGraph

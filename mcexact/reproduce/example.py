@@ -6,7 +6,7 @@ from mcexact.analysis.analyze import analyze
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.fixed_modes import fixed_spectrum, pencil_rank
 from mcexact.analysis.stability import closed_loop_spectrum
-from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.modes import FixedSpectrum
 from mcexact.derived.constructions import augmented_outputs, closed_by, extended_system
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial

@@ -13,7 +13,7 @@ from mcexact.analysis.controllability import (
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.single_channel import single_channel_gains
 from mcexact.analysis.stability import closed_loop_spectrum
-from mcexact.answer.controllability_indices import ControllabilityIndices
+from mcexact.answer.structure import ControllabilityIndices
 from mcexact.derived.constructions import error_system, feedback
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix, hstack, kronecker, vstack

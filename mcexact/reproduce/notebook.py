@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.answer.check import checked
 from mcexact.answer.protocol import Answer
 from mcexact.model.system import MultiChannelSystem
@@ -142,7 +142,7 @@ class Notebook:
     def certify(self, *answers: Answer) -> None:
         """Record answers as certificates, verified by the independent checker."""
         for made in answers:
-            text = codec.encode(made)
+            text = protocol.encode(made)
             said = checked(text.encode("ascii"))
             number = len(self.certificates) + 1
             name = f"{self.key}-{number:02d}-{made.kind}.json"

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from itertools import groupby
 from typing import Any
 
-from mcexact.answer.formats import count
+from mcexact.answer.templates import count
 from mcexact.report.formulas import matrix, typeset, typeset_latex
 from mcexact.report.html import page
 from mcexact.reproduce.reproduction import SECTIONS, Reproduction, Row

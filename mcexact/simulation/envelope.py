@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.stability import certify_stability, closed_loop_spectrum
-from mcexact.answer.loop_spectrum import LoopSpectrum
-from mcexact.answer.stability import LyapunovMethod, StabilityVerdict
+from mcexact.answer.evidence import LoopSpectrum
+from mcexact.answer.loops import LyapunovMethod, StabilityVerdict
 from mcexact.errors import InputError, McexactError
 from mcexact.exact.balls import exponential_above, power_above
 from mcexact.exact.linear_algebra import solve_nonsingular

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from mcexact.analysis.boxes.largest import failing_member
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.derived.variants import Variant
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
@@ -131,7 +131,7 @@ def _decided(
             answer = failing_member(system, PROPERTIES[name])
             left += [] if answer is not None else [str(error)]
         if answer is not None:
-            made[name] = codec.encode(answer)
+            made[name] = protocol.encode(answer)
     return made, failure(LimitReached("; ".join(left))) if left else {}
 
 

@@ -11,8 +11,7 @@ from dataclasses import dataclass, field, replace
 from io import FileIO
 from typing import Any
 
-from mcexact.answer.check import checked
-from mcexact.answer.reading import answer_of
+from mcexact.answer.check import answer_of, checked
 from mcexact.errors import InputError, InternalError, McexactError, NotWritten, UsageError, place_of
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from mcexact.answer.formats import count, listed
+from mcexact.answer.templates import count, listed
 from mcexact.errors import InputError
 from mcexact.exact.matrix import finite, to_float
 from mcexact.exact.roots import StabilityRegion

@@ -22,12 +22,12 @@ from mcexact.analysis.stability import (
     fastest_region,
 )
 from mcexact.answer.account import Account
-from mcexact.answer.box_stable import BoxStability
+from mcexact.answer.boxes import BoxStability
 from mcexact.answer.evidence import RootDisc
+from mcexact.answer.loops import StabilityVerdict
 from mcexact.answer.protocol import Answer
-from mcexact.answer.rules import VERDICT
+from mcexact.answer.rulebook import VERDICT
 from mcexact.answer.sentence import Given
-from mcexact.answer.stability import StabilityVerdict
 from mcexact.errors import InputError, LimitReached, UsageError, one_of, telling
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 from mcexact.exact.rational import Entry

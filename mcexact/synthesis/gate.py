@@ -8,10 +8,8 @@ from itertools import accumulate
 from typing import Any, Literal, get_args
 
 from mcexact.analysis.stability import Method, Separation, agreeing_moduli, certify_stability
-from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
-from mcexact.answer.distributed_observer import DistributedObserver
+from mcexact.answer.loops import ClosedLoopSpectrum, DistributedObserver, refusal
 from mcexact.answer.protocol import Answer
-from mcexact.answer.rules.refusals import refusal
 from mcexact.derived.modular import generator
 from mcexact.errors import Impossible, InternalError, LimitReached, UsageError, one_of, telling
 from mcexact.exact.matrix import Matrix

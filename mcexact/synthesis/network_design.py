@@ -11,9 +11,9 @@ from typing import Any
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.single_channel import single_channel_gains
 from mcexact.analysis.structure import transfer_graph
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.answer.rules.refusals import refusal
-from mcexact.answer.wording import refusals as say
+from mcexact.answer import loops as say
+from mcexact.answer.loops import refusal
+from mcexact.answer.modes import FixedSpectrum
 from mcexact.derived.constructions import closed_by
 from mcexact.derived.modular import generator
 from mcexact.errors import InputError, InternalError, LimitReached

@@ -8,9 +8,8 @@ from fractions import Fraction
 from typing import Literal
 
 from mcexact.analysis.sharing import minimal_shared_dimensions, shared_dimension_bound
-from mcexact.answer.deficiency import Deficiency
-from mcexact.answer.rules.refusals import refusal
-from mcexact.answer.shared_dimensions import SharedDimensions
+from mcexact.answer.loops import refusal
+from mcexact.answer.sharing import Deficiency, SharedDimensions
 from mcexact.derived.constructions import (
     Share,
     checked_dimensions,

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Literal
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.single_channel import ReachingGains, error_gain_draws, reaching_gains
-from mcexact.answer.rules.refusals import refusal
-from mcexact.answer.wording import refusals as say
+from mcexact.answer import loops as say
+from mcexact.answer.loops import refusal
 from mcexact.derived.constructions import closed_by, error_system
 from mcexact.derived.modular import generator
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached, UsageError, one_of

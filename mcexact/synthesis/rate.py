@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.modes import FixedSpectrum
 from mcexact.errors import InputError, LimitReached, UsageError, telling
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem

@@ -11,7 +11,7 @@ from mcexact.analysis.boxes.failure import FailingPlant, severed_plants
 from mcexact.analysis.boxes.largest import failing_loop, refuted_loop, short
 from mcexact.analysis.boxes.loops import StabilitySearch, gain_radii
 from mcexact.analysis.boxes.pencils import one_thread
-from mcexact.answer.box_stable import BoxStability
+from mcexact.answer.boxes import BoxStability
 from mcexact.errors import LimitReached, require_seconds
 from mcexact.exact.rational import percent, written
 from mcexact.exact.roots import StabilityRegion

@@ -9,9 +9,9 @@ from typing import Any, Literal
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure import setpoint_solvability
-from mcexact.answer.rules.refusals import refusal
-from mcexact.answer.setpoint import SetpointSolvability
-from mcexact.answer.wording import refusals as say
+from mcexact.answer import loops as say
+from mcexact.answer.loops import refusal
+from mcexact.answer.structure import SetpointSolvability
 from mcexact.derived.constructions import setpoint_system
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached, OutOfReach, one_of
 from mcexact.exact.matrix import Matrix, block, hstack, vstack

@@ -18,8 +18,8 @@ from typing import Any
 
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.single_channel import drawn_integers
-from mcexact.answer.rules.refusals import refusal
-from mcexact.answer.wording import refusals as say
+from mcexact.answer import loops as say
+from mcexact.answer.loops import refusal
 from mcexact.derived.modular import generator
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.krylov import controllable_subspace

@@ -9,8 +9,7 @@ import pytest
 
 import mcexact
 from mcexact import Box, MultiChannelSystem, ParametricSystem
-from mcexact.answer.codec import encode
-from mcexact.answer.protocol import Answer
+from mcexact.answer.protocol import Answer, encode
 from mcexact.checker.kinds import check_document
 from mcexact.errors import InputError, McexactError, UsageError
 

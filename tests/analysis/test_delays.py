@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.analysis.fixed_modes import completeness
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import extended_system, held_system
 from mcexact.exact.polynomial import Polynomial

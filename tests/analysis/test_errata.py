@@ -8,8 +8,7 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.sharing import shared_dimension_bound
 from mcexact.analysis.structure import transfer_graph
-from mcexact.answer.codec import encode
-from mcexact.answer.protocol import Answer
+from mcexact.answer.protocol import Answer, encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import extended_system, setpoint_system
 from mcexact.exact.linear_algebra import rank

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact import ParametricSystem, analyze, check
-from mcexact.answer.parametric_account import ParametricAccount
+from mcexact.answer.account import ParametricAccount
 from mcexact.errors import InputError
 
 POLE = ParametricSystem([[1]], [[["1/t"]]], [[["t"]]], parameters=["t"])

@@ -17,7 +17,7 @@ from mcexact import (
     fixed_spectrum,
     save_controller,
 )
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.derived.constructions import feedback
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix
@@ -28,7 +28,7 @@ PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]]], [[[1, 1]]])
 def test_a_certificate_and_its_file_get_the_same_verdict(tmp_path: Path) -> None:
     certificate = fixed_spectrum(PLANT)
     file = tmp_path / "fixed_spectrum.json"
-    codec.save_certificate(certificate, file)
+    protocol.save_certificate(certificate, file)
     assert check(certificate) == check(file) == check(str(file), PLANT)
     assert check(file).verdict == "VALID"
     assert "x - 2" in check(file).statement
@@ -47,7 +47,7 @@ def test_a_controller_and_a_derived_system_are_about_the_loop_of_both() -> None:
     changed = feedback(plant, [Matrix.from_integers([[-5]])])
     controller = design_decentralized(changed, rate=1).controller
     loop = certify_controller(changed, controller, rate=1)
-    claim = {"kind": "stability", "claim": codec.document(loop)["claim"]}
+    claim = {"kind": "stability", "claim": protocol.document(loop)["claim"]}
     assert check(loop, changed, controller).verdict == "VALID"
     assert check(loop, changed, controller, claim).verdict == "VALID"
     for system in (plant, None, feedback(changed, [Matrix.from_integers([[1]])])):
@@ -88,7 +88,7 @@ def test_the_controller_can_be_an_object_or_a_file(tmp_path: Path) -> None:
 
 
 def test_the_statement_or_the_claim_can_be_expected() -> None:
-    certificate, claim = fixed_spectrum(PLANT), codec.document(fixed_spectrum(PLANT))["claim"]
+    certificate, claim = fixed_spectrum(PLANT), protocol.document(fixed_spectrum(PLANT))["claim"]
     found, kind = check(certificate), "fixed_spectrum"
     for expected in (found.statement, found.statement_digest, {"kind": kind, "claim": claim}):
         assert check(certificate, PLANT, expect=expected).verdict == "VALID"

@@ -11,16 +11,10 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem, fixed_spectrum
-from mcexact.answer import codec
-from mcexact.answer.check import check
+from mcexact.answer import protocol
+from mcexact.answer.check import check, load_certificate
 from mcexact.answer.evidence import RateInterval, RootDisc, ShrunkSubspace, ZeroTransfer
-from mcexact.answer.fixed_spectrum import (
-    Completion,
-    FixedFactor,
-    FixedSpectrum,
-    TwoPolynomials,
-)
-from mcexact.answer.reading import load_certificate
+from mcexact.answer.modes import Completion, FixedFactor, FixedSpectrum, TwoPolynomials
 from mcexact.checker.kinds import check_document
 from mcexact.errors import InputError, NotWritten
 from mcexact.exact.linear_algebra import PolynomialMatrix
@@ -66,17 +60,17 @@ def with_modulus(number: float) -> FixedSpectrum:
 
 
 def test_an_answer_becomes_the_document_of_the_format() -> None:
-    assert codec.document(FIXED_SPECTRUM) == FIXED
-    assert check_document(codec.encode(FIXED_SPECTRUM).encode()).verdict == "VALID"
+    assert protocol.document(FIXED_SPECTRUM) == FIXED
+    assert check_document(protocol.encode(FIXED_SPECTRUM).encode()).verdict == "VALID"
 
 
 def test_equal_answers_give_equal_bytes() -> None:
-    text = codec.encode(FIXED_SPECTRUM)
+    text = protocol.encode(FIXED_SPECTRUM)
     again = dataclasses.replace(FIXED_SPECTRUM)
     assert again == FIXED_SPECTRUM
     assert hash(again) == hash(FIXED_SPECTRUM)
     assert with_modulus(103) != FIXED_SPECTRUM
-    assert text == codec.encode(again)
+    assert text == protocol.encode(again)
     assert text.isascii()
     assert text.endswith("}\n")
     assert json.loads(text) == FIXED
@@ -85,27 +79,27 @@ def test_equal_answers_give_equal_bytes() -> None:
 
 def test_a_float_has_no_place_in_a_certificate() -> None:
     with pytest.raises(TypeError, match="found float"):
-        codec.encode(with_modulus(0.5))
+        protocol.encode(with_modulus(0.5))
 
 
 def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     target = tmp_path / "certificate.json"
-    codec.save_certificate(FIXED_SPECTRUM, target)
+    protocol.save_certificate(FIXED_SPECTRUM, target)
     first = target.read_text()
-    assert first == codec.encode(FIXED_SPECTRUM)
+    assert first == protocol.encode(FIXED_SPECTRUM)
     assert stat.S_IMODE(target.stat().st_mode) & 0o600 == 0o600
     with pytest.raises(TypeError):
-        codec.save_certificate(with_modulus(7.5), target)
+        protocol.save_certificate(with_modulus(7.5), target)
     assert target.read_text() == first
     assert list(tmp_path.iterdir()) == [target]
     with pytest.raises(NotWritten, match="No such file"):
-        codec.save_certificate(FIXED_SPECTRUM, tmp_path / "missing" / "certificate.json")
+        protocol.save_certificate(FIXED_SPECTRUM, tmp_path / "missing" / "certificate.json")
 
 
 def test_a_file_is_read_back_as_the_answer_that_was_written(tmp_path: Path) -> None:
     file = tmp_path / "certificate.json"
     found = fixed_spectrum(PLANT)
-    codec.save_certificate(found, file)
+    protocol.save_certificate(found, file)
     read = load_certificate(file)
     assert isinstance(read, FixedSpectrum)
     assert read == found
@@ -117,9 +111,9 @@ def test_a_file_is_read_back_as_the_answer_that_was_written(tmp_path: Path) -> N
 def test_a_file_that_names_its_plant_by_digest_is_read_with_the_plant(tmp_path: Path) -> None:
     file = tmp_path / "certificate.json"
     found = fixed_spectrum(PLANT)
-    codec.save_certificate(found, file, system_by_digest=True)
+    protocol.save_certificate(found, file, system_by_digest=True)
     assert json.loads(file.read_text())["system"] == PLANT.digest()
-    assert {**json.loads(file.read_text()), "system": found.system} == codec.document(found)
+    assert {**json.loads(file.read_text()), "system": found.system} == protocol.document(found)
     assert load_certificate(file, PLANT) == found
     whole, named = check(found), check(file, PLANT)
     assert named == whole
@@ -140,7 +134,7 @@ def test_only_what_the_checker_accepts_is_read(
     change: dict[str, Any], said: str, tmp_path: Path
 ) -> None:
     file = tmp_path / "certificate.json"
-    document = codec.document(FIXED_SPECTRUM)
+    document = protocol.document(FIXED_SPECTRUM)
     document["claim"] |= change
     file.write_text(json.dumps(document))
     with pytest.raises(InputError, match=said):

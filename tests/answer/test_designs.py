@@ -13,7 +13,7 @@ import pytest
 from mcexact.analysis.analyze import account_of_dimensions, account_of_links
 from mcexact.answer.account import Account
 from mcexact.answer.sentence import Given, Sentences
-from mcexact.answer.template import Sentence
+from mcexact.answer.templates import Sentence
 from mcexact.checker import Expectation, Limits
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.derived.constructions import Share

@@ -23,7 +23,7 @@ from mcexact.analysis import controllability, fixed_modes, sharing, structure
 from mcexact.analysis.sharing import neighbor_graph
 from mcexact.analysis.stability import open_loop_spectrum
 from mcexact.analysis.structure import setpoint_solvability
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.derived.constructions import Share
 from mcexact.derived.drawn.networks import NETWORKS, network_system
 from mcexact.derived.drawn.primary_form import SeededChoices

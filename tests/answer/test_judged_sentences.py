@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from mcexact.answer.listing import everything
+from mcexact.answer.rulebook import everything
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.graph import NeighborGraph

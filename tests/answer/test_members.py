@@ -14,7 +14,7 @@ from mcexact import (
     fixed_spectrum,
     local_controllers,
 )
-from mcexact.answer.members import leading
+from mcexact.answer.account import leading
 from mcexact.derived.constructions import augmented_outputs
 
 PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])

@@ -17,19 +17,19 @@ import pytest
 import mcexact
 from mcexact import answer as home
 from mcexact.analysis.questions import QUESTIONS
-from mcexact.answer.codec import encode
-from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
+from mcexact.answer.check import answer_of
+from mcexact.answer.parameters import ParametricFixedSpectrum
 from mcexact.answer.protocol import (
     KINDS,
     Answer,
     Part,
+    encode,
     fields_of,
+    fitted,
     is_about_dual,
     key_of,
     kind_named,
 )
-from mcexact.answer.reading import answer_of
-from mcexact.answer.showing import fitted
 from mcexact.checker.kinds import KINDS as RULES
 from mcexact.errors import UsageError
 from mcexact.model import gallery

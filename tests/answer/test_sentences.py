@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 
 from mcexact.answer.account import Account
-from mcexact.answer.listing import FILE, TOPICS, everything, listing, premises_of
+from mcexact.answer.rulebook import FILE, TOPICS, everything, listing, premises_of
 from mcexact.answer.sentence import LOOP, Certified
-from mcexact.answer.template import templates
+from mcexact.answer.templates import templates
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph

@@ -13,7 +13,7 @@ from mcexact.analysis.boxes.members import box_controllability, box_fixed_modes
 from mcexact.analysis.controllability import exceptional_gains
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.structure import setpoint_solvability
-from mcexact.answer.codec import save_certificate
+from mcexact.answer.protocol import save_certificate
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery

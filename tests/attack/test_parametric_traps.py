@@ -13,7 +13,7 @@ import pytest
 
 from mcexact import MultiChannelSystem, fixed_spectrum
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.checker import check_document, moved_modes, parametric_rank
 from mcexact.checker.arithmetic import cleared, coprime, poly_modulo
 from mcexact.checker.two_variables import characteristic, without
@@ -136,5 +136,5 @@ def test_gains_of_a_companion_matrix_move_what_constant_gains_do_not() -> None:
     document = SPECTRA["scalars are restricted to a companion matrix"]
     system = {"format": "mcexact-system/1", **document["system"]}
     plant = read_parametric_system(json.dumps(system))
-    [exceptional] = codec.document(parametric_fixed_spectrum(plant))["claim"]["exceptional"]
+    [exceptional] = protocol.document(parametric_fixed_spectrum(plant))["claim"]["exceptional"]
     assert exceptional["value"] == [-2, 0, 1]

@@ -17,9 +17,9 @@ from unittest import mock
 from mcexact.analysis import fixed_modes as module
 from mcexact.analysis.blocks import bounded_blocks, modes_left, state_blocks
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.answer.codec import encode
 from mcexact.answer.evidence import Block, CoprimePolynomials
-from mcexact.answer.fixed_spectrum import ByBlocks, FixedSpectrum, TwoPolynomials
+from mcexact.answer.modes import ByBlocks, FixedSpectrum, TwoPolynomials
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem

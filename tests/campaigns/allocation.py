@@ -16,7 +16,7 @@ from mcexact.analysis.sharing import (
     minimal_shared_dimensions,
     shared_dimension_bound,
 )
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import Share
 from mcexact.model.graph import NeighborGraph

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from mcexact.analysis.controllability import exceptional_gains
-from mcexact.answer.codec import document, save_certificate
+from mcexact.answer.protocol import document, save_certificate
 from mcexact.answer.sentence import MANIFEST
 from mcexact.checker.command import main as check
 from mcexact.checker.kinds import KINDS

@@ -17,7 +17,7 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.fixed_modes import completeness
 from mcexact.analysis.sharing import shared_dimension_bound
 from mcexact.analysis.structure import setpoint_solvability
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import extended_system
 from mcexact.derived.drawn.networks import drawn_graph

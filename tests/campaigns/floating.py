@@ -23,7 +23,7 @@ import numpy as np
 
 import mcexact.checker
 from mcexact.analysis.stability import certify_stability, matrix_system
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.networks import drawn_graph
 from mcexact.derived.drawn.primary_form import SeededChoices

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from mcexact import ParametricSystem, check, exceptional_hypersurfaces
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.exact.rational_functions import RationalFunction
 from tests.campaigns.resumed import Examined, main
 from tests.oracle.parametric import _polynomial, fixed_radical, values

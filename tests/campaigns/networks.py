@@ -9,9 +9,8 @@ from typing import Any
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.structure import transfer_graph
-from mcexact.answer.controllability import JointControllability
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.answer.transfer_graph import TransferGraph
+from mcexact.answer.modes import FixedSpectrum
+from mcexact.answer.structure import JointControllability, TransferGraph
 from mcexact.derived.constructions import Share, extended_system, held_system, lifted_system
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.graph import NeighborGraph

@@ -15,7 +15,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.networks import drawn_graph
 from mcexact.derived.drawn.primary_form import SeededChoices

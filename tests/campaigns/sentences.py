@@ -23,12 +23,12 @@ from mcexact.analysis.analyze import account_of_dimensions, account_of_links, an
 from mcexact.analysis.boxes.largest import largest_loop_ranges
 from mcexact.analysis.boxes.loops import box_stability
 from mcexact.analysis.questions import asked_by
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.answer.account import Account
-from mcexact.answer.listing import everything
-from mcexact.answer.rules.design import EVERY_LOOP
+from mcexact.answer.loops import EVERY_LOOP_RULES
+from mcexact.answer.rulebook import everything
 from mcexact.answer.sentence import Given
-from mcexact.answer.template import Sentence
+from mcexact.answer.templates import Sentence
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
@@ -282,7 +282,7 @@ def judged_design(
     except Impossible as refused:
         region = StabilityRegion.of(plant.time, **limits)
         if isinstance(refused.message, Sentence):
-            steps = json.loads(codec.encode(refused.certificate))["subject"]
+            steps = json.loads(protocol.encode(refused.certificate))["subject"]
             asked = {"steps": steps, "region": plain(region)}
             yield from _cases([said(refused.message)], Case(plant_of(plant), asked))
         return
@@ -413,7 +413,7 @@ def loop(rng: random.Random) -> Iterator[Judged]:
             family, {"parameters": ", ".join(family.parameters_in_words), "part_of_gains": gains}
         )
         answers = {"box_stability": wide.proof}
-        account = Account(answers, given, EVERY_LOOP.sentences(answers, given))
+        account = Account(answers, given, EVERY_LOOP_RULES.sentences(answers, given))
         case = Case(plant_of(family.at({"a": 0, "b": b})), {}, document, (), family_of(family))
         yield from _cases(rows_of(account.sentences), case)
 

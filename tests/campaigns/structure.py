@@ -25,7 +25,7 @@ from mcexact.analysis.controllability import (
 from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum, pencil_rank
 from mcexact.analysis.single_channel import Want, error_gains, single_channel_gains
 from mcexact.analysis.structure import complementary_subsystem, transfer_graph
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import jointly_controllable_system

@@ -22,7 +22,7 @@ from mcexact.analysis.sharing import (
 )
 from mcexact.analysis.single_channel import single_channel_gains
 from mcexact.analysis.structure import setpoint_solvability
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.derived.constructions import Share, error_system, extended_system, setpoint_system
 from mcexact.errors import McexactError
 from mcexact.exact.matrix import Matrix

@@ -7,7 +7,7 @@ from typing import Any
 
 from mcexact import ParametricSystem
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 
 Document = dict[str, Any]
 

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from typing import Any
 from unittest import mock
 
-from mcexact.answer.codec import document
-from mcexact.answer.protocol import Answer
+from mcexact.answer.protocol import Answer, document
 from tests.checker.handmade import Document
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.sharing import absence, common_dimension, shared_dimension_bound
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.derived.constructions import extended_system
 from mcexact.derived.modular import generator
 from mcexact.errors import UsageError

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.analysis.sharing import minimal_communication
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

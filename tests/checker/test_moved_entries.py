@@ -23,8 +23,8 @@ from mcexact import (
     setpoint_solvability,
 )
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
-from mcexact.answer.codec import document
-from mcexact.answer.reading import constructed
+from mcexact.answer.check import constructed
+from mcexact.answer.protocol import document
 from mcexact.checker.budget import Budget, Refused, limited
 from mcexact.checker.moved_entries import MOVING, subject_of
 from mcexact.checker.parametric_system import ParametricSystem as Read

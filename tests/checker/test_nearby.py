@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.checker import Expectation, Limits
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.model.box import Box

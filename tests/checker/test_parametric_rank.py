@@ -9,8 +9,8 @@ import pytest
 
 from mcexact import ParametricSystem
 from mcexact.analysis.parameters.ranks import Named, parametric_rank
-from mcexact.answer.codec import document
-from mcexact.answer.parametric_rank import ControllabilityMatrix, SetpointMatrix, TransferColumn
+from mcexact.answer.parameters import ControllabilityMatrix, SetpointMatrix, TransferColumn
+from mcexact.answer.protocol import document
 from tests.checker.handmade import changed, checked, without
 
 

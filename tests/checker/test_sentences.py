@@ -20,9 +20,9 @@ from mcexact.analysis.questions import asked_by
 from mcexact.analysis.sharing import minimal_shared_dimensions
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.account import Account
-from mcexact.answer.codec import document
-from mcexact.answer.listing import everything
-from mcexact.answer.template import Template
+from mcexact.answer.protocol import document
+from mcexact.answer.rulebook import everything
+from mcexact.answer.templates import Template
 from mcexact.checker import Expectation, Verdict
 from mcexact.checker.manifest import Evidence
 from mcexact.checker.reading import Limits

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.boxes.loops import box_stability
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.sentences_boxes import least
 from mcexact.checker.system_matrices import read_matrix

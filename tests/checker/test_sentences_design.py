@@ -9,7 +9,7 @@ import pytest
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.structure import setpoint_solvability
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.checker import Verdict
 from mcexact.checker.sentence import RULES
 from mcexact.derived.constructions import error_system, extended_system, setpoint_system

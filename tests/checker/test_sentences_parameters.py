@@ -11,12 +11,11 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem, ParametricSystem, analyze
-from mcexact.answer.listing import premises_of
-from mcexact.answer.parametric_account import ParametricAccount
-from mcexact.answer.rules import PARAMETERS
-from mcexact.answer.template import templates
-from mcexact.answer.wording import parameters as say
-from mcexact.answer.wording.design import EVERY_VALUE
+from mcexact.answer import parameters as say
+from mcexact.answer.account import ParametricAccount
+from mcexact.answer.loops import EVERY_VALUE
+from mcexact.answer.rulebook import PARAMETERS, premises_of
+from mcexact.answer.templates import templates
 from mcexact.checker import check_document
 from mcexact.checker.sentence import RULES
 from tests.checker.manifests import Document, manifest, said, sentence, write
@@ -207,7 +206,7 @@ def test_what_is_not_implied_is_refused_with_its_reason(name: str, tmp_path: Pat
 
 def test_channels_that_are_merged_in_part_do_not_stand_for_all(tmp_path: Path) -> None:
     from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
-    from mcexact.answer.codec import document
+    from mcexact.answer.protocol import document
     from mcexact.derived.constructions import full_output, merged, moved
 
     plant = ParametricSystem(
@@ -227,7 +226,7 @@ def test_channels_that_are_merged_in_part_do_not_stand_for_all(tmp_path: Path) -
 
 def test_indices_of_some_channels_do_not_stand_for_all(tmp_path: Path) -> None:
     from mcexact import controllability_indices
-    from mcexact.answer.codec import document
+    from mcexact.answer.protocol import document
 
     found = controllability_indices(PLANTS["wide"], ["1"])
     known = {

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.sharing import minimal_shared_dimensions
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.checker.reading import Refused
 from mcexact.checker.shared_dimensions import read_cut
 from mcexact.checker.system import read_plant

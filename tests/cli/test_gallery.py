@@ -5,11 +5,8 @@ import json
 import pytest
 
 import mcexact
-from mcexact.answer.exceptional_hypersurfaces import mode_in_x
-from mcexact.answer.parameter_values import (
-    in_parameter,
-    mode_text,
-)
+from mcexact.answer.parameters import in_parameter, mode_text
+from mcexact.answer.several_parameters import mode_in_x
 from mcexact.model import gallery
 from mcexact.model.files import read_any
 from mcexact.model.gallery import published

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.cli import main
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.model import gallery
@@ -169,7 +169,7 @@ def test_of_a_folder_only_system_files_are_read_and_the_others_are_named(
     call: Call, folder: Path, tmp_path: Path
 ) -> None:
     plant = gallery.load("hidden-triple-mode")
-    codec.save_certificate(fixed_spectrum(plant), folder / "certificate.json")
+    protocol.save_certificate(fixed_spectrum(plant), folder / "certificate.json")
     gains = [[[0] * plant.q(i)] * plant.p(i) for i in range(plant.m)]
     save_controller(local_controllers(plant, gains), folder / "controller.json")
     (folder / "other.json").write_text("[1, 2]", encoding="ascii")

@@ -6,8 +6,8 @@ from itertools import islice
 import pytest
 
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.answer import codec
-from mcexact.answer.fixed_spectrum import ByBlocks
+from mcexact.answer import protocol
+from mcexact.answer.modes import ByBlocks
 from mcexact.checker import check_document
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
@@ -63,7 +63,7 @@ def test_a_large_system_without_fixed_modes_is_certified() -> None:
     assert spectrum.empty and isinstance(spectrum.evidence, ByBlocks)
     [block] = spectrum.evidence.blocks
     assert block.evidence is not None and block.evidence.modulus < 2**24
-    verdict = check_document(codec.encode(spectrum).encode())
+    verdict = check_document(protocol.encode(spectrum).encode())
     assert verdict.verdict == "VALID", verdict
 
 
@@ -72,7 +72,7 @@ def test_a_planted_mode_is_found_among_128_states(degree: int) -> None:
     planted = system_with_fixed_mode(SeededChoices(degree), states=128, channels=6, degree=degree)
     spectrum = fixed_spectrum(planted.system)
     assert planted.fixed_mode in [f.polynomial for f in spectrum.factors]
-    verdict = check_document(codec.encode(spectrum).encode())
+    verdict = check_document(protocol.encode(spectrum).encode())
     assert verdict.verdict == "VALID", verdict
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.crosschecks.gallery import exhibit, exhibits
 from mcexact.model.controller import save_controller
 from mcexact.model.files import save_system

@@ -7,7 +7,7 @@ import pytest
 import sympy
 
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import closed_by
 from mcexact.errors import Impossible

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mcexact import testing
 from mcexact.analysis.stability import certify_stability
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.derived.constructions import feedback
 from mcexact.errors import InputError, UsageError

@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 
 from mcexact import testing
 from mcexact.analysis.controllability import joint_controllability
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.checker import Limits as CheckerLimits
 from mcexact.checker import check_document
 from mcexact.derived.constructions import extended_system
@@ -448,7 +448,7 @@ def test_an_unknown_gallery_system_is_refused():
 
 def test_certificates_about_plants_with_very_long_integers_are_canonical() -> None:
     plant = MultiChannelSystem([[10**6000]], [[[1]]], [[[1]]])
-    text = codec.encode(joint_controllability(plant)).encode("ascii")
+    text = protocol.encode(joint_controllability(plant)).encode("ascii")
     assert check_document(text, limits=CheckerLimits(digits=10**4)).verdict == "VALID"
 
 

@@ -14,8 +14,8 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum, pencil_rank
 from mcexact.analysis.sharing import deficiency
 from mcexact.analysis.structure import transfer_graph
-from mcexact.answer import codec
-from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer import protocol
+from mcexact.answer.modes import FixedSpectrum
 from mcexact.checker import check_document
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle import enumeration as oracle
@@ -108,7 +108,7 @@ def disagreements(
         if found.rank != wanted:
             problems.append(f"pencil rank {found.rank}, enumeration says {wanted}")
     for name, answer in answers.items() if certificates else ():
-        verdict = check_document(codec.encode(answer).encode())
+        verdict = check_document(protocol.encode(answer).encode())
         if verdict.verdict != "VALID":
             problems.append(f"the certificate of {name} is {verdict}")
     return problems, not spectrum.empty

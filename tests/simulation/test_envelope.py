@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.answer.stability import LyapunovMethod, StabilityVerdict
+from mcexact.answer.loops import LyapunovMethod, StabilityVerdict
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.controllability import joint_controllability
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import InputError, NotWritten, UsageError
 from mcexact.exact.rational import Limits
@@ -86,7 +86,7 @@ def observability_for_controllability(job: Job) -> Outcome:
 
 def controllability_of_one_channel(job: Job) -> Outcome:
     """The same kind of certificate, of fewer channels."""
-    made = codec.encode(joint_controllability(job.system(), ["u1"]))
+    made = protocol.encode(joint_controllability(job.system(), ["u1"]))
     return decide(job) | {"certificates": {"joint_controllability": made}}
 
 
@@ -99,7 +99,7 @@ def test_every_question_is_answered_as_it_is_one_by_one() -> None:
     )
     assert list(record.answers) == list(QUESTIONS)
     for name, question in QUESTIONS.items():
-        document = codec.document(question.decide(system))
+        document = protocol.document(question.decide(system))
         assert record.answers[name]["claim"] == document["claim"]
         assert json.loads(record.certificates[name]) == document
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mcexact import design_observer, design_setpoint
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion

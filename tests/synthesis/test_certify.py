@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import any_system

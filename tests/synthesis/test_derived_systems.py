@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from mcexact.answer.account import Account
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import Expectation, Limits, check_document
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.derived.constructions import augmented_outputs, extended_system, feedback, full_output

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.analysis.stability import certify_stability
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.networks import drawn_graph
 from mcexact.derived.drawn.primary_form import SeededChoices

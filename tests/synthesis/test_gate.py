@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.analysis.stability import agreeing_moduli, coefficient_bound
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, InternalError, LimitReached, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.answer.check import check
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import Expectation, check_document
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial

@@ -31,11 +31,11 @@ from mcexact.analysis.boxes.pencils import Floats, one_thread, radii_of
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.stability import certify_stability
-from mcexact.answer.mode_words import blame
-from mcexact.answer.parametric_box_stable import ParametricBoxStability
+from mcexact.answer.boxes import ParametricBoxStability
+from mcexact.answer.check import constructed
+from mcexact.answer.loops import StabilityVerdict
 from mcexact.answer.protocol import Answer
-from mcexact.answer.reading import constructed
-from mcexact.answer.stability import StabilityVerdict
+from mcexact.answer.templates import blame
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError, LimitReached, UsageError, require_seconds
 from mcexact.exact.matrix import Matrix, largest_entry, matrix_to_float, to_float

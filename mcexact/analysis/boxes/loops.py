@@ -29,10 +29,9 @@ from mcexact.analysis.boxes.pencils import (
     whole_weights,
 )
 from mcexact.analysis.stability import certify_stability
-from mcexact.answer.box_stable import BoxStability
+from mcexact.answer.boxes import BoxStability, ParametricBoxStability, StabilityOfCell
 from mcexact.answer.evidence import InverseFrame
-from mcexact.answer.parametric_box_stable import ParametricBoxStability, StabilityOfCell
-from mcexact.answer.stability import LyapunovMethod, PolynomialMethod, StabilityVerdict
+from mcexact.answer.loops import LyapunovMethod, PolynomialMethod, StabilityVerdict
 from mcexact.derived.constructions import add_links, looped
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float

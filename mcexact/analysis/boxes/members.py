@@ -39,13 +39,20 @@ from mcexact.analysis.boxes.pencils import (
 )
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.answer.box_controllable import BoxControllability, RightInverseFrame
-from mcexact.answer.box_fixed import BoxFixedModes, PencilFrame, PencilGains
+from mcexact.answer.boxes import (
+    BoxControllability,
+    BoxFixedModes,
+    ControlOfCell,
+    FixedModesOfCell,
+    ParametricBoxControllability,
+    ParametricBoxFixedModes,
+    PencilFrame,
+    PencilGains,
+    RightInverseFrame,
+)
 from mcexact.answer.evidence import ExteriorDiscs, RootDisc
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.answer.parametric_box_controllable import ControlOfCell, ParametricBoxControllability
-from mcexact.answer.parametric_box_fixed import FixedModesOfCell, ParametricBoxFixedModes
-from mcexact.answer.setpoint import SetpointSolvability
+from mcexact.answer.modes import FixedSpectrum
+from mcexact.answer.structure import SetpointSolvability
 from mcexact.derived.constructions import dual, moved, setpoint_system
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float

@@ -25,8 +25,8 @@ import numpy as np
 import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
+from mcexact.answer.check import constructed
 from mcexact.answer.evidence import ComplexMatrix
-from mcexact.answer.reading import constructed
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float, vstack
 from mcexact.model.box import Box

@@ -24,15 +24,21 @@ from mcexact.analysis.parameters.ranks import (
     setpoint_rank,
 )
 from mcexact.answer.evidence import RootDisc
-from mcexact.answer.exceptional_hypersurfaces import (
+from mcexact.answer.parameters import (
+    ParametricFixedSpectrum,
+    ParametricRank,
+    TransferColumn,
+    joined,
+    rows_left_out,
+    value_text,
+    within,
+)
+from mcexact.answer.several_parameters import (
     ExceptionalHypersurfaces,
     Hypersurface,
     Line,
     RankHypersurfaces,
 )
-from mcexact.answer.parameter_values import joined, rows_left_out, value_text, within
-from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.answer.parametric_rank import ParametricRank, TransferColumn
 from mcexact.derived.modular import generator
 from mcexact.errors import InputError, LimitReached, UsageError, one_of
 from mcexact.exact import rational_functions

@@ -21,15 +21,16 @@ from typing import Any
 
 from mcexact.analysis.subspaces import obstruction_modulo
 from mcexact.answer.evidence import RootDisc, ZeroBlock
-from mcexact.answer.parameter_values import OutsideValue, meets
-from mcexact.answer.parametric_fixed_spectrum import (
+from mcexact.answer.parameters import (
     CommonDivisor,
     ExceptionalEvidence,
     ExceptionalMode,
     ExceptionalValue,
     MovedModes,
+    OutsideValue,
     ParametricFixedSpectrum,
     SettledValue,
+    meets,
 )
 from mcexact.derived.constructions import (
     Share,

@@ -10,19 +10,20 @@ from itertools import islice
 from typing import Any, TypeVar
 
 from mcexact.answer.evidence import RootDisc
-from mcexact.answer.exceptional_hypersurfaces import A, Hypersurface, Line, RankHypersurfaces
-from mcexact.answer.parameter_values import OutsideValue, meets
-from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.answer.parametric_rank import (
+from mcexact.answer.parameters import (
     ControllabilityMatrix,
     Kernel,
     LowerRank,
+    OutsideValue,
+    ParametricFixedSpectrum,
     ParametricRank,
     SetpointMatrix,
     SignalMatrix,
     TransferColumn,
     TwoMinors,
+    meets,
 )
+from mcexact.answer.several_parameters import A, Hypersurface, Line, RankHypersurfaces
 from mcexact.derived.constructions import along_line, dual, moved, points_of
 from mcexact.derived.modular import PolynomialSystem, generator
 from mcexact.errors import InputError, InternalError, LimitReached

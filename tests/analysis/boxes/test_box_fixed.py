@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from mcexact import Box, MultiChannelSystem, check, dual, fixed_spectrum, gallery, testing
 from mcexact.analysis.boxes.members import box_fixed_modes, box_stabilizability
 from mcexact.analysis.boxes.pencils import radii_of
-from mcexact.answer.box_fixed import BoxFixedModes
+from mcexact.answer.boxes import BoxFixedModes
 from mcexact.derived.constructions import (
     augmented_outputs,
     error_system,

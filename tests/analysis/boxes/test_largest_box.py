@@ -25,7 +25,7 @@ from mcexact import (
 from mcexact.analysis.boxes.failure import failing_plant, rational_point, severed_plants, tried_sets
 from mcexact.analysis.boxes.largest import Search, largest_factor
 from mcexact.analysis.boxes.pencils import one_thread
-from mcexact.answer.box_fixed import BoxFixedModes
+from mcexact.answer.boxes import BoxFixedModes
 from mcexact.errors import UsageError
 
 EFFORT = 0.5

@@ -27,7 +27,7 @@ from mcexact import (
 from mcexact.analysis.boxes.cells import box_of_cell, whole_cell
 from mcexact.analysis.boxes.largest import LargestRanges
 from mcexact.analysis.boxes.loops import LoopSearch
-from mcexact.answer.parametric_box_stable import ParametricBoxStability
+from mcexact.answer.boxes import ParametricBoxStability
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, LinearMap

@@ -18,9 +18,9 @@ from mcexact.analysis.blocks import (
 )
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.structure import transfer_graph
-from mcexact.answer.codec import encode
 from mcexact.answer.evidence import KrylovSequence
-from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials
+from mcexact.answer.modes import ByBlocks, TwoPolynomials
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.derived import modular
 from mcexact.exact import krylov, tables

@@ -18,7 +18,7 @@ from mcexact import (
     load_certificate,
     save_certificate,
 )
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.errors import InputError, UsageError
 from tests.answer.test_golden import PORTS, tanks, with_a_parameter
 from tests.campaigns.parametric import examined

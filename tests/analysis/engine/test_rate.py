@@ -6,7 +6,7 @@ import pytest
 
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.stability import best_rate, closed_loop_spectrum, located
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.checker import check_document
 from mcexact.exact.linear_algebra import companions
@@ -99,7 +99,7 @@ def test_the_best_rate_is_enclosed_to_ten_digits_and_the_checker_agrees(
     nothing = [[[0]] * p.degree], [[[0] * p.degree]]
     found = fixed_spectrum(MultiChannelSystem(A, *nothing, time=time))
     assert_encloses_to_ten_digits(found.best_rate, time, p)
-    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(found).encode()).verdict == "VALID"
     assert_encloses_to_ten_digits(closed_loop_spectrum(A, time).rate, time, p)
 
 

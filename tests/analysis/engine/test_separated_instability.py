@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from mcexact.analysis.stability import Separation, certify_stability, matrix_system
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix

@@ -13,8 +13,8 @@ from mcexact.analysis import structure as graph_module
 from mcexact.analysis.fixed_modes import completeness
 from mcexact.analysis.sparse import edge_modulus, reachable_pairs
 from mcexact.analysis.structure import transfer_graph
-from mcexact.answer.codec import encode
-from mcexact.answer.completeness import BlocksWitness
+from mcexact.answer.modes import BlocksWitness
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.errors import LimitReached
 from mcexact.model.system import MultiChannelSystem

@@ -17,9 +17,9 @@ from mcexact.analysis.blocks import (
 )
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.sharing import deficiency
-from mcexact.answer.codec import encode
 from mcexact.answer.evidence import CoprimePolynomials, KrylovSequence
-from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials
+from mcexact.answer.modes import ByBlocks, TwoPolynomials
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem

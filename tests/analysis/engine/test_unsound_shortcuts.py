@@ -12,7 +12,7 @@ from typing import Any
 import flint
 
 from mcexact import MultiChannelSystem, ParametricSystem, check, fixed_spectrum
-from mcexact.answer.codec import document
+from mcexact.answer.protocol import document
 from mcexact.derived.modular import PolynomialSystem
 from mcexact.exact import bivariate
 from mcexact.exact.matrix import Matrix

@@ -6,22 +6,23 @@ import pytest
 
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.single_channel import single_channel_gains
-from mcexact.answer import codec
-from mcexact.answer.completeness import (
+from mcexact.answer import protocol
+from mcexact.answer.modes import (
     BlocksWitness,
+    ByBlocks,
     Completeness,
     CutWitness,
     FixedModeWitness,
     FreedomWitness,
+    TwoPolynomials,
 )
-from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 
 
 def checked(answer: Completeness) -> Completeness:
-    verdict = check_document(codec.encode(answer).encode())
+    verdict = check_document(protocol.encode(answer).encode())
     assert verdict.verdict == "VALID", verdict
     return answer
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from mcexact import MultiChannelSystem, error_gains
-from mcexact.answer.codec import encode
-from mcexact.answer.single_channel_gains import StuckWitness
+from mcexact.answer.protocol import encode
+from mcexact.answer.structure import StuckWitness
 from mcexact.checker import check_document
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import minimal_polynomial

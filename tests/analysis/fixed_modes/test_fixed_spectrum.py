@@ -13,9 +13,9 @@ from mcexact.analysis.analyze import Analysis, analyze
 from mcexact.analysis.blocks import bounded_blocks, modes_left
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.subspaces import CommonFactor, decide
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.answer.evidence import Block, CoprimePolynomials
-from mcexact.answer.fixed_spectrum import ByBlocks, FixedFactor, FixedSpectrum
+from mcexact.answer.modes import ByBlocks, FixedFactor, FixedSpectrum
 from mcexact.checker import Expectation, Limits, check_document
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.derived.constructions import dual
@@ -52,7 +52,7 @@ def factors(spectrum: FixedSpectrum) -> Factors:
 def checked(system: MultiChannelSystem) -> FixedSpectrum:
     """The fixed spectrum, its certificate accepted."""
     spectrum = fixed_spectrum(system)
-    verdict = check_document(codec.encode(spectrum).encode())
+    verdict = check_document(protocol.encode(spectrum).encode())
     assert verdict.verdict == "VALID", verdict
     return spectrum
 
@@ -173,7 +173,7 @@ def test_discrete_time_places_modes_by_their_modulus() -> None:
 
 def test_the_same_system_gives_the_same_certificate() -> None:
     first, second = (fixed_spectrum(gallery.load("compleib-roc5")) for _ in range(2))
-    assert codec.encode(first) == codec.encode(second)
+    assert protocol.encode(first) == protocol.encode(second)
 
 
 def small_systems(count: int) -> list[MultiChannelSystem]:
@@ -236,7 +236,7 @@ def test_adding_a_channel_never_creates_fixed_modes() -> None:
 def test_a_planted_mode_is_found_among_80_states_and_40_channels(degree: int) -> None:
     drawn = system_with_fixed_mode(SeededChoices(degree), states=80, channels=40, degree=degree)
     spectrum = fixed_spectrum(drawn.system)
-    verdict = check_document(codec.encode(spectrum).encode())
+    verdict = check_document(protocol.encode(spectrum).encode())
     assert verdict.verdict == "VALID", verdict
     assert drawn.fixed_mode in [f.polynomial for f in spectrum.factors]
 
@@ -303,7 +303,7 @@ def test_the_search_for_large_sparse_systems_finds_the_same(
             expected = fixed_spectrum(system)
         assert without_multiplicity(found) == without_multiplicity(expected)
         assert found.best_rate == expected.best_rate
-        assert check_document(codec.encode(found).encode()).verdict == "VALID"
+        assert check_document(protocol.encode(found).encode()).verdict == "VALID"
         if not found.empty:
             open_ = any(f.multiplicity_in_A is None for f in found.factors)
             assert isinstance(found.evidence, ByBlocks) or not open_
@@ -317,7 +317,7 @@ def test_a_mode_planted_in_a_large_sparse_system_is_certified() -> None:
     [factor] = found.factors
     assert (str(factor.polynomial), factor.multiplicity_in_A) == ("x + 3", None)
     assert (len(factor.channels), factor.rank) == (59, 599)
-    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(found).encode()).verdict == "VALID"
 
 
 def chain_of_pairs(count: int, size: int) -> MultiChannelSystem:
@@ -345,7 +345,7 @@ def test_small_blocks_without_a_sequence_are_completed_one_by_one(
     assert found.empty
     assert isinstance(found.evidence, ByBlocks)
     assert isinstance(found.evidence.blocks[5].evidence, CoprimePolynomials)
-    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(found).encode()).verdict == "VALID"
     with monkeypatch.context() as patched:
         patched.setattr(module, "_SMALL_BLOCK", 1)
         patched.setattr(module, "_by_sparse_search", lambda system, blocks: found)

@@ -3,7 +3,7 @@
 import pytest
 
 from mcexact.analysis.fixed_modes import pencil_rank, pencil_ranks
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.checker import check_document
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.polynomial import Polynomial
@@ -15,17 +15,17 @@ def test_the_example_of_the_paper_loses_rank_at_1_for_channels_2_and_3() -> None
     system = gallery.load("liu2020-3ch-no-communication")
     found = pencil_rank(system, ["3", "2"], 1)
     assert (found.subset, found.rank, found.deficiency) == (("2", "3"), 2, 1)
-    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(found).encode()).verdict == "VALID"
     elsewhere = pencil_rank(system, ["2", "3"], 2)
     assert elsewhere.deficiency == 0
-    assert check_document(codec.encode(elsewhere).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(elsewhere).encode()).verdict == "VALID"
 
 
 def test_irrational_modes_are_asked_for_by_their_polynomial() -> None:
     system = MultiChannelSystem([[0, 2], [1, 0]], [[[0], [0]]], [[[1, 0]]])
     found = pencil_rank(system, [], Polynomial.of(-2, 0, 1))
     assert found.rank == 1
-    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(found).encode()).verdict == "VALID"
     assert pencil_rank(system, ["1"], Polynomial.of(-2, 0, 1)).rank == 2
 
 

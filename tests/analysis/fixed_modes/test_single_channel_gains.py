@@ -8,8 +8,8 @@ import pytest
 
 from mcexact import MultiChannelSystem, completeness, single_channel_gains
 from mcexact.analysis.single_channel import Want
-from mcexact.answer.codec import encode
-from mcexact.answer.single_channel_gains import GainsWitness, UnreachedWitness
+from mcexact.answer.protocol import encode
+from mcexact.answer.structure import GainsWitness, UnreachedWitness
 from mcexact.checker import check_document
 from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError

@@ -13,9 +13,8 @@ from mcexact.analysis.sharing import (
     minimal_shared_dimensions,
     shared_dimension_bound,
 )
-from mcexact.answer.codec import encode
-from mcexact.answer.protocol import Answer
-from mcexact.answer.shared_dimensions import SharedDimensions
+from mcexact.answer.protocol import Answer, encode
+from mcexact.answer.sharing import SharedDimensions
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import augmented_outputs, extended_system
 from mcexact.errors import InputError, LimitReached, UsageError

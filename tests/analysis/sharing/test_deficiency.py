@@ -7,8 +7,8 @@ import pytest
 
 from mcexact.analysis import sharing as module
 from mcexact.analysis.sharing import deficiency
-from mcexact.answer import codec
-from mcexact.answer.deficiency import ByBlocks
+from mcexact.answer import protocol
+from mcexact.answer.sharing import ByBlocks
 from mcexact.checker import check_document
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.draws import exact, sparse_system
@@ -25,7 +25,7 @@ def test_a_multiple_mode_that_nobody_drives_counts_as_often_as_it_can(multiplici
     found = deficiency(system)
     assert found.deficiency == multiplicity
     assert (found.channels is None) == (multiplicity == 0)
-    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(found).encode()).verdict == "VALID"
 
 
 def test_the_mode_of_largest_deficiency_is_named_with_its_channels() -> None:
@@ -48,7 +48,7 @@ def test_the_evidence_of_large_systems_gives_the_same(monkeypatch: pytest.Monkey
         assert found.claim() == expected.claim()
         assert found.total == expected.total
         assert (found.channels is None) == (found.deficiency == 0)
-        assert check_document(codec.encode(found).encode()).verdict == "VALID"
+        assert check_document(protocol.encode(found).encode()).verdict == "VALID"
         counted[f"{type(found.evidence).__name__} {min(found.deficiency, 2)}"] += 1
     assert all(counted[f"ByBlocks {rho}"] > 0 for rho in range(3)), counted
     assert sum(n for name, n in counted.items() if "Completion" in name) < 15, counted
@@ -59,4 +59,4 @@ def test_a_mode_of_a_large_sparse_system_loses_one_rank() -> None:
     assert found.deficiency == 1
     assert isinstance(found.evidence, ByBlocks)
     assert found.channels == found.about.names[1:]
-    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(found).encode()).verdict == "VALID"

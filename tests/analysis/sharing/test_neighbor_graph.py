@@ -3,7 +3,7 @@
 import pytest
 
 from mcexact.analysis.sharing import neighbor_graph
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.checker import check_document
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem
@@ -23,7 +23,7 @@ def test_a_cycle_connects_and_a_path_does_not(
     system = MultiChannelSystem([[0]], [[[1]]] * 3, [[[1]]] * 3, neighbors=neighbors)
     verdict = neighbor_graph(system)
     assert verdict.strongly_connected == connected
-    assert check_document(codec.encode(verdict).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(verdict).encode()).verdict == "VALID"
 
 
 def test_without_a_graph_there_is_no_answer() -> None:

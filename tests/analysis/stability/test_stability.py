@@ -9,8 +9,8 @@ import pytest
 
 from mcexact.analysis.lyapunov import is_dominant, quadratic_form
 from mcexact.analysis.stability import Separation, certify_stability, fastest_region, matrix_system
-from mcexact.answer.codec import encode
-from mcexact.answer.stability import StabilityVerdict
+from mcexact.answer.loops import StabilityVerdict
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, UsageError
 from mcexact.exact.matrix import Matrix, block_diagonal

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 
 from mcexact import MultiChannelSystem, complementary_subsystem, completeness, dual
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.derived.drawn.systems import Drawn
 from mcexact.errors import UsageError

@@ -9,8 +9,8 @@ import pytest
 from mcexact.analysis import controllability
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.answer import codec
-from mcexact.answer.controllability import ByBlocks
+from mcexact.answer import protocol
+from mcexact.answer.structure import ByBlocks
 from mcexact.checker import check_document
 from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
@@ -30,7 +30,7 @@ def test_published_systems_have_the_published_answers(name: str) -> None:
         (joint_observability(system), "jointly_observable"),
     ):
         assert answer.controllable == wanted[key]
-        assert check_document(codec.encode(answer).encode()).verdict == "VALID"
+        assert check_document(protocol.encode(answer).encode()).verdict == "VALID"
 
 
 def test_a_diagonal_system_of_20_states_is_controllable_from_one_input() -> None:
@@ -82,7 +82,7 @@ def test_a_system_without_states_is_controllable_and_observable() -> None:
     system = MultiChannelSystem([], [Matrix.zeros(0, 1)], [Matrix.zeros(1, 0)])
     for answer in (joint_controllability(system), joint_observability(system)):
         assert answer.controllable
-        assert check_document(codec.encode(answer).encode()).verdict == "VALID"
+        assert check_document(protocol.encode(answer).encode()).verdict == "VALID"
 
 
 def answers_by_blocks(number: int, monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
@@ -99,8 +99,8 @@ def answers_by_blocks(number: int, monkeypatch: pytest.MonkeyPatch) -> Counter[s
                 found = decide(system, channels)
                 assert found == decide(system, channels, spectrum=spectrum)
             assert found.claim() == expected.claim()
-            assert check_document(codec.encode(found).encode()).verdict == "VALID"
-            assert check_document(codec.encode(expected).encode()).verdict == "VALID"
+            assert check_document(protocol.encode(found).encode()).verdict == "VALID"
+            assert check_document(protocol.encode(expected).encode()).verdict == "VALID"
             kind = "rank" if found.channels else "nobody"
             if isinstance(found.evidence, ByBlocks):
                 kind = "own outputs" if found.evidence.measured is None else "states"

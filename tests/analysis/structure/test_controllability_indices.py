@@ -3,7 +3,7 @@
 import random
 
 from mcexact.analysis.controllability import controllability_indices, observability_indices
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.checker import check_document
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
@@ -34,7 +34,7 @@ def test_drawn_systems_agree_with_plain_ranks_and_are_certified() -> None:
         ):
             assert answer.ranks == wanted
             assert sum(answer.indices) == (wanted[-1] if wanted else 0)
-            verdict = check_document(codec.encode(answer).encode())
+            verdict = check_document(protocol.encode(answer).encode())
             assert verdict.verdict == "VALID", verdict
 
 
@@ -51,4 +51,4 @@ def test_without_states_the_index_is_0() -> None:
     system = MultiChannelSystem([], [Matrix.zeros(0, 1)], [Matrix.zeros(1, 0)])
     found = controllability_indices(system)
     assert (found.ranks, found.index, found.indices) == ((), 0, ())
-    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    assert check_document(protocol.encode(found).encode()).verdict == "VALID"

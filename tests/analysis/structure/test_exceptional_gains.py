@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact import MultiChannelSystem, controllability_indices, exceptional_gains
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.errors import FloatRefused, Impossible, InputError
 from mcexact.exact.matrix import Matrix

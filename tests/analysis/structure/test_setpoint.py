@@ -9,7 +9,7 @@ import sympy
 
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.structure import setpoint_solvability
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import setpoint_system
 from mcexact.derived.drawn.primary_form import SeededChoices

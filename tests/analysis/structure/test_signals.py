@@ -16,8 +16,8 @@ from mcexact import (
     setpoint_solvability,
     signal_solvability,
 )
-from mcexact.answer.exceptional_hypersurfaces import RankHypersurfaces
-from mcexact.answer.parametric_rank import ParametricRank
+from mcexact.answer.parameters import ParametricRank
+from mcexact.answer.several_parameters import RankHypersurfaces
 from mcexact.errors import InputError
 from mcexact.exact.polynomial import Polynomial
 

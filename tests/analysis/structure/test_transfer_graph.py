@@ -3,7 +3,7 @@
 import pytest
 
 from mcexact.analysis.structure import transfer_graph
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.answer.protocol import Answer
 from mcexact.checker import check_document
 from mcexact.derived.constructions import dual
@@ -14,7 +14,7 @@ from tests.oracle.draws import exact
 
 
 def valid(answer: Answer) -> bool:
-    return check_document(codec.encode(answer).encode()).verdict == "VALID"
+    return check_document(protocol.encode(answer).encode()).verdict == "VALID"
 
 
 @pytest.mark.parametrize("name", gallery.names())

@@ -15,14 +15,14 @@ from mcexact.analysis import sharing as deficiency_module
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.analysis.parameters.ranks import parametric_rank
 from mcexact.analysis.sharing import deficiency
-from mcexact.answer import codec
-from mcexact.answer.parametric_rank import (
+from mcexact.answer import protocol
+from mcexact.answer.check import constructed
+from mcexact.answer.parameters import (
     ControllabilityMatrix,
     SetpointMatrix,
     SignalMatrix,
     TransferColumn,
 )
-from mcexact.answer.reading import constructed
 from mcexact.errors import McexactError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import StabilityRegion
@@ -203,7 +203,7 @@ def certified(
             answer = PARAMETRIC[kind](rng, constructed(read_parametric_system(text), steps))
         else:
             answer = DECISIONS[kind](rng, constructed(read_system(text), steps))
-        found = codec.document(answer)
+        found = protocol.document(answer)
     except (McexactError, ValueError):
         return None
     if found["kind"] != kind:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 import mcexact
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.model.system_file import read_system
 
 from ..draws.plants import Document, number
@@ -289,7 +289,7 @@ def slack_cut(rng: random.Random, document: Document) -> Forged:
     }
     text = json.dumps({"format": "mcexact-system/1", **plant})
     found = mcexact.minimal_shared_dimensions(read_system(text), None, "states")
-    made: Document = copied(codec.document(found))
+    made: Document = copied(protocol.document(found))
     system, claim, witness = subject_of(made), made["claim"], made["witness"]
     cuts = witness["cuts"]
     if not cuts or max(cut["deficiency"] for cut in cuts) < 2:

@@ -9,7 +9,7 @@ from typing import Any
 from flint import fmpq, fmpq_mat
 
 import mcexact
-from mcexact.answer import codec
+from mcexact.answer import protocol
 from mcexact.model.system_file import read_system
 
 from ..draws.plants import Document, rows_of
@@ -338,7 +338,7 @@ def improper_subset(rng: random.Random, document: Document) -> Forged:
         channel["B"] = [[] for _ in range(n)]
         channel["C"] = {"shape": [0, n], "entries": []} if n else []
     text = json.dumps({"format": "mcexact-system/1", **plant})
-    made = codec.document(mcexact.complementary_subsystem(read_system(text), inside))
+    made = protocol.document(mcexact.complementary_subsystem(read_system(text), inside))
     plant["channels"] = [c for c in plant["channels"] if c["name"] not in names]
     plant.pop("neighbors", None)
     plant.pop("delays", None)

@@ -19,7 +19,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_poly
 
-from mcexact.answer.template import Sentence
+from mcexact.answer.templates import Sentence
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import StabilityRegion
 from tests.attack.oracle.algebra import krylov

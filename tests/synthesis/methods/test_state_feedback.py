@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial

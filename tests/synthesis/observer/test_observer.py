@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import Expectation, check_document
 from mcexact.derived.constructions import feedback
 from mcexact.errors import Impossible, InputError, UsageError

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mcexact.answer.codec import encode
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached

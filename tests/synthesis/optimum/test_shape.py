@@ -5,8 +5,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from mcexact.answer.codec import encode
-from mcexact.answer.stability import StabilityVerdict
+from mcexact.answer.loops import StabilityVerdict
+from mcexact.answer.protocol import encode
 from mcexact.checker import check_document
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model.system import MultiChannelSystem

@@ -1,21 +1,13 @@
-"""The forms of the fields of sentences: numbers, modes, channels, rates, shared dimensions."""
+"""Templates of sentences, the forms of their fields, and words for modes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import string
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from mcexact.answer.formats import (
-    channels,
-    count,
-    cut,
-    edges,
-    listed,
-    modes,
-    name_set,
-    name_text,
-)
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import (
     decimal_number,
@@ -27,6 +19,113 @@ from mcexact.exact.rational import (
 )
 from mcexact.exact.roots import TIMES, StabilityRegion, exact_decimal, is_discrete
 from mcexact.shown import escaped
+
+# Modes, channels and names as text, shortened where they are many.
+
+
+def modes(p: Polynomial, limit: int = 30) -> str:
+    """Name the roots of a polynomial as modes; a rational mode by its value.
+
+    Examples
+    --------
+    >>> modes(Polynomial.of("-1/2", 1)), modes(Polynomial.of(1, 0, 1))
+    ('the mode 1/2', 'the 2 roots of x^2 + 1')
+    """
+    if p.degree == 1:
+        return f"the mode {number(-p.coefficients[0] / p.coefficients[1])}"
+    return f"the {p.degree} roots of {polynomial(p, limit)}"
+
+
+def allowed(region: object | None) -> str:
+    """Where modes may be that members of a box have, such as fixed ones; None for nowhere.
+
+    Examples
+    --------
+    >>> allowed(None), allowed("Re λ < 0")
+    ('none', 'only with Re λ < 0')
+    """
+    return "none" if region is None else f"only with {region}"
+
+
+def count(size: int, noun: str) -> str:
+    """Format a number with its noun, such as 2 nodes.
+
+    Examples
+    --------
+    >>> count(1, "node"), count(2, "node")
+    ('1 node', '2 nodes')
+    """
+    return f"{size} {noun}" if size == 1 else f"{size} {noun}s"
+
+
+def listed(words: Sequence[str]) -> str:
+    """Join words with commas and "and".
+
+    Examples
+    --------
+    >>> listed(["1"]), listed(["1", "2", "3"])
+    ('1', '1, 2 and 3')
+    """
+    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+
+
+def channels(names: Iterable[str], limit: int = 8) -> str:
+    """Name channels as a phrase.
+
+    Examples
+    --------
+    >>> channels(["1"]), channels(["1", "2", "3"])
+    ('channel 1', 'channels 1, 2 and 3')
+    """
+    shown = [name_text(name) for name in names]
+    if len(shown) == 1:
+        return f"channel {shown[0]}"
+    return "channels " + listed(cut(shown, limit))
+
+
+def name_set(names: Iterable[str], limit: int = 12) -> str:
+    """Name channels in braces; of many channels the first few and the number of the others.
+
+    Examples
+    --------
+    >>> name_set(["1", "2"]), name_set(map(str, range(20)), 2)
+    ('{1, 2}', '{0, 1, 18 more}')
+    """
+    return "{" + ", ".join(cut([name_text(name) for name in names], limit)) + "}"
+
+
+def cut(words: Sequence[str], limit: int, more: str = "{} more") -> list[str]:
+    """Keep the first few words, and add the number of the others.
+
+    Examples
+    --------
+    >>> cut(["a", "b", "c"], 2)
+    ['a', 'b', '1 more']
+    """
+    return list(words) if len(words) <= limit else [*words[:limit], more.format(len(words) - limit)]
+
+
+def name_text(name: str, limit: int = 40) -> str:
+    """Format a name given by the user, shortened at its end."""
+    return name if len(name) <= limit else name[: limit - 1] + "…"
+
+
+def edges(edges: Sequence[tuple[str, str]], limit: int = 12) -> str:
+    """Format edges of a graph as ``1 -> 2``; of many edges only the number.
+
+    Examples
+    --------
+    >>> edges([("1", "2")]), edges([]), edges([("1", "1")] * 30)
+    ('1 -> 2', 'no edges', '30 edges')
+    """
+    if not edges:
+        return "no edges"
+    if len(edges) > limit:
+        return count(len(edges), "edge")
+    return ", ".join(f"{name_text(start)} -> {name_text(end)}" for start, end in edges)
+
+
+# The forms of the fields of sentences: numbers, modes, channels, rates, shared dimensions.
 
 Write = Callable[[Any], str]
 
@@ -298,3 +397,162 @@ def form(spec: str) -> Write:
         noun = spec.removeprefix("count ")
         return lambda size: count(size, noun)
     return FORMS[spec]
+
+
+# Sentences about a user's system, and their templates with fields for values.
+
+Premise = tuple[str, str, Any]
+"""The file of a certificate, a JSON pointer into it, and the value there."""
+
+
+class Sentence(str):
+    """A text about a system, with its template and its premises.
+
+    Attributes
+    ----------
+    template : Template
+    cells : tuple of str
+        The text as a row of a table, after its label or in the columns of the template.
+    place : str
+        The place given by a rule.
+    because : tuple of Premise
+        The premises: the claims that the rule has read.
+    values : mapping
+        The values that fill the fields of the template, by their names.
+    """
+
+    template: Template
+    cells: tuple[str, ...]
+    place: str = ""
+    because: tuple[Premise, ...] = ()
+    values: Mapping[str, Any]
+
+    def __new__(
+        cls, text: str, template: Template, cells: tuple[str, ...], values: Mapping[str, Any]
+    ) -> Sentence:
+        made = super().__new__(cls, text)
+        made.template, made.cells, made.values = template, cells, values
+        return made
+
+    def bound(self, place: str, because: tuple[Premise, ...]) -> Sentence:
+        """Return the sentence with its place and premises."""
+        made = Sentence(str(self), self.template, self.cells, self.values)
+        made.place, made.because = place, because
+        return made
+
+    @property
+    def line(self) -> str:
+        """The text, after the label if there is one."""
+        return f"{self.template.label}: {self}" if self.template.label else str(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (str, (str(self),))
+
+
+@dataclass(frozen=True)
+class Template:
+    """A template of sentences, with fields.
+
+    Parameters
+    ----------
+    key : str
+        Its key in the list of all sentences.
+    text : str
+        Text with fields ``{name:form}``, where the form is one of `FORMS`, or ``{name:count
+        noun}``.  In a row of a table ``" | "`` separates the columns.
+    theorem : str
+        The theorem by which the premises imply the sentence, if it does not only repeat a claim:
+        machine-checked theorems of ``proofs/``, or the authors of a published theorem.
+    label : str
+        Its label in a table of names and values.
+    claims : bool
+        Whether its sentences claim something.  A title, and what is not decided or not proved, is a
+        remark, which the checker does not count as implied.
+    """
+
+    key: str
+    text: str
+    theorem: str = ""
+    label: str = ""
+    claims: bool = True
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The names of its fields, each once."""
+        named = (name for _, name, _, _ in string.Formatter().parse(self.text) if name)
+        return tuple(dict.fromkeys(named))
+
+    def __call__(self, **values: Any) -> Sentence:
+        """Make the sentence with some values."""
+        cells = tuple(_Writer().vformat(part, (), values) for part in self.text.split(" | "))
+        labeled = (self.label, *cells) if self.label else cells
+        used = {name: values[name] for name in self.fields}
+        return Sentence(" | ".join(cells), self, labeled, used)
+
+
+class _Writer(string.Formatter):
+    def format_field(self, value: Any, format_spec: str) -> str:
+        return form(format_spec)(value)
+
+
+def templates(*modules: Any) -> Iterator[Template]:
+    """Return the templates that modules define, in order, also those in tuples and mappings."""
+    for module in modules:
+        for name, value in vars(module).items():
+            if not name.startswith("__"):
+                yield from _inside(value)
+
+
+def _inside(value: Any) -> Iterator[Template]:
+    if isinstance(value, Template):
+        yield value
+    elif isinstance(value, tuple | dict):
+        for each in value.values() if isinstance(value, dict) else value:
+            yield from _inside(each)
+
+
+# Modes that depend on parameters, and which channels cause that they are fixed, in words.
+
+
+def blame(s: Sequence[str], names: Sequence[str]) -> str:
+    """Say what it means that the pencil [xI − A, B_{m−s}; C_s, 0] of a set s loses rank.
+
+    Examples
+    --------
+    >>> blame(["2", "3"], ["1", "2", "3"])
+    'channel 1 does not control it, channels 2, 3 do not observe it'
+    >>> blame([], ["1", "2"]), blame(["1"], ["1"])
+    ('no channel controls it', 'no channel observes it')
+    """
+    others = [name for name in names if name not in s]
+    if not s:
+        return "no channel controls it"
+    if not others:
+        return "no channel observes it"
+    return f"{_subject(others)} not control it, {_subject(s)} not observe it"
+
+
+def _subject(names: Sequence[str]) -> str:
+    several = len(names) > 1
+    return f"channel{'s' if several else ''} {', '.join(names)} do{'' if several else 'es'}"
+
+
+def polynomial_in_x(coefficients: Sequence[str]) -> str:
+    """A polynomial in x by the texts of its coefficients, constant first.
+
+    Examples
+    --------
+    >>> polynomial_in_x(["-t", "2", "1"]), polynomial_in_x(["t^2 - 2", "0", "1"])
+    ('x^2 + 2*x - t', 'x^2 + (t^2 - 2)')
+    """
+    text = ""
+    for k, each in reversed(list(enumerate(coefficients))):
+        if each == "0":
+            continue
+        power = "" if k == 0 else "x" if k == 1 else f"x^{k}"
+        negative = each.startswith("-") and " " not in each
+        body = f"({each})" if " " in each else each.removeprefix("-")
+        term = power if power and body == "1" else "*".join(filter(None, (body, power)))
+        text += f" {'-' if negative else '+'} " if text else "-" if negative else ""
+        text += term
+    return text or "0"

@@ -1,0 +1,697 @@
+"""Closed loops and refused designs: answers and sentences."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, Literal
+
+from mcexact.answer.analysis import Said
+from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
+from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.templates import Template
+from mcexact.errors import Impossible, InternalError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import LIMITS, StabilityRegion, steady_point
+from mcexact.plot.eigenvalues import eigenvalues
+
+# Answer: whether all eigenvalues of a matrix meet a rate or a radius.
+
+
+@dataclass(frozen=True)
+class PolynomialMethod(Part):
+    """The checker recomputes the characteristic polynomial over Q and locates its roots exactly."""
+
+    method: Literal["polynomial"] = "polynomial"
+
+
+@dataclass(frozen=True)
+class LyapunovForm(Part):
+    """A Lyapunov matrix for a limit besides the rate, of a matrix that is made from a block.
+
+    Attributes
+    ----------
+    P, R, R2 : Matrix
+        As in `LyapunovBlock`.
+    """
+
+    P: Matrix
+    R: Matrix
+    R2: Matrix
+
+
+@dataclass(frozen=True)
+class LyapunovBlock(Part):
+    """A Lyapunov matrix of one diagonal block D, k × k, proposed in floating point.
+
+    The numbers depend on the processor and on the versions of numpy and scipy, and are verified
+    exactly.
+
+    Attributes
+    ----------
+    size : int
+        k.
+    P : Matrix
+        Symmetric.
+    R, R2 : Matrix
+        RᵀPR and −R2ᵀ(DᵀP + PD + 2·bound·P)R2 (discrete time: R2ᵀ(bound²P − DᵀPD)R2) are strictly
+        diagonally dominant with positive diagonal.
+    damping : LyapunovForm or None
+        Of the 2k × 2k matrix `lifted`, in continuous time and without a rate.
+    largest_modulus : LyapunovForm or None
+        Of D, in discrete time and for the largest modulus.
+    """
+
+    size: int
+    P: Matrix
+    R: Matrix
+    R2: Matrix
+    damping: LyapunovForm | None = field(default=None, kw_only=True, metadata=LEFT_OUT)
+    largest_modulus: LyapunovForm | None = field(default=None, kw_only=True, metadata=LEFT_OUT)
+
+
+@dataclass(frozen=True)
+class Transformation(Part):
+    """M T = T Δ, T nonsingular modulo ℓ and Δ block upper triangular."""
+
+    T: Matrix
+    Delta: Matrix
+    modulus: int
+
+
+@dataclass(frozen=True)
+class LyapunovMethod(Part):
+    """One Lyapunov matrix for each diagonal block, after a transformation if there is one."""
+
+    transformation: Transformation | None
+    blocks: tuple[LyapunovBlock, ...]
+    method: Literal["lyapunov"] = "lyapunov"
+
+
+@dataclass(frozen=True)
+class InstabilityMethod(Part):
+    """A P whose derivative along the loop is negative, and a v with vᵀPv ≤ 0.
+
+    Attributes
+    ----------
+    P, R2 : Matrix
+        As in `LyapunovBlock`, for the whole matrix.
+    v : Matrix
+        One column, not 0.
+    side : str or None
+        ``"bound"``, ``"damping"`` or ``"largest_modulus"``: what is violated, if there are limits.
+    """
+
+    P: Matrix
+    R2: Matrix
+    v: Matrix
+    side: str | None = field(default=None, kw_only=True, metadata=LEFT_OUT)
+    method: Literal["instability"] = "instability"
+
+
+@answer("stability")
+class StabilityVerdict(Answer):
+    """Whether every eigenvalue of the matrix A of a system, usually a loop, lies in a region.
+
+    Attributes
+    ----------
+    bound : Fraction or None
+        A rate ≥ 0 (continuous time) or a radius in (0, 1] (discrete time); None means 0 or 1.
+    stable : bool
+    damping, largest_modulus : Fraction or None
+        Limits in continuous time: −Re λ > damping·|λ|, |λ| < largest_modulus.
+    evidence : PolynomialMethod, LyapunovMethod or InstabilityMethod
+    """
+
+    bound: Fraction | None = claim()
+    stable: bool = claim()
+    damping: Fraction | None = claim(optional=True)
+    largest_modulus: Fraction | None = claim(optional=True)
+    evidence: PolynomialMethod | LyapunovMethod | InstabilityMethod = witness(whole=True)
+
+    @property
+    def region(self) -> StabilityRegion:
+        """The region in which the eigenvalues should lie."""
+        return StabilityRegion(self.about.time, self.bound, self.damping, self.largest_modulus)
+
+    @property
+    def blocks(self) -> tuple[int, ...]:
+        """The sizes of the separately decided diagonal blocks, or the size of the loop."""
+        if isinstance(self.evidence, LyapunovMethod):
+            return tuple(block.size for block in self.evidence.blocks)
+        return (self.about.n,)
+
+    @property
+    def method(self) -> str:
+        """The method that decided: ``"polynomial"``, ``"lyapunov"`` or ``"instability"``."""
+        return self.evidence.method
+
+
+# Answer: the characteristic polynomial of a closed loop, coefficient by coefficient.
+
+
+@answer("closed_loop_spectrum")
+class ClosedLoopSpectrum(Answer):
+    """The characteristic polynomial of the matrix A of a system, usually a closed loop.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        Monic, of degree n.
+    moduli : tuple of int
+        Pairwise coprime, modulo each of which the polynomials agree; their product exceeds twice a
+        bound on the coefficients.
+    """
+
+    polynomial: Polynomial = claim()
+    moduli: tuple[int, ...] = witness()
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the eigenvalues with their multiplicities; see `mcexact.plot.eigenvalues`."""
+        return eigenvalues(self, ax, time=self.about.time)
+
+
+# Answer: the loop of a distributed observer separates, and both parts have known spectra.
+
+
+@answer("distributed_observer")
+class DistributedObserver(Answer):
+    """In the coordinates (x, e_1, z_1, …), e_i = x_i − x, the loop is [M_F, *; 0, M_E].
+
+    Attributes
+    ----------
+    feedback : Polynomial
+        The characteristic polynomial of M_F = A + Σ B_i F_i, of degree n.
+    error : Polynomial
+        The characteristic polynomial of M_E, the matrix of the error system.
+    bound : Fraction or None
+        A certified rate (every real part is below −bound) or radius (every modulus is below it).
+    moduli : tuple of int
+        As in ``closed_loop_spectrum``, enough for both polynomials.
+    """
+
+    feedback: Polynomial = claim()
+    error: Polynomial = claim()
+    bound: Fraction | None = claim()
+    moduli: tuple[int, ...] = witness()
+
+
+# The sentences of `mcexact design` and `certify`.
+
+OBSERVER = Template("design-observer", "distributed observer; closed loop certified")
+OBSERVER_FLOAT = Template(
+    "design-observer-float",
+    "distributed observer, designed in floating point; closed loop certified",
+)
+NETWORK = Template("design-network", "{kind:network}; closed loop certified")
+SETPOINT = Template(
+    "design-setpoint", "set-point controller ({method:method}); closed loop certified"
+)
+CARRIER = Template(
+    "design-carrier",
+    "{agent:name}, of order {order:int}",
+    label="agent with the channel controller",
+)
+CARRIER_FOR = Template(
+    "design-carrier-for",
+    "{agent:name}, of order {order:int}, for {channels:channels}",
+    label="agent with the channel controller",
+)
+ORDER = Template("design-order", "{order:int}", label="states of all agents together")
+ORDER_INTEGRATORS = Template(
+    "design-order-integrators",
+    "{order:int}, integrators included",
+    label="states of all agents together",
+)
+FEEDBACK = Template("design-feedback", "{p:polynomial}", label="spectrum of A + sum B_i F_i")
+ERRORS = Template("design-errors", "{p:polynomial}", label="spectrum of the errors")
+REGION = Template("design-region", "{region:region}", label="every eigenvalue of the loop")
+OBSERVER_ORDER = Template(
+    "design-observer-order", "{order:int}", label="states of the paper's observer"
+)
+SHARED = Template("design-shared", "{sizes:dimensions}", label="shared dimensions")
+ASSIGNED = Template("design-assigned", "{p:polynomial}", label="assigned spectrum")
+KEPT = Template("design-kept", "{p:modes}", label="remaining fixed modes")
+LONGEST = Template("design-longest-number", "{bits:int} bits", label="longest number")
+STEADY = Template(
+    "design-steady-state",
+    "each tends to its set-point if every set-point, and every disturbance of the plant, is "
+    "constant",
+    "B. A. Francis and W. M. Wonham 1976",
+    "outputs",
+)
+MEASURED = Template("design-measured", "computed in floating point, not certified", claims=False)
+
+LOOP = Template("certify-loop", "closed loop", claims=False)
+LOOP_STATES = Template("certify-states", "{n:int}", label="states of the loop")
+INSIDE = Template("certify-inside", "every one satisfies {region:region}", label="eigenvalues")
+OUTSIDE = Template(
+    "certify-outside", "not every one satisfies {region:region}", label="eigenvalues"
+)
+DECIDED_BLOCKS = Template(
+    "certify-decided-blocks", "by Lyapunov matrices, blocks of {sizes:list} states", label="decided"
+)
+DECIDED = Template("certify-decided", "{method:decided}", label="decided")
+EVERY_LOOP = Template(
+    "members-in-region",
+    "every eigenvalue of every loop satisfies {region:region}{gains:gains}",
+    label="within the radii",
+)
+EVERY_LOOP_PART = Template(
+    "members-in-region-part",
+    "{region:region} for every plant within {part:percent} of each entry{gains:gains}",
+    label="every loop near this one",
+)
+EVERY_VALUE = Template(
+    "parametric-ranges-in-region",
+    "{region:region} for every {parameters:words}{gains:gains}",
+    label="every loop in the ranges",
+)
+FAILING_PLANT = Template(
+    "certify-failing-plant",
+    "for a plant within {distance:percent_above} of each entry",
+    label="a loop is not stable",
+)
+FAILING_PLANT_RADII = Template(
+    "certify-failing-plant-radii",
+    "for a plant within {distance:digits_above} times the radii",
+    label="a loop is not stable",
+)
+LARGEST = Template("certify-largest", "{bound:number}", label="largest rate found")
+LEAST = Template("certify-least", "{bound:number}", label="least radius found")
+
+
+# The rules of the sentences of `mcexact design` and `certify`.
+
+DESIGN_RULES = Rulebook()
+design_rule = DESIGN_RULES.rule
+
+
+def inside(loop: Claim, region: StabilityRegion) -> bool:
+    """Whether the claim about a loop is that every eigenvalue lies in a region."""
+    if loop.has("stable"):
+        return bool(loop.stable and about(loop, region))
+    parts = (loop.polynomial,) if loop.has("polynomial") else (loop.feedback, loop.error)
+    return all(region.contains_roots_of(p) for p in parts)
+
+
+def about(loop: Claim, region: StabilityRegion) -> bool:
+    """Whether a claim of the kind ``stability`` is about this region."""
+    limits = {name: getattr(loop, name) for name in LIMITS if loop.has(name)}
+    return bool(loop.bound == region.bound and limits == region.limits)
+
+
+# All loops of a box.
+
+EVERY_LOOP_RULES = Rulebook()
+
+
+@EVERY_LOOP_RULES.rule("table", EVERY_LOOP, EVERY_LOOP_PART, EVERY_VALUE)
+def _every_loop(box_stability: Claim, given: Given) -> Said:
+    """Where the eigenvalues of all loops are, with radii or parameters as they were asked for."""
+    region = StabilityRegion.of(given.time, bound=box_stability.bound)
+    gains = None if box_stability.gain_radii is None else given.part_of_gains
+    if given.has("parameters"):
+        yield EVERY_VALUE(region=region, parameters=given.parameters, gains=gains)
+    elif given.part_of_plant is None:
+        yield EVERY_LOOP(region=region, gains=gains)
+    else:
+        yield EVERY_LOOP_PART(region=region, part=given.part_of_plant, gains=gains)
+
+
+@EVERY_LOOP_RULES.rule("table", FAILING_PLANT, FAILING_PLANT_RADII)
+def _failing_plant(failing_loop: Claim, loop: Claim, given: Given) -> Said:
+    """How near a plant is whose loop with the same controller is not stable."""
+    if not failing_loop.stable and failing_loop.bound is None and inside(loop, given.region):
+        told = FAILING_PLANT_RADII if given.of_radii else FAILING_PLANT
+        yield told(distance=given.fails_within)
+
+
+# Designs.
+
+
+@design_rule("title", OBSERVER, OBSERVER_FLOAT, NETWORK, SETPOINT, LOOP)
+def _title(loop: Claim, given: Given) -> Said:
+    """The heading of a design; without a certified region there is no other sentence."""
+    if not inside(loop, given.region):
+        yield LOOP()
+    elif given.has("solvability"):
+        yield SETPOINT(method=given.method)
+    elif given.method == "observer":
+        yield (OBSERVER if given.arithmetic == "exact" else OBSERVER_FLOAT)()
+    else:
+        yield NETWORK(kind=given.network)
+
+
+@design_rule("table", ORDER, ORDER_INTEGRATORS)
+def _order(given: Given) -> Said:
+    told = ORDER_INTEGRATORS if given.has("solvability") else ORDER
+    yield told(order=given.order)
+
+
+@design_rule("table", OBSERVER_ORDER)
+def _observer_order(given: Given) -> Said:
+    if given.has("observer_order"):
+        yield OBSERVER_ORDER(order=given.observer_order)
+
+
+@design_rule("table", SHARED)
+def _shared(given: Given) -> Said:
+    if given.has("network") and given.network != "decentralized":
+        yield SHARED(sizes=list(given.dimensions.items()))
+
+
+@design_rule("table", CARRIER, CARRIER_FOR)
+def _carrier(given: Given) -> Said:
+    if given.has("agent"):
+        yield CARRIER(agent=given.agent, order=given.channel_order)
+    blocks = given.blocks if given.has("blocks") else ()
+    told = CARRIER if len(blocks) == 1 else CARRIER_FOR
+    for block in blocks:
+        yield told(agent=block.agent, order=block.order, channels=block.channels)
+
+
+@design_rule("table", ASSIGNED)
+def _assigned(loop: Claim, given: Given) -> Said:
+    if given.has("blocks") and loop.has("polynomial"):
+        for block in given.blocks:
+            if block.polynomial.divides(loop.polynomial):
+                yield ASSIGNED(p=block.polynomial)
+
+
+@design_rule("table", KEPT)
+def _kept(loop: Claim, fixed_spectrum: Claim, given: Given) -> Said:
+    """The fixed modes that remain under the design."""
+    if given.has("kept") and given.kept.degree and inside(loop, given.region):
+        fixed = fixed_spectrum.polynomial
+        if all(p.divides(fixed) for p, _ in given.kept.factor()):
+            yield KEPT(p=given.kept)
+
+
+@design_rule("table", FEEDBACK)
+def _feedback(loop: Claim) -> Said:
+    if loop.has("feedback"):
+        yield FEEDBACK(p=loop.feedback)
+
+
+@design_rule("table", ERRORS)
+def _errors(loop: Claim) -> Said:
+    if loop.has("error"):
+        yield ERRORS(p=loop.error)
+
+
+@design_rule("table", REGION)
+def _region(bounded_loop: Claim, given: Given) -> Said:
+    loop, bound = bounded_loop, given.region.bound
+    if bound is not None and loop.bound == bound and inside(loop, given.region):
+        yield REGION(region=given.region)
+
+
+@design_rule("table", OUTSIDE)
+def _unstable(stability: Claim, given: Given) -> Said:
+    """A loop whose prescribed spectrum is not stable was wanted, and is not to be installed."""
+    if not stability.stable:
+        yield OUTSIDE(region=given.region)
+
+
+@design_rule("table", STEADY)
+def _steady(loop: Claim, given: Given) -> Said:
+    if given.has("solvability") and inside(loop, given.region):
+        yield STEADY()
+
+
+@design_rule("table", LONGEST)
+def _longest(given: Given) -> Said:
+    yield LONGEST(bits=given.bits)
+
+
+@design_rule("measured.title", MEASURED)
+def _measured(given: Given) -> Said:
+    yield MEASURED()
+
+
+DESIGN = Rulebook([*DESIGN_RULES, *EVERY_LOOP_RULES])
+
+# Verdicts.
+
+DESIGN_RULES = Rulebook()
+design_rule = DESIGN_RULES.rule
+
+
+@design_rule("title", LOOP)
+def _verdict(loop: Claim) -> Said:
+    """The title of a verdict."""
+    _ = loop.stable
+    yield LOOP()
+
+
+@design_rule("table", LOOP_STATES)
+def _states(given: Given) -> Said:
+    yield LOOP_STATES(n=given.states)
+
+
+@design_rule("table", INSIDE, OUTSIDE)
+def _location(loop: Claim, given: Given) -> Said:
+    if about(loop, given.region):
+        yield (INSIDE if loop.stable else OUTSIDE)(region=given.region)
+
+
+@design_rule("table", DECIDED, DECIDED_BLOCKS)
+def _decided(loop: Claim) -> Said:
+    """The method of the decision, and the blocks to which it was applied."""
+    proof = loop.proof
+    sizes = [block.size for block in proof.blocks] if proof.has("blocks") else []
+    yield DECIDED_BLOCKS(sizes=sizes) if len(sizes) > 1 else DECIDED(method=proof.method)
+
+
+@design_rule("table", LARGEST, LEAST)
+def _largest(loop: Claim, given: Given) -> Said:
+    if given.largest and loop.stable and loop.bound is not None:
+        yield (LEAST if given.region.discrete else LARGEST)(bound=loop.bound)
+
+
+VERDICT = Rulebook([*DESIGN_RULES, *EVERY_LOOP_RULES])
+
+
+# The sentences of refusals: why no requested design exists.
+
+NOT_CONTROLLABLE = Template(
+    "refused-not-controllable",
+    "no state feedback moves {p:modes}: the system is not jointly controllable",
+    "controllability.uncontrollable_modes",
+)
+NOT_CONTROLLABLE_IN = Template(
+    "refused-not-controllable-in",
+    "no state feedback moves {p:modes}, {p:escape} {region:region}: the system is not jointly "
+    "controllable",
+    "controllability.uncontrollable_modes",
+)
+UNREACHED = {
+    "move": Template(
+        "refused-uncontrollable",
+        "no controller moves {p:modes}, {p:escape} {region:region}: all channels together do not "
+        "control {p:them}",
+        "controllability.uncontrollable_modes",
+    ),
+    "see": Template(
+        "refused-unobservable",
+        "no controller observes {p:modes}, {p:escape} {region:region}: all channels together do "
+        "not observe {p:them}",
+        "controllability.uncontrollable_modes",
+    ),
+}
+NOT_OBSERVABLE = Template(
+    "refused-not-observable",
+    "no distributed observer moves {p:modes} of its errors: all channels together do not observe "
+    "{p:them}",
+    "controllability.uncontrollable_modes",
+)
+ERRORS_NOT_COMPLETE = Template(
+    "refused-errors-not-complete",
+    "the error system for these F_i is not complete: no constant K_i, H_ij let one agent control "
+    "and observe all estimation errors",
+    "free_assignment.corfmat_morse_converse",
+)
+ERRORS_FIXED = Template(
+    "refused-errors-fixed",
+    "no constant K_i, H_ij and no linear time-invariant channel controller move {p:modes} of the "
+    "error system for these F_i, {p:escape} {region:region}",
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+_FIXED_MODES = " control moves {p:modes}, which {sides:sides}, and {p:slow}"
+FIXED = Template(
+    "refused-fixed",
+    "no linear time-invariant decentralized" + _FIXED_MODES,
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+FIXED_SHARED = Template(
+    "refused-fixed-shared",
+    "no linear time-invariant distributed"
+    + _FIXED_MODES
+    + " (shared dimensions {sizes:dimensions})",
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+_LACK = (
+    ": {agents:agents} {agents:need} {k:count shared state} of other agents, and can receive from "
+    "{senders:names}"
+)
+NO_DIMENSIONS = Template(
+    "refused-no-dimensions",
+    "no shared dimensions allow linear time-invariant control to move the modes that are not fast "
+    "enough" + _LACK,
+    "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
+)
+NOT_CONTROLLED, NOT_OBSERVED = (
+    Template(
+        f"refused-sharing-in-vain-{verb}",
+        "no sharing allows linear time-invariant control to move {p:modes}: all agents "
+        f"together do not {verb} {{p:them}}",
+        "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
+    )
+    for verb in ("control", "observe")
+)
+NO_CONNECTION = Template(
+    "refused-no-connection",
+    "no shared dimensions make the transfer graph of the extended system strongly connected"
+    + _LACK,
+    "transfer_graph.zero_transfer_cut",
+)
+REFUSED_OUTSIDE = Template(
+    "refused-outside", "not every eigenvalue of the loop satisfies {region:region}"
+)
+NO_EQUILIBRIUM = Template(
+    "refused-no-equilibrium",
+    "no equilibrium holds set-points r with {w:combinations}",
+    "setpoint.setpoint_unreachable",
+)
+NO_EQUILIBRIUM_ZERO = Template(
+    "refused-no-equilibrium-zero",
+    "no equilibrium holds set-points r with {w:combinations}: {place:int} is an invariant zero of "
+    "the plant",
+    "setpoint.setpoint_unreachable",
+)
+MODE_OF_THE_INTEGRATORS = Template(
+    "refused-mode-of-the-integrators",
+    "no stable loop has integrators of the outputs: all channels together do not control the "
+    "mode {place:int} of the plant",
+    "setpoint.setpoint_output_part",
+)
+INTEGRATORS_UNREACHED = {
+    verb: Template(
+        f"refused-integrators-{verb}",
+        "the plant with its integrators has {p:modes}, which all channels together do not " + verb,
+        "controllability.uncontrollable_modes",
+    )
+    for verb in ("control", "observe")
+}
+INTEGRATORS_FIXED = Template(
+    "refused-integrators-fixed",
+    "no linear time-invariant distributed control of the plant with its integrators moves "
+    "{p:modes}, however many states are shared",
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+
+
+# The rules of refusals: why no requested design exists, from the certificate of the refusal.
+
+REFUSAL_RULES = Rulebook()
+refusal_rule = REFUSAL_RULES.rule
+
+
+def refusal(place: str, answer: Answer, **asked: Any) -> Impossible:
+    """Return the error that says why no design exists, with the certificate that proves it.
+
+    Parameters
+    ----------
+    place : str
+        The place of the rules.
+    answer : Answer
+    **asked
+        The request, such as the ``region``; and the template ``told``, if the certificate does not
+        determine it.
+
+    Raises
+    ------
+    InternalError
+        If no rule applies to the certificate.
+    """
+    rules = Rulebook(rule for rule in REFUSAL_RULES if rule.place == place)
+    for sentence in rules.sentences({answer.kind: answer}, Given(answer.about, asked)):
+        return Impossible(sentence, answer)
+    raise InternalError(f"no reason follows from a certificate of the kind {answer.kind}: {place}")
+
+
+@refusal_rule(
+    "unreached",
+    NOT_CONTROLLABLE,
+    NOT_CONTROLLABLE_IN,
+    *UNREACHED.values(),
+    NOT_OBSERVABLE,
+    *INTEGRATORS_UNREACHED.values(),
+)
+def _unreached(controllability: Claim, given: Given) -> Said:
+    if not controllability.controllable:
+        p = controllability.uncontrollable_polynomial
+        yield given.told(p=p, region=given.region if given.has("region") else None)
+
+
+@refusal_rule("not complete", ERRORS_NOT_COMPLETE)
+def _not_complete(completeness: Claim) -> Said:
+    if not completeness.complete:
+        yield ERRORS_NOT_COMPLETE()
+
+
+@refusal_rule("fixed", FIXED, FIXED_SHARED, ERRORS_FIXED)
+def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
+    """The first fixed mode that is outside the region."""
+    sizes = []
+    if fixed_spectrum.subject and "dimensions" in fixed_spectrum.subject[-1]:
+        sizes = list(zip(given.names, fixed_spectrum.subject[-1]["dimensions"], strict=False))
+    for factor in fixed_spectrum.factors:
+        p = factor.polynomial
+        if not given.region.contains_roots_of(p):
+            others = [name for name in given.names if name not in factor.channels]
+            sides = others, factor.channels
+            yield given.told(p=p, sides=sides, sizes=sizes, region=given.region)
+            return
+
+
+@refusal_rule("integrators", INTEGRATORS_FIXED)
+def _integrators_fixed(fixed_spectrum: Claim) -> Said:
+    if fixed_spectrum.polynomial.degree:
+        yield INTEGRATORS_FIXED(p=fixed_spectrum.polynomial)
+
+
+@refusal_rule("dimensions", NO_DIMENSIONS, NOT_CONTROLLED, NOT_OBSERVED, NO_CONNECTION)
+def _no_dimensions(shared_dimensions: Claim, given: Given) -> Said:
+    """A set of agents that need shared states and receive from no other agent."""
+    if shared_dimensions.feasible:
+        return
+    for cut in shared_dimensions.proof.cuts:
+        subset, senders = cut.subset, given.senders(cut.subset)
+        if senders:
+            continue
+        told, p, k = NO_CONNECTION, None, 1
+        if cut.has("polynomial"):
+            told, p, k = NO_DIMENSIONS, cut.polynomial, cut.deficiency
+            if len(subset) in {0, given.m}:
+                told = NOT_OBSERVED if subset else NOT_CONTROLLED
+        yield told(agents=subset, senders=senders, k=k, p=p)
+        return
+
+
+@refusal_rule("outside", REFUSED_OUTSIDE)
+def _outside(stability: Claim, given: Given) -> Said:
+    if not stability.stable and about(stability, given.region):
+        yield REFUSED_OUTSIDE(region=given.region)
+
+
+@refusal_rule("equilibrium", NO_EQUILIBRIUM, NO_EQUILIBRIUM_ZERO, MODE_OF_THE_INTEGRATORS)
+def _no_equilibrium(setpoint: Claim, given: Given) -> Said:
+    if not setpoint.solvable:
+        zero = setpoint.invariant_zero
+        told = NO_EQUILIBRIUM_ZERO if zero else NO_EQUILIBRIUM
+        if not given.combinations:
+            told = MODE_OF_THE_INTEGRATORS
+        yield told(w=given.combinations, place=steady_point(given.time))

@@ -1,0 +1,361 @@
+"""Fixed modes: the answers about them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace, ZeroTransfer
+from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
+from mcexact.answer.structure import TransferGraph
+from mcexact.exact.linear_algebra import PolynomialMatrix
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.roots import StabilityRegion
+
+# Answer: the fixed spectrum, its location, and the best rate that it allows.
+
+
+@dataclass(frozen=True)
+class FixedFactor(Part):
+    """An irreducible polynomial whose roots are fixed modes.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        p, monic and irreducible over Q.
+    multiplicity_in_A : int or None
+        The exponent of p in χ_A; None for large sparse systems, whose χ_A is not computed.
+    multiplicity_at_most : int
+        A bound for the multiplicity of p as a fixed factor, which is the least exponent of p in
+        χ_{A_F} over all constant gains: the multiplicity itself if the evidence is by blocks, else
+        the exponent for the drawn F, which is nearly always equal.
+    channels : tuple of str
+        s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
+        least rank.
+    rank : int
+        That rank, below n.
+    stable : bool
+        Whether every root lies in the stability region of the system's time domain.
+    roots : tuple of RootDisc
+        Disjoint discs, each with exactly one root of p.
+    """
+
+    polynomial: Polynomial
+    multiplicity_in_A: int | None
+    multiplicity_at_most: int
+    channels: tuple[str, ...]
+    rank: int
+    stable: bool
+    roots: tuple[RootDisc, ...]
+
+
+@dataclass(frozen=True)
+class Completion(Part):
+    """B_0 (n × ρ) and C_0 (ρ × n), whose first d columns and rows bound a deficiency by d."""
+
+    B0: Matrix
+    C0: Matrix
+
+
+@dataclass(frozen=True)
+class ByBlocks(Part):
+    """Evidence block by block: no more is fixed than the factors, n − rank times each.
+
+    Attributes
+    ----------
+    blocks : tuple of Block
+        They leave as many modes as the degrees of the factors, each taken n − rank times.
+    modulus : int or None
+        ℓ ≥ 2, modulo which no two factors have a common root and none has a multiple one; None if
+        there is no factor.
+    subspaces : tuple of ShrunkSubspace
+        One for each factor, of deficiency n − rank.
+    """
+
+    blocks: tuple[Block, ...]
+    modulus: int | None
+    subspaces: tuple[ShrunkSubspace, ...]
+
+
+@dataclass(frozen=True)
+class TwoPolynomials(Part):
+    """Evidence by two characteristic polynomials: gains move all that is no factor.
+
+    Attributes
+    ----------
+    gains : tuple of Matrix
+        F_i, p_i × q_i, one for each channel.
+    modulus : int
+        ℓ ≥ 2, modulo which the rest of χ_A is coprime to χ_{A_F}.
+    subspaces : tuple of ShrunkSubspace
+        One for each factor, of deficiency n − rank.
+    completion : Completion or None
+        None if there is no factor.
+    """
+
+    gains: tuple[Matrix, ...]
+    modulus: int
+    subspaces: tuple[ShrunkSubspace, ...]
+    completion: Completion | None
+
+
+@answer("fixed_spectrum")
+class FixedSpectrum(Answer):
+    """The modes that are fixed under all linear time-invariant decentralized feedback.
+
+    That is u_i = F_i y_i with constant F_i, or with a dynamic controller of its own at each channel
+    (Wang and Davison 1973).  Feedback that varies with time can move some of them; the gallery has
+    an example, ``movable-by-periodic-gains``.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        The product of the distinct factors, whose roots are the fixed modes; 1 if there are none.
+    factors : tuple of FixedFactor
+        Sorted by degree, then by coefficients.
+    stabilizable : bool
+        Whether every fixed mode lies in the stability region: then and only then some linear
+        time-invariant decentralized feedback stabilizes the system.
+    best_rate : RateInterval or None
+        Encloses minus the largest real part (continuous time) or the largest modulus (discrete
+        time) of the fixed modes; None if there is none.
+    evidence : ByBlocks or TwoPolynomials
+        The second where the blocks leave more than the factors.
+    """
+
+    polynomial: Polynomial = claim()
+    factors: tuple[FixedFactor, ...] = claim()
+    stabilizable: bool = claim()
+    best_rate: RateInterval | None = claim()
+    evidence: ByBlocks | TwoPolynomials = witness(whole=True)
+
+    @property
+    @shown("nothing is fixed")
+    def empty(self) -> bool:
+        """Whether no mode is fixed."""
+        return not self.factors
+
+    def outside(self, region: StabilityRegion) -> tuple[FixedFactor, ...]:
+        """Return the factors with a root outside a region, which prevent a design for it.
+
+        Examples
+        --------
+        >>> from mcexact import MultiChannelSystem, fixed_spectrum
+        >>> spectrum = fixed_spectrum(MultiChannelSystem([[-1]], [[[0]]], [[[1]]]))
+        >>> spectrum.outside(StabilityRegion("continuous"))
+        ()
+        >>> [str(f.polynomial) for f in spectrum.outside(StabilityRegion("continuous", 2))]
+        ['x + 1']
+        """
+        return tuple(f for f in self.factors if not region.contains_roots_of(f.polynomial))
+
+
+# Answer: the rank of P_s(λ) = [λI − A, B_{m−s}; C_s, 0] at every root λ of a polynomial.
+
+
+@answer("pencil_rank")
+class PencilRank(Answer):
+    """P_s has the same rank r at every root of p.
+
+    Attributes
+    ----------
+    subset : tuple of str
+        s, in the order of the system.
+    polynomial : Polynomial
+        p, monic and irreducible over Q.
+    rank : int
+        r; if r < n, the roots of p are fixed modes because of s.
+    modulus : int
+        ℓ ≥ 2: elimination over (Z/ℓ)[x]/(p) with unit pivots reaches r.
+    kernel : PolynomialMatrix
+        c × (c − r), c = n + the inputs of m−s: its rows ``pivots`` form the identity and
+        P_s · kernel = 0 modulo p.
+    pivots : tuple of int
+        c − r rows of the kernel, strictly increasing.
+    """
+
+    subset: tuple[str, ...] = claim()
+    polynomial: Polynomial = claim()
+    rank: int = claim()
+    modulus: int = witness()
+    kernel: PolynomialMatrix = witness()
+    pivots: tuple[int, ...] = witness()
+
+    @property
+    def deficiency(self) -> int:
+        """max(0, n − rank)."""
+        return max(0, self.about.n - self.rank)
+
+
+# Answer: whether the transfer graph is strongly connected and no mode is fixed.
+
+
+@dataclass(frozen=True)
+class FreedomWitness(Part):
+    """Evidence for yes: gains that move every mode of A, and edges that connect all channels.
+
+    Attributes
+    ----------
+    modulus : int
+        ℓ ≥ 2, modulo which all conditions hold.
+    gains : tuple of Matrix
+        F_i, p_i × q_i: χ_A and χ_{A_F} are coprime modulo ℓ.
+    arcs : tuple of (str, str, int)
+        Edges (j, i, k) with C_i A^k B_j ≠ 0 modulo ℓ, sorted by (from, to), which make the graph
+        strongly connected.
+    """
+
+    modulus: int
+    gains: tuple[Matrix, ...]
+    arcs: tuple[tuple[str, str, int], ...]
+
+
+@dataclass(frozen=True)
+class BlocksWitness(Part):
+    """Evidence for yes: blocks that leave no mode, and edges that connect all channels.
+
+    Attributes
+    ----------
+    blocks : tuple of Block
+        One block, unless there are no states.
+    modulus : int
+        ℓ ≥ 2, for the edges.
+    arcs : tuple of (str, str, int)
+        As in `FreedomWitness`.
+    """
+
+    blocks: tuple[Block, ...]
+    modulus: int
+    arcs: tuple[tuple[str, str, int], ...]
+
+
+@dataclass(frozen=True)
+class FixedModeWitness(Part):
+    """Evidence for no: a polynomial whose roots are fixed modes.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        p, monic of degree at least 1.
+    subspace : ShrunkSubspace
+        Of deficiency at least 1 for p.
+    """
+
+    polynomial: Polynomial
+    subspace: ShrunkSubspace
+
+
+@dataclass(frozen=True)
+class CutWitness(Part):
+    """Evidence for no: a nonempty proper set of channels without transfer to the others.
+
+    Attributes
+    ----------
+    zero : ZeroTransfer
+        From that set to its complement.
+    """
+
+    zero: ZeroTransfer
+
+
+Evidence = BlocksWitness | FreedomWitness | FixedModeWitness | CutWitness
+
+
+@answer("completeness")
+class Completeness(Answer):
+    """Whether the system is complete: no fixed mode, and a strongly connected transfer graph.
+
+    Attributes
+    ----------
+    complete : bool
+        Whether the transfer graph is strongly connected and the fixed spectrum is empty, with all
+        subsets of channels included.  For n ≥ 1 this holds if and only if some F makes the system
+        controllable and observable through every single channel.  For n = 0 every F does, but a
+        system with several channels is not complete, since no channel affects another.
+    evidence : BlocksWitness, FreedomWitness, FixedModeWitness or CutWitness
+        One of the first two for yes, one of the others for no.
+    """
+
+    complete: bool = claim()
+    evidence: Evidence = witness(whole=True)
+
+
+# Answer: how the characteristic polynomial of A_F splits over the strong components.
+
+
+@dataclass(frozen=True)
+class MinimalRealization(Part):
+    """A minimal realization of C_c (xI − A)⁻¹ B_c: the subspace im X, reduced by the rows of W.
+
+    Attributes
+    ----------
+    X : Matrix
+        n × a, im X the smallest A-invariant subspace that contains im B_c.
+    pivots : tuple of int
+        a rows of X that form the identity.
+    W : Matrix
+        d × a, W A_x = Â W and C_c X = Ĉ W.
+    columns : tuple of int
+        d columns of W that form the identity.
+    """
+
+    X: Matrix
+    pivots: tuple[int, ...]
+    W: Matrix
+    columns: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class SpectrumBlock(Part):
+    """A strong component of the transfer graph and its part of the spectrum.
+
+    Attributes
+    ----------
+    channels : tuple of str
+        c.
+    dimension : int
+        The number of eigenvalues, a symmetric set, that depend on the gains of c and on no others:
+        the McMillan degree of C_c (xI − A)⁻¹ B_c.
+    """
+
+    brief = ("channels", "dimension")
+
+    channels: tuple[str, ...]
+    dimension: int
+
+
+@answer("assignability")
+class Assignability(Answer):
+    """det(xI − A_F) is one fixed polynomial times one polynomial for each strong component.
+
+    Attributes
+    ----------
+    blocks : tuple of SpectrumBlock
+        One for each strong component.  Without fixed modes each can be assigned independently:
+        together with the states of its controllers, to every symmetric set of that size, which
+        contains a real number if the size is odd.
+    fixed_degree : int
+        The number of eigenvalues, with multiplicity, that belong to no block and depend on no gain;
+        0 if no mode is fixed.
+    modulus : int
+        ℓ ≥ 2, modulo which the realizations are controllable and observable.
+    transfer_graph : TransferGraph
+        The transfer graph of the same system.
+    realizations : tuple of MinimalRealization
+        One for each block.
+    """
+
+    blocks: tuple[SpectrumBlock, ...] = claim()
+    fixed_degree: int = claim()
+    modulus: int = witness()
+    transfer_graph: TransferGraph = witness()
+    realizations: tuple[MinimalRealization, ...] = witness()
+
+    @property
+    def undivided(self) -> bool:
+        """Whether at most one block has a dimension above 0.
+
+        If no mode is fixed either, and only then, dynamic linear time-invariant channel controllers
+        can assign every symmetric spectrum.
+        """
+        return sum(block.dimension > 0 for block in self.blocks) <= 1

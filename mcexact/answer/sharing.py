@@ -1,0 +1,598 @@
+"""Shared dimensions and links: answers and sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from mcexact.answer import analysis as say
+from mcexact.answer.analysis import Said, empty, fewest, usual
+from mcexact.answer.evidence import (
+    Absence,
+    Block,
+    BlocksAbsence,
+    ConnectivityCut,
+    DeficiencyCut,
+    LinkCut,
+    ShrunkSubspace,
+    Tree,
+)
+from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
+from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.templates import Sentence, Template
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+
+# Answer: the largest rank deficiency of P_s(λ) over all subsets s and all λ.
+
+
+@dataclass(frozen=True)
+class ByCompletion(Part):
+    """Evidence by a loop completed with ρ columns and rows, which moves every mode.
+
+    Attributes
+    ----------
+    modulus : int
+        ℓ ≥ 2, modulo which the characteristic polynomials of A and A_F + B_0 C_0 are coprime.
+    gains : tuple of Matrix
+        F_i, p_i × q_i, one for each channel.
+    B0, C0 : Matrix
+        n × ρ and ρ × n.
+    polynomial : Polynomial or None
+        p, monic of degree at least 1, at whose roots the deficiency is ρ; None iff ρ = 0.
+    subspace : ShrunkSubspace or None
+        Of deficiency ρ for p; None iff ρ = 0.
+    """
+
+    modulus: int
+    gains: tuple[Matrix, ...]
+    B0: Matrix
+    C0: Matrix
+    polynomial: Polynomial | None
+    subspace: ShrunkSubspace | None
+
+    @property
+    def worst(self) -> tuple[Polynomial, ShrunkSubspace] | None:
+        """A factor of the largest deficiency, with its subspace."""
+        if self.polynomial is None or self.subspace is None:
+            return None
+        return self.polynomial, self.subspace
+
+
+@dataclass(frozen=True)
+class RankLoss(Part):
+    """A fixed factor, with the rank that pencils lose at its roots.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+    deficiency : int
+    subspace : ShrunkSubspace
+        Of this deficiency.
+    """
+
+    polynomial: Polynomial
+    deficiency: int
+    subspace: ShrunkSubspace
+
+
+@dataclass(frozen=True)
+class ByBlocks(Part):
+    """Evidence block by block: no more is fixed than the factors, as often as they lose rank.
+
+    Attributes
+    ----------
+    blocks : tuple of Block
+    modulus : int or None
+        As in the evidence of a fixed spectrum by blocks.
+    losses : tuple of RankLoss
+        All factors; ρ is the largest of their deficiencies.
+    """
+
+    blocks: tuple[Block, ...]
+    modulus: int | None
+    losses: tuple[RankLoss, ...]
+
+    @property
+    def worst(self) -> tuple[Polynomial, ShrunkSubspace] | None:
+        """A factor of the largest deficiency, with its subspace."""
+        largest = max(self.losses, key=lambda loss: loss.deficiency, default=None)
+        return None if largest is None else (largest.polynomial, largest.subspace)
+
+
+@answer("deficiency")
+class Deficiency(Answer):
+    """The largest n − rank P_s(λ) is ρ; on (A, B_i, C_{N_i}) it is the bound of Theorem 2.
+
+    Attributes
+    ----------
+    deficiency : int
+        ρ ≥ 0, which is 0 iff no mode is fixed.  If the neighbor graph is strongly connected and the
+        plant is jointly controllable and observable, the extended system with n_i ≥ ρ for every
+        agent has no fixed mode.
+    evidence : ByCompletion or ByBlocks
+        The second for large systems, where the blocks leave no more than the factors.
+    """
+
+    deficiency: int = claim()
+    evidence: ByCompletion | ByBlocks = witness(whole=True)
+
+    @property
+    def polynomial(self) -> Polynomial | None:
+        """A polynomial at whose roots the deficiency is ρ; None if ρ = 0."""
+        worst = self.evidence.worst
+        return None if worst is None else worst[0]
+
+    @property
+    def channels(self) -> tuple[str, ...] | None:
+        """The largest set s of channels with deficiency ρ; None if ρ = 0."""
+        worst = self.evidence.worst
+        if worst is None:
+            return None
+        return tuple(name for name in self.about.names if name not in worst[1].channels_T)
+
+    @property
+    def total(self) -> int:
+        """m ρ."""
+        return self.about.m * self.deficiency
+
+
+# Answer: the least dimensions that agents must share, or that no dimensions suffice.
+
+
+@answer("shared_dimensions")
+class SharedDimensions(Answer):
+    """The least dimensions for which the extended system has no fixed mode, or that none suffice.
+
+    Attributes
+    ----------
+    share : str
+        ``"outputs+states"`` or ``"states"``.
+    bound : Fraction or None
+        A rate or radius: only modes that violate it are considered.  None means all modes.
+    free_assignability : bool
+        Whether the extended transfer graph must also be strongly connected.
+    costs : tuple of Fraction
+        The positive cost of one dimension of each agent.
+    upper : tuple of (int or None)
+        Upper limits of the n_i.
+    feasible : bool
+        Whether some dimensions within the upper limits suffice.
+    dimensions : tuple of int, or None
+        The optimal n_i; None if no dimensions suffice.
+    cost : Fraction or None
+        Σ c_i n_i.
+    absence : BlocksAbsence, Absence or None
+    cuts : tuple of DeficiencyCut and ConnectivityCut
+    tree : Tree
+    """
+
+    share: str = claim()
+    bound: Fraction | None = claim()
+    free_assignability: bool = claim()
+    costs: tuple[Fraction, ...] = claim()
+    upper: tuple[int | None, ...] = claim()
+    feasible: bool = claim()
+    dimensions: tuple[int, ...] | None = claim()
+    cost: Fraction | None = claim()
+    absence: BlocksAbsence | Absence | None = witness()
+    cuts: tuple[DeficiencyCut | ConnectivityCut, ...] = witness()
+    tree: Tree = witness()
+
+    @property
+    @shown()
+    def total(self) -> int | None:
+        """Σ n_i."""
+        return None if self.dimensions is None else sum(self.dimensions)
+
+
+# Answer: the least common dimension of shared sub-states that suffices, or that none does.
+
+
+@answer("common_dimension")
+class CommonDimension(Answer):
+    """With n_i = k' for all i the extended system has no fixed mode iff k' ≥ k.
+
+    Attributes
+    ----------
+    share : str
+        ``"outputs+states"`` or ``"states"``.
+    feasible : bool
+        Whether some common dimension suffices.
+    dimension : int or None
+        k; None if no dimension suffices.
+    absence : BlocksAbsence, Absence or None
+        The evidence that k suffices.
+    cut : DeficiencyCut or None
+        A set s for which k − 1 does not suffice, or with an empty boundary N_s∖s; None if k = 0.
+    """
+
+    share: str = claim("what is shared")
+    feasible: bool = claim("some common dimension suffices")
+    dimension: int | None = claim("least common dimension")
+    absence: BlocksAbsence | Absence | None = witness()
+    cut: DeficiencyCut | None = witness()
+
+
+def _templates(key: str, theorem: str, some: str, none: str, never: str) -> tuple[Template, ...]:
+    """The sentences on the least common dimension for one way of sharing."""
+    label, proved = "least if all share equally", f"common_dimension_{theorem}"
+    least = some + "{k:count state} by each agent: {total:int} in all{time:instant}"
+    never += "no number of states suffices"
+    return (
+        Template(f"common-dimension-{key}", least, f"shared_dimensions.{proved}", label),
+        Template(f"common-dimension-{key}-none", none + "{time:instant}", label=label),
+        Template(
+            f"common-dimension-{key}-impossible", never, f"shared_dimensions.no_{proved}", label
+        ),
+    )
+
+
+WORDS = {
+    "outputs+states": _templates(
+        "outputs-states", "outputs", "outputs, and ", "outputs alone", "in addition to outputs, "
+    ),
+    "states": _templates(
+        "states", "states", "without outputs, ", "without outputs, nothing", "without outputs, "
+    ),
+}
+COMMON_DIMENSION_RULES = Rulebook()
+
+
+def _rule(share: str) -> None:
+    """Make the rule of the least common dimension for one way of sharing."""
+    some, none, impossible = WORDS[share]
+    question = f"common_dimension_{share.replace('+', '_')}"
+
+    @COMMON_DIMENSION_RULES.rule("table", some, none, impossible, about={"found": question})
+    def least(found: Claim, given: Given) -> Iterator[Sentence]:
+        k = found.dimension
+        if found.share == share:
+            told = impossible if k is None else some if k else none
+            yield told(k=k, total=k and k * given.m, time=given.delays)
+
+
+for way in WORDS:
+    _rule(way)
+
+
+# Answer: the cheapest communication links to add, or that no candidates suffice.
+
+
+@answer("communication")
+class MinimalCommunication(Answer):
+    """The cheapest links with which no mode is fixed, or that no candidates suffice.
+
+    Attributes
+    ----------
+    share : str
+        The signals that a link carries: ``"outputs"``, ``"outputs+states"`` or ``"states"``.
+    dimensions : tuple of int, or None
+        The n_i of the extended system; None if only outputs are shared.
+    bound : Fraction or None
+        A rate or radius: only modes that violate it are considered.  None means all modes.
+    candidates : tuple of (str, str, Fraction)
+        The links (from, to) that may be added, with their positive costs.
+    feasible : bool
+        Whether all candidates together suffice.
+    added : tuple of (str, str), or None
+        The links (from, to) to add; None if no candidates suffice.
+    cost : Fraction or None
+    absence : BlocksAbsence, Absence or None
+    cuts : tuple of LinkCut
+    tree : Tree
+    """
+
+    share: str = claim()
+    dimensions: tuple[int, ...] | None = claim()
+    bound: Fraction | None = claim()
+    candidates: tuple[tuple[str, str, Fraction], ...] = claim()
+    feasible: bool = claim()
+    added: tuple[tuple[str, str], ...] | None = claim()
+    cost: Fraction | None = claim()
+    absence: BlocksAbsence | Absence | None = witness()
+    cuts: tuple[LinkCut, ...] = witness()
+    tree: Tree = witness()
+
+
+# Answer: whether the neighbor graph of the system is strongly connected.
+
+
+@answer("neighbor_graph")
+class NeighborGraphVerdict(Answer):
+    """The neighbor graph is strongly connected, or not; no witness is needed.
+
+    Attributes
+    ----------
+    strongly_connected : bool
+    """
+
+    strongly_connected: bool = claim()
+
+
+# The rules of the table of `mcexact analyze` about links, shared states and delays.
+
+SHARING_RULES = Rulebook()
+sharing_rule = SHARING_RULES.rule
+
+
+@sharing_rule("table", *[told for key, told in say.TABLE_LINKS.items() if key != "limit"])
+def _links_in_the_table(minimal_communication: Claim, given: Given) -> Said:
+    found = minimal_communication
+    if fewest(found):
+        which = "impossible" if found.added is None else "some" if found.added else "none"
+        yield say.TABLE_LINKS[which](added=found.added, time=given.delays)
+
+
+@sharing_rule("table", say.TABLE_LINKS["limit"], missing="minimal_communication")
+def _links_open() -> Said:
+    yield say.TABLE_LINKS["limit"]()
+
+
+@sharing_rule("table", say.CONNECTED, say.NOT_CONNECTED)
+def _connected(neighbor_graph: Claim) -> Said:
+    yield say.CONNECTED() if neighbor_graph.strongly_connected else say.NOT_CONNECTED()
+
+
+@sharing_rule("table", say.NEVER_CONTROLLED)
+def _never_controlled(joint_controllability: Claim, given: Given) -> Said:
+    if given.neighbors is not None and not joint_controllability.controllable:
+        yield say.NEVER_CONTROLLED(p=joint_controllability.uncontrollable_polynomial)
+
+
+@sharing_rule("table", say.NEVER_OBSERVED)
+def _never_observed(joint_observability: Claim, given: Given) -> Said:
+    if given.neighbors is not None and not joint_observability.controllable:
+        yield say.NEVER_OBSERVED(p=joint_observability.uncontrollable_polynomial)
+
+
+@sharing_rule("table", say.NO_BOUND)
+def _no_bound(
+    neighbor_graph: Claim, joint_controllability: Claim, joint_observability: Claim
+) -> Said:
+    reach = (joint_controllability, joint_observability)
+    if not neighbor_graph.strongly_connected and all(found.controllable for found in reach):
+        yield say.NO_BOUND()
+
+
+def theorem_2(graph: Claim, *reach: Claim) -> bool:
+    """Whether the hypotheses of Theorem 2 and Remark 2 hold."""
+    return bool(graph.strongly_connected and all(found.controllable for found in reach))
+
+
+def _sharing_rules(share: str, stem: str) -> None:
+    """Make the rules of the bound and of the least dimensions for one way of sharing."""
+    some, none = say.ENOUGH[share]
+
+    @sharing_rule("table", some, none, about={"bound": f"shared_dimension_bound_{stem}"})
+    def _enough(
+        bound: Claim,
+        neighbor_graph: Claim,
+        joint_controllability: Claim,
+        joint_observability: Claim,
+        given: Given,
+    ) -> Said:
+        if theorem_2(neighbor_graph, joint_controllability, joint_observability):
+            k = bound.deficiency
+            yield (some if k else none)(k=k, total=k * given.m, time=given.delays)
+
+
+def _least_rules(share: str, stem: str) -> None:
+    """Make the rules of the least dimensions for one way of sharing."""
+    some, none, impossible, limit = say.LEAST[share]
+    question = f"minimal_shared_dimensions_{stem}"
+
+    @sharing_rule("table", some, none, impossible, about={"least": question})
+    def _least_of(least: Claim, given: Given) -> Said:
+        if not usual(least, share):
+            return
+        if least.dimensions is None:
+            yield impossible()
+        else:
+            sizes = list(zip(given.names, least.dimensions, strict=True))
+            yield (some if any(least.dimensions) else none)(sizes=sizes, time=given.delays)
+
+    @sharing_rule("table", limit, missing=question)
+    def _least_open() -> Said:
+        yield limit()
+
+
+SHARES = {"outputs+states": "outputs_states", "states": "states"}
+for made in (_sharing_rules, _least_rules):
+    for share, stem in SHARES.items():
+        made(share, stem)
+
+
+def _delayed_rules(network: str) -> None:
+    """Make the rules of the fixed modes of a network with delays."""
+    nothing, something = say.DELAYED[network]
+
+    @sharing_rule("table", nothing, something, about={"spectrum": f"{network}_fixed_spectrum"})
+    def _delayed(spectrum: Claim) -> Said:
+        [step] = spectrum.subject
+        told = nothing if empty(spectrum) else something
+        yield told(p=spectrum.polynomial, k=step["dimensions"][0])
+
+
+for network in ("lifted", "held"):
+    _delayed_rules(network)
+
+
+# The sentences of `mcexact allocate`.
+
+LEAST = Template(
+    "allocate-least",
+    "{name:name}: {price:price} shared states {share:share} so that {scope:scope}"
+    "{limits:limits}{time:instant}",
+)
+IMPOSSIBLE = Template(
+    "allocate-impossible",
+    "{name:name}: no shared states {share:share} suffice so that {scope:scope}{limits:limits}",
+)
+ROW = Template("allocate-row", "{agent:name} | {size:int}")
+TOTAL = Template("allocate-total", "total | {size:int}")
+_THEOREM_2 = "extended_bound.theorem_2, extended_bound.remark_2"
+ROW_BOUND = Template("allocate-row-bound", "{agent:name} | {size:int} | {bound:int}", _THEOREM_2)
+TOTAL_BOUND = Template("allocate-total-bound", "total | {size:int} | {bound:int}", _THEOREM_2)
+PROOF = Template(
+    "allocate-proof", "proved with {cuts:count subset} and a branch tree of {nodes:count node}"
+)
+COST_PROOF = Template(
+    "allocate-cost-proof",
+    "least cost {cost:number}; proved with {cuts:count subset} and a branch tree of "
+    "{nodes:count node}",
+)
+REASON = Template(
+    "allocate-reason", "{subset:names} | {senders:names} | {deficiency:int} | {p:modes}"
+)
+REASON_UNREACHED = {
+    verb: Template(
+        f"allocate-reason-do-not-{verb}",
+        "all together | nobody | {deficiency:int} | {p:modes}, which they do not " + verb,
+    )
+    for verb in ("control", "observe")
+}
+REASON_CUT_OFF = Template(
+    "allocate-reason-cut-off",
+    "{subset:names} | {senders:names} | {deficiency:int} | the others do not act on them",
+)
+
+
+# The rules of the sentences of `mcexact allocate` about dimensions.
+
+ALLOCATION_RULES = Rulebook()
+allocation_rule = ALLOCATION_RULES.rule
+
+
+@allocation_rule("title", LEAST, IMPOSSIBLE)
+def _least(minimal_shared_dimensions: Claim, given: Given) -> Said:
+    found = minimal_shared_dimensions
+    told = IMPOSSIBLE if found.dimensions is None else LEAST
+    yield told(
+        name=given.name or "system",
+        share=found.share,
+        scope=(given.time, found.bound, found.free_assignability),
+        price="least" if all(cost == 1 for cost in found.costs) else "cheapest",
+        limits="none" if all(most is None for most in found.upper) else "upper",
+        time=given.delays,
+    )
+
+
+@allocation_rule("table", ROW, TOTAL, ROW_BOUND, TOTAL_BOUND)
+def _rows(
+    minimal_shared_dimensions: Claim,
+    shared_dimension_bound: Claim,
+    neighbor_graph: Claim,
+    joint_controllability: Claim,
+    joint_observability: Claim,
+    given: Given,
+) -> Said:
+    """The least dimensions, with the bound of the theorem if its hypotheses hold.
+
+    Theorem 2 says that no mode is fixed, but not that the whole spectrum is assignable.
+    """
+    found, reach = minimal_shared_dimensions, (joint_controllability, joint_observability)
+    if found.dimensions is None:
+        return
+    row, total, k = ROW, TOTAL, 0
+    outputs = found.share == "outputs+states"
+    fits = [each["construction"] for each in shared_dimension_bound.subject]
+    if (
+        fits == ["augmented_outputs"] * outputs
+        and not found.free_assignability
+        and theorem_2(neighbor_graph, *reach)
+    ):
+        row, total, k = ROW_BOUND, TOTAL_BOUND, shared_dimension_bound.deficiency
+    for agent, size in zip(given.names, found.dimensions, strict=True):
+        yield row(agent=agent, size=size, bound=k)
+    yield total(size=sum(found.dimensions), bound=k * given.m)
+
+
+@allocation_rule("table.note", PROOF, COST_PROOF)
+def _proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
+    found = minimal_shared_dimensions
+    if found.dimensions is not None:
+        told = PROOF if all(cost == 1 for cost in found.costs) else COST_PROOF
+        yield told(cost=found.cost, cuts=given.cuts, nodes=given.nodes)
+
+
+@allocation_rule("why", REASON, REASON_CUT_OFF, *REASON_UNREACHED.values())
+def _reasons(minimal_shared_dimensions: Claim, given: Given) -> Said:
+    """The active cuts, which the dimensions meet with equality; if no dimensions suffice, all cuts.
+
+    The cuts of the empty set and of all agents do not depend on sharing.
+    """
+    found = minimal_shared_dimensions
+    sizes = None
+    if found.dimensions is not None:
+        sizes = dict(zip(given.names, found.dimensions, strict=True))
+    for cut in found.proof.cuts:
+        subset, senders = cut.subset, given.senders(cut.subset)
+        demand = cut.deficiency if cut.has("deficiency") else 1
+        if sizes is not None and sum(sizes[name] for name in senders) > demand:
+            continue
+        told, p = REASON_CUT_OFF, None
+        if cut.has("polynomial"):
+            told, p = REASON, cut.polynomial
+            if len(subset) in {0, given.m}:
+                told = REASON_UNREACHED["observe" if subset else "control"]
+        yield told(subset=subset, senders=senders, deficiency=demand, p=p)
+
+
+# The sentences of `mcexact allocate --links`.
+
+LINKS_LEAST = Template(
+    "allocate-links",
+    "{name:name}: {price:links} to add so that {scope:scope}, sending {what:carried}{time:instant}",
+)
+NONE_NEEDED = Template(
+    "allocate-no-links-needed",
+    "{name:name}: no links to add so that {scope:scope}, sending {what:carried}{time:instant}",
+)
+LINKS_IMPOSSIBLE = Template(
+    "allocate-no-links",
+    "{name:name}: no links that may be added suffice so that {scope:scope}, sending {what:carried}",
+)
+LINKS_ROW = Template("allocate-link", "{start:name} | {end:name} | {cost:number}")
+LINKS_TOTAL = Template("allocate-links-total", "total | – | {cost:number}")
+LINKS_PROOF = Template(
+    "allocate-links-proof",
+    "proved with {cuts:count obstruction} and a branch tree of {nodes:count node}",
+)
+
+
+# The rules of the sentences of `mcexact allocate --links`.
+
+LINK_RULES = Rulebook()
+link_rule = LINK_RULES.rule
+
+
+@link_rule("title", LINKS_LEAST, LINKS_IMPOSSIBLE, NONE_NEEDED)
+def _links(minimal_communication: Claim, given: Given) -> Said:
+    found = minimal_communication
+    told = LINKS_LEAST if found.added else NONE_NEEDED
+    yield (LINKS_IMPOSSIBLE if found.added is None else told)(
+        name=given.name or "system",
+        scope=(given.time, found.bound, False),
+        what=(found.share, found.dimensions),
+        price="least" if all(price == 1 for *_, price in found.candidates) else "cheapest",
+        time=given.delays,
+    )
+
+
+@link_rule("table", LINKS_ROW, LINKS_TOTAL)
+def _added(minimal_communication: Claim) -> Said:
+    found = minimal_communication
+    if found.added:
+        prices = {(j, i): price for j, i, price in found.candidates}
+        for j, i in found.added:
+            yield LINKS_ROW(start=j, end=i, cost=prices[j, i])
+        yield LINKS_TOTAL(cost=found.cost)
+
+
+@link_rule("table.note", LINKS_PROOF)
+def _proof_of_links(minimal_communication: Claim, given: Given) -> Said:
+    """The proof of what the certificate claims, feasible or not."""
+    _ = minimal_communication.feasible
+    yield LINKS_PROOF(cuts=given.cuts, nodes=given.nodes)
