@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mcexact.reproduce.ledger import table
-from mcexact.reproduce.statements import open_table, statement_table
+from mcexact.reproduce.notebook import open_table, statement_table, table
 
 FOLDER = Path(__file__).parent
 TABLES = {"README.md": table, "STATEMENTS.md": statement_table, "OPEN.md": open_table}

@@ -12,9 +12,8 @@ from collections.abc import Sequence
 
 import click
 
-from mcexact.cli import output
-from mcexact.cli.commands import Commands
-from mcexact.cli.failures import exit_status, one_message
+from mcexact.cli import files
+from mcexact.cli.commands import Commands, exit_status, one_message
 from mcexact.errors import NotWritten
 
 
@@ -50,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """
     # The readers limit the length of numbers themselves, and printed numbers may be longer.
     sys.set_int_max_str_digits(0)
-    output.begin()
+    files.begin()
     try:
         returned = command_line.main(arguments, prog_name="mcexact", standalone_mode=False)
         sys.exit(returned if isinstance(returned, int) else 0)
@@ -65,9 +64,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def _tell(message: str, status: int, arguments: Sequence[str]) -> None:
     """Print an error as a JSON document, where one is asked for and nothing was printed before."""
-    if "--json" in arguments and not output.has_written():
+    if "--json" in arguments and not files.has_written():
         with contextlib.suppress(NotWritten):
-            output.emit_json({"format": "mcexact-error/1", "status": status, "message": message})
+            files.emit_json({"format": "mcexact-error/1", "status": status, "message": message})
 
 
 def _complain(message: str) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mcexact.cli import options
-from mcexact.cli.failures import DEFINITE_NO
+from mcexact.cli.commands import DEFINITE_NO
 
 if TYPE_CHECKING:
     from mcexact.answer.account import Account
@@ -86,8 +86,7 @@ def command(file: str, **given: Any) -> int:
     """
 
     from mcexact.cli.files import require_apart, require_page, write_result
-    from mcexact.cli.rechecking import Rechecked
-    from mcexact.cli.running import Run, show_tables
+    from mcexact.cli.running import Rechecked, Run, show_tables
 
     run, html = Run(given), given.pop("html")
     require_page(html, run.certificates, file)

@@ -12,14 +12,13 @@ import click
 
 from mcexact.analysis.questions import QUESTIONS, asked_by
 from mcexact.cli import options
-from mcexact.cli.failures import DEFINITE_NO, one_message
-from mcexact.cli.parameters import at_values
+from mcexact.cli.commands import DEFINITE_NO, one_message
+from mcexact.cli.uncertainty import at_values
 from mcexact.model.properties import PROPERTIES, Property, question_about
 
 if TYPE_CHECKING:
     from mcexact.analysis.boxes.largest import LargestUncertainty
-    from mcexact.cli.running import Known
-    from mcexact.cli.supervision import Reporting
+    from mcexact.cli.running import Known, Reporting
     from mcexact.model.system import MultiChannelSystem
 
 _LINES_OF_WORDS, _WITH_LINKS = 5, 8
@@ -122,10 +121,9 @@ def command(
     values the answer is another one.  With --at all questions are asked about one value.
     """
 
-    from mcexact.cli import output
+    from mcexact.cli import files
     from mcexact.cli.files import require_apart, require_page, write_result
-    from mcexact.cli.rechecking import Rechecked
-    from mcexact.cli.running import Run, undecided_error
+    from mcexact.cli.running import Rechecked, Run, undecided_error
 
     effort = options.effort_of_search(given, "property")
     if effort is not None and information != "own":
@@ -158,10 +156,10 @@ def command(
 
     def show() -> bool:
         if only_latex:
-            output.emit(answer["latex"])
+            files.emit(answer["latex"])
         else:
-            output.emit(answer["words"] + "\n")
-            output.emit_tables(answer["tables"])
+            files.emit(answer["words"] + "\n")
+            files.emit_tables(answer["tables"])
         return not only_latex
 
     def write(checked: Rechecked) -> None:
@@ -211,10 +209,9 @@ def _answer(
 
     from mcexact.analysis.analyze import analyze
     from mcexact.cli import uncertainty
-    from mcexact.cli.effort import effort_tables
     from mcexact.cli.files import plant_in
-    from mcexact.cli.parameters import for_all_values
     from mcexact.cli.running import told
+    from mcexact.cli.uncertainty import effort_tables, for_all_values
     from mcexact.model.parametric import ParametricSystem
     from mcexact.report.text import in_lines, latex, tables
 

@@ -7,10 +7,9 @@ from typing import Any
 
 import click
 
-from mcexact.cli import aiming, options
-from mcexact.cli.commands import GroupedCommand
-from mcexact.cli.failures import DEFINITE_NO
-from mcexact.cli.parameters import at_values
+from mcexact.cli import options
+from mcexact.cli.commands import DEFINITE_NO, GroupedCommand
+from mcexact.cli.uncertainty import at_values
 
 rounded_output = click.option(
     "-o",
@@ -30,8 +29,8 @@ rounded_output = click.option(
 @click.argument("controller")
 @options.rate
 @options.radius
-@aiming.damping
-@aiming.fastest
+@options.damping
+@options.fastest
 @click.option(
     "--largest", is_flag=True, help="Search for the largest rate (least radius) and certify it."
 )
@@ -63,7 +62,7 @@ rounded_output = click.option(
     help="Also decide about every controller whose entries differ by at most this part of their "
     "moduli, such as 1%.",
 )
-@aiming.weights
+@options.weights
 @rounded_output
 @options.page("figures of the loop and all certificates")
 @options.answering
@@ -82,6 +81,8 @@ def command(file: str, controller: str, **given: Any) -> int:
     and 4 if none are found.
     """
     from mcexact.cli.files import (
+        emit,
+        emit_tables,
         place_of,
         require_apart,
         require_other,
@@ -89,9 +90,7 @@ def command(file: str, controller: str, **given: Any) -> int:
         require_writable,
         write_result,
     )
-    from mcexact.cli.output import emit, emit_tables
-    from mcexact.cli.rechecking import Rechecked
-    from mcexact.cli.running import Run
+    from mcexact.cli.running import Rechecked, Run
     from mcexact.errors import LimitReached
 
     run, weights, html = Run(given), given.pop("weights"), given.pop("html")
@@ -149,8 +148,8 @@ def _certified(
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
     from mcexact.answer.templates import count
-    from mcexact.cli import loops_in_ranges, uncertainty
-    from mcexact.cli.assessing import assessed
+    from mcexact.cli import uncertainty
+    from mcexact.cli.design import assessed
     from mcexact.cli.files import plant_in
     from mcexact.cli.running import told
     from mcexact.errors import InputError
@@ -170,7 +169,7 @@ def _certified(
         controller = read_controller(program[1], Limits(**limits))
     if isinstance(typed_plant, ParametricSystem):
         given = wanted | {"weights": weights, "effort": effort}
-        return loops_in_ranges.certified(
+        return uncertainty.certified(
             typed_plant, controller, gains, given, with_page, system_by_digest
         )
     system, largest = uncertainty.of(typed_plant, wanted.pop("uncertainty"))
@@ -188,7 +187,7 @@ def _certified(
         center = f"{outside.re} + {outside.im} i".replace("+ -", "- ")
         near = f"an eigenvalue is at most {outside.radius} from {center}"
         notes = (*notes, f"{near}, outside {found.region}")
-    loop, weighed = closed_loop(system, controller), aiming.read_weights(weights, limits)
+    loop, weighed = closed_loop(system, controller), options.read_weights(weights, limits)
     with InputError.inside(plant[0] if weights is None else weights[0]):
         assessment = assessed_loop(
             loop, found.region, certified=found.stable, weights=weighed, notes=notes

@@ -1,16 +1,20 @@
-"""`mcexact check`: the independent checker, which can also be copied away and run alone."""
+"""mcexact check."""
 
 from __future__ import annotations
 
 import contextlib
+import io
 import sys
+import zipfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import click
 
 from mcexact.cli import options
-from mcexact.cli.failures import INTERRUPTED
+from mcexact.cli.commands import INTERRUPTED
+
+# `mcexact check`: the independent checker, which can also be copied away and run alone.
 
 
 @click.command(name="check", short_help="Verify certificates with the independent checker.")
@@ -107,7 +111,7 @@ def command(
         verdicts,
     )
     from mcexact.checker.reading import Limits
-    from mcexact.cli.output import deliver, json_text
+    from mcexact.cli.files import deliver, json_text
     from mcexact.errors import InputError, NotWritten
 
     if export is not None:
@@ -216,7 +220,31 @@ def _plant_file(system: str) -> str:
 
 def _export(file: Path) -> None:
     """Write the archive of the checker."""
-    from mcexact.cli.checker_archive import checker_archive
     from mcexact.cli.files import write_result
 
     write_result(file, checker_archive())
+
+
+# The independent checker as one file, which Python runs without anything else.
+
+FIRST_DAY = (1980, 1, 1, 0, 0, 0)
+"""The earliest time of a member, so that the bytes do not depend on when the archive is made."""
+
+
+def checker_archive() -> bytes:
+    """The folder of the checker as an archive that ``python -I`` runs.
+
+    Returns
+    -------
+    bytes
+        The same for the same sources: the members are sorted, not compressed, and have no times.
+    """
+    from mcexact import checker
+
+    folder, archive = Path(checker.__path__[0]), io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_STORED) as packed:
+        for path in sorted(folder.glob("*.py")):
+            member = zipfile.ZipInfo(path.name, FIRST_DAY)
+            member.create_system, member.external_attr = 3, 0o644 << 16
+            packed.writestr(member, path.read_bytes())
+    return archive.getvalue()

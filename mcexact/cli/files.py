@@ -1,25 +1,35 @@
-"""Reading input files, checking where results can be written, and writing them."""
+"""Input files within a deadline, results written completely or not at all, standard output."""
 
 from __future__ import annotations
 
 import contextlib
+import json
 import os
+import shutil
+import signal
+import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+import threading
+import time
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import FrameType
+from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
-from mcexact.errors import InputError, MissingExtra, NotWritten
+from mcexact.errors import InputError, LimitReached, MissingExtra, NotWritten
 from mcexact.errors import place_of as place_of
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from mcexact.cli.deadline import Deadline
     from mcexact.model.parametric import ParametricSystem
     from mcexact.model.system import MultiChannelSystem
+    from mcexact.report.text import Table
+
+
+# Reading input files, checking where results can be written, and writing them.
 
 
 def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
@@ -298,3 +308,229 @@ def directory(path: Path) -> Path:
     except OSError as error:
         raise NotWritten(f"cannot be made a directory: {error.strerror}", where=str(path)) from None
     return path
+
+
+# A time limit for everything that one command does.
+
+_LEAST_GRACE = 5.0
+"""Seconds that it may take at least to show and to re-check what was decided in time."""
+
+
+class Deadline:
+    """A time limit of some seconds from now, or no limit.
+
+    Parameters
+    ----------
+    seconds : float or None
+        None means that there is no limit.
+    """
+
+    def __init__(self, seconds: float | None) -> None:
+        self.seconds = seconds
+        self._start = time.monotonic()
+        self._said = seconds
+
+    def left(self) -> float | None:
+        """Return the seconds that are left, at least 0; None without a limit."""
+        if self.seconds is None:
+            return None
+        return max(0.0, self.seconds - (time.monotonic() - self._start))
+
+    def with_grace(self) -> Deadline:
+        """Return the limit on what follows the decisions: a quarter of the time again, or 5 s."""
+        left = self.left()
+        if left is None or self.seconds is None:
+            return self
+        allowed = Deadline(max(left, self.seconds / 4, _LEAST_GRACE))
+        allowed._said = self._said
+        return allowed
+
+    def missed(self, doing: str) -> LimitReached:
+        """Return the error to raise when the time is over."""
+        return LimitReached(
+            f"the time limit of {self._said:g} s was reached while {doing}; "
+            "nothing has been decided (--timeout allows more)"
+        )
+
+    @contextlib.contextmanager
+    def interrupting(self, doing: str) -> Iterator[None]:
+        """Interrupt an operation that waits, such as reading an idle pipe, when the time is over.
+
+        Raises
+        ------
+        LimitReached
+            When the time is over, if the platform has alarms and this is the main thread.
+        """
+        left = self.left()
+        here = threading.current_thread() is threading.main_thread()
+        if left is None or not here or not hasattr(signal, "setitimer"):
+            yield
+            return
+        if left == 0:
+            raise self.missed(doing)
+
+        def end(number: int, frame: FrameType | None) -> None:
+            raise self.missed(doing)
+
+        before = signal.signal(signal.SIGALRM, end)
+        signal.setitimer(signal.ITIMER_REAL, left)
+        try:
+            yield
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+
+
+# Write a folder of files completely or not at all.
+
+
+def require_replaceable(folder: Path, mark: str) -> None:
+    """Refuse an output folder that does not contain an earlier result, or cannot be replaced.
+
+    Parameters
+    ----------
+    folder : Path
+        It must be missing, be empty, or contain the mark.
+    mark : str
+        The name of a file that every earlier result contains.
+
+    Raises
+    ------
+    InputError
+        If the folder contains something else, or nothing can be written beside it.
+    """
+    require_writable(None, Path(os.path.realpath(folder)).parent)
+    if not folder.exists():
+        return
+    if not folder.is_dir():
+        raise InputError("expected a folder, found a file", where=str(folder))
+    if any(folder.iterdir()) and not (folder / mark).is_file():
+        raise InputError(
+            f"holds other files and no {mark}; name a new or empty folder", where=str(folder)
+        )
+
+
+def write_folder(folder: Path, files: Mapping[str, str]) -> None:
+    """Write files into a new folder, rename it to the folder's name, and say so.
+
+    Parameters
+    ----------
+    folder : Path
+        An earlier result there is replaced.
+    files : mapping from relative paths to texts
+
+    Raises
+    ------
+    NotWritten
+        If it cannot be written.
+    """
+    target = Path(os.path.realpath(folder))
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        made = Path(tempfile.mkdtemp(prefix=".mcexact-", dir=target.parent))
+        try:
+            made.chmod(0o755)
+            for name, text in files.items():
+                path = made / "new" / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            if target.exists():
+                target.rename(made / "old")
+            try:
+                (made / "new").rename(target)
+            except BaseException:
+                if (made / "old").exists():
+                    (made / "old").rename(target)
+                raise
+        finally:
+            shutil.rmtree(made, ignore_errors=True)
+    except OSError as error:
+        raise NotWritten(f"cannot write: {error.strerror or error}", where=str(folder)) from error
+    say_written(folder, len(files))
+
+
+# Writing to standard output, also when the reader closes the pipe.
+
+_PLACE = "standard output"
+_run = {"written": False}
+
+
+def begin() -> None:
+    """Begin a run, which has written nothing."""
+    _run["written"] = False
+
+
+def has_written() -> bool:
+    """Whether this run has written to standard output, or tried to."""
+    return _run["written"]
+
+
+def deliver(text: str) -> None:
+    """Write text to standard output.
+
+    A character that the terminal's encoding lacks is written as an escape.
+
+    Raises
+    ------
+    NotWritten
+        If that is impossible, also because the reader of a pipe has closed it.
+    """
+    _run["written"] = True
+    stream: TextIO | None = sys.stdout
+    if stream is None:
+        raise NotWritten("cannot be written: it is closed", where=_PLACE)
+    try:
+        try:
+            stream.write(text)
+        except UnicodeEncodeError:
+            encoding = stream.encoding or "ascii"
+            stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+        stream.flush()
+    except OSError as error:
+        # The interpreter flushes again when it exits, which must not raise another error.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        left = isinstance(error, BrokenPipeError)
+        reason = f"cannot be written: {error.strerror}"
+        raise NotWritten(reason, where=_PLACE, reader_left=left) from None
+
+
+def emit(text: str) -> None:
+    """Write text to standard output, and stop without an error if its reader has closed it.
+
+    Raises
+    ------
+    NotWritten
+        If it cannot be written for another reason.
+    """
+    try:
+        deliver(text)
+    except NotWritten as error:
+        if not error.reader_left:
+            raise
+
+
+def emit_json(document: Any) -> None:
+    """Write one JSON document to standard output."""
+    emit(json_text(document))
+
+
+def json_text(document: Any) -> str:
+    """The text of one JSON document, as it is printed."""
+    return json.dumps(document, indent=2, ensure_ascii=True) + "\n"
+
+
+def emit_tables(tables: Sequence[Table], width: int | None = None) -> None:
+    """Draw tables if standard output is a terminal, otherwise write plain lines.
+
+    Parameters
+    ----------
+    tables : sequence of Table
+    width : int, optional
+        The width of plain lines in characters.
+    """
+    from mcexact.report.text import WIDTH, plain, show
+
+    if sys.stdout is not None and sys.stdout.isatty():
+        show(tables, sys.stdout)
+    else:
+        emit(plain(tables, width or WIDTH))

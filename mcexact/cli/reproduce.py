@@ -1,4 +1,4 @@
-"""`mcexact reproduce`: what is known of every statement of the paper, examined exactly."""
+"""Commands about the paper and floating point: reproduce, crosscheck, demo."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from typing import Any
 import click
 
 from mcexact.cli import options
-from mcexact.cli.failures import DEFINITE_NO
+from mcexact.cli.commands import DEFINITE_NO
+from mcexact.cli.options import as_json
+
+# `mcexact reproduce`: what is known of every statement of the paper, examined exactly.
 
 
 @click.command(name="reproduce", short_help="Say of every statement of the paper what is known.")
@@ -30,7 +33,7 @@ from mcexact.cli.failures import DEFINITE_NO
 @click.option("--latex", is_flag=True, help="Print the table in LaTeX, for amsmath.")
 @options.as_json
 @options.work_limits
-def command(
+def reproduce_command(
     output: Path | None,
     wanted: tuple[str, ...],
     latex: bool,
@@ -44,11 +47,10 @@ def command(
     examination is named.
     """
 
-    from mcexact.cli.folders import require_replaceable, write_folder
-    from mcexact.cli.output import emit, emit_json, emit_tables
-    from mcexact.cli.supervision import supervised
+    from mcexact.cli.files import emit, emit_json, emit_tables, require_replaceable, write_folder
+    from mcexact.cli.running import supervised
     from mcexact.errors import MissingExtra
-    from mcexact.reproduce import pages, reproduction, terminal
+    from mcexact.reproduce import reproduction
 
     MissingExtra.require("plot", "matplotlib")
     keys = reproduction.chosen(wanted)
@@ -71,16 +73,16 @@ def command(
     result = reproduction.assembled(findings)
     if output is not None:
         files = {f"certificates/{name}": text for name, text in result.certificates().items()}
-        files["report.html"] = pages.reproduction_page(result)
+        files["report.html"] = reproduction.reproduction_page(result)
         if latex:
-            files["table.tex"] = pages.reproduction_latex(result)
+            files["table.tex"] = reproduction.reproduction_latex(result)
         write_folder(output, files)
     if as_json:
-        emit_json({"format": "mcexact-reproduction/1", **pages.reproduction_view(result)})
+        emit_json({"format": "mcexact-reproduction/1", **reproduction.reproduction_view(result)})
     elif latex:
-        emit(pages.reproduction_latex(result))
+        emit(reproduction.reproduction_latex(result))
     else:
-        emit_tables(terminal.reproduction_tables(result))
+        emit_tables(reproduction.reproduction_tables(result))
     for row in result.failures:
         click.echo(f"mcexact: {row.examination.title}: {row.finding.failure}", err=True)
     return 0 if result.holds else DEFINITE_NO
@@ -95,3 +97,109 @@ def _tell(name: str, findings: tuple[Any, ...]) -> None:
         f"{made} certificates",
         err=True,
     )
+
+
+# `mcexact crosscheck`: compare floating-point verdicts on a system with the exact ones.
+
+FORMAT = "mcexact-crosscheck/1"
+
+
+@click.command(name="crosscheck", short_help="Compare floating-point verdicts with the exact ones.")
+@click.argument("file", required=False)
+@click.option(
+    "--exhibits",
+    is_flag=True,
+    help="Instead of FILE, show systems for which a wrong floating-point answer was recorded, with "
+    "the recorded answer and the answer on this machine.",
+)
+@click.option(
+    "--html",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="With --exhibits: write the exhibits as an HTML page.",
+)
+@options.as_json
+@options.work_limits
+@options.file_limits
+def crosscheck_command(file: str | None, exhibits: bool, html: Path | None, **given: Any) -> None:
+    """Answer structural questions about the system in FILE in floating point and exactly.
+
+    Each floating-point verdict comes from a library's own function with its default tolerance; the
+    table quotes the call. The last table has a plant near a small system that has a fixed
+    mode, which is decided exactly.
+    """
+    from mcexact.cli.files import emit, emit_json, require_writable, write_result
+    from mcexact.cli.running import Run
+    from mcexact.report.text import WIDE, plain
+
+    if exhibits == (file is not None):
+        raise click.UsageError("give either FILE or --exhibits")
+    if html is not None and not exhibits:
+        raise click.UsageError("--html goes with --exhibits")
+    require_writable(html)
+    run = Run(given)
+    if file is None:
+        answer = run.result(_exhibited, doing="asking the exhibits' questions")
+    else:
+        plant = run.read(file)
+        doing = f"cross-checking {plant[0]}"
+        answer = run.result(_crosschecked, *plant, run.limits, doing=doing)
+    if html is not None:
+        write_result(html, answer["html"])
+    if run.as_json:
+        emit_json(answer["json"])
+    else:
+        emit(plain(answer["tables"], width=WIDE))
+
+
+def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, Any]:
+    """Answer and format the answers, in the child process."""
+    from mcexact.cli.files import system_in
+    from mcexact.crosschecks.gallery import crosscheck_tables, crosscheck_view
+    from mcexact.crosschecks.table import crosscheck
+
+    system = system_in(place, data, limits)
+    found = crosscheck(system)
+    view = {"format": FORMAT, **crosscheck_view(found)}
+    return {"json": view, "tables": crosscheck_tables(found)}
+
+
+def _exhibited() -> dict[str, Any]:
+    """Answer every exhibit's question on this machine, in the child process."""
+    from mcexact.crosschecks.gallery import (
+        exhibit_tables,
+        exhibits,
+        exhibits_page,
+        exhibits_view,
+        shown,
+    )
+
+    found = [shown(each) for each in exhibits()]
+    return {
+        "json": {"format": FORMAT, "exhibits": exhibits_view(found)},
+        "tables": exhibit_tables(found),
+        "html": exhibits_page(found),
+    }
+
+
+# `mcexact demo`: two questions that floating point answers wrongly.
+
+
+@click.command(
+    name="demo", short_help="Show two wrong answers of floating point with the exact ones."
+)
+@as_json
+def demo_command(as_json: bool) -> None:
+    """Show two wrong answers of floating point, recorded and recomputed, with the exact ones."""
+    from mcexact.cli.files import emit, emit_json
+    from mcexact.crosschecks.demonstration import (
+        demonstration,
+        demonstration_text,
+        demonstration_view,
+    )
+
+    shown = demonstration()
+    if as_json:
+        emit_json({"format": "mcexact-demo/1", **demonstration_view(shown)})
+    else:
+        emit(demonstration_text(shown))

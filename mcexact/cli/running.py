@@ -1,23 +1,168 @@
-"""One run of a command: its limits, its inputs, and the common end of all commands."""
+"""One run: limits of time and memory, child processes, rechecking.
+
+Work in a child process, which can be limited and interrupted at any moment.
+
+Compiled arithmetic does not respond to signals.  Therefore the child computes, and the parent
+waits, shows progress and writes the results.  A child that is ended leaves no files behind.
+"""
 
 from __future__ import annotations
 
+import contextlib
+import errno
+import faulthandler
+import importlib
+import os
 import pickle
-from collections.abc import Callable, Mapping, Sequence
+import re
+import shutil
+import signal
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from multiprocessing.connection import Connection
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from mcexact.cli import options
-from mcexact.cli.deadline import Deadline
-from mcexact.cli.rechecking import Rechecked, rechecked
+from mcexact.cli.files import Deadline
+from mcexact.errors import InternalError, LimitReached, McexactError, UsageError
+from mcexact.processes import Child
 
 if TYPE_CHECKING:
     from mcexact.analysis.analyze import Asking
     from mcexact.answer.account import Account
-    from mcexact.cli.supervision import Reporting
+    from mcexact.checker import Verdict
+
+
+# Verification of every answer's certificate by the independent checker.
+
+
+@dataclass(frozen=True)
+class Rechecked:
+    """The checker's verdicts on the certificates of one run.
+
+    Attributes
+    ----------
+    verdicts : mapping from names of certificates to Verdict
+        The verdicts of the certificates that are VALID.
+    open : tuple of str
+        The names of the other certificates.
+    missing : LimitReached or None
+        The reason if not all are VALID: a limit on time or memory, or a limit of the checker.
+    """
+
+    verdicts: Mapping[str, Verdict]
+    open: tuple[str, ...]
+    missing: LimitReached | None
+
+    def view(self) -> dict[str, Any]:
+        """Return the number of VALID certificates and the names of the others, as plain data."""
+        return {"valid": len(self.verdicts), "open": list(self.open)}
+
+    def line(self) -> str:
+        """Return a line of text that gives the number of VALID certificates."""
+        from mcexact.answer.templates import count
+
+        if not self.verdicts:
+            return "no certificate, as nothing was decided exactly\n"
+        number = count(len(self.verdicts), "certificate")
+        rest = f"not re-checked: {', '.join(self.open)}\n" if self.open else ""
+        return f"{number} re-checked by the independent checker: VALID\n{rest}"
+
+    def require_complete(self) -> None:
+        """Raise an error if a certificate was not re-checked.
+
+        Raises
+        ------
+        LimitReached
+        """
+        if self.missing is not None:
+            raise self.missing
+
+
+def rechecked(
+    files: Mapping[str, str],
+    plant: str | Mapping[str, str],
+    *,
+    doing: str,
+    deadline: Deadline,
+    max_memory: int | None,
+) -> Rechecked:
+    """Let the independent checker verify certificates and sentences, within limits.
+
+    Parameters
+    ----------
+    files : mapping from names to texts
+        The certificates, and the manifest of the sentences, if there is one.
+    plant : str or mapping
+        The plant that all certificates must be about, as their object ``system``; or of each its
+        own.
+    doing : str
+        A description of the work, for progress.
+    deadline : Deadline
+    max_memory : int or None
+        The limit on memory in MiB.
+
+    Raises
+    ------
+    InternalError
+        If the checker rejects a certificate, or a sentence that the certificates do not imply.
+    """
+    from mcexact.answer.sentence import MANIFEST
     from mcexact.errors import LimitReached
+
+    names, kept, missing = [name for name in files if name != MANIFEST], Kept(), None
+    try:
+        found = supervised(
+            _recheck,
+            dict(files),
+            plant,
+            len(names),
+            doing=doing,
+            timeout=deadline,
+            max_memory=max_memory,
+            kept=kept,
+        )
+    except LimitReached as reached:
+        found = {name: said for name, said in kept.parts.items() if name != MANIFEST}
+        valid = {name: said for name, said in found.items() if said.verdict == "VALID"}
+        what = f"{len(valid)} of {len(names)} certificates" if valid else "the answers"
+        what += " are re-checked, and the sentences are not" if valid else " are not re-checked"
+        missing = LimitReached(reached.message.replace("nothing has been decided", what))
+        return Rechecked(valid, tuple(name for name in names if name not in valid), missing)
+    valid = {name: said for name, said in found.items() if said.verdict == "VALID"}
+    reasons = [f"{name} ({found[name].message})" for name in found if name not in valid]
+    if reasons:
+        missing = LimitReached(f"not re-checked, a limit of the checker: {', '.join(reasons)}")
+    return Rechecked(valid, tuple(name for name in found if name not in valid), missing)
+
+
+def _recheck(
+    files: Mapping[str, str],
+    plant: str | Mapping[str, str],
+    number: int,
+    *,
+    report: Reporting,
+) -> dict[str, Verdict]:
+    """Verify files, and hand over each verdict, in the child process."""
+    from mcexact.answer.check import recheck
+
+    done: list[str] = []
+
+    def keep(name: str, verdict: Verdict) -> None:
+        done.append(name)
+        report.keep(name, verdict)
+        report.step(f"{len(done)} of {number} certificates")
+
+    report.step(f"0 of {number} certificates")
+    return recheck(files, plant, keep)
+
+
+# One run of a command: its limits, its inputs, and the common end of all commands.
 
 LIMITS = ("bytes", "depth", "digits", "exponent")
 
@@ -104,7 +249,6 @@ class Run:
         self, work: Callable[..., Any], *arguments: Any, doing: str, telling: bool = False
     ) -> Any:
         """Call a function in a child process, within the limits."""
-        from mcexact.cli.supervision import supervised
 
         return supervised(
             work,
@@ -140,7 +284,6 @@ class Run:
         LimitReached, KeyboardInterrupt
             If nothing was decided by then.
         """
-        from mcexact.cli.supervision import Kept, supervised
         from mcexact.errors import LimitReached
 
         known, kept = Known(), Kept()
@@ -200,8 +343,7 @@ class Run:
         InternalError
             If the checker rejects a certificate or a sentence; no file is written then.
         """
-        from mcexact.cli.files import directory, say_written
-        from mcexact.cli.output import emit, emit_json
+        from mcexact.cli.files import directory, emit, emit_json, say_written
         from mcexact.model.text import write_text
 
         line_follows = not self.as_json and show()
@@ -238,7 +380,7 @@ def undecided_error(
     doing : str
         A description of the work.
     """
-    from mcexact.cli.failures import INTERRUPTED
+    from mcexact.cli.commands import INTERRUPTED
     from mcexact.errors import LimitReached
 
     if ended is None:
@@ -266,10 +408,401 @@ def _reason(error: BaseException) -> str:
 
 def show_tables(answer: Mapping[str, Any]) -> Callable[[], bool]:
     """Return a function that prints the tables of an answer; a line about the checker follows."""
-    from mcexact.cli.output import emit_tables
+    from mcexact.cli.files import emit_tables
 
     def show() -> bool:
         emit_tables(answer["tables"])
         return True
 
     return show
+
+
+# A limit on the memory of a process, and recognition of errors that it causes.
+
+_MEBIBYTE = 1 << 20
+# An unexpected error this close to the limit is attributed to the limit.
+_NEAR = 16 * _MEBIBYTE
+# Compiled libraries end by these signals without memory; OpenBLAS interrupts its own process.
+_DEATHS = frozenset({signal.SIGABRT, signal.SIGSEGV, signal.SIGINT}) | {
+    getattr(signal, name) for name in ("SIGBUS", "SIGILL", "SIGTRAP") if hasattr(signal, name)
+}
+
+
+class MemoryLimit:
+    """A limit on the memory of this process, in force until it is lifted.
+
+    Parameters
+    ----------
+    mebibytes : int
+        The amount that may be added to the address space that the process occupies now.
+    libraries : sequence of str
+        Compiled libraries to load before the limit: if memory runs out while they load, they fail
+        in ways that look like bugs, or wait forever.
+
+    Raises
+    ------
+    UsageError
+        If the platform does not limit memory.
+    """
+
+    def __init__(self, mebibytes: int, libraries: Sequence[str]) -> None:
+        occupied = _kibibytes("VmSize") * 1024
+        try:
+            import resource
+
+            resource.RLIMIT_AS  # noqa: B018 - not every platform has it
+        except (ImportError, AttributeError):
+            occupied = 0
+        if not occupied:  # macOS has the limit and does not enforce it
+            raise UsageError("this platform does not limit memory: leave out --max-memory")
+        for name in libraries:
+            importlib.import_module(name)
+        if "numpy" in libraries:
+            _claim_working_memory(libraries)
+        self._resource = resource
+        self._before = resource.getrlimit(resource.RLIMIT_AS)
+        hard = self._before[1]
+        limit = _kibibytes("VmSize") * 1024 + mebibytes * _MEBIBYTE  # with the libraries
+        self._bytes = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
+        resource.setrlimit(resource.RLIMIT_AS, (self._bytes, hard))
+
+    def lift(self) -> None:
+        """Remove the limit, so that an error can be reported."""
+        self._resource.setrlimit(self._resource.RLIMIT_AS, self._before)
+
+    def explains(self, error: BaseException) -> bool:
+        """Whether this limit caused an error, or one that led to it."""
+        for cause in _causes(error):
+            # These are the messages of a library that could not be mapped or initialized.
+            missing = isinstance(cause, ModuleNotFoundError)
+            if isinstance(cause, ImportError | SystemError) and not missing:
+                return True
+        intended = isinstance(error, McexactError) and not isinstance(error, InternalError)
+        return not intended and _kibibytes("VmPeak") * 1024 > self._bytes - _NEAR
+
+
+def ran_out(error: BaseException) -> bool:
+    """Whether an error, or one that led to it, reports that memory ran out."""
+    return any(
+        isinstance(cause, MemoryError) or getattr(cause, "errno", None) == errno.ENOMEM
+        for cause in _causes(error)
+    )
+
+
+def died_of_memory(exit_code: int | None, max_memory: int | None) -> bool:
+    """Whether a process that ended without a message had too little memory.
+
+    The operating system sends SIGKILL to a process that takes too much.  Under a limit, a library
+    that gets no memory aborts or ends the process with a status of its own.
+    """
+    if exit_code is None:
+        return False
+    if exit_code == -getattr(signal, "SIGKILL", 9):
+        return True
+    return max_memory is not None and (exit_code > 0 or -exit_code in _DEATHS)
+
+
+def out_of_memory(doing: str, max_memory: int | None) -> LimitReached:
+    """Return the error to raise when memory ran out."""
+    if max_memory is None:
+        return LimitReached(f"the memory was exhausted while {doing}; nothing has been decided")
+    return LimitReached(
+        f"the memory limit of {max_memory} MiB was exhausted while {doing}; "
+        "nothing has been decided (--max-memory allows more)"
+    )
+
+
+def _claim_working_memory(libraries: Sequence[str]) -> None:
+    """Multiply matrices once, so that OpenBLAS allocates buffers without which it waits forever."""
+    import numpy as np
+
+    M = np.ones((128, 128))
+    _ = M @ M
+    if "scipy.linalg" in libraries:
+        from scipy.linalg import blas
+
+        blas.dgemm(1.0, M, M)
+
+
+def _causes(error: BaseException) -> Iterator[BaseException]:
+    """Yield an error and those that led to it."""
+    found: BaseException | None = error
+    while found is not None:
+        yield found
+        found = found.__cause__ or found.__context__
+
+
+def _kibibytes(name: str) -> int:
+    """A size from the kernel's status of this process; 0 where the platform has none."""
+    with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as status:
+        found = re.search(rf"^{name}:\s*(\d+) kB$", status.read(), re.MULTILINE)
+        return int(found[1]) if found else 0
+    return 0
+
+
+# Work in a child process, which can be limited and interrupted at any moment.
+
+T = TypeVar("T")
+
+
+class _Note(str):
+    """A line that the child wants to be shown at once."""
+
+    __slots__ = ()
+
+
+class _Step(str):
+    """What the child does now, for progress."""
+
+    __slots__ = ()
+
+
+@dataclass
+class Kept:
+    """What a child sent before it ended: parts of its result, which a limit does not discard.
+
+    Attributes
+    ----------
+    parts : dict
+        By name.
+    running : str
+        The part that the child works on.
+    """
+
+    parts: dict[str, Any] = field(default_factory=dict)
+    running: str = ""
+
+
+@dataclass(frozen=True)
+class _Part:
+    """A part of the result, or the beginning of the work on it."""
+
+    name: str
+    value: Any = None
+    begins: bool = False
+
+
+class Reporting:
+    """What a child says before it has the result; the work takes it as the keyword ``report``."""
+
+    def __init__(self, send: Callable[[Any], None]) -> None:
+        self._send = send
+
+    def step(self, text: str) -> None:
+        """Say what is to be shown as progress."""
+        self._send(_Step(text))
+
+    def begin(self, name: str, step: str) -> None:
+        """Say that the work on a part begins, and what is to be shown as progress."""
+        self._send(_Part(name, begins=True))
+        self.step(step)
+
+    def keep(self, name: str, value: Any) -> None:
+        """Hand over a part, which can be pickled."""
+        self._send(_Part(name, value))
+
+
+_LIBRARIES = ("flint", "numpy", "scipy.linalg")
+_SHOW_AFTER = 1.0  # seconds
+_CLEAR = "\r\x1b[K"
+"""Move to the start of the terminal's line, and clear it."""
+
+
+def supervised(
+    work: Callable[..., T],
+    *arguments: Any,
+    doing: str,
+    timeout: float | Deadline | None = None,
+    max_memory: int | None = None,
+    libraries: Sequence[str] = _LIBRARIES,
+    quiet: bool = False,
+    telling: bool = False,
+    kept: Kept | None = None,
+) -> T:
+    """Call a function in a child process and return what it returns.
+
+    Parameters
+    ----------
+    work : callable
+        A function of a module whose arguments and result can be pickled.
+    *arguments
+        The arguments of the function.
+    doing : str
+        A description of the work, for progress and for the message at a limit.
+    timeout : float or Deadline, optional
+        Seconds for the work, or the deadline of the whole command.
+    max_memory : int, optional
+        MiB that the child may add to what the program and the libraries occupy.
+    libraries : sequence of str
+        Compiled libraries to load before memory is limited.
+    quiet : bool
+        Whether to show no progress.
+    telling : bool
+        Whether the function takes a keyword ``tell``, a function that shows a line on standard
+        error at once.
+    kept : Kept, optional
+        What the parts of the result are added to.  The function then takes a keyword ``report``, a
+        `Reporting` that hands them over.
+
+    Returns
+    -------
+    T
+
+    Raises
+    ------
+    LimitReached
+        If a limit on time or memory ended the work.
+    McexactError
+        The error that the work raised.
+    InternalError
+        If the work failed unexpectedly.
+    """
+    deadline = timeout if isinstance(timeout, Deadline) else Deadline(timeout)
+    limits = (max_memory, tuple(libraries))
+    child = Child(_child, (limits, work, arguments, telling, kept is not None))
+    try:
+        outcome = _await(child.connection, doing, deadline, quiet, kept or Kept())
+    except (EOFError, ConnectionResetError):
+        status = child.exit_status()
+        if died_of_memory(status, max_memory):
+            raise out_of_memory(doing, max_memory) from None
+        raise InternalError(f"the computation ended with status {status} while {doing}") from None
+    finally:
+        child.end()
+    if isinstance(outcome, BaseException):
+        if isinstance(outcome, MemoryError):
+            raise out_of_memory(doing, max_memory)
+        raise outcome
+    result: T = outcome[0]
+    return result
+
+
+def _await(receiver: Connection, doing: str, deadline: Deadline, quiet: bool, kept: Kept) -> Any:
+    """Wait for the child's result, and show progress if that takes long."""
+    start, step = time.monotonic(), ""
+    progress = _Progress(doing)
+    with _terminable(), contextlib.ExitStack() as stack:
+        stack.callback(progress.clear)
+        while True:
+            while not receiver.poll(0.1 if (left := deadline.left()) is None else min(0.1, left)):
+                if not quiet:
+                    progress.show(time.monotonic() - start, step)
+                if deadline.left() == 0:
+                    raise deadline.missed(doing)
+            outcome = pickle.loads(receiver.recv_bytes())
+            if isinstance(outcome, _Step):
+                step = str(outcome)
+            elif isinstance(outcome, _Part):
+                kept.running = outcome.name if outcome.begins else ""
+                if not outcome.begins:
+                    kept.parts[outcome.name] = outcome.value
+            elif isinstance(outcome, _Note):
+                progress.clear()
+                print(f"mcexact: {outcome}", file=sys.stderr, flush=True)
+            else:
+                return outcome
+
+
+def _child(
+    sender: Connection,
+    limits: tuple[int | None, tuple[str, ...]],
+    work: Callable[..., Any],
+    arguments: Any,
+    telling: bool,
+    keeping: bool,
+) -> None:
+    """Do the work and send its result, or the error that ended it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    sys.set_int_max_str_digits(0)  # as `main` does, for a process that is no fork
+    # The user gets one message, without what compiled code prints before it aborts.
+    faulthandler.disable()
+    silence = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silence, 1)
+    os.dup2(silence, 2)
+    max_memory, libraries = limits
+    limit = None
+    try:
+        if max_memory is not None:
+            limit = MemoryLimit(max_memory, libraries)
+        told: dict[str, Any] = {}
+        if telling:
+            told["tell"] = lambda line: sender.send_bytes(pickle.dumps(_Note(line)))
+        if keeping:
+            told["report"] = Reporting(lambda said: sender.send_bytes(pickle.dumps(said)))
+        message = pickle.dumps((work(*arguments, **told),))
+    except Exception as error:
+        if limit is not None:
+            limit.lift()
+        message = pickle.dumps(_told(error, limit))
+    sender.send_bytes(message)
+    sender.close()
+
+
+def _told(error: Exception, limit: MemoryLimit | None) -> Exception:
+    """The form in which an error is sent to the parent: an unexpected one as text."""
+    if ran_out(error) or (limit is not None and limit.explains(error)):
+        return MemoryError()
+    if isinstance(error, McexactError):
+        return error
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    place = f"{os.path.basename(frame.filename)}:{frame.lineno}"
+    return InternalError(f"{type(error).__name__}: {error} ({place})")
+
+
+@contextlib.contextmanager
+def _terminable() -> Iterator[None]:
+    """Turn a signal that ends this process into an exception, so that the child is ended too."""
+
+    def end(number: int, frame: object) -> None:
+        sys.exit(128 + number)
+
+    try:
+        before = signal.signal(signal.SIGTERM, end)
+    except ValueError:  # signals only reach the main thread
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+class _Progress:
+    """What is being done, on standard error, once it has taken a second.
+
+    On a terminal one line says what the child works on and for how long, and is cleared again;
+    elsewhere a line is printed once.
+    """
+
+    def __init__(self, doing: str) -> None:
+        self._doing, self._shown = doing, ""
+        self._terminal = sys.stderr is not None and sys.stderr.isatty()
+
+    def show(self, elapsed: float, step: str) -> None:
+        """Show what is being done, after so many seconds."""
+        if elapsed < _SHOW_AFTER:
+            return
+        if not self._terminal:
+            if not self._shown:
+                self._shown = self._doing
+                print(f"mcexact: {self._doing} …", file=sys.stderr, flush=True)
+            return
+        line = ", ".join(filter(None, (self._doing, step, f"{elapsed:.0f} s")))
+        if line != self._shown:
+            self._shown = line
+            columns = shutil.get_terminal_size().columns
+            print(f"{_CLEAR}{_within(line, columns - 1)}", end="", file=sys.stderr, flush=True)
+
+    def clear(self) -> None:
+        """Clear the line on a terminal, so that another can be printed."""
+        if self._terminal and self._shown:
+            self._shown = ""
+            print(_CLEAR, end="", file=sys.stderr, flush=True)
+
+
+def _within(line: str, columns: int) -> str:
+    """A line of so many columns at most; its middle is left out, as its end changes."""
+    if len(line) <= columns:
+        return line
+    kept = max(columns - 2, 2)
+    return f"{line[: kept // 3]}… {line[-(kept - kept // 3) :]}"[:columns]

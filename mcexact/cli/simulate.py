@@ -81,15 +81,14 @@ def command(file: str, controller: str, **given: Any) -> None:
     certificate is checked, and --certificates writes it.
     """
     from mcexact.cli.files import (
+        emit_tables,
         require_apart,
         require_drawable,
         require_other,
         require_writable,
         write_result,
     )
-    from mcexact.cli.output import emit_tables
-    from mcexact.cli.rechecking import Rechecked
-    from mcexact.cli.running import Run
+    from mcexact.cli.running import Rechecked, Run
 
     run = Run(given)
     output, fractions = given.pop("output"), given.pop("fractions")

@@ -1,28 +1,37 @@
-"""What commands say about every plant whose entries are within their radii."""
+"""What commands say about parameters, ranges and radii."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+import click
+
+from mcexact.cli import options
 from mcexact.model.properties import PROPERTIES, Property
 
 if TYPE_CHECKING:
+    from mcexact.analysis.analyze import Effort
     from mcexact.analysis.boxes.failure import FailingPlant
-    from mcexact.analysis.boxes.largest import LargestUncertainty
+    from mcexact.analysis.boxes.largest import LargestRanges, LargestUncertainty
     from mcexact.answer.account import Account
     from mcexact.answer.boxes import BoxStability
     from mcexact.answer.loops import StabilityVerdict
     from mcexact.answer.protocol import Answer
+    from mcexact.cli.running import Known, Reporting
     from mcexact.exact.roots import StabilityRegion
     from mcexact.model.controller import Controller
+    from mcexact.model.parametric import ParametricSystem
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.html import EmbeddedPicture
     from mcexact.report.text import Table
     from mcexact.synthesis.robustness import WithinRadii
+
+
+# What commands say about every plant whose entries are within their radii.
 
 
 def of(
@@ -271,3 +280,248 @@ def digits_of(
     view = {"safe_digits": {"safe": known.safe, "too_few": known.unsafe}}
     rows = ("digits of the gains that are safe", safe), ("digits that are too few", few)
     return Loops(rows, None, view)
+
+
+# Systems with parameters on the command line: values, and the answers for all values.
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def parameter_value(text: str) -> tuple[str, Fraction]:
+    """Parse ``NAME=VALUE`` with an exact number.
+
+    Examples
+    --------
+    >>> parameter_value("t=1/3")
+    ('t', Fraction(1, 3))
+    """
+    name, equals, value = text.partition("=")
+    if not (name.strip() and equals and value.strip()):
+        raise click.BadParameter(f"expected NAME=VALUE, such as t=1/3, found '{text}'")
+    return name.strip(), options.rational(value.strip())
+
+
+def at_values(use: str, more: str) -> Callable[[F], F]:
+    """Return the option for values of parameters, whose help says their use, and more."""
+    return click.option(
+        "--at",
+        type=parameter_value,
+        multiple=True,
+        metavar="NAME=VALUE",
+        help=f"Of a system with parameters: {use}, such as t=1/3.  {more}",
+    )
+
+
+def for_all_values(
+    system: ParametricSystem,
+    also: Sequence[str],
+    channel: str | None,
+    refused: bool,
+    with_page: bool,
+    with_latex: bool,
+    system_by_digest: bool,
+    *,
+    known: Known,
+    report: Reporting,
+) -> dict[str, Any]:
+    """Decide and format the answers for all values, in the child process.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    also : sequence of str
+        Questions that are asked as well.
+    channel : str or None
+    refused : bool
+        Whether something is asked that is only decided for systems without parameters.
+    with_page, with_latex, system_by_digest : bool
+    known : Known
+    report : Reporting
+
+    Raises
+    ------
+    UsageError
+        If something else is asked.
+    """
+    from dataclasses import replace
+
+    from mcexact.analysis.analyze import ParametricAnalysis
+    from mcexact.errors import UsageError
+    from mcexact.report.pages import parameter_latex, parameter_page, parameter_tables
+    from mcexact.report.text import WIDTH, wrapped
+
+    if refused or not ParametricAnalysis.questions.keys() >= {*also}:
+        raise UsageError(
+            "these questions are about systems without parameters: give values to "
+            f"{', '.join(system.parameters)} by --at NAME=VALUE"
+        )
+    found = ParametricAnalysis(system, channel=channel)
+    found.also(also)
+    known.resume(found, report)
+    account, taken = found.account, effort_tables(found.effort())
+    page = parameter_page(account) if with_page else None
+    if page is not None:
+        page = replace(page, tables=(*page.tables, *taken))
+    words = [line for said in account.at("answer") for line in wrapped(said, WIDTH)]
+    return {
+        "certificates": account.certificates,
+        "files": account.files(system_by_digest=system_by_digest),
+        "plant": account.about,
+        "json": found.to_dict(),
+        "words": "\n".join(words) + "\n",
+        "tables": (*parameter_tables(account), *taken),
+        "latex": parameter_latex(account) if with_latex else "",
+        "page": page,
+        "ended": found.ended(),
+    }
+
+
+# What `mcexact certify` says about a loop at all values of parameters within their ranges.
+
+_EFFORT = 5.0
+_ASKED = ("rate", "radius")
+"""The options that say what is proved, besides --gains."""
+
+
+def certified(
+    system: ParametricSystem,
+    controller: Controller,
+    gains: Fraction | None,
+    wanted: Mapping[str, Any],
+    with_page: bool,
+    system_by_digest: bool,
+) -> dict[str, Any]:
+    """Prove a loop for all values, or search the largest part of the ranges and values that fail.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    controller : Controller
+    gains : Fraction or None
+        The radii of the gains, as a part of their moduli.
+    wanted : mapping
+        The other options by name.
+    with_page, system_by_digest : bool
+
+    Raises
+    ------
+    UsageError
+        If something is asked that is only decided for systems without parameters.
+    """
+    from mcexact.analysis.boxes.largest import largest_loop_ranges
+    from mcexact.errors import UsageError
+    from mcexact.exact.roots import StabilityRegion
+
+    if any(value for name, value in wanted.items() if name not in _ASKED):
+        raise UsageError(
+            "with parameters only --rate, --radius and --gains are decided: give values to "
+            f"{', '.join(system.parameters)} by --at NAME=VALUE"
+        )
+    asked = {name: wanted[name] for name in _ASKED}
+    region = StabilityRegion.of(system.time, **asked)
+    found = largest_loop_ranges(system, controller, gains=gains, effort=_EFFORT, **asked)
+    account = _account(system, found, gains)
+    ranges = ", ".join(system.parameters_in_words)
+    proved = found.lower == 1
+    if proved:
+        said = f"{region} for every {ranges}: proved."
+    elif found.failing is not None:
+        said = f"{region} does not hold for every {ranges}."
+    else:
+        said = f"{region} for every {ranges}: open, as no proof and no value that fails was found."
+    return _evidence(account, found, proved, system_by_digest) | {
+        "said": [said],
+        "tables": _tables(account, found, proved),
+        "page": _page(account, said, found, proved) if with_page else None,
+        "json": account.as_json(
+            certified=proved,
+            refuted=found.failing is not None,
+            region=str(region),
+            bound=None if region.bound is None else str(region.bound),
+            parameters=system.document()["parameters"],
+            largest_ranges=found.to_dict(),
+            warnings=[],
+        ),
+    }
+
+
+def _account(system: ParametricSystem, found: LargestRanges, gains: Fraction | None) -> Account:
+    """The proof for the whole ranges with its sentence, if there is one."""
+    from mcexact.answer.account import Account
+    from mcexact.answer.loops import EVERY_LOOP_RULES
+    from mcexact.answer.sentence import Given
+
+    ranges = ", ".join(system.parameters_in_words)
+    given = Given(system, {"parameters": ranges, "part_of_gains": gains})
+    whole = found.proof is not None and found.lower == 1
+    answers: dict[str, Any] = {"box_stability": found.proof} if whole else {}
+    return Account(answers, given, EVERY_LOOP_RULES.sentences(answers, given))
+
+
+def _evidence(
+    account: Account, found: LargestRanges, proved: bool, system_by_digest: bool
+) -> dict[str, Any]:
+    """The certificates: of the whole ranges, or of a part of them and of values that fail."""
+    from mcexact.answer import protocol
+    from mcexact.cli.running import told
+
+    if proved:
+        return told(account, system_by_digest)
+    parts = {
+        "box_stability_in_part.json": found.proof,
+        "stability_at_values.json": found.refutation,
+    }
+    known = {name: answer for name, answer in parts.items() if answer is not None}
+    texts = {name: protocol.encode(answer) for name, answer in known.items()}
+    plants = {name: answer.about.plant.canonical_text() for name, answer in known.items()}
+    return {"certificates": texts, "files": texts, "plant": plants}
+
+
+def _tables(account: Account, found: LargestRanges, proved: bool) -> tuple[Any, ...]:
+    """The sentence, or how far the ranges can be."""
+    from mcexact.report.text import Table
+
+    rows = [each.cells for each in account.sentences] if proved else list(found.rows())
+    return (Table("closed loop" if proved else "largest part of the ranges", (), tuple(rows)),)
+
+
+def _page(account: Account, said: str, found: LargestRanges, proved: bool) -> Any:
+    """The page of the answer."""
+    from mcexact.report.html import AnswerPage, shown_plant
+
+    system = account.given.system
+    return AnswerPage(
+        title=system.name or "A closed loop",
+        heading="A controller and its closed loops, for all values of the plant's parameters.",
+        good=proved,
+        answer=(said,),
+        pictures=(),
+        tables=_tables(account, found, proved),
+        plant=shown_plant(system),
+    )
+
+
+# What became of questions: which took long, and which were not decided.
+
+_LONG = 10.0
+"""The seconds from which on a question is listed with its time."""
+
+
+def effort_tables(taken: Sequence[Effort]) -> tuple[Table, ...]:
+    """A table of the questions that took long, or were not decided, if there are any."""
+    from mcexact.report.text import Table
+
+    rows = [
+        (
+            each.question.replace("_", " "),
+            "–" if each.outcome == "left out" else f"{each.seconds:.1f}",
+            f"{each.outcome}: {each.reason}" if each.reason else each.outcome,
+        )
+        for each in taken
+        if each.seconds >= _LONG or each.outcome != "decided"
+    ]
+    left_out = any(each.outcome == "left out" for each in taken)
+    note = "Decide a question that is left out by --also and its name." if left_out else ""
+    columns = ("question", "seconds", "outcome")
+    title = "questions that are open or took long"
+    return (Table(title, columns, tuple(rows), note),) if rows else ()

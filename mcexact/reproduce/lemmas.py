@@ -1,39 +1,44 @@
-"""Section II-D: the lemmas behind Proposition 1, and the construction."""
+"""Section II-A, II-D and IV-E, almost all gains."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import product
 
 from mcexact.analysis.controllability import (
     controllability_indices,
     exceptional_gains,
+    joint_controllability,
     joint_observability,
 )
-from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.single_channel import single_channel_gains
 from mcexact.analysis.stability import closed_loop_spectrum
 from mcexact.answer.structure import ControllabilityIndices
-from mcexact.derived.constructions import error_system, feedback
-from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.matrix import Matrix, hstack, kronecker, vstack
+from mcexact.derived.constructions import closed_by, error_system, extended_system, feedback
+from mcexact.exact.linear_algebra import characteristic_polynomial, rank
+from mcexact.exact.matrix import Matrix, block, hstack, kronecker, vstack
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import spectrum_picture
-from mcexact.reproduce.material import (
+from mcexact.reproduce.instances import (
     PAPER,
     Numbers,
+    dependent_inputs,
     drawn_plants,
     graph_of,
+    hidden_by_feedback,
     plants,
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.observer import fed_back, without_arcs, zeros
-from mcexact.reproduce.plants import hidden_by_feedback
 from mcexact.synthesis.distributed_observer import design_observer
+
+# Section II-D: the lemmas behind Proposition 1, and the construction.
 
 INDEX_THREE = "four states, two inputs, index 3"
 
@@ -251,11 +256,246 @@ def recipe(note: Notebook) -> None:
     note.certify(lost, stuck, found, design.loop.proof)
 
 
-PROCEDURES: dict[str, Procedure] = {
+LEMMAS: dict[str, Procedure] = {
     "lemma-1": lemma_1,
     "lemma-2": lemma_2,
     "lemma-3": lemma_3,
     "lemma-4": lemma_4,
     "construction": prescribed_rate,
     "recipe": recipe,
+}
+
+
+# Sections II-B, II-D and IV-E: almost all gains serve, and complementary subsystems.
+
+DRAWN = 8
+"""How many drawn gains are tried for each system."""
+
+
+def through(A: Matrix, B: Matrix) -> MultiChannelSystem:
+    """The pair (A, B) as a system that nothing measures."""
+    return MultiChannelSystem(A, [B], [Matrix.zeros(0, A.nrows)])
+
+
+def serve(made: MultiChannelSystem, gains: Sequence[Matrix]) -> bool:
+    """Whether the loop is controllable and observable through every channel."""
+    loop = closed_by(made, gains)
+    pairs = [(loop, made.B(q)) for q in range(made.m)]
+    pairs += [(loop.T, made.C(q).T) for q in range(made.m)]
+    return all(joint_controllability(through(*pair)).controllable for pair in pairs)
+
+
+def _on_a_line(
+    note: Notebook,
+    made: MultiChannelSystem,
+    start: Sequence[Matrix],
+    along: Sequence[Matrix],
+    *,
+    index: int | None = None,
+    dual: bool = False,
+) -> None:
+    """Along the gains start + h·along finitely many h fail for some channel.
+
+    The gains that fail are the zeros of polynomials.  A polynomial that has finitely many zeros on
+    a line is not zero, and so the zeros of all of them are a proper algebraic set.  With the loops
+    M + hD on the line, (M + hD, B) is controllable iff a multiple of it is, as D + g(M + D) with
+    h = (1 + g)/g; in this form Lemma 3 finds all exceptions.
+    """
+    M = closed_by(made, start)
+    D = closed_by(made, along) - made.A
+    for q in range(made.m):
+        port = made.C(q).T if dual else made.B(q)
+        first, direction = (M.T, D.T) if dual else (M, D)
+        found = exceptional_gains(direction, first + direction, port)
+        failing = found.controllability_set if index is None else found.index_set
+        if index is not None:
+            note.check("drawn gains have index m", found.index == index)
+        what = "observable" if dual else "controllable"
+        said = f"on a line of gains, finitely many are not {what} through channel {q + 1}"
+        note.check(said, not failing.polynomial.is_zero())
+        if q == 0:
+            note.certify(failing)
+
+
+def error_gains(note: Notebook) -> None:
+    """The gains of (7), of Lemma 4 for given K_i, and those that make (16) observable."""
+    numbers = Numbers(23, largest=9)
+    for plant in note.each(plants(1)):
+        made = error_system(plant, zeros(plant))
+        drawn = [numbers.gains(made) for _ in range(DRAWN)]
+        note.check("all drawn gains serve every channel", all(serve(made, G) for G in drawn))
+        note.refute("few", all(serve(made, G) for G in drawn))
+        none = [G * 0 for G in drawn[0]]
+        note.refute("all", not serve(made, none))
+        _on_a_line(note, made, drawn[0], drawn[1])
+        _on_a_line(note, made, drawn[0], drawn[1], dual=True)
+    for plant in note.each(plants(1)):
+        made = error_system(plant, numbers.feedbacks(plant))
+        parts = [_apart(G, plant.q(i)) for i, G in enumerate(numbers.gains(made))]
+        K, H = [K for K, _ in parts], [H for _, H in parts]
+        start = [k + h for k, h in zip(K, H, strict=True)]
+        _on_a_line(note, made, start, H, index=plant.m)
+        _on_a_line(note, made, start, numbers.gains(made), dual=True)
+        note.check("some gains do both", serve(made, start))
+        if note.here == PAPER:
+            reach = controllability_indices(through(closed_by(made, K), made.B(0)))
+            note.refute("H=0", reach.index is None)
+            note.certify(reach)
+
+
+def _apart(gains: Matrix, q: int) -> tuple[Matrix, Matrix]:
+    """The gains K_i of C_i e_i and H_i of the e_i − e_j, each with zeros in place of the other."""
+    n, width = gains.nrows, gains.ncols - q
+    K, H = gains.take(cols=range(q)), gains.take(cols=range(q, gains.ncols))
+    return hstack([K, Matrix.zeros(n, width)]), hstack([Matrix.zeros(n, q), H])
+
+
+def extended_gains(note: Notebook) -> None:
+    """The gains F̄_i of (31), with n_i ≥ 1."""
+    numbers = Numbers(24, largest=99)
+    for plant in note.each(plants(3)):
+        made = extended_system(plant, [1] * plant.m)
+        drawn = [numbers.gains(made) for _ in range(DRAWN)]
+        note.check("all drawn gains serve every channel", all(serve(made, G) for G in drawn))
+        note.refute("few", all(serve(made, G) for G in drawn))
+        note.refute("all", not serve(made, [G * 0 for G in drawn[0]]))
+        _on_a_line(note, made, drawn[0], drawn[1])
+        _on_a_line(note, made, drawn[0], drawn[1], dual=True)
+
+
+def complementary(note: Notebook) -> None:
+    """All complementary subsystems of (16) are complete."""
+    numbers = Numbers(25)
+    for plant in note.each(plants(8)):
+        found = completeness(error_system(plant, numbers.feedbacks(plant)))
+        note.check("(16) is complete for all subsets of channels", found.complete)
+        note.certify(found)
+    plant = three_channels()
+    note.on(f"{PAPER}, without arcs", without_arcs(plant))
+    lost = completeness(error_system(without_arcs(plant), numbers.feedbacks(plant)))
+    note.refute("any-graph", not lost.complete)
+    note.certify(lost)
+    note.on(PAPER, plant)
+    own = completeness(plant)
+    note.refute("plant", not own.complete)
+    note.certify(own)
+
+
+ALMOST_ANY: dict[str, Procedure] = {
+    "almost-any": error_gains,
+    "complementary": complementary,
+    "almost-any-extended": extended_gains,
+}
+
+
+# Section II-A: certainty equivalence, the cancellation rule, and the graphs that respect it.
+
+
+def one_agent(note: Notebook) -> None:
+    """With one agent the spectrum is that of A + BF and that of A + KC."""
+    numbers = Numbers(4)
+    for plant in note.each(plants(8)):
+        B, C = plant.input_matrix(), plant.output_matrix()
+        F, K = numbers.matrix(B.ncols, plant.n), numbers.matrix(plant.n, C.nrows)
+        loop = block([[plant.A, B @ F], [-(K @ C), plant.A + K @ C + B @ F]])
+        x, e = numbers.column(plant.n), numbers.column(plant.n)
+        moved = loop @ vstack([x, x + e])
+        error = moved.take(rows=range(plant.n, 2 * plant.n)) - moved.take(rows=range(plant.n))
+        note.check("ė = (A + KC)e, whatever x is", error == (plant.A + K @ C) @ e)
+        apart = characteristic_polynomial(plant.A + B @ F) * characteristic_polynomial(
+            plant.A + K @ C
+        )
+        note.check("the loop's polynomial is the product", characteristic_polynomial(loop) == apart)
+        if note.here == PAPER:
+            twice = characteristic_polynomial(plant.A + B @ F) ** 2
+            wrong = characteristic_polynomial(plant.A + B @ F) * characteristic_polynomial(
+                plant.A - K @ C
+            )
+            kept = block([[plant.A, B @ F], [-(K @ C), plant.A + K @ C]])
+            note.refute("twice", characteristic_polynomial(loop) != twice)
+            note.refute("sign", characteristic_polynomial(loop) != wrong)
+            note.refute("without-input", characteristic_polynomial(kept) != apart)
+
+
+def _moved(plant: MultiChannelSystem, F: Matrix, x: Matrix, errors: Sequence[Matrix]) -> Matrix:
+    """The state after steps of x(t+1) = Ax + BF(x + e), with one e for each."""
+    for e in errors:
+        x = plant.A @ x + plant.input_matrix() @ (F @ (x + e))
+    return x
+
+
+def small_errors(note: Notebook) -> None:
+    """The state under u = F(x + e) deviates from that under u = Fx by a linear function of e."""
+    numbers = Numbers(20)
+    for plant in note.each(plants(8, time="discrete")):
+        F = numbers.matrix(plant.input_matrix().ncols, plant.n)
+        x = numbers.column(plant.n)
+        errors = [numbers.column(plant.n) for _ in range(plant.n + 2)]
+        deviations = {
+            size: _moved(plant, F, x, [e * size for e in errors])
+            - _moved(plant, F, x, [e * 0 for e in errors])
+            for size in (1, -3, 2, 1000)
+        }
+        note.check(
+            "errors times g make g times the deviation",
+            all(found == deviations[1] * size for size, found in deviations.items()),
+        )
+        note.refute("exact", not deviations[1].is_zero())
+        note.refute("square", deviations[2] != deviations[1] * 4)
+
+
+def respects(
+    plant: MultiChannelSystem, feedbacks: Sequence[Matrix], graph: NeighborGraph, agent: int
+) -> bool:
+    """Whether Σ B_j F_j x_j is a function of the x_j that an agent receives."""
+    unit = Matrix.identity(plant.n * plant.m)
+    heard = graph.neighborhood(agent)
+    received = vstack(
+        [unit.take(rows=range(j * plant.n, (j + 1) * plant.n)) for j in heard], ncols=unit.ncols
+    )
+    needed = hstack([plant.B(j) @ feedbacks[j] for j in range(plant.m)])
+    return rank(vstack([received, needed])) == rank(received)
+
+
+def graphs(note: Notebook) -> None:
+    """The rule respects a graph iff every agent hears all others, unless some B_j F_j is zero."""
+    numbers = Numbers(21)
+    complete = three_channels().with_neighbors(NeighborGraph.complete(("1", "2", "3")))
+    for plant in note.each(
+        [(f"{PAPER}, over the complete graph", complete)],
+        plants(4),
+        drawn_plants(4, connected=False),
+    ):
+        graph, agents = graph_of(plant), range(plant.m)
+        F = [numbers.matrix(plant.p(i), plant.n) for i in agents]
+        acting = {i for i in agents if not (plant.B(i) @ F[i]).is_zero()}
+        note.check("no B_j F_j is zero", acting == set(agents))
+        kept = all(respects(plant, F, graph, i) for i in agents)
+        everybody = all(len(graph.neighborhood(i)) == plant.m for i in agents)
+        note.check("the rule respects the graph just when the graph is complete", kept == everybody)
+        for zero in product((False, True), repeat=plant.m):
+            G = [F[j] * int(not zero[j]) for j in agents]
+            some = {j for j in agents if not zero[j]}
+            note.check(
+                "and agent i just when all j with B_j F_j ≠ 0 are neighbors of i",
+                all(
+                    respects(plant, G, graph, i) == (some <= set(graph.neighborhood(i)))
+                    for i in agents
+                ),
+            )
+        if graph.is_strongly_connected() and not everybody:
+            note.refute("connected", not kept)
+    name, plant, gains = dependent_inputs()
+    note.on(name, plant)
+    note.print(plant)
+    graph = graph_of(plant)
+    kept = all(respects(plant, gains, graph, i) for i in range(plant.m))
+    nonzero = all(not F.is_zero() for F in gains)
+    note.refute("F_j", kept and nonzero and len(graph.neighborhood(0)) < plant.m)
+
+
+CANCELLATION: dict[str, Procedure] = {
+    "cancellation": one_agent,
+    "small-errors": small_errors,
+    "cancellation-graph": graphs,
 }

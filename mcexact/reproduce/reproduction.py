@@ -1,48 +1,48 @@
-"""`reproduce` carries out the examinations of the paper, section by section."""
+"""reproduce, and its report."""
 
 from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
 
+from mcexact.answer.templates import count
 from mcexact.errors import UsageError
-from mcexact.reproduce import (
-    almost_any,
-    bounds,
-    cancellation,
-    decentralized,
-    delays,
-    example,
-    extended,
-    freedom,
-    holding,
-    lemmas,
-    observer,
-    problem,
-    restated,
-    setpoint,
-    tracking,
+from mcexact.report.formulas import matrix, typeset, typeset_latex
+from mcexact.report.html import page
+from mcexact.report.text import Table
+from mcexact.reproduce import decentralized, delays, lemmas, observer, setpoint, sharing
+from mcexact.reproduce.notebook import (
+    STATUSES,
+    Examination,
+    Notebook,
+    Procedure,
+    Statement,
+    counted,
+    examinations,
+    examined,
+    statements,
 )
-from mcexact.reproduce.ledger import Examination, examinations
-from mcexact.reproduce.notebook import Notebook, Procedure, examined
-from mcexact.reproduce.statements import Statement, statements
+
+# `reproduce` carries out the examinations of the paper, section by section.
 
 SECTIONS: tuple[tuple[str, dict[str, Procedure]], ...] = (
-    ("I, the problem", problem.PROCEDURES),
-    ("II-A, certainty equivalence", cancellation.PROCEDURES),
+    ("I, the problem", decentralized.PROBLEM),
+    ("II-A, certainty equivalence", lemmas.CANCELLATION),
     ("II-B and II-C, the distributed observer", observer.PROCEDURES),
-    ("II-D, its analysis", lemmas.PROCEDURES),
-    ("II-B, II-D and IV-E, almost all gains", almost_any.PROCEDURES),
-    ("III, set-points", {**setpoint.PROCEDURES, **tracking.PROCEDURES}),
-    ("IV-A, decentralized control", decentralized.PROCEDURES),
-    ("IV-B, sharing outputs", example.PROCEDURES),
-    ("IV-C, extended systems", {**extended.PROCEDURES, **restated.PROCEDURES}),
-    ("IV-D, shared dimensions", bounds.PROCEDURES),
-    ("IV-E and VI, free assignment", freedom.PROCEDURES),
-    ("V-A, delays", delays.PROCEDURES),
-    ("V-B, holding", holding.PROCEDURES),
+    ("II-D, its analysis", lemmas.LEMMAS),
+    ("II-B, II-D and IV-E, almost all gains", lemmas.ALMOST_ANY),
+    ("III, set-points", {**setpoint.SETPOINT, **setpoint.TRACKING}),
+    ("IV-A, decentralized control", decentralized.DECENTRALIZED),
+    ("IV-B, sharing outputs", decentralized.EXAMPLE),
+    ("IV-C, extended systems", {**sharing.EXTENDED, **sharing.RESTATED}),
+    ("IV-D, shared dimensions", sharing.BOUNDS),
+    ("IV-E and VI, free assignment", sharing.FREEDOM),
+    ("V-A, delays", delays.DELAYS),
+    ("V-B, holding", delays.HOLDING),
 )
 
 
@@ -176,3 +176,233 @@ def reproduce(keys: Iterable[str] = ()) -> Reproduction:
     """
     wanted = chosen(keys)
     return assembled(finding for k in range(len(SECTIONS)) for finding in examine(k, wanted))
+
+
+# The report of a reproduction: a page for a browser, plain data, and a table in LaTeX.
+
+_LARGEST_SAMPLE = 6000
+_OF_EXAMINATION = ("key", "title", "section", "proofs", "erratum")
+_OF_FINDING = ("holds", "instances", "in_common", "failure")
+_OF_STATEMENT = ("number", "section", "equation", "says", "status", "examined", "proofs", "note")
+COMMON_BOUND = (
+    "The paper asks whether its bound on the common dimension of shared sub-states is tight. It is "
+    "not: a plant with four agents has the bound 2 where outputs and sub-states are shared, and "
+    "n_i = 1 for all suffices, as does (0, 1, 1, 0). Exactly those dimensions suffice whose sum "
+    "over N_s∖s is at least n − rank P_s(λ) for every subset s and every eigenvalue λ."
+)
+"""The answer to the paper's open question, proved by the examination `tight`."""
+
+
+def reproduction_page(found: Reproduction) -> str:
+    """The whole report as one page."""
+    shown = {row.examination.key: _shown(row) for row in found.rows}
+    sections = [
+        {"name": name, "rows": [shown[key] for key in keys if key in shown]}
+        for name, keys in SECTIONS
+    ]
+    return page(
+        "reproduction",
+        dated=False,
+        title="The paper, reproduced",
+        holds=found.holds,
+        answer=[typeset(sentence) for sentence in answer(found)],
+        rows=list(shown.values()),
+        counts=[(name, str(size)) for name, size in counts(found).items()],
+        statements=[_listed(each, found) for each in found.statements],
+        sections=[section for section in sections if section["rows"]],
+    )
+
+
+def counts(found: Reproduction) -> dict[str, int]:
+    """How many statements have each status, by what the report calls it."""
+    return {STATUSES[key]: size for key, size in counted(found.statements).items()}
+
+
+def answer(found: Reproduction) -> list[str]:
+    """The results in plain words."""
+    rows = found.rows
+    certificates = [made for row in rows for made in row.finding.certificates]
+    valid = sum(made.verdict == "VALID" for made in certificates)
+    false = sum(len(row.examination.nearest_false) for row in rows)
+    sentences = []
+    if any(row.examination.key == "tight" and row.finding.holds for row in rows):
+        sentences.append(COMMON_BOUND)
+    if not found.holds:
+        named = ", ".join(row.examination.title for row in found.failures)
+        failed = "fails" if len(found.failures) == 1 else "fail"
+        sentences.append(
+            f"{len(found.failures)} of {count(len(rows), 'examination')} {failed}: {named}."
+        )
+    elif len(rows) == 1:
+        sentences.append("The examination succeeds: all its checks hold.")
+    else:
+        sentences.append(f"All {len(rows)} examinations succeed: all their checks hold.")
+    told = [f"{size} {name}" for name, size in counts(found).items() if size]
+    sentences.append(
+        f"Of {count(len(found.statements), 'statement')} of the paper: {'; '.join(told)}."
+    )
+    corrected = [row.examination.title for row in rows if row.examination.erratum]
+    if corrected:
+        sentences.append(f"Corrections concern {'; '.join(corrected)}.")
+    if false and found.holds:
+        sentences.append(
+            f"{count(false, 'false statement')} next to those of the paper "
+            + ("was refuted, by" if false == 1 else "were refuted, each by")
+            + " an instance that is named."
+        )
+    sentences.append(
+        f"{valid} of {count(len(certificates), 'certificate')} were found VALID by the independent "
+        "checker."
+    )
+    return sentences
+
+
+def _listed(statement: Statement, found: Reproduction) -> dict[str, Any]:
+    """The data of a statement that the page shows."""
+    titles = {row.examination.key: row.examination.title for row in found.rows}
+    return {
+        **{name: getattr(statement, name) for name in _OF_STATEMENT},
+        "says": typeset(statement.says),
+        "note": typeset(statement.note),
+        "status": "an examination fails" if found.fails(statement) else STATUSES[statement.status],
+        "fails": found.fails(statement),
+        "links": [(key, typeset(titles[key])) for key in statement.examined if key in titles],
+    }
+
+
+def _shown(row: Row) -> dict[str, Any]:
+    """The data of a row that the page shows."""
+    said, finding = row.examination, row.finding
+    sample = next((made for made in finding.certificates if len(made.text) < _LARGEST_SAMPLE), None)
+    return {
+        **{name: getattr(said, name) for name in (*_OF_EXAMINATION, "says", "part", "code")},
+        **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
+        "name": said.title,
+        "title": typeset(said.title),
+        "printed": ", ".join(f"({each})" for each in said.equations if said.kind == "numbered"),
+        "says": typeset(said.says),
+        "erratum": typeset(said.erratum),
+        "part": typeset(said.part),
+        "status": typeset(row.status),
+        "instances": typeset(finding.in_common),
+        "matrices": [
+            (typeset(instance), [matrix(name, rows) for _, name, rows in group])
+            for instance, group in groupby(finding.matrices, key=lambda each: each[0])
+        ],
+        "checks": _with_formulas(finding.grouped_checks()),
+        "refutations": _with_formulas(finding.grouped_refutations()),
+        "certificates": [
+            (typeset(made.instance), made.name, made.verdict) for made in finding.certificates
+        ],
+        "sample": sample,
+    }
+
+
+def _with_formulas(rows: Iterable[tuple[str, str, bool]]) -> list[tuple[str, str, str]]:
+    """Rows of a table from texts, their instances, and whether they hold there."""
+    return [
+        (typeset(text), "yes" if holds else "NO", typeset(instances))
+        for text, instances, holds in rows
+    ]
+
+
+def reproduction_view(found: Reproduction) -> dict[str, Any]:
+    """The rows as plain data."""
+    return {
+        "holds": found.holds,
+        "counts": counts(found),
+        "statements": [
+            {
+                **{name: getattr(each, name) for name in _OF_STATEMENT},
+                "status": STATUSES[each.status],
+                "holds": not found.fails(each),
+            }
+            for each in found.statements
+        ],
+        "examinations": [
+            {
+                **{name: getattr(row.examination, name) for name in _OF_EXAMINATION},
+                **{
+                    name: getattr(row.finding, name)
+                    for name in ("holds", "instances", "in_common", "failure")
+                },
+                "status": row.status,
+                "checks": len(row.finding.checks),
+                "refutations": [
+                    {"name": each.name, "statement": each.statement, "instance": each.instance}
+                    for each in row.finding.refutations
+                    if each.refuted
+                ],
+                "certificates": [made.name for made in row.finding.certificates],
+            }
+            for row in found.rows
+        ],
+    }
+
+
+def reproduction_latex(found: Reproduction) -> str:
+    """The statements with their status as a table in LaTeX."""
+    lines = [
+        r"\begin{tabular}{rlp{8cm}l}",
+        r" & equation & statement & what is known \\ \hline",
+    ]
+    for each in found.statements:
+        cells = (str(each.number), each.equation, each.says, STATUSES[each.status])
+        lines.append(" & ".join(typeset_latex(cell) for cell in cells) + r" \\")
+    return "\n".join([*lines, r"\end{tabular}"]) + "\n"
+
+
+# The report of a reproduction for a terminal: the whole paper, or a few statements in full.
+
+_FEW = 5
+
+
+def reproduction_tables(found: Reproduction) -> list[Table]:
+    """The answer and the count of statements by status; then all examinations, or a few in full."""
+    told = tuple((name, str(size)) for name, size in counts(found).items() if size)
+    first = Table(" ".join(answer(found)), ("status", "statements"), told)
+    if len(found.rows) <= _FEW:
+        return [first, _statements(found), *(each for row in found.rows for each in _in_full(row))]
+    rows = tuple(
+        (
+            row.examination.title,
+            row.examination.section,
+            "yes" if row.finding.holds else "NO",
+            row.status + (" (corrected)" if row.examination.erratum else ""),
+            str(len(row.finding.certificates)),
+        )
+        for row in found.rows
+    )
+    columns = ("examined", "section", "holds", "what is known", "certificates")
+    return [first, Table("The examinations.", columns, rows)]
+
+
+def _statements(found: Reproduction) -> Table:
+    """The statements that a few examinations are about."""
+    rows = tuple(
+        (
+            str(each.number),
+            f"{each.section} {each.equation}".strip(),
+            each.says,
+            STATUSES[each.status] + (f". {each.note}" if each.note else ""),
+        )
+        for each in found.statements
+    )
+    return Table("The statements.", ("", "section", "statement", "what is known"), rows)
+
+
+def _in_full(row: Row) -> Iterator[Table]:
+    """All checks and refutations of an examination."""
+    said, finding = row.examination, row.finding
+    title = f"{said.title}: {said.says} Examined on {finding.in_common}."
+    if said.proofs:
+        title += f" Machine-checked: {', '.join(said.proofs)}{f' ({said.part})' * bool(said.part)}."
+    if said.erratum:
+        title += f" Correction: {said.erratum}"
+    for name, entries in (
+        (title, finding.grouped_checks()),
+        (f"False statements next to {said.title}.", finding.grouped_refutations()),
+    ):
+        what = ("what was checked", "holds") if name == title else ("false statement", "refuted")
+        rows = tuple((text, "yes" if holds else "NO", on) for text, on, holds in entries)
+        yield Table(name, (*what, "instances"), rows)

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from mcexact import checker
-from mcexact.cli.checker_archive import checker_archive
+from mcexact.cli.check import checker_archive
 from tests.checker.handmade import FIXED, FREE, changed
 from tests.effort import PATIENCE
 

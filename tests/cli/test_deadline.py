@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.cli.deadline import Deadline
+from mcexact.cli.files import Deadline
 from mcexact.errors import LimitReached
 from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from mcexact import Box, fixed_spectrum, load_system
-from mcexact.cli.families import values
+from mcexact.cli.sweep import values
 from mcexact.model.system_file import read_system
 from tests.cli.calling import call
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.cli.folders import require_replaceable, write_folder
+from mcexact.cli.files import require_replaceable, write_folder
 from mcexact.errors import InputError, NotWritten
 
 

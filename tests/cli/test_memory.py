@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.cli import memory
-from mcexact.cli.supervision import supervised
+from mcexact.cli import running
+from mcexact.cli.running import supervised
 from mcexact.errors import InternalError, LimitReached, UsageError
 from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
@@ -152,6 +152,6 @@ def test_a_platform_that_does_not_limit_memory_is_named(
     elif missing == "the limit":
         monkeypatch.delattr(resource, "RLIMIT_AS")
     else:
-        monkeypatch.setattr(memory, "_kibibytes", lambda name: 0)
+        monkeypatch.setattr(running, "_kibibytes", lambda name: 0)
     with pytest.raises(UsageError, match="does not limit memory: leave out --max-memory"):
         supervised(os.getpid, doing="working", max_memory=_PLENTY)

@@ -10,9 +10,9 @@ import pytest
 from mcexact.answer import check
 from mcexact.checker import Verdict, manifest
 from mcexact.checker.sentence import RULES
-from mcexact.cli import main, output
-from mcexact.cli.deadline import Deadline
-from mcexact.cli.rechecking import Rechecked
+from mcexact.cli import files, main
+from mcexact.cli.files import Deadline
+from mcexact.cli.running import Rechecked
 from mcexact.model import gallery
 
 FOLDER = Path(gallery.__file__).parent
@@ -97,14 +97,14 @@ def test_what_a_limit_of_the_checker_leaves_open_is_status_4_and_keeps_the_answe
 def test_what_the_time_limit_leaves_open_is_status_4_and_keeps_the_answer(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shown = output.emit_tables
+    shown = files.emit_tables
 
     def show_and_run_out(*arguments: Any) -> None:
         shown(*arguments)
         monkeypatch.setattr(Deadline, "left", lambda _: 0.0)
 
     monkeypatch.setattr(Deadline, "left", lambda _: 10.0**6)
-    monkeypatch.setattr(output, "emit_tables", show_and_run_out)
+    monkeypatch.setattr(files, "emit_tables", show_and_run_out)
     status, out, err = call("analyze", PLANT, "--timeout", "60")
     assert status == 4
     assert "No mode is fixed" in out and "re-checked by" not in out

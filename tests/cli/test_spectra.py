@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mcexact.cli import command_line
-from mcexact.cli.spectra import COEFFICIENTS, NUMBERS, PAIRS, ROOTS, spectrum_text
+from mcexact.cli.design import COEFFICIENTS, NUMBERS, PAIRS, ROOTS, spectrum_text
 from mcexact.errors import InputError
 from mcexact.synthesis.state_feedback import require_numbers, spectrum_polynomial
 

@@ -12,9 +12,8 @@ from typing import Any
 import pytest
 
 from mcexact import processes
-from mcexact.cli import supervision
-from mcexact.cli.running import Known, Run, undecided_error
-from mcexact.cli.supervision import Reporting, supervised
+from mcexact.cli import running
+from mcexact.cli.running import Known, Reporting, Run, supervised, undecided_error
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached
 from mcexact.processes import may_fork
 from tests.end_to_end.command_line import interruptible
@@ -82,7 +81,7 @@ def test_a_time_limit_ends_compiled_code() -> None:
 def test_what_takes_long_is_said_once(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(supervision, "_SHOW_AFTER", 0)
+    monkeypatch.setattr(running, "_SHOW_AFTER", 0)
     with pytest.raises(LimitReached):
         supervised(deaf, 10**9, doing="dividing", timeout=0.5)
     assert capsys.readouterr().err == "mcexact: dividing …\n"
@@ -98,7 +97,7 @@ def test_a_memory_limit_is_reached_and_one_that_suffices_is_not() -> None:
 def test_an_interrupt_ends_compiled_code_and_leaves_no_process() -> None:
     listener, begun = os.pipe()
     script = (
-        "from mcexact.cli.supervision import supervised\n"
+        "from mcexact.cli.running import supervised\n"
         "from tests.cli.test_supervision import deaf\n"
         f"supervised(deaf, 10**9, {begun}, doing='dividing')\n"
     )

@@ -70,7 +70,7 @@ def working(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         begun.append(options.get("doing", "sweeping"))
         raise LimitReached("the work was begun")
 
-    monkeypatch.setattr("mcexact.cli.supervision.supervised", limited)
+    monkeypatch.setattr("mcexact.cli.running.supervised", limited)
     monkeypatch.setattr("mcexact.sweeps.run.sweep", limited)
     return begun
 

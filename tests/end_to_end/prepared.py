@@ -31,8 +31,8 @@ from tests.effort import PATIENCE
 
 LIBRARIES = ("flint", "networkx", "numpy", "scipy.linalg", "scipy.optimize", "sympy")
 PACKAGE = (
-    "mcexact.cli.rechecking",
-    "mcexact.cli.supervision",
+    "mcexact.cli.running",
+    "mcexact.cli.running",
     "mcexact.model.files",
     "mcexact.synthesis.certify",
     "mcexact.synthesis.decentralized",

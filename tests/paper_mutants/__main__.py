@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
-from mcexact.reproduce import material, plants
-from mcexact.reproduce.ledger import examinations
-from mcexact.reproduce.notebook import Procedure, examined
+from mcexact.reproduce import instances
+from mcexact.reproduce.notebook import Procedure, examinations, examined
 from mcexact.reproduce.reproduction import procedures
 
 KINDS = ("instance", "bound", "sign", "index", "neighbor", "radius", "hypothesis")
@@ -72,7 +71,7 @@ def mutated(mutant: Mutant, procedure: Procedure) -> Procedure | None:
     made = ModuleType(module.__name__)
     made.__file__ = module.__file__
     # Changes may name plants that the module does not use.
-    for source in (material, plants):
+    for source in (instances, instances):
         made.__dict__.update({n: v for n, v in vars(source).items() if not n.startswith("_")})
     exec(compile(whole, str(module.__file__), "exec"), made.__dict__)
     found: Procedure = made.__dict__["PROCEDURES"][mutant.key]

@@ -7,8 +7,7 @@ import re
 import pytest
 
 from mcexact.report.formulas import Node, formulas, typeset, typeset_latex
-from mcexact.reproduce.ledger import examinations
-from mcexact.reproduce.statements import statements
+from mcexact.reproduce.notebook import examinations, statements
 
 FOUND = [
     ("A + Σ B_i F_i C_i is the loop", ["A + Σ B_i F_i C_i"]),

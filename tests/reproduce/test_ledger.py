@@ -12,7 +12,7 @@ import pytest
 
 from mcexact.checker.kinds import KINDS as CERTIFICATES
 from mcexact.errors import UsageError
-from mcexact.reproduce.ledger import COVERS, KINDS, Examination, examinations
+from mcexact.reproduce.notebook import COVERS, KINDS, Examination, examinations
 from mcexact.reproduce.reproduction import chosen, procedures
 
 PROOFS = Path(__file__).parents[2] / "proofs"

@@ -6,7 +6,7 @@ from collections import Counter
 
 import pytest
 
-from mcexact.reproduce.ledger import examinations
+from mcexact.reproduce.notebook import examinations
 from mcexact.reproduce.reproduction import procedures
 from tests.paper_mutants.__main__ import KINDS, Mutant, main, mutants, mutated, outcome
 

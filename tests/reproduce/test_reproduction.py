@@ -16,19 +16,18 @@ import pytest
 from mcexact.cli import main
 from mcexact.derived import constructions
 from mcexact.report.text import plain
-from mcexact.reproduce.ledger import examinations
-from mcexact.reproduce.notebook import Notebook, examined
-from mcexact.reproduce.pages import (
+from mcexact.reproduce.notebook import STATUSES, Notebook, examinations, examined
+from mcexact.reproduce.reproduction import (
     COMMON_BOUND,
+    Reproduction,
     answer,
     counts,
+    reproduce,
     reproduction_latex,
     reproduction_page,
+    reproduction_tables,
     reproduction_view,
 )
-from mcexact.reproduce.reproduction import Reproduction, reproduce
-from mcexact.reproduce.statements import STATUSES
-from mcexact.reproduce.terminal import reproduction_tables
 from tests.report.strict_html import external_addresses
 
 

@@ -6,14 +6,15 @@ from collections import Counter
 
 import pytest
 
-from mcexact.reproduce.ledger import examination, examinations
-from mcexact.reproduce.statements import (
+from mcexact.reproduce.notebook import (
     EXPLAINED,
     OPEN,
     PROVED,
     STATUSES,
     Statement,
     counted,
+    examination,
+    examinations,
     open_table,
     statements,
 )
