@@ -13,7 +13,7 @@ from benchmarks.fixed_spectrum import Row
 from benchmarks.measure import processor_seconds
 from mcexact import ParametricSystem, fixed_spectrum
 from mcexact.answer.protocol import document
-from mcexact.checker import Verdict, check_document
+from mcexact.checker.kinds import Verdict, check_document
 
 LIMITS = {
     ("one entry", 20): (0.11, 1.05),

@@ -1,4 +1,4 @@
-(* checker/covering.py, shared_dimensions.py, communication.py: cuts and the branch tree.
+(* checker/sharing.py, shared_dimensions.py, communication.py: cuts and the branch tree.
 
    Variables n_i (shared dimensions, or z_ji in {0, 1} for arcs) are natural numbers within bounds; a cut
    says sum_{i in boundary} n_i >= depth.  The tree proves that no choice costs less than `opt`.
@@ -115,7 +115,7 @@ by move=> v wx cx; have := violated_sound c wx cx; rewrite v.
 Qed.
 End Covering.
 
-(* checker/communication.py: a shrunk subspace over the given graph survives every added arc that does
+(* checker/sharing.py: a shrunk subspace over the given graph survives every added arc that does
    not break it, that is as long as what each channel outside T hears vanishes on U. *)
 Section Communication.
 Variables (L : fieldType) (n m : nat) (p q q' : 'I_m -> nat).

@@ -1,4 +1,4 @@
-(* checker/box_stable.py, segments_of: discs on the segments of the upper half of the border of a region, which contain it. *)
+(* checker/boxes.py, segments_of: discs on the segments of the upper half of the border of a region, which contain it. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Coq Require Import Ring.
 From mcexact Require Import location.

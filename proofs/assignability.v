@@ -1,4 +1,4 @@
-(* checker/assignability.py: kind `assignability`, how det(xI - A_F) splits over the strong components.
+(* checker/modes.py: kind `assignability`, how det(xI - A_F) splits over the strong components.
 
    `minimal_evidence` is what the checker is given for one component c and checks modulo l: a space X that is
    invariant and holds B_c, and a map W of it onto (A', B', C'), which is controllable and observable.

@@ -1,4 +1,4 @@
-(* checker/box_stable.py: no member of a box has an eigenvalue on the border of the region, so all are stable, as the
+(* checker/boxes.py: no member of a box has an eigenvalue on the border of the region, so all are stable, as the
    center is.  The signals behind the state are computed from it and from each other: what makes this possible for every
    member, regular at infinity, is that the last block is nonsingular. *)
 From mathcomp Require Import all_ssreflect all_algebra.

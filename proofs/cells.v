@@ -1,4 +1,4 @@
-(* checker/covers.py: squares that are cut into four cover a disc, and of two conjugate points one is enough. *)
+(* checker/discs.py: squares that are cut into four cover a disc, and of two conjugate points one is enough. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

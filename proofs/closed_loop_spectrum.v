@@ -1,4 +1,4 @@
-(* checker/closed_loop_spectrum.py: kind `closed_loop_spectrum`, and both spectra of `distributed_observer`.
+(* checker/loops.py: kind `closed_loop_spectrum`, and both spectra of `distributed_observer`.
    A polynomial that agrees with det(xI - A) modulo enough moduli is det(xI - A). *)
 From mathcomp Require Import all_ssreflect fingroup perm all_algebra.
 From mcexact Require Import arithmetic.

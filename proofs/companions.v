@@ -1,4 +1,4 @@
-(* checker/complementary_subsystem.py: the matrix K, block diagonal with the companions of the invariant
+(* checker/structure.py: the matrix K, block diagonal with the companions of the invariant
    polynomials (ones below the diagonal, -f in the last column): xI - K is equivalent to the diagonal
    matrix of ones and these polynomials. *)
 From mathcomp Require Import all_ssreflect all_algebra.

@@ -1,4 +1,4 @@
-(* checker/complementary_subsystem.py: kind `complementary_subsystem`, the Smith form of
+(* checker/structure.py: kind `complementary_subsystem`, the Smith form of
    P(x) = [xI - A, B; C, 0] from constant rational matrices, ranks of which are taken modulo l.
 
    `block_form` is the page's block triangular form over any field: an equivalence of P with

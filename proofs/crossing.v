@@ -1,4 +1,4 @@
-(* checker/box_stable.py: along a path of polynomials on which no root meets the border of the region, roots stay in it.
+(* checker/boxes.py: along a path of polynomials on which no root meets the border of the region, roots stay in it.
 
    What the real numbers are used for is that a polynomial has a first root: whether all roots of p(t) are in the region
    is a matter of the signs of some polynomials in t (Routh; Schur and Cohn), and where such a sign is lost first, the

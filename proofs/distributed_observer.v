@@ -1,4 +1,4 @@
-(* checker/distributed_observer.py: kind `distributed_observer`, and the loop of the paper's observer.
+(* checker/loops.py: kind `distributed_observer`, and the loop of the paper's observer.
    The estimation errors evolve by themselves, and the spectrum is that of both diagonal blocks. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel location moved_roots error_system.

@@ -1,4 +1,4 @@
-(* checker/exceptional_gains.py: kind `exceptional_gains` (Lemma 3).
+(* checker/structure.py: kind `exceptional_gains` (Lemma 3).
 
    K(g) = [B, (M + gA) B, ..., (M + gA)^(blocks - 1) B] is a polynomial matrix in g with n rows; the
    statements hold for every polynomial matrix. *)

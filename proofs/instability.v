@@ -1,4 +1,4 @@
-(* checker/stability.py, method `instability`: if the form of P decreases along M and is not positive at
+(* checker/loops.py, method `instability`: if the form of P decreases along M and is not positive at
    some v != 0, then M is not stable; for a stable M would make P positive definite (one half of the
    inertia theorem), by splitting off one eigenvector at a time. *)
 From mathcomp Require Import all_ssreflect all_algebra.

@@ -1,4 +1,4 @@
-(* checker/exceptional_gains.py: the determinant of a polynomial matrix, through its values at 0, 1, ... *)
+(* checker/structure.py: the determinant of a polynomial matrix, through its values at 0, 1, ... *)
 From mathcomp Require Import all_ssreflect fingroup perm all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.

@@ -1,4 +1,4 @@
-(* checker/parametric_rank.py: kind `parametric_rank`.
+(* checker/parameters.py: kind `parametric_rank`.
 
    M is a matrix of polynomials in the parameter.  The statements are about its rank at a value of the parameter in
    a field that contains the rational numbers. *)

@@ -1,4 +1,4 @@
-(* checker/exceptional_gains.py: which roots are real.  A disc about a point of the real axis holds a real
+(* checker/structure.py: which roots are real.  A disc about a point of the real axis holds a real
    root, a disc that does not meet the real axis holds none. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import location root_discs.

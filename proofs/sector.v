@@ -1,4 +1,4 @@
-(* checker/sector.py: the sector of a damping ratio zeta, - Re z > zeta |z|, as the stability of another
+(* checker/loops.py: the sector of a damping ratio zeta, - Re z > zeta |z|, as the stability of another
    polynomial and of another matrix.  w z and w^* z have negative real parts, for a w = h + ks with k > 0
    times the imaginary unit, iff z is in the sector; c = (k/h)^2 = zeta^2 / (1 - zeta^2). *)
 From mathcomp Require Import all_ssreflect all_algebra.

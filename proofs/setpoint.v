@@ -1,4 +1,4 @@
-(* checker/setpoint.py: kind `setpoint`.  S = [A, B; C, 0] (discrete time: A - I for A), B and C of all
+(* checker/structure.py: kind `setpoint`.  S = [A, B; C, 0] (discrete time: A - I for A), B and C of all
    channels; q outputs. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import arithmetic evidence controllability.

@@ -1,4 +1,4 @@
-(* checker/shared_dimensions.py: what a cut of the base system says about the extended systems.
+(* checker/sharing.py: what a cut of the base system says about the extended systems.
 
    The base has the outputs C_{N_i} when outputs and sub-states are shared, and C_i when sub-states alone
    are.  The boundary of s is N_s \ s; a cut demands that its agents share at least so much. *)
@@ -111,7 +111,7 @@ Proof. by move=> E; apply: (boundary_silent silent E s0 sT). Qed.
 End Connection.
 End Cuts.
 
-(* checker/common_dimension.py: the least k such that with n_i = k for all i nothing is fixed.  Around s
+(* checker/sharing.py: the least k such that with n_i = k for all i nothing is fixed.  Around s
    there are |N_s \ s| agents, which share |N_s \ s| k dimensions together. *)
 Section CommonDimension.
 Variables (n m : nat) (p q : 'I_m -> nat) (N : 'I_m -> {set 'I_m}) (s : {set 'I_m}).

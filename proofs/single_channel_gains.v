@@ -1,4 +1,4 @@
-(* checker/single_channel_gains.py: kind `single_channel_gains`, rules yes and no.
+(* checker/structure.py: kind `single_channel_gains`, rules yes and no.
    The observable side is the same on the dual system. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph fixed_spectrum.

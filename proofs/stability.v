@@ -1,4 +1,4 @@
-(* checker/stability.py: kind `stability`, by Lyapunov matrices, as a whole and by blocks, and the rule
+(* checker/loops.py: kind `stability`, by Lyapunov matrices, as a whole and by blocks, and the rule
    for instability.  The rule by the characteristic polynomial is in_region_continuous and
    in_region_discrete in routh_integers.v.
 

@@ -1,4 +1,4 @@
-(* checker/neighbor_graph.py: kind `neighbor_graph`, and the strong components of `transfer_graph`.
+(* checker/structure.py: kind `neighbor_graph`, and the strong components of `transfer_graph`.
 
    The recursion of Roy and Warshall: start from j -> j and the arcs, and for one node k after the other
    let every node that reaches k reach what k reaches.  The order of the nodes does not matter. *)

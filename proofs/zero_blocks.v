@@ -1,4 +1,4 @@
-(* checker/zero_blocks.py: zero blocks of a system with a parameter.
+(* checker/parameters.py: zero blocks of a system with a parameter.
 
    The statements are about one value of the parameter and one mode lambda, over the field of both, and about
    polynomials over an integral domain. *)

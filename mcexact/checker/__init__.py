@@ -11,8 +11,7 @@ Importing this package imports nothing of the standard library, and leaves ``sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from .expectation import Expectation
-    from .kinds import Verdict, check_document
+    from .kinds import Expectation, Verdict, check_document
     from .reading import Limits
 
 __all__ = ["Expectation", "Limits", "Verdict", "check_document"]

@@ -1,4 +1,6 @@
-"""Exact arithmetic: matrices of integers over one denominator, polynomials, and both modulo an ℓ.
+"""Exact arithmetic: integers, polynomials, matrices dense and sparse.
+
+Exact arithmetic: matrices of integers over one denominator, polynomials, and both modulo an ℓ.
 
 A modulus need not be prime; inverting a number that is not a unit raises :class:`NotAUnit`.
 """
@@ -6,16 +8,164 @@ A modulus need not be prime; inverting a number that is not a unit raises :class
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
-from itertools import chain
+from functools import cache, cached_property
+from itertools import chain, compress, pairwise
+from operator import itemgetter, mul
 from typing import Any
 
 from . import budget
 from .budget import build, counted, spend
-from .packed_rows import integer_product
+
+# Rows and polynomials as long integers, with slots for their entries.
+
+SMALL = 64
+"""Up to this modulus a residue is a byte, and rows with equal coefficients are added up first."""
+
+Table = Sequence[Sequence[int]]
+FEW, LONG = 16, 64
+"""Fewer rows, and entries of more bytes, are multiplied one by one."""
+
+
+class PackedRows:
+    """Rows modulo ℓ, each one long integer with a slot of so many bytes for every entry."""
+
+    def __init__(self, rows: Sequence[Sequence[int]], ncols: int, ell: int) -> None:
+        self.ell, self.ncols = ell, ncols
+        self.size = 1 if ell <= SMALL else _slot(len(rows), ell)
+        spend((len(rows) + 1) * (64 + (8 + self.size) * ncols))
+        self.rows = [_packed(row, self.size) for row in rows]
+
+    def combined(self, u: Sequence[int]) -> Sequence[int]:
+        """Σ u_i row_i modulo ℓ."""
+        if self.ell <= SMALL:
+            return self._by_coefficient(u)
+        spend(budget.products(len(self.rows) + 1, self._limbs, budget.limbs(u)))
+        total = sum(map(mul, u, self.rows))
+        return _unpacked(total, self.ncols, self.size, self.ell)
+
+    @property
+    def _limbs(self) -> int:
+        return self.ncols * self.size * 8 // budget.LIMB + 1
+
+    def _by_coefficient(self, u: Sequence[int]) -> bytes:
+        """The same where no sum of so many rows leaves a byte: rows of one coefficient together."""
+        most, tables = most_addends(self.ell), multiples(self.ell)
+        parts = len(self.rows) // most + min(len(self.rows), self.ell)
+        spend(len(self.rows) * (4 + self._limbs // 16) + (parts + 1) * (40 + self.ncols // 8))
+        alike: list[list[int]] = [[] for _ in range(self.ell)]
+        for factor, row in zip(u, self.rows, strict=True):
+            alike[factor].append(row)
+        sums = (
+            sum(alike[factor][k : k + most])
+            .to_bytes(self.ncols, "little")
+            .translate(tables[factor])
+            for factor in range(1, self.ell)
+            for k in range(0, len(alike[factor]), most)
+        )
+        return byte_sum(sums, self.ncols, self.ell)
+
+
+def byte_sum(rows: Iterable[bytes], ncols: int, ell: int) -> bytes:
+    """The sum modulo ℓ of rows of residues, which are added as long integers."""
+    most, table, total = most_addends(ell), multiples(ell)[1], 0
+    for k, row in enumerate(rows, start=1):
+        total += int.from_bytes(row, "little")
+        if k % (most - 1) == 0:
+            total = int.from_bytes(total.to_bytes(ncols, "little").translate(table), "little")
+    return total.to_bytes(ncols, "little").translate(table)
+
+
+def most_addends(ell: int) -> int:
+    """How many residues a byte holds the sum of, at least four up to ``SMALL``."""
+    return 255 // (ell - 1)
+
+
+@cache
+def multiples(ell: int) -> list[bytes]:
+    """The multiples of all bytes modulo ℓ, by the factor."""
+    return [bytes(factor * byte % ell for byte in range(256)) for factor in range(ell)]
+
+
+class Combination:
+    """Σ f_k u_k modulo ℓ, for rows u_k of residues that come one after the other."""
+
+    def __init__(self, ncols: int, ell: int) -> None:
+        self.ell = ell
+        self.row: Sequence[int] = bytes(ncols)
+
+    def add(self, factor: int, u: Sequence[int]) -> None:
+        """Add a multiple of a row."""
+        ell, ncols = self.ell, len(self.row)
+        if ell > SMALL:
+            spend(budget.reductions(ncols, budget.limbs([ell])))
+            self.row = [(x + factor * y) % ell for x, y in zip(self.row, u, strict=True)]
+        else:
+            spend(40 + ncols // 8)
+            moved = bytes(u).translate(multiples(ell)[factor])
+            self.row = byte_sum((bytes(self.row), moved), ncols, ell)
+
+    def is_zero(self) -> bool:
+        """Whether the sum so far is 0."""
+        return not any(self.row)
+
+
+def integer_product(A: Table, B: Table, ncols: int) -> list[list[int]]:
+    """A·B over the integers; long rows of short entries are added up as long integers."""
+    size = (_bits(A) + _bits(B) + len(B).bit_length()) // 8 + 1
+    if min(len(A), len(B), ncols) < FEW or size > LONG:
+        columns: Iterable[Any] = list(zip(*B, strict=True)) if B else [()] * ncols
+        return [[sum(map(mul, row, column)) for column in columns] for row in A]
+    # what is added to every entry keeps slots from borrowing of each other
+    half = 1 << (8 * size - 1)
+    halves = _packed([half] * ncols, size)
+    rows = [_packed([entry + half for entry in row], size) - halves for row in B]
+    slots, found = range(0, ncols * size, size), []
+    for u in A:
+        total = sum([factor * row for factor, row in zip(u, rows, strict=True) if factor], halves)
+        data = total.to_bytes(ncols * size, "little")
+        found.append([int.from_bytes(data[k : k + size], "little") - half for k in slots])
+    return found
+
+
+def _bits(M: Table) -> int:
+    """The bits of the longest entry."""
+    return max((max(map(int.bit_length, row), default=0) for row in M), default=0)
+
+
+def convolution(f: Sequence[int], g: Sequence[int], ell: int) -> list[int]:
+    """The product of two polynomials modulo ℓ, by one product of two integers (Kronecker)."""
+    shorter, length = min(len(f), len(g)), len(f) + len(g) - 1
+    if not shorter:
+        return []
+    size = _slot(shorter, ell)
+    long, short = ((k * size * 8) // budget.LIMB + 1 for k in (length, shorter))
+    spend((8 + size) * 2 * length + budget.products(1, long, short))
+    return _unpacked(_packed(f, size) * _packed(g, size), length, size, ell)
+
+
+def _slot(terms: int, ell: int) -> int:
+    """The bytes that hold every sum of so many products of residues."""
+    return (terms * (ell - 1) ** 2).bit_length() // 8 + 1
+
+
+def _packed(numbers: Sequence[int], size: int) -> int:
+    if size == 1:
+        return int.from_bytes(bytes(numbers), "little")
+    return int.from_bytes(b"".join(x.to_bytes(size, "little") for x in numbers), "little")
+
+
+def _unpacked(number: int, length: int, size: int, ell: int) -> list[int]:
+    spend(length * (8 + size))
+    data = number.to_bytes(length * size, "little")
+    slots = range(0, length * size, size)
+    return [int.from_bytes(data[k : k + size], "little") % ell for k in slots]
+
+
+# Exact arithmetic: matrices of integers over one denominator, polynomials, and both modulo an ℓ.
 
 Polynomial = list[Any]
 """Coefficients, constant term first: Fractions over Q, integers modulo ℓ."""
@@ -315,3 +465,277 @@ def coprime(a: Polynomial, b: Polynomial, ell: int) -> bool:
     while b:
         a, b = b, poly_divide(a, b, ell)[1]
     return len(a) == 1 and inverse(a[0], ell) > 0
+
+
+# Characteristic polynomials, modulo ℓ and over Q; ``proofs/arithmetic.md``.
+
+FIRST = 2**150 - 3
+"""A prime, and the largest modulus of residues that are combined."""
+BITS, LIMBS = 149, 5
+"""Each of these moduli is above 2^BITS; with so many limbs, each bit of a residue costs least."""
+
+
+def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
+    """The characteristic polynomial of an integer matrix modulo ℓ.
+
+    A L = L H with L unit lower triangular (up to a common permutation of rows and columns) and H
+    upper Hessenberg, column by column: one reduction modulo ℓ for each inner product.
+
+    Theorem ``hessenberg.characteristic_polynomial_modulo``.
+    """
+    n, longest, a = len(A), max(map(budget.limbs, A), default=1), budget.limbs([ell])
+    spend(budget.products(n**3, longest, a) + budget.products(n**3 // 2, a, a))
+    spend(budget.reductions(2 * n * n, a) + budget.inversions(n, a) + budget.table(3 * n, n, a))
+    A = [list(row) for row in A]
+    L: Rows = [[int(i == 0)] for i in range(n)]
+    H: Rows = []
+    below: list[int] = []
+    for j in range(n):
+        column = [row[j] for row in L]
+        w = [sum(map(mul, row, column)) for row in A]
+        h: list[int] = []
+        for i in range(j + 1):
+            h.append((w[i] - sum(map(mul, L[i], h))) % ell)
+        rest = [(w[i] - sum(map(mul, L[i], h))) % ell for i in range(j + 1, n)]
+        H.append(h)
+        if j + 1 == n:
+            break
+        k = next((k for k, entry in enumerate(rest) if entry), 0)
+        below.append(rest[k])
+        if rest[k]:
+            for items in (A, L, *A):
+                items[j + 1], items[j + 1 + k] = items[j + 1 + k], items[j + 1]  # type: ignore[index]
+            rest[0], rest[k] = rest[k], rest[0]
+            f = inverse(rest[0], ell)
+            rest = [f * entry % ell for entry in rest]
+        for i in range(n):
+            L[i].append(0 if i <= j else rest[i - j - 1])
+        L[j + 1][j + 1] = 1
+    return _hessenberg_polynomial(H, below, ell)
+
+
+def _hessenberg_polynomial(H: Rows, below: list[int], ell: int) -> Polynomial:
+    """det(xI − H) modulo ℓ for H upper Hessenberg: column k holds H[k], then ``below[k]``.
+
+    p_{k+1} = (x − h_kk) p_k − Σ_{i<k} h_ik (below_i … below_{k−1}) p_i, coefficient by coefficient.
+    Theorem ``hessenberg.hessenberg_polynomial``.
+    """
+    coefficients: Rows = [[1]]  # coefficients[c][k] is the coefficient of x^c in p_k
+    for k, weights in enumerate(H):
+        chain = 1
+        for i in reversed(range(k)):
+            chain = chain * below[i] % ell
+            weights[i] = weights[i] * chain % ell
+        carried = 0
+        coefficients.append([0] * (k + 1))
+        for column in coefficients:
+            shifted, carried = carried, column[k]
+            column.append((shifted - sum(map(mul, weights, column))) % ell)
+    return [column[-1] for column in coefficients]
+
+
+def characteristic_polynomial(A: Matrix, ell: int = 0) -> Polynomial:
+    """The characteristic polynomial over Q, or modulo ℓ if one is given.
+
+    For M = A, its transpose or its integer numerators, whichever has the least bound, the integers
+    D·det(xI − M) are combined from their residues, one modulus after the other.
+
+    Theorems ``characteristic_polynomial.combined``,
+    ``characteristic_polynomial.characteristic_polynomial_rule``.
+    """
+    if ell:
+        return characteristic_polynomial_modulo(A.modulo(ell), ell)
+    choices = ((*scaled_bound(M), M) for M in (A, A.T, Matrix(A.rows, A.ncols)))
+    beta, D, M = min(choices, key=itemgetter(0))
+    n, longest, product, found = A.nrows, budget.limbs([D]), 1, [0] * (A.nrows + 1)
+    moduli = _residues(M)
+    for _ in budget.counted(range(beta.bit_length() // BITS + 1)):
+        ell, residues = next(moduli)
+        a = budget.limbs([product]) + longest + LIMBS
+        spend(budget.products(3 * n + 3, a, LIMBS) + budget.reductions(n + 2, a, LIMBS))
+        f = inverse(product, ell)
+        pairs = zip(found, residues, strict=True)
+        found = [old + (D * c - old) * f % ell * product for old, c in pairs]
+        product *= ell
+    least = [c - product if 2 * c > product else c for c in found]
+    e = A.denominator // M.denominator
+    spend(budget.fractions(n + 1, budget.limbs([product]) + longest + n * budget.limbs([e])))
+    return [Fraction(c, D * e ** (n - k)) for k, c in enumerate(least)]
+
+
+def scaled_bound(A: Matrix) -> tuple[int, int]:
+    """β and D: the coefficients of D·det(xI − A) are integers of absolute value at most β.
+
+    D·det(xI − A) = det(diag(d)x − diag(d)A), d_i the denominator of row i and D = Π d_i, and
+    β = Π (d_i + Σ_j |d_i A_ij|).
+
+    Theorem ``closed_loop_spectrum.scaled_bound``.
+    """
+    D = beta = 1
+    n, a = A.nrows, A.limbs
+    spend(budget.fractions(n * (n + 1), a) + budget.products(4 * n, n * (a + 1), a + 1))
+    for row in A.rows:
+        common = math.gcd(A.denominator, *row)
+        D *= A.denominator // common
+        beta *= (A.denominator + sum(map(abs, row))) // common
+    return beta, D
+
+
+def _residues(M: Matrix) -> Iterator[tuple[int, Polynomial]]:
+    """Pairwise coprime ℓ with the characteristic polynomial modulo each, where pivots are units."""
+    tried = math.factorial(1000)  # small factors are those of most pivots
+    for ell in range(FIRST, 1, -2):
+        spend(budget.reductions(2, budget.limbs([tried]), LIMBS) + budget.fractions(1, LIMBS))
+        if math.gcd(ell, tried) == 1:
+            tried *= ell
+            with suppress(NotAUnit):
+                yield ell, characteristic_polynomial_modulo(M.modulo(ell), ell)
+
+
+# Polynomials in a parameter t from their values at 0, 1, …, over Q and modulo ℓ.
+
+
+def interpolated(values: list[Polynomial], ell: int = 0) -> list[Polynomial]:
+    """The coefficients with these values at t = 0, 1, …, one polynomial in t for each (Newton).
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    many, longest = len(values), max(map(budget.limbs_of, values))
+    units = budget.reductions(1, longest) if ell else budget.fractions(1, longest + many // 8)
+    budget.spend(2 * units * many * many * len(values[0]))
+    inverses = [inverse(k, ell) if ell else Fraction(1, k) for k in range(1, many)]
+    return [_of_column([*column], inverses, ell) for column in zip(*values, strict=True)]
+
+
+def _of_column(values: list[Any], inverses: list[Any], ell: int) -> Polynomial:
+    """Σ Δ^k / k! · t (t − 1) … (t − k + 1), Δ^k the differences of order k at 0."""
+    slopes: list[Any] = values[:1]
+    scale: Any = 1
+    for f in inverses:
+        scale = scale * f % ell if ell else scale * f
+        differences = [b - a for a, b in pairwise(values)]
+        values = [c % ell for c in differences] if ell else differences
+        slopes.append(values[0] * scale)
+    p: Polynomial = []
+    for t in reversed(range(len(slopes))):
+        p = [a - t * b for a, b in zip([slopes[t], *p], [*p, 0], strict=True)]
+        p = [c % ell for c in p] if ell else p
+    return stripped(p)
+
+
+# Matrices of which only the entries that are not 0 are kept.
+
+Entry = tuple[int, int, int]
+"""Row, column and numerator."""
+
+LEAST, SHARE = 2**11, 8
+"""A matrix of so many cells lists its entries if at most one cell of so many is not 0."""
+
+
+class SparseMatrix(Matrix):
+    """A rational matrix by its entries, row by row, which become rows where these are used."""
+
+    entries: list[Entry]
+
+    def __init__(self, nrows: int, ncols: int, entries: list[Entry], denominator: int = 1) -> None:
+        found = {"nrows": nrows, "ncols": ncols, "entries": entries, "denominator": denominator}
+        self.__dict__.update(found)
+
+    @cached_property
+    def rows(self) -> Rows:
+        """The rows with all zeros."""
+        spend(budget.table(self.nrows, self.ncols))
+        found = [[0] * self.ncols for _ in range(self.nrows)]
+        for i, j, entry in self.entries:
+            found[i][j] = entry
+        return found
+
+    @cached_property
+    def limbs(self) -> int:
+        """The limbs of the longest entry, or of the denominator."""
+        spend(8 + len(self.entries))
+        return budget.limbs([self.denominator, *(entry for _, _, entry in self.entries)])
+
+    @property
+    def T(self) -> Matrix:
+        """The transpose."""
+        spend(100 * len(self.entries))
+        turned = sorted((j, i, entry) for i, j, entry in self.entries)
+        return SparseMatrix(self.ncols, self.nrows, turned, self.denominator)
+
+    def __matmul__(self, other: Matrix) -> Matrix:
+        if self.ncols != other.nrows:
+            raise ValueError(f"no product of {self.ncols} columns and {other.nrows} rows")
+        a, b, width = self.limbs, other.limbs, other.ncols
+        spend(budget.table(self.nrows, width, a + b + 1) + 100 * len(self.entries))
+        spend(budget.products(len(self.entries) * width, a, b))
+        rows = [[0] * width for _ in range(self.nrows)]
+        for i, k, x in self.entries:
+            rows[i] = [
+                total + x * entry for total, entry in zip(rows[i], other.rows[k], strict=True)
+            ]
+        return Matrix(rows, width, self.denominator * other.denominator)
+
+    def __rmatmul__(self, other: Matrix) -> Matrix:
+        return (self.T @ other.T).T
+
+    def is_zero(self) -> bool:
+        """Whether there is no entry."""
+        return not self.entries
+
+    def at(self, rows: Iterable[int]) -> Matrix:
+        """The submatrix of these rows."""
+        chosen = list(rows)
+        spend(100 * (len(chosen) + len(self.entries)))
+        lines: dict[int, list[Entry]] = {}
+        for entry in self.entries:
+            lines.setdefault(entry[0], []).append(entry)
+        moved = [(new, j, x) for new, i in enumerate(chosen) for _, j, x in lines.get(i, ())]
+        return SparseMatrix(len(chosen), self.ncols, moved, self.denominator)
+
+
+def listed(M: Matrix) -> SparseMatrix | None:
+    """A matrix by its entries, if it is large and most cells are 0; otherwise None."""
+    cells = M.nrows * M.ncols
+    if isinstance(M, SparseMatrix):
+        return M if SHARE * len(M.entries) <= cells and cells >= LEAST else None
+    if cells < LEAST:
+        return None
+    spend(M.nrows * (8 + M.ncols))
+    nonzero = sum(map(bool, chain.from_iterable(M.rows)))
+    if SHARE * nonzero > cells:
+        return None
+    spend(100 * nonzero)
+    entries = [(i, j, x) for i, row in enumerate(M.rows) for j, x in enumerate(row) if x]
+    return SparseMatrix(M.nrows, M.ncols, entries, M.denominator)
+
+
+def entries_of(M: Matrix) -> list[Entry]:
+    """The entries of any matrix that are not 0, row by row."""
+    if isinstance(M, SparseMatrix):
+        return M.entries
+    spend(M.nrows * (8 + M.ncols))
+    places = [(i, j) for i, row in enumerate(M.rows) for j in compress(range(M.ncols), row)]
+    spend(100 * len(places))
+    return [(i, j, M.rows[i][j]) for i, j in places]
+
+
+def within(M: Matrix, rows: Mapping[int, int] | None, cols: Mapping[int, int] | None) -> Matrix:
+    """The submatrix of some rows and columns, whose new places increase; None stands for all."""
+    nrows = M.nrows if rows is None else len(rows)
+    ncols = M.ncols if cols is None else len(cols)
+    if not isinstance(M, SparseMatrix):
+        return M.take(rows, cols)
+    spend(100 * len(M.entries))
+    down = [(i if rows is None else rows.get(i), j, x) for i, j, x in M.entries]
+    kept = [(i, j if cols is None else cols.get(j), x) for i, j, x in down if i is not None]
+    moved = [(i, j, x) for i, j, x in kept if j is not None]
+    return SparseMatrix(nrows, ncols, moved, M.denominator)
+
+
+def residues(M: Matrix, ell: int) -> list[Entry]:
+    """The entries modulo ℓ, which is coprime to the denominator."""
+    entries, a, b = entries_of(M), M.limbs, budget.limbs([ell])
+    spend(budget.inversions(1, b) + budget.reductions(len(entries) + 1, a + b, b))
+    f = inverse(M.denominator, ell)
+    return [(i, j, f * x % ell) for i, j, x in entries]

@@ -1,148 +1,315 @@
-"""The box of a plant: all systems whose entries are within their radii, and what is made of it."""
+"""Kinds about every member of a family."""
 
-from __future__ import annotations
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+from operator import mul
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from . import budget, loops
+from .arithmetic import Matrix, beside, diagonal, stack
+from .cells import FunctionLoop, boxes_of_cells, ranges_text
+from .discs import (
+    Box,
+    Pencil,
+    absolute,
+    discs_of_gains,
+    left_inverse,
+    loop_pencil,
+    magnitude,
+    read_weights,
+    require_covered,
+    right_inverse,
+)
+from .evidence import inputs
+from .modes import inside, no_fixed_mode, read_bound
+from .parametric_system import FunctionSystem
+from .reading import Json, fields, integer, items, malformed, matrices, names, rational, require
+from .roots import Disc
+from .system import (
+    MAPS,
+    Pair,
+    System,
+    canonical_json,
+    channel_set,
+    pairs_of,
+    radii_in_words,
+    read_controller,
+    with_digest,
+)
 
-from . import budget
-from .arithmetic import Matrix
-from .covers import Cell
-from .reading import Json, incomplete
-from .region import Bound
-from .statement import digest
-from .subject import read_subject
-from .system import System
-from .uncertainty import pairs_of, radii_in_words, read_radii
-
-LOOP = "closed_loop"
-NONE = System("", [], Matrix.zeros(0, 0), [], [])
+# Kind ``box_fixed``: no member of a box has a fixed mode; ``proofs/boxes.md``.
 
 
-@dataclass(frozen=True)
-class Box(System):
-    """All systems with |A − A_0| ≤ D_A, |B_i − B_i0| ≤ D_Bi, |C_i − C_i0| ≤ D_Ci in every entry.
+def check_box_fixed(claim: Json, witness: Json, box: Box) -> None:
+    """Check that no λ of the spectrum of a member, outside of the region, is fixed for it.
 
-    Its A, B_i and C_i are the values A_0, B_i0 and C_i0, ``radii`` has D_A, D_Bi and D_Ci.  Each of
-    ``tied`` may be added to the values with a factor from −1 to 1.  For a closed loop ``plant`` is
-    the box in the loop, and ``programs`` the controller.  ``members`` are the words with which a
-    statement about all of them begins.
+    Theorem ``boxes.regular_not_fixed``.
     """
-
-    radii: System = NONE
-    tied: tuple[System, ...] = ()
-    plant: Box | None = None
-    programs: Json = None
-    members: str = ""
-
-    def independent(self) -> Box:
-        """A box without ties that contains all members."""
-        radii = self.radii
-        for each in self.tied:
-            radii = _combined(radii, _sizes(each), 1)
-        return replace(self, radii=radii, tied=())
-
-    def outside(self, bound: Bound) -> Callable[[Cell], bool]:
-        """Whether modes may be in a cell, or are those of another one by conjugation."""
-        return lambda cell: cell.outside(self.time, bound)
-
-
-def at_values(plant: System) -> System:
-    """The plant itself, which is named so where its values are uncertain."""
-    if plant.uncertainty is None:
-        return plant
-    return replace(plant, words=f"{plant.words} at its nominal values")
+    (limit,) = fields(claim, "claim", "bound")
+    bound = read_bound(limit, box)
+    exterior, gains, listed, cover = fields(
+        witness, "witness", "exterior", "gains", "frames", "cover"
+    )
+    discs = discs_of_gains(exterior, "witness.exterior", box)
+    alone = Pencil(box.A, box.radii.A, box.n, [each.A for each in box.tied])
+    given = enumerate(items(gains, "witness.gains"))
+    pencils = [augmented(entry, f"witness.gains[{k}]", box) for k, entry in given]
+    frames = []
+    for k, entry in enumerate(items(listed, "witness.frames")):
+        where = f"witness.frames[{k}]"
+        number, V, w = fields(entry, where, "gains", "V", "w")
+        if number is not None and integer(number, where) >= len(pencils):
+            malformed(where, f"expected null or a position below {len(pencils)}")
+        pencil = alone if number is None else pencils[number]
+        frames.append(left_inverse(V, w, where, pencil))
+    require_covered(cover, "witness.cover", discs, box.outside(bound), frames)
 
 
-def system_of(steps: Json, plant: System, kind: str) -> System:
-    """The subject of a claim about a plant without parameters: a box for the kinds about boxes."""
-    if kind.startswith("box_"):
-        return box_of(steps, plant, kind)
-    return read_subject(steps, at_values(plant))
+def augmented(value: Json, place: str, box: Box) -> Pencil:
+    """[[A, B], [−XC, −W]] for X and W block diagonal by channel, and its radii."""
+    p = [B_i.ncols for B_i in box.B]
+    X_given, W_given = fields(value, place, "X", "W")
+    shapes = [(p_i, C_i.nrows) for p_i, C_i in zip(p, box.C, strict=True)]
+    X = matrices(X_given, f"{place}.X", shapes)
+    W = matrices(W_given, f"{place}.W", [(p_i, p_i) for p_i in p])
+    total, whole = sum(p), Matrix.zeros(0, 0)
+    for W_i in W:
+        whole = diagonal(whole, W_i.times(-1))
+
+    def rows(A: Matrix, B: list[Matrix], C: list[Matrix], last: Matrix) -> Matrix:
+        below = beside([stack(C, box.n), last], total)
+        return stack([beside([A, *B], box.n), below], box.n + total)
+
+    def of(system: System, last: Matrix) -> Matrix:
+        XC = [(X_i @ C_i).times(-1) for X_i, C_i in zip(X, system.C, strict=True)]
+        return rows(system.A, system.B, XC, last)
+
+    moved = [absolute(X_i) @ D_i for X_i, D_i in zip(X, box.radii.C, strict=True)]
+    zeros = Matrix.zeros(total, total)
+    D = rows(box.radii.A, box.radii.B, moved, zeros)
+    return Pencil(of(box, whole), D, box.n, [of(each, zeros) for each in box.tied])
 
 
-def box_of(steps: Json, plant: System, kind: str) -> Box:
-    """What constructions make from all plants within the radii.
+def box_fixed_statement(claim: Json, box: Box) -> str:
+    """What no member of the box has."""
+    return f"{box.members}, there is {no_fixed_mode(claim['bound'], box)}"
 
-    Open: see ``proofs/OPEN.md``.
+
+# Kind ``box_controllable``: channels control every member of a box; ``proofs/boxes.md``.
+
+
+def check_box_controllable(claim: Json, witness: Json, box: Box) -> None:
+    """Check that [λI − A, B_T] has full rank at every λ, outside of the region, for all members.
+
+    Theorems ``joint_controllability.controllable_hautus``, ``boxes.uncontrolled_fixed``.
     """
-    center = read_subject(steps, plant)
-    looped = kind == "box_stable" and [step["construction"] for step in steps[-1:]] == [LOOP]
-    computed = steps[:-1] if looped else steps
-    for k, step in enumerate(computed):
-        if step["construction"] == LOOP:
-            message = "a closed loop is the last construction, for the kind box_stable alone"
-            incomplete("construction", f"subject[{k}]", message)
-    radii, members = _radii(computed, plant), members_in_words(plant)
-    if not looped:
-        return Box(**vars(center), radii=radii, members=members)
-    inside = Box(**vars(read_subject(computed, plant)), radii=radii)
-    programs = steps[-1]["controller"]
-    return Box(**vars(center), plant=inside, programs=programs, members=members)
+    listed, limit = fields(claim, "claim", "channels", "bound")
+    channels, bound = names(listed, "claim.channels", box.names), read_bound(limit, box)
+    exterior, frames, cover = fields(witness, "witness", "exterior", "frames", "cover")
+    every = (box, box.radii, *box.tied)
+    Z, D, *moved = (beside([each.A, inputs(each, channels)], box.n) for each in every)
+    # what the channels do not control no gains from the state move
+    certain = [Matrix.zeros(box.n, box.n)]
+    radii, *tied = (replace(each, B=[inputs(each, channels)], C=certain) for each in every[1:])
+    B, C = [inputs(box, channels)], [Matrix.unit_rows(box.n, 0, box.n)]
+    measured = replace(box, names=[""], B=B, C=C, radii=radii, tied=tuple(tied))
+    discs = discs_of_gains(exterior, "witness.exterior", measured)
+    found = []
+    for k, entry in enumerate(items(frames, "witness.frames")):
+        where = f"witness.frames[{k}]"
+        R, w = fields(entry, where, "R", "w")
+        found.append(right_inverse(R, w, where, Pencil(Z, D, box.n, moved)))
+    require_covered(cover, "witness.cover", discs, box.outside(bound), found)
 
 
-def members_in_words(plant: System) -> str:
-    """All plants within the radii, by the digest of the plant without radii and their size."""
-    if plant.uncertainty is None:
-        return "for this plant alone, as none of its entries has a radius"
-    values = digest(replace(plant, uncertainty=None))
-    nominal = [plant.A, *plant.B, *plant.C]
-    pairs = pairs_of(nominal, read_radii(plant.uncertainty, plant.names, nominal))
-    near = radii_in_words(pairs, f"the radii of {plant.words}")
-    return f"for all plants whose entries differ from those of the plant {values} {near}"
+def box_controllable_statement(claim: Json, box: Box) -> str:
+    """What the channels control."""
+    return controls(claim, box, box.members)
 
 
-def _radii(steps: Json, plant: System) -> System:
-    """The radii of what is made: by how much larger absolute values make it larger.
+def controls(claim: Json, box: System | FunctionSystem, members: str) -> str:
+    """What the channels control of these members."""
+    channels, bound = channel_set(claim["channels"]), claim["bound"]
+    where = "" if bound is None else f" of {inside(bound, box).replace('below', 'at least')}"
+    return f"{members}, the channels {channels} together control every mode{where}"
 
-    Each construction adds and multiplies; it is applied to absolute values, those of gains too,
-    and to the same with the radii added.
+
+# Kind ``box_stable``: every eigenvalue of every member lies in a region; ``proofs/boxes.md``.
+
+
+def check_box_stable(claim: Json, witness: Json, box: Box) -> None:
+    """Check the values themselves, and that no eigenvalue crosses the border of the region.
+
+    Theorems ``box_stable.box_stable_continuous``, ``box_stable.box_stable_discrete``.
     """
-    radii = read_radii(plant.uncertainty, plant.names, [plant.A, *plant.B, *plant.C])
-    A, *ports = radii
-    D = replace(plant, A=A, B=ports[: plant.m], C=ports[plant.m :])
-    if not steps:
-        return D
-    low, high = ends(plant, D)
-    for step in steps:
-        sizes = [_of_sizes(step)]
-        low, high = (_sizes(read_subject(sizes, each)) for each in (low, high))
-    return _combined(high, low, -1)
+    limit, gain_radii = fields(claim, "claim", "bound", "gain_radii")
+    given = read_bound(limit, box)
+    bound = Fraction(int(box.time == "discrete")) if given is None else given
+    keys = ("nominal", "points", "growth", "segments", "frames")
+    nominal, listed, growth, used, frames = fields(witness, "witness", *keys)
+    loops.check_stability({"bound": limit, "stable": True}, nominal, box)
+    pencil = loop_pencil(box, gain_radii)
+    ends = [rational(point, "witness.points") for point in items(listed, "witness.points")]
+    segments = segments_of(box.time, bound, ends)
+    if box.time == "continuous":
+        _require_growth(growth, pencil, ends[-1] if ends else Fraction(0))
+    else:
+        require(growth is None, "growth", "witness.growth", "expected null in discrete time")
+    found = []
+    for k, entry in enumerate(items(frames, "witness.frames")):
+        where = f"witness.frames[{k}]"
+        V, w = fields(entry, where, "V", "w")
+        found.append(left_inverse(V, w, where, pencil))
+    for k, number in enumerate(items(used, "witness.segments", len(segments))):
+        where = f"witness.segments[{k}]"
+        if integer(number, where) >= len(found):
+            malformed(where, f"expected a position below {len(found)}")
+        require(found[number](*segments[k]), "segment", where, "not regular by this frame")
 
 
-def ends(system: System, radii: System) -> tuple[System, System]:
-    """The absolute values of all entries, and the largest that are within the radii."""
-    low = _sizes(system)
-    return low, _combined(low, radii, 1)
+def segments_of(time: str, bound: Fraction, ends: list[Fraction]) -> list[Disc]:
+    """Discs with the upper half of the border of the region, as far as the last end.
+
+    Theorems ``arcs.upper_line``, ``arcs.upper_half``.
+    """
+    points = [Fraction(0), *ends]
+    rises = all(a < b for a, b in pairwise(points))
+    require(rises, "points", "witness.points", "expected increasing numbers above 0")
+    if time == "continuous":
+        return [(-bound, (a + b) / 2, (b - a) / 2) for a, b in pairwise(points)]
+    edge = [_on_circle(bound, t) for t in points] + [(-bound, Fraction(0))]
+    return [_arc(*pair) for pair in pairwise(edge)]
 
 
-def _of_sizes(step: Json) -> Json:
-    """A construction that was applied already, with the absolute values of its gains."""
-    if "gains" not in step:
-        return step
-    sizes = [{**F, "entries": [[*map(abs, row)] for row in F["entries"]]} for F in step["gains"]]
-    return {**step, "gains": sizes}
+def _on_circle(bound: Fraction, t: Fraction) -> tuple[Fraction, Fraction]:
+    """The point of the circle of this radius whose half angle has the tangent t.
+
+    Theorem ``arcs.circle_point``.
+    """
+    budget.spend(budget.fractions(8, 3 * budget.limbs_of([bound, t])))
+    return bound * (1 - t * t) / (1 + t * t), bound * 2 * t / (1 + t * t)
 
 
-def _combined(first: System, second: System, factor: int) -> System:
-    """The entries of the first system and so many times those of the second one."""
-    parts = ((first.A, *first.B, *first.C), (second.A, *second.B, *second.C))
-    return _of_parts(first, [M + N.times(factor) for M, N in zip(*parts, strict=True)])
+def _arc(p: tuple[Fraction, Fraction], q: tuple[Fraction, Fraction]) -> Disc:
+    """The disc whose diameter is the chord, with the radius rounded up.
+
+    Theorems ``arcs.arc_in_disc``, ``arcs.last_arc_in_disc``.
+    """
+    longest = 4 * budget.limbs_of([*p, *q])
+    budget.spend(budget.fractions(10, longest) + budget.reductions(1, 2 * longest))
+    x, y = (p[0] - q[0]) / 2, (p[1] - q[1]) / 2
+    d = x.denominator * y.denominator << 32
+    return (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, Fraction(magnitude(int(x * d), int(y * d)), d)
 
 
-def _sizes(system: System) -> System:
-    """The absolute values of all entries."""
-    return _of_parts(system, list(map(absolute, (system.A, *system.B, *system.C))))
+def _require_growth(value: Json, pencil: Pencil, R: Fraction) -> None:
+    """Stop unless positive weights of the states exclude every eigenvalue of modulus R or more.
+
+    Theorem ``boxes.growth``.
+    """
+    n, place = pencil.dynamic, "witness.growth"
+    most = sum(map(absolute, pencil.tied), absolute(pencil.Z) + pencil.D)
+    sizes = [Fraction(row[0]) for row in read_weights(value, place, n).rows]
+    for row in most.rows[n:]:
+        # the signals before it, of which such a row computes the next one
+        longest = 2 * (most.limbs + budget.limbs_of(sizes))
+        budget.spend(budget.fractions(2 * len(sizes), longest))
+        sizes.append(sum(map(mul, row, sizes), Fraction(0)) / most.denominator)
+    longest = 2 * (most.limbs + budget.limbs_of([*sizes, R]))
+    budget.spend(budget.fractions(2 * n * len(sizes), longest))
+    R *= most.denominator
+    slower = all(sum(map(mul, most.rows[i], sizes)) < R * sizes[i] for i in range(n))
+    require(slower, "growth", place, "does not exclude all eigenvalues beyond the last point")
 
 
-def _of_parts(system: System, parts: list[Matrix]) -> System:
-    """The system with these A, B_i and C_i, of which there may be fewer than channels."""
-    A, *ports = parts
-    return replace(system, A=A, B=ports[: len(system.B)], C=ports[len(system.B) :])
+def box_stable_statement(claim: Json, box: Box) -> str:
+    """Where all eigenvalues of all members lie."""
+    return lie_inside(claim, box, box.members)
 
 
-def absolute(M: Matrix) -> Matrix:
-    """The absolute values of all entries."""
-    budget.spend(budget.table(M.nrows, M.ncols, M.limbs))
-    rows = [[abs(entry) for entry in row] for row in M.rows]
-    return Matrix(rows, M.ncols, M.denominator)
+def lie_inside(claim: Json, box: System | FunctionSystem, members: str) -> str:
+    """Where all eigenvalues of these members lie."""
+    limit, radii = claim["bound"], claim["gain_radii"]
+    bound = int(box.time == "discrete") if limit is None else limit
+    gains = ""
+    if radii is not None:
+        given = canonical_json(read_controller(radii, "claim.gain_radii"))
+        programs = box.programs if isinstance(box, Box | FunctionLoop) else None
+        near = radii_in_words(gain_pairs(programs, radii), "their radii")
+        which = f"those of the controller {near}, the radii being those with {with_digest(given)}"
+        gains = f", and for all controllers whose entries differ from {which}"
+    return f"{members}{gains}, every eigenvalue of A has {inside(bound, box)}"
+
+
+def gain_pairs(programs: Json, radii: Json) -> list[Pair]:
+    """The radii of the gains of a controller; those of set-points are in no loop."""
+    known, spread = (read_controller(value, "controller")["agents"] for value in (programs, radii))
+    nominal, found = list[Matrix](), list[Matrix]()
+    for pair in zip(known, spread, strict=True):
+        for label in MAPS:
+            M, D = (_signals(agent.get(label, {})) for agent in pair)
+            for signal in {**M, **D}:
+                some = M.get(signal) or D[signal]
+                zeros = Matrix.zeros(some.nrows, some.ncols)
+                nominal.append(M.get(signal, zeros))
+                found.append(D.get(signal, zeros))
+    return pairs_of(nominal, found)
+
+
+def _signals(program: Json) -> dict[tuple[str, str], Matrix]:
+    """The matrices of a program that are in the loop, by the signal that each multiplies."""
+    used = {("private", ""): program["private"]} if "private" in program else {}
+    for key in ("outputs", "shared"):
+        used |= {(key, name): M for name, M in program.get(key, {}).items()}
+    return used
+
+
+# Kind ``parametric_box_fixed``: no mode is fixed at any value; ``proofs/boxes.md``.
+
+
+def check_parametric_box_fixed(claim: Json, witness: Json, plant: FunctionSystem) -> None:
+    """Check the claim of the kind ``box_fixed`` for a box around the plants of each cell.
+
+    Theorem ``boxes.regular_not_fixed``.
+    """
+    for box, part in boxes_of_cells(witness, plant):
+        check_box_fixed(claim, part, box)
+
+
+def parametric_box_fixed_statement(claim: Json, plant: FunctionSystem) -> str:
+    """What no plant within the ranges has."""
+    return f"{ranges_text(plant)}, there is {no_fixed_mode(claim['bound'], plant)}"
+
+
+# Kind ``parametric_box_controllable``: channels control at all values; ``proofs/boxes.md``.
+
+
+def check_parametric_box_controllable(claim: Json, witness: Json, plant: FunctionSystem) -> None:
+    """Check the claim of the kind ``box_controllable`` for a box around the plants of each cell.
+
+    Theorem ``joint_controllability.controllable_hautus``.
+    """
+    for box, part in boxes_of_cells(witness, plant):
+        check_box_controllable(claim, part, box)
+
+
+def parametric_box_controllable_statement(claim: Json, plant: FunctionSystem) -> str:
+    """What the channels control."""
+    return controls(claim, plant, ranges_text(plant))
+
+
+# Kind ``parametric_box_stable``: loops are stable at all values; ``proofs/boxes.md``.
+
+
+def check_parametric_box_stable(claim: Json, witness: Json, plant: FunctionSystem) -> None:
+    """Check the claim of the kind ``box_stable`` for a box around the plants of each cell.
+
+    Theorems ``box_stable.tied_stable_continuous``, ``box_stable.tied_stable_discrete``.
+    """
+    for box, part in boxes_of_cells(witness, plant):
+        check_box_stable(claim, part, box)
+
+
+def parametric_box_stable_statement(claim: Json, plant: FunctionSystem) -> str:
+    """Where all eigenvalues lie."""
+    return lie_inside(claim, plant, ranges_text(plant))

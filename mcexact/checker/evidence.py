@@ -1,11 +1,51 @@
-"""Rules for evidence of several kinds; ``proofs/evidence.md`` proves each of them."""
+"""Proofs that modes are fixed, and that no more are."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import accumulate, chain, zip_longest
+from operator import add, itemgetter, mul
+from typing import Any
 
-from .arithmetic import Matrix, Polynomial, beside, coprime, poly_modulo, stack
-from .reading import Json, integer, matrices, require, shown
+from . import arithmetic, budget, reading
+from .arithmetic import (
+    SMALL,
+    Combination,
+    Entry,
+    Matrix,
+    PackedRows,
+    Polynomial,
+    Rows,
+    SparseMatrix,
+    beside,
+    byte_sum,
+    characteristic_polynomial,
+    convolution,
+    coprime,
+    entries_of,
+    multiples,
+    poly_modulo,
+    rank,
+    residues,
+    stack,
+    stripped,
+)
+from .budget import counted, spend
+from .reading import (
+    Json,
+    fields,
+    integer,
+    items,
+    matrices,
+    matrix,
+    names,
+    polynomial_matrix,
+    positions,
+    require,
+    shown,
+)
 from .system import System
+
+# Rules for evidence of several kinds; ``proofs/evidence.md`` proves each of them.
 
 
 def inputs(system: System, channels: Iterable[int]) -> Matrix:
@@ -60,3 +100,505 @@ def require_coprime(a: Polynomial, b: Polynomial, ell: int, what: str) -> None:
     """
     parts = poly_modulo(a, ell), poly_modulo(b, ell)
     require(coprime(*parts, ell), "common_factor", "witness", f"{what} are not coprime modulo l")
+
+
+# Shrunk subspaces and zero transfers; ``proofs/evidence.md``.
+
+
+def require_pencil_kernel(
+    A: Matrix, B: Matrix, U: list[Matrix], V: list[Matrix], p: Polynomial, place: str
+) -> None:
+    """Stop unless (xI − A) U = B V modulo p, U and V reduced modulo the monic p of degree ≥ 1.
+
+    Theorem ``deficiency.pencil_rank_upper``.
+    """
+    top = U[-1]  # (xI − A)U − BV has degree ≤ deg p, so it must be p·top exactly
+    for t, (U_t, V_t) in enumerate(zip(U, V, strict=True)):
+        left = A @ U_t + B @ V_t + top.times(p[t])
+        shifted = U[t - 1] if t else Matrix.zeros(U_t.nrows, U_t.ncols)
+        require(shifted.equals(left), "identity", place, "(xI - A) U differs from B V modulo p")
+
+
+def shrunk_subspace(
+    value: Json, place: str, system: System, p: Polynomial, deficiency: int
+) -> list[int]:
+    """Check a shrunk subspace of at least this deficiency ≥ 1 for p, and return its T.
+
+    Theorems ``evidence.shrunk_subspace_fixed``, ``evidence.shrunk_subspace_fixed_dynamic``,
+    ``evidence.shrunk_subspace_rank``, ``evidence.shrunk_subspace_dynamic``,
+    ``evidence.shrunk_subspace_pencil``.
+    """
+    chosen, U_layers, V_layers, listed = fields(value, place, "channels_T", "U", "V", "pivots")
+    T = names(chosen, f"{place}.channels_T", system.names)
+    pivots = positions(listed, f"{place}.pivots", system.n)
+    u, B_T = len(pivots), inputs(system, T)
+    U = polynomial_matrix(U_layers, f"{place}.U", system.n, u, len(p) - 1)
+    V = polynomial_matrix(V_layers, f"{place}.V", B_T.ncols, u, len(p) - 1)
+    require_identity(U, pivots, f"{place}.pivots")
+    require_pencil_kernel(system.A, B_T, U, V, p, place)
+    for i in complement(system, T):
+        unseen = all((system.C[i] @ layer).is_zero() for layer in U)
+        require(unseen, "identity", place, f"C_i U is not zero for channel number {i + 1}")
+    lost = u - rank(B_T)
+    message = f"proves deficiency {lost}, not {deficiency} >= 1"
+    require(lost >= deficiency >= 1, "rank", place, message)
+    return T
+
+
+def zero_transfer(value: Json, place: str, system: System) -> tuple[list[int], Matrix]:
+    """Check that im X is A-invariant and holds im B_j for the channels j, and return j's and X.
+
+    Theorems ``transfer_graph.zero_transfer_no_arc``, ``transfer_graph.zero_transfer_cut``.
+    """
+    chosen, X_rows, listed = fields(value, place, "from", "X", "pivots")
+    sources = names(chosen, f"{place}.from", system.names)
+    pivots = positions(listed, f"{place}.pivots", system.n)
+    X = matrix(X_rows, f"{place}.X", system.n, len(pivots))
+    require_identity([X], pivots, f"{place}.pivots")
+    for image, what in ((system.A @ X, "A X"), (inputs(system, sources), "B")):
+        inside = image.equals(X @ image.take(pivots))
+        require(inside, "identity", place, f"the columns of {what} leave the span of X")
+    return sources, X
+
+
+# Paths from inputs to outputs through entries that are not 0; ``proofs/transfer_graph.md``.
+
+
+def without_path(system: System, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]]:
+    """Those pairs (j, i) for which no path leads from an input of j to an output of i.
+
+    The states on the paths from j hold what j drives, A does not leave them, and C_i is 0 there.
+
+    Theorem ``transfer_graph.closed_states_no_arc``.
+    """
+    reached = [0] * system.n  # sets of channels, as bits
+    for j, B in enumerate(system.B):
+        for a, _, _ in entries_of(B):
+            reached[a] |= 1 << j
+    arcs = entries_of(system.A)
+    before: list[int] = []
+    while reached != before:
+        spend(40 * (len(arcs) + system.n) + (len(arcs) + system.n) * system.m // 100)
+        before = list(reached)
+        for a, b, _ in arcs:
+            reached[a] |= reached[b]
+        arcs = arcs[::-1]
+    seen = [0] * system.m
+    for i, C in enumerate(system.C):
+        for _, b, _ in entries_of(C):
+            seen[i] |= reached[b]
+    return {(j, i) for j, i in pairs if not seen[i] >> j & 1}
+
+
+# Markov parameters of all channels at once, modulo a byte; ``proofs/transfer_graph.md``.
+
+Triples = list[tuple[int, int, int]]
+"""Edges (j, i) with a power k each."""
+
+
+def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] | None:
+    """An edge (j, i, k) with C_i A^k B_j = 0 modulo ℓ, if there is one; ℓ is at most ``SMALL``.
+
+    Each row of A^k [B_1 … B_m] is a string of bytes, and sums of rows are sums of long integers.
+
+    Theorem ``transfer_graph.arc_rule``.
+    """
+    sizes = [0, *accumulate(B.ncols for B in system.B)]
+    A, width = _lines(residues(system.A, ell), system.n), sizes[-1]
+    outputs = [_lines(residues(C, ell), C.nrows) for C in system.C]
+    power = _inputs(system, sizes, ell)
+    wanted: dict[int, dict[int, list[int]]] = {}
+    for j, i, k in triples:
+        wanted.setdefault(k, {}).setdefault(i, []).append(j)
+    for k in counted(range(max(wanted, default=-1) + 1)):
+        for i, sources in wanted.get(k, {}).items():
+            seen = _products(outputs[i], power, width, ell)
+            spend(sum(40 + system.B[j].ncols * len(seen) for j in sources))
+            for j in sources:
+                if not any(any(row[sizes[j] : sizes[j + 1]]) for row in seen):
+                    return j, i, k
+        power = _products(A, power, width, ell)
+    return None
+
+
+def _inputs(system: System, sizes: list[int], ell: int) -> list[bytes]:
+    """The rows of [B_1 … B_m] modulo ℓ, a byte for each column."""
+    spend(system.n * (64 + sizes[-1]))
+    rows = [bytearray(sizes[-1]) for _ in range(system.n)]
+    for B, start in zip(system.B, sizes, strict=False):
+        for a, u, x in residues(B, ell):
+            rows[a][start + u] = x
+    return [bytes(row) for row in rows]
+
+
+def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
+    """The columns and values of the entries of each row."""
+    spend(100 * (len(entries) + nrows))
+    lines: list[list[tuple[int, int]]] = [[] for _ in range(nrows)]
+    for i, j, x in entries:
+        lines[i].append((j, x))
+    return lines
+
+
+def _products(
+    lines: list[list[tuple[int, int]]], power: list[bytes], width: int, ell: int
+) -> list[bytes]:
+    """The rows of a product with a matrix of so many columns, modulo ℓ."""
+    tables, terms = multiples(ell), sum(map(len, lines))
+    spend(len(lines) * (60 + width // 8) + terms * (40 + width // 4))
+    return [
+        byte_sum((power[j].translate(tables[x]) for j, x in line), width, ell) for line in lines
+    ]
+
+
+# Products of a row with a matrix of few entries, modulo ℓ.
+
+LONG = 32
+"""Columns of more entries are added up one by one."""
+
+
+class SparseStep:
+    """u ↦ uM modulo ℓ for an n × n matrix M, given by its residues that are not 0.
+
+    The entries of u are in another ``order``: first the columns of at most ``LONG`` entries, those
+    with the most entries first.  So the first entries of all columns are added to the second ones
+    of the first columns, which have two, and so on.
+    """
+
+    def __init__(self, entries: Sequence[Entry], n: int, ell: int) -> None:
+        self.ell = ell
+        spend(300 * (len(entries) + n))
+        columns: list[list[tuple[int, int]]] = [[] for _ in range(n)]
+        for i, j, x in entries:
+            columns[j].append((i, x))
+        sizes = [(len(column) > LONG, -len(column), j) for j, column in enumerate(columns)]
+        self.order = [j for _, _, j in sorted(sizes)]
+        place = {j: k for k, j in enumerate(self.order)}
+        ordered = [[(place[i], x) for i, x in columns[j]] for j in self.order]
+        short = [column for column in ordered if len(column) <= LONG]
+        self.short, self.n = len(short), n
+        self.values = sorted({x for _, _, x in entries}) if ell <= SMALL else []
+        slot = {x: k * n for k, x in enumerate(self.values)}
+        self.layers: list[tuple[Any, list[int]]] = []
+        for e in range(len(short[0]) if short else 0):
+            layer = [column[e] for column in short if len(column) > e]
+            places = [i + slot.get(x, 0) for i, x in layer]
+            # of two places or more a tuple is made; those at the end are not looked at
+            self.layers.append((itemgetter(*places, 0, 0), [x for _, x in layer]))
+        self.long = [
+            (itemgetter(*(i for i, _ in column)), [x for _, x in column])
+            for column in ordered[self.short :]
+        ]
+        self.units = 1000 + len(entries) * (1 if self.values else 4) + n * len(self.values) // 32
+
+    def start(self, row: Sequence[int]) -> Sequence[int]:
+        """A row in the order of the entries here."""
+        placed = [row[j] for j in self.order]
+        return bytes(placed) if self.ell <= SMALL else placed
+
+    def __call__(self, u: Sequence[int]) -> Sequence[int]:
+        """The product with a row; ``units`` is what it takes."""
+        long = [sum(map(mul, gather(u), xs)) % self.ell for gather, xs in self.long]
+        if isinstance(u, bytes):
+            return self._added(u) + bytes(long)
+        total = [0] * self.short
+        for gather, xs in self.layers:
+            part = list(map(mul, gather(u), xs))
+            total[: len(part)] = map(add, total, part)
+        return [x % self.ell for x in total] + long
+
+    def _added(self, u: bytes) -> bytes:
+        """The short columns: multiples of u, looked up, and added."""
+        tables = multiples(self.ell)
+        products = b"".join(u.translate(tables[x]) for x in self.values)
+        layers = (bytes(gather(products)[: len(xs)]) for gather, xs in self.layers)
+        return byte_sum(layers, self.short, self.ell)
+
+
+def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entry] | None:
+    """The residues of A + Σ B_i F_i C_i that are not 0; None if there may be many, for some F."""
+    A, n = system.A, system.n
+    if not isinstance(A, SparseMatrix):
+        return None
+    ports = [(entries_of(B), entries_of(C)) for B, C in zip(system.B, system.C, strict=True)]
+    most = len(A.entries) + sum(len(B) * len(C) for B, C in ports)
+    if arithmetic.SHARE * most > n * n:
+        return None
+    spend(200 * (most + system.m))
+    found = {(i, j): x for i, j, x in residues(A, ell)}
+    for B, F, C in zip(system.B, gains, system.C, strict=True):
+        inputs, outputs, gain = residues(B, ell), residues(C, ell), F.modulo(ell)
+        for a, g, x in inputs:
+            for h, b, y in outputs:
+                found[a, b] = (found.get((a, b), 0) + x * gain[g][h] * y) % ell
+    return [(i, j, x) for (i, j), x in found.items() if x]
+
+
+# How much can be fixed, by one Krylov sequence of one channel; ``proofs/krylov.md``.
+
+Row = Sequence[int]
+
+KEYS = ("modulus", "gains", "channel", "inputs", "outputs", "recurrence", "cofactors")
+
+
+def unmoved_degree(value: Json, place: str, system: System) -> int:
+    """n − L, the most degrees of a common divisor of det(xI − A_F) for all F.
+
+    With b = B_q x, c = y C_q and s_k = c A_F^k b, the monic d of degree L modulo ℓ satisfies
+    Σ_j d_j s_{k+j} = 0 for k < L − 1, and a·num + e·d = 1, num the polynomial part of
+    d·Σ s_k x^{−k−1}.
+
+    Theorem ``krylov.krylov_bounded``.
+    """
+    number, gains, name, *lists, pair = fields(value, place, *KEYS)
+    ell = modulus(number, f"{place}.modulus")
+    F = read_gains(gains, f"{place}.gains", system)
+    q = system.place_of(name, f"{place}.channel")
+    x, y, d = (_residues(entry, place, ell) for entry in lists)
+    a, e = (_residues(entry, place, ell) for entry in items(pair, f"{place}.cofactors", 2))
+    items(x, f"{place}.inputs", system.B[q].ncols)
+    items(y, f"{place}.outputs", system.C[q].nrows)
+    require(d[-1:] == [1], "monic", f"{place}.recurrence", "expected a monic polynomial")
+    L, n = len(d) - 1, system.n
+    b, c = [0] * n, [0] * n
+    for i, j, entry in arithmetic.residues(system.B[q], ell):
+        b[i] = (b[i] + entry * x[j]) % ell
+    for i, j, entry in arithmetic.residues(system.C[q], ell):
+        c[j] = (c[j] + y[i] * entry) % ell
+    s = _numbers(system, F, ell, b, c, d)
+    if s[L:]:
+        holds = not any(convolution(d, s[::-1], ell)[L : 2 * L - 1])
+        require(holds, "recurrence", f"{place}.recurrence", "the sequence does not satisfy it")
+    num = convolution(d, s[:L][::-1], ell)[L:]
+    sums = zip_longest(convolution(a, num, ell), convolution(e, d, ell), fillvalue=0)
+    one = stripped([(f + g) % ell for f, g in sums]) == [1]
+    require(one, "common_factor", f"{place}.cofactors", "a num + e d is not 1 modulo l")
+    return n - L
+
+
+def _numbers(
+    system: System, gains: Sequence[Matrix], ell: int, b: Row, c: Row, d: Row
+) -> list[int]:
+    """s_k for k < L, if Σ_k d_k c A_F^k = 0: then the recurrence holds; otherwise for k < 2L − 1.
+
+    Theorem ``krylov_sequence.annihilated_recurrence``.
+    """
+    L, s, total = len(d) - 1, [], Combination(system.n, ell)
+    advance, u, units = _steps(system, gains, ell, b, c)
+    spend(L * units)
+    for k in counted(range(L)):
+        total.add(d[k], u)
+        u, number = advance(u)
+        s.append(number)
+    total.add(1, u)
+    if not total.is_zero():
+        spend(L * units)
+        for _ in counted(range(L - 1)):
+            u, number = advance(u)
+            s.append(number)
+    return s
+
+
+def _steps(
+    system: System, gains: Sequence[Matrix], ell: int, b: Row, c: Row
+) -> tuple[Callable[[Row], tuple[Row, int]], Row, int]:
+    """A function from u to u A_F and ub modulo ℓ, the u with ub = cb, and units not yet charged."""
+    n, entries = system.n, loop_entries(system, gains, ell)
+    if entries is None:
+        pairs = zip(krylov_loop(system, gains, ell), b, strict=True)
+        rows = PackedRows([[*row, entry] for row, entry in pairs], n + 1, ell)
+
+        def dense(u: Row) -> tuple[Row, int]:
+            *product, last = rows.combined(u)
+            return product, last
+
+        return dense, c, 0
+    step = SparseStep(entries, n, ell)
+    seen = [(k, b[j]) for k, j in enumerate(step.order) if b[j]]
+
+    def gathered(u: Row) -> tuple[Row, int]:
+        return step(u), sum(u[k] * f for k, f in seen) % ell
+
+    return gathered, step.start(c), step.units + 2 * len(seen)
+
+
+def _residues(value: Json, place: str, ell: int) -> list[int]:
+    """A list of integers from 0 on, modulo ℓ."""
+    numbers = [integer(entry, place) for entry in items(value, place)]
+    spend(budget.reductions(len(numbers), budget.limbs(numbers), budget.limbs([ell])))
+    return [number % ell for number in numbers]
+
+
+def krylov_loop(system: System, gains: Sequence[Matrix], ell: int) -> Rows:
+    """A + Σ B_i F_i C_i modulo ℓ, which is coprime to every denominator."""
+    n, fed = system.n, []
+    for F, C in zip(gains, system.C, strict=True):
+        outputs = PackedRows(C.modulo(ell), n, ell)
+        fed += [outputs.combined(row) for row in F.modulo(ell)]
+    moved, B = PackedRows(fed, n, ell), inputs(system, range(system.m)).modulo(ell)
+    spend(budget.products(n * n, budget.limbs([ell]), 1))
+    return [
+        [(left + right) % ell for left, right in zip(row, moved.combined(u), strict=True)]
+        for row, u in zip(system.A.modulo(ell), B, strict=True)
+    ]
+
+
+# Blocks of states, each decided by itself; ``proofs/krylov.md``, K8.
+
+
+def split(value: Json, place: str, system: System) -> list[tuple[str, System, Json]]:
+    """The systems of the blocks, each with the channels that act within it, and their evidence.
+
+    Every state is in one block, and no closed loop leads from a block to a later one.
+
+    Theorems ``blocks.block_bounded``, ``fixed_bound.bounded_channels``.
+    """
+    listed, states, n = [], [], system.n
+    for k, entry in enumerate(items(value, place)):
+        where = f"{place}[{k}]"
+        chosen, proof = fields(entry, where, "states", "evidence")
+        spend(20 * len(items(chosen, f"{where}.states")))
+        states.append(positions(chosen, f"{where}.states", n))
+        listed.append((f"{where}.evidence", proof))
+    once = sorted(chain(*states)) == list(range(n))
+    require(once, "partition", place, "expected every state in one block")
+    at = {a: k for k, block in enumerate(states) for a in block}
+    within = _channels(system, at, place, len(states))
+    entered = set() if len(states) < 2 else _entered(system, at)
+    found: list[tuple[str, System, Json]] = []
+    turns = zip(counted(states), within, listed, strict=True)
+    for k, (block, acting, (where, proof)) in enumerate(turns):
+        require(k not in entered, "order", where, "an earlier block acts on it")
+        found.append((where, _part(system, block, acting), proof))
+    return found
+
+
+def _entered(system: System, at: dict[int, int]) -> set[int]:
+    """The blocks on which an earlier one acts."""
+    entries = arithmetic.entries_of(system.A)
+    spend(8 * len(entries))
+    return {at[a] for a, b, _ in entries if at[b] < at[a]}
+
+
+def _channels(system: System, at: dict[int, int], place: str, count: int) -> list[list[int]]:
+    """The channels that act within each block: that have inputs and outputs there."""
+    ports = list(enumerate(zip(system.B, system.C, strict=True)))
+    if count == 1:
+        return [[i for i, (B, C) in ports if not (B.is_zero() or C.is_zero())]]
+    found: list[list[int]] = [[] for _ in range(count)]
+    for i, (B, C) in ports:
+        moved = [at[a] for a, _, _ in arithmetic.entries_of(B)]
+        seen = [at[b] for _, b, _ in arithmetic.entries_of(C)]
+        spend(8 * (len(moved) + len(seen)))
+        if moved and seen:
+            message = f"channel number {i + 1} leads to a later block"
+            require(max(moved) <= min(seen), "order", place, message)
+            if max(moved) == min(seen):
+                found[min(seen)].append(i)
+    return found
+
+
+def _part(system: System, block: list[int], acting: list[int]) -> System:
+    """The states of a block by themselves, with some channels."""
+    spend(40 * len(block))
+    places = None if len(block) == system.n else {a: k for k, a in enumerate(block)}
+    B = [arithmetic.within(system.B[i], places, None) for i in acting]
+    C = [arithmetic.within(system.C[i], None, places) for i in acting]
+    named = [system.names[i] for i in acting]
+    return System(system.time, named, arithmetic.within(system.A, places, places), B, C)
+
+
+# Proofs that no more is fixed than the factors named; ``proofs/krylov.md``, ``evidence.md``.
+
+Loss = tuple[Polynomial, int]
+"""A factor, and the rank that is lost at its roots."""
+
+
+def by_blocks(witness: Json) -> bool:
+    """Whether the evidence is block by block, and not two characteristic polynomials of all."""
+    return isinstance(witness, Mapping) and "blocks" in witness
+
+
+class Blocks:
+    """The blocks leave so many modes that may be fixed; the others move, whatever these are."""
+
+    def __init__(self, value: Json, place: str, system: System, number: Json = None) -> None:
+        self.place, self.number = f"{place}.blocks", number
+        parts = split(value, self.place, system)
+        self.left = sum(_left(proof, where, part) for where, part, proof in counted(parts))
+
+    @property
+    def ell(self) -> int:
+        """The modulus for factors."""
+        return modulus(self.number, "witness.modulus")
+
+    def multiplicity(self, p: Polynomial, loss: int) -> int:
+        """How often a factor occurs; stop if it may have multiple roots."""
+        derivative = [k * c for k, c in enumerate(p)][1:]
+        require_coprime(p, derivative, self.ell, "a factor and its derivative")
+        return loss
+
+    def require_no_more(self, losses: list[Loss]) -> None:
+        """Stop unless the factors, as often as they lose rank, are all that is left.
+
+        Theorems ``fixed_bound.bounded_absence``, ``fixed_bound.bounded_rule``,
+        ``fixed_bound.bounded_fixed``, ``fixed_bound.bounded_rank``.
+        """
+        if not losses:
+            require(self.number is None, "claim", "witness.modulus", "expected null: no factors")
+        more = self.left - sum(loss * (len(p) - 1) for p, loss in losses)
+        require(more == 0, "degree", self.place, f"{more} more modes may be fixed")
+
+
+def _left(proof: Json, place: str, block: System) -> int:
+    """The most degrees of a common divisor of det(xI − A_F) for all F, by the evidence of a block.
+
+    Theorems ``fixed_bound.nothing_bounded``, ``fixed_bound.coprime_bounded``.
+    """
+    if proof is None:
+        return block.n
+    if isinstance(proof, Mapping) and "channel" in proof:
+        return unmoved_degree(proof, place, block)
+    gains, number = fields(proof, place, "gains", "modulus")
+    TwoPolynomials(gains, number, place, block).require_moved([])
+    return 0
+
+
+class TwoPolynomials:
+    """Gains move all that is left of det(xI − A)."""
+
+    def __init__(self, gains: Json, number: Json, place: str, system: System) -> None:
+        self.ell, self.A = modulus(number, f"{place}.modulus"), system.A
+        F = read_gains(gains, f"{place}.gains", system)
+        self.A_F = closed_loop(system, F)
+        self.chi_F = characteristic_polynomial(self.A_F, self.ell)
+
+    def multiplicity(self, p: Polynomial, loss: int) -> int:
+        """How often a factor occurs in det(xI − A_F) modulo ℓ, and so at most in all of them.
+
+        Theorem ``fixed_spectrum.multiplicity_at_most``.
+        """
+        return arithmetic.exponent(arithmetic.poly_modulo(p, self.ell), self.chi_F, self.ell)[0]
+
+    def require_moved(self, rest: Polynomial) -> None:
+        """Stop unless det(xI − A) without some factors, or if there are none, has no fixed root.
+
+        Theorems ``fixed_spectrum.absence``, ``fixed_spectrum.absence_all``.
+        """
+        rest = rest or characteristic_polynomial(self.A, self.ell)
+        what = "det(xI - A) without the factors named and det(xI - A_F)"
+        require_coprime(rest, self.chi_F, self.ell, what)
+
+    def require_ranks(self, completion: Json, losses: list[Loss]) -> None:
+        """Stop unless A_F + B_0 C_0, with d columns and rows, has no root of a p that loses d.
+
+        Theorems ``fixed_spectrum.completion``, ``fixed_spectrum.rank_exact``.
+        """
+        left, right = fields(completion, "witness.completion", "B0", "C0")
+        rho, n = max(loss for _, loss in losses), self.A.nrows
+        B0 = reading.matrix(left, "witness.completion.B0", n, rho)
+        C0 = reading.matrix(right, "witness.completion.C0", rho, n)
+        for p, d in losses:
+            completed = self.A_F + B0.take(cols=range(d)) @ C0.take(range(d))
+            chi = characteristic_polynomial(completed, self.ell)
+            require_coprime(p, chi, self.ell, "a factor, and det(xI - A_F - B0 C0),")

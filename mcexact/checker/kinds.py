@@ -1,47 +1,206 @@
-"""The table of certificate kinds, and the one function that gives the verdict VALID."""
+"""The table of kinds, what is expected, and the verdict."""
 
+from __future__ import annotations
+
+import contextlib
 import json
+import re
+import signal
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from types import FrameType
 from typing import NoReturn, TypeVar
 
-from . import (
-    assignability,
-    box_controllable,
-    box_fixed,
-    box_stable,
-    closed_loop_spectrum,
-    common_dimension,
-    communication,
-    complementary_subsystem,
-    completeness,
-    controllability,
-    controllability_indices,
-    deficiency,
-    distributed_observer,
-    exceptional_gains,
-    fixed_spectrum,
-    neighbor_graph,
-    parametric_box_controllable,
-    parametric_box_fixed,
-    parametric_box_stable,
-    parametric_fixed_spectrum,
-    parametric_rank,
-    pencil_rank,
-    setpoint,
-    shared_dimensions,
-    single_channel_gains,
-    stability,
-    transfer_graph,
-)
+from . import boxes, loops, modes, parameters, reading, sharing, structure
 from .arithmetic import NotAUnit
 from .budget import MORE, current, limited
-from .expectation import Expectation
-from .moved_entries import subject_of
-from .parametric_system import FunctionSystem, digest, digest_of_values, plant_of
-from .reading import Json, Limits, Refused, fields, incomplete, malformed, parse, shown, string
-from .statement import described, digest_of
+from .cells import subject_of
+from .parametric_system import FunctionSystem, digest, digest_of_values, plant_of, plant_of_file
+from .reading import (
+    Json,
+    Limits,
+    Refused,
+    fields,
+    incomplete,
+    items,
+    malformed,
+    parse,
+    require,
+    shown,
+    string,
+)
+from .system import canonical_json, described, digest_of, read_controller_file
+
+# What is asked of a certificate: the plant, the controller, and the statement or the claim.
+
+DIGEST = re.compile(r"[0-9a-f]{64}")
+LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
+"""A statement, alone or in the line of its verdict."""
+CLAIM = 'a claim as a JSON object {"kind": ..., "subject": [...], "claim": {...}}'
+LOOP = "closed_loop"
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """The system, the controller and the statement that a certificate must have.
+
+    Attributes
+    ----------
+    system : str
+        The digest of the plant; empty for any.  Where the plant has no radii, a certificate about
+        a box around it is about it, too.
+    plant : object
+        The plant as in a certificate, which may then name it by its digest; None where only its
+        digest is known, or any will do.
+    size : int
+        The bytes of the plant as JSON, which are granted work as if they stood in the certificate.
+    controller : str
+        The digest of the controller of the loop; empty for any, or for none.
+    made_for : str
+        The digest of the plant, without radii, that the file of the controller names; empty for
+        any.
+    statement : str
+        The digest of the statement; empty for any.
+    kind : str
+        The kind of the claim; empty for any.
+    subject : list
+        The constructions of the subject; None for any, unless a controller is given without a
+        statement: then the plant itself is in the loop.  With a controller, its closed loop follows
+        on them where they do not end with one.
+    claim : object
+        The claim as in a certificate; None for any.
+    """
+
+    system: str = ""
+    plant: Json = None
+    size: int = 0
+    controller: str = ""
+    made_for: str = ""
+    statement: str = ""
+    kind: str = ""
+    subject: Json = None
+    claim: Json = None
+
+    def about(self, data: bytes, limits: Limits) -> Expectation:
+        """The same, about the plant in a system file."""
+        plant = plant_of_file(data, limits)
+        text = canonical_json(plant)
+        return replace(self, system=digest_of(text), plant=plant, size=len(text))
+
+    def controlled(self, data: bytes, limits: Limits) -> Expectation:
+        """The same, about a loop with the controller in a controller file."""
+        controller, made_for = read_controller_file(data, limits)
+        return replace(self, controller=controller, made_for=made_for)
+
+    def saying(self, data: bytes, limits: Limits) -> Expectation:
+        """The same, with a statement, its digest, the line of a verdict, or a claim.
+
+        Raises
+        ------
+        Refused
+            If the text is neither.
+        """
+        if data.lstrip()[:1] == b"{":
+            with limited(current(limits.work), len(data)):
+                return self._claiming(parse(data, limits))
+        text = data.decode("ascii", "replace").strip()
+        if DIGEST.fullmatch(text.lower()):
+            return replace(self, statement=text.lower())
+        line = LINE.fullmatch(text)
+        if not line or not text.isascii() or len(text.splitlines()) != 1:
+            malformed("file", f"expected a statement, its SHA-256, or {CLAIM}")
+        found = digest_of(line[2])
+        if line[1] not in (None, found):
+            malformed("file", f"the statement has not the digest before it, but {found}")
+        return replace(self, statement=found)
+
+    def _claiming(self, value: Json) -> Expectation:
+        """The same, with the claim of a kind about a subject, by default what is there already."""
+        if "claim" not in value:
+            malformed("file", f'expected {CLAIM}, found no "claim"')
+        kind, claim, steps = fields(value, "file", "kind", "claim", optional=("subject",))
+        subject = self.subject or [] if steps is None else items(steps, "subject")
+        if not isinstance(claim, dict):
+            malformed("claim", f"expected an object, found {shown(claim)}")
+        return replace(self, kind=string(kind, "kind"), subject=subject, claim=claim)
+
+    def named(self, value: str) -> Json:
+        """The plant that a certificate names by its digest."""
+        if not DIGEST.fullmatch(value):
+            malformed("system", f"expected a system or its SHA-256, found {shown(value)}")
+        if self.plant is None:
+            reading.incomplete("system", "system", f"give the system of digest {value} (--system)")
+        self._require_system(value, "")
+        return self.plant
+
+    def require_plant(self, found: str, values: str, ranged: bool = False) -> None:
+        """Stop unless the certificate is about the plant, or about a box around it.
+
+        ``found`` is the digest of the certificate's plant, ``values`` that of it without radii,
+        which is the one that controllers are made for; of a plant whose parameters are ``ranged``
+        they are made for some values.
+        """
+        self._require_system(found, values)
+        message = f"about the system of digest {values}, the controller is for {self.made_for}"
+        fits = ranged or self.made_for in ("", values)
+        require(fits, "controller", "system", message)
+
+    def _require_system(self, found: str, values: str) -> None:
+        message = f"about another system, of digest {found}, not {self.system}"
+        require(self.system in ("", found, values), "system", "system", message)
+
+    def require_subject(self, steps: Json, found: str) -> None:
+        """Stop unless the certificate has the subject, and the controller where one is given."""
+        expected = self.subject
+        if self.controller:
+            require(bool(found), "controller", "subject", "about no closed loop")
+            message = f"about another controller, of digest {found}, not {self.controller}"
+            require(found == self.controller, "controller", "subject", message)
+            if expected is None and not self.statement:
+                expected = []
+            if expected is not None and made_by(expected)[-1:] != [LOOP]:
+                expected = [*expected, *(step for step in steps[-1:] if made_by([step]) == [LOOP])]
+        if expected is not None:
+            told = ", ".join(made_by(steps)) or "none"
+            message = f"another subject than asked for; its constructions are: {told}"
+            require(same(steps, expected), "expected", "subject", message)
+
+    def require_said(self, kind: str, claim: Json, statement: str) -> None:
+        """Stop unless the certificate makes the statement, or the claim of its kind."""
+        other = f"a claim of another kind, {kind}"
+        require(self.kind in ("", kind), "expected", "kind", other)
+        other = f"it states something else: {statement}"
+        require(self.statement in ("", digest_of(statement)), "expected", "claim", other)
+        right = self.claim is None or same(claim, self.claim)
+        message = f"another claim, which differs in {difference(claim, self.claim)}"
+        require(right, "expected", "claim", f"{message} and states: {statement}")
+
+
+def difference(claim: Json, asked: Json) -> str:
+    """The keys in which two claims differ, as a message shows them."""
+    asked = asked or {}
+    keys = {k for k in claim.keys() & asked.keys() if not same(claim[k], asked[k])}
+    return ", ".join(map(shown, sorted(keys | claim.keys() ^ asked.keys())))
+
+
+def made_by(steps: Json) -> list[Json]:
+    """The names of constructions."""
+    return [step.get("construction") if isinstance(step, dict) else None for step in steps]
+
+
+def same(a: Json, b: Json) -> bool:
+    """Whether two values are equal as JSON: true differs from 1, and keys have no order."""
+    if type(a) is not type(b):
+        return False
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
+    if isinstance(a, list):
+        return len(a) == len(b) and all(map(same, a, b))
+    return bool(a == b)
+
+
+# The table of certificate kinds, and the one function that gives the verdict VALID.
 
 FORMAT = "mcexact-certificate/1"
 T = TypeVar("T")
@@ -64,41 +223,53 @@ class Rule:
 
 
 KINDS = {
-    "assignability": Rule(assignability.check, assignability.statement),
-    "box_controllable": Rule(box_controllable.check, box_controllable.statement),
-    "box_fixed": Rule(box_fixed.check, box_fixed.statement),
-    "box_stable": Rule(box_stable.check, box_stable.statement),
-    "closed_loop_spectrum": Rule(closed_loop_spectrum.check, closed_loop_spectrum.statement),
-    "common_dimension": Rule(common_dimension.check, common_dimension.statement),
-    "communication": Rule(communication.check, communication.statement),
+    "assignability": Rule(modes.check_assignability, modes.assignability_statement),
+    "box_controllable": Rule(boxes.check_box_controllable, boxes.box_controllable_statement),
+    "box_fixed": Rule(boxes.check_box_fixed, boxes.box_fixed_statement),
+    "box_stable": Rule(boxes.check_box_stable, boxes.box_stable_statement),
+    "closed_loop_spectrum": Rule(
+        loops.check_closed_loop_spectrum, loops.closed_loop_spectrum_statement
+    ),
+    "common_dimension": Rule(sharing.check_common_dimension, sharing.common_dimension_statement),
+    "communication": Rule(sharing.check_communication, sharing.communication_statement),
     "complementary_subsystem": Rule(
-        complementary_subsystem.check, complementary_subsystem.statement
+        structure.check_complementary_subsystem, structure.complementary_subsystem_statement
     ),
-    "completeness": Rule(completeness.check, completeness.statement),
-    "controllability": Rule(controllability.check, controllability.statement),
+    "completeness": Rule(modes.check_completeness, modes.completeness_statement),
+    "controllability": Rule(structure.check_controllability, structure.controllability_statement),
     "controllability_indices": Rule(
-        controllability_indices.check, controllability_indices.statement
+        structure.check_controllability_indices, structure.controllability_indices_statement
     ),
-    "deficiency": Rule(deficiency.check, deficiency.statement),
-    "distributed_observer": Rule(distributed_observer.check, distributed_observer.statement),
-    "exceptional_gains": Rule(exceptional_gains.check, exceptional_gains.statement),
-    "fixed_spectrum": Rule(fixed_spectrum.check, fixed_spectrum.statement),
-    "neighbor_graph": Rule(neighbor_graph.check, neighbor_graph.statement),
+    "deficiency": Rule(modes.check_deficiency, modes.deficiency_statement),
+    "distributed_observer": Rule(
+        loops.check_distributed_observer, loops.distributed_observer_statement
+    ),
+    "exceptional_gains": Rule(
+        structure.check_exceptional_gains, structure.exceptional_gains_statement
+    ),
+    "fixed_spectrum": Rule(modes.check_fixed_spectrum, modes.fixed_spectrum_statement),
+    "neighbor_graph": Rule(structure.check_neighbor_graph, structure.neighbor_graph_statement),
     "parametric_box_controllable": Rule(
-        parametric_box_controllable.check, parametric_box_controllable.statement
+        boxes.check_parametric_box_controllable, boxes.parametric_box_controllable_statement
     ),
-    "parametric_box_fixed": Rule(parametric_box_fixed.check, parametric_box_fixed.statement),
-    "parametric_box_stable": Rule(parametric_box_stable.check, parametric_box_stable.statement),
+    "parametric_box_fixed": Rule(
+        boxes.check_parametric_box_fixed, boxes.parametric_box_fixed_statement
+    ),
+    "parametric_box_stable": Rule(
+        boxes.check_parametric_box_stable, boxes.parametric_box_stable_statement
+    ),
     "parametric_fixed_spectrum": Rule(
-        parametric_fixed_spectrum.check, parametric_fixed_spectrum.statement
+        parameters.check_parametric_fixed_spectrum, parameters.parametric_fixed_spectrum_statement
     ),
-    "parametric_rank": Rule(parametric_rank.check, parametric_rank.statement),
-    "pencil_rank": Rule(pencil_rank.check, pencil_rank.statement),
-    "setpoint": Rule(setpoint.check, setpoint.statement),
-    "shared_dimensions": Rule(shared_dimensions.check, shared_dimensions.statement),
-    "single_channel_gains": Rule(single_channel_gains.check, single_channel_gains.statement),
-    "stability": Rule(stability.check, stability.statement),
-    "transfer_graph": Rule(transfer_graph.check, transfer_graph.statement),
+    "parametric_rank": Rule(parameters.check_parametric_rank, parameters.parametric_rank_statement),
+    "pencil_rank": Rule(modes.check_pencil_rank, modes.pencil_rank_statement),
+    "setpoint": Rule(structure.check_setpoint, structure.setpoint_statement),
+    "shared_dimensions": Rule(sharing.check_shared_dimensions, sharing.shared_dimensions_statement),
+    "single_channel_gains": Rule(
+        structure.check_single_channel_gains, structure.single_channel_gains_statement
+    ),
+    "stability": Rule(loops.check_stability, loops.stability_statement),
+    "transfer_graph": Rule(structure.check_transfer_graph, structure.transfer_graph_statement),
 }
 """The rule of each kind."""
 STATUSES = dict.fromkeys(("VALID", "IMPLIED", "REMARK", "COUNTED"), 0)
@@ -148,7 +319,7 @@ class Verdict:
         """The exit status that belongs to this verdict."""
         return STATUSES.get(self.verdict, 70)
 
-    def inside(self, where: str) -> "Verdict":
+    def inside(self, where: str) -> Verdict:
         """The same, about a part of something, by its place there if it is not good."""
         return replace(self, place=f"{where} {self.place}" if self.status else "")
 
@@ -262,3 +433,91 @@ def _parts(document: Json) -> list[Json]:
     if string(parts[0], "kind") not in KINDS:
         incomplete("kind", "kind", f"{shown(parts[0])} is not a kind known here")
     return parts
+
+
+# What a run may take: time, also while it waits for a file, and memory.
+
+SUPPORTED = hasattr(signal, "setitimer")
+"""Whether the platform has alarms, and limits on memory."""
+AGAIN = 0.05
+"""Seconds between two alarms: the first is lost if Python runs a callback that ignores errors."""
+
+
+class OutOfTime(BaseException):
+    """The time is over; no handler of errors takes this for one of its own."""
+
+
+class Clock:
+    """A limit on the time of a run.
+
+    Parameters
+    ----------
+    seconds : float or None
+        None means that there is no limit.
+    """
+
+    def __init__(self, seconds: float | None = None) -> None:
+        self.seconds, self.over, self.armed = seconds, False, False
+
+    @contextlib.contextmanager
+    def running(self) -> Iterator[None]:
+        """Let the time run."""
+        if self.seconds is None:
+            yield
+            return
+        before = signal.signal(signal.SIGALRM, self._ring)
+        signal.setitimer(signal.ITIMER_REAL, min(self.seconds, 1e9), AGAIN)
+        try:
+            yield
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+
+    def _ring(self, number: int, frame: FrameType | None) -> None:
+        self.over = True
+        if self.armed:
+            raise OutOfTime
+
+    def within(self, work: Callable[[], T]) -> T:
+        """Do some work, which OutOfTime interrupts; it is raised here and nowhere else."""
+        try:
+            self.armed = True
+            if self.over:
+                raise OutOfTime
+            return work()
+        finally:
+            self.armed = False
+
+    def verdict(self) -> Verdict:
+        """The verdict on what there was no time for."""
+        self.armed = False
+        message = f"not decided after {self.seconds:g} s (--timeout allows more)"
+        return Verdict("INCOMPLETE", code="time", place="checker", message=message)
+
+    def limited(self, found: Iterator[Found], about: dict[str, str]) -> Iterator[Found]:
+        """Yield the same verdicts as long as there is time, then an INCOMPLETE one."""
+        try:
+            while (item := self.within(lambda: next(found, None))) is not None:
+                yield item
+        except OutOfTime:
+            yield about, self.verdict()
+
+
+@contextlib.contextmanager
+def memory(mebibytes: int | None) -> Iterator[None]:
+    """Limit the memory that may be added to what the process occupies now."""
+    if mebibytes is None:
+        yield
+        return
+    import resource
+
+    occupied = 0
+    with contextlib.suppress(OSError), open("/proc/self/statm", encoding="ascii") as pages:
+        occupied = int(pages.read().split()[0]) * resource.getpagesize()
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    most = min(occupied + mebibytes * 2**20, 2**62 if hard == resource.RLIM_INFINITY else hard)
+    resource.setrlimit(resource.RLIMIT_AS, (most, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))

@@ -1,21 +1,505 @@
-"""Plants whose entries are rational functions of a parameter, and plants of either sort."""
+"""Plants with parameters, and the grammar of their entries.
+
+Common factors of polynomials in several parameters, so that quotients have lowest terms.
+
+Remainders in one parameter after another, whose coefficients are polynomials in the others, grow
+without bound where nothing is common.  So a value of the others modulo a prime is tried first:
+where the leading coefficient of one polynomial stays and nothing is common there, no common factor
+contains this parameter, and what is common is that of all coefficients.
+"""
+
+from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import random
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from itertools import zip_longest
+from typing import Any, Generic, Protocol, TypeVar
 
-from . import budget, reading
-from .arithmetic import Matrix, Polynomial, poly_divide, poly_product
-from .common_factors import Terms
-from .expressions import PARAMETER, common_divisor, function, function_text
-from .reading import Json, Limits, fields, incomplete, integer, items, malformed, printable, string
-from .several_parameters import Quotient, quotient, quotient_text
-from .statement import canonical_json, digest_of
-from .system import System, canonical, parse_file, read_plant, read_system
-from .system_matrices import number
-from .uncertainty import as_typed
+from . import budget, reading, system
+from .arithmetic import Matrix, Polynomial, coprime, poly_divide, poly_product, stripped
+from .budget import fractions, limbs_of, reductions, spend
+from .reading import (
+    Json,
+    Limits,
+    fields,
+    incomplete,
+    integer,
+    items,
+    malformed,
+    printable,
+    shown,
+    string,
+)
+from .system import (
+    System,
+    as_typed,
+    canonical,
+    canonical_json,
+    digest_of,
+    number,
+    parse_file,
+    polynomial_text,
+    read_plant,
+    read_system,
+)
+
+# Common factors of polynomials in several parameters, so that quotients have lowest terms.
+
+Terms = dict[tuple[int, ...], Fraction]
+"""A polynomial: its coefficients, none of which is 0, by the exponents of the parameters."""
+PRIME = 2**61 - 1
+SEED = 61
+
+
+class Arithmetic(Protocol):
+    """Products and sums that are charged."""
+
+    def times(self, a: Terms, b: Terms) -> Terms:
+        """The product."""
+        ...
+
+    def plus(self, a: Terms, b: Terms, sign: str) -> Terms:
+        """The sum, or the difference."""
+        ...
+
+
+def common_factor(a: Terms, b: Terms, by: Arithmetic) -> Terms:
+    """The greatest common divisor of a and b ≠ 0, whose leading coefficient is 1.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    if not a or is_constant(a) or is_constant(b):
+        return monic(b) if not a else one_of(b)
+    width, least = len(next(iter(b))), 0
+    chosen = -1
+    for v in range(width):
+        sides = degree(a, v), degree(b, v)
+        if max(sides) == 0:
+            continue
+        if min(sides) == 0 or _apart(a, b, v):
+            return _of_all([*coefficients(a, v).values(), *coefficients(b, v).values()], by)
+        if chosen < 0 or min(sides) < least:
+            chosen, least = v, min(sides)
+    (first, p), (second, q) = (_primitive(each, chosen, by) for each in (a, b))
+    common = common_factor(first, second, by)
+    while q:
+        if degree(q, chosen) == 0:
+            p = one_of(p)
+            break
+        rest = _remainder(p, q, chosen, by)
+        p, q = q, _primitive(rest, chosen, by)[1] if rest else rest
+    return monic(by.times(common, p))
+
+
+def divided(a: Terms, b: Terms, by: Arithmetic) -> Terms:
+    """The quotient of a by b ≠ 0, which divides it."""
+    if is_constant(b):
+        [c] = b.values()
+        spend(fractions(len(a), limbs_of([*a.values(), c])))
+        return {e: d / c for e, d in a.items()}
+    lead, rest, quotient = max(b), a, Terms()
+    while rest:
+        top = max(rest)
+        key = tuple(e - f for e, f in zip(top, lead, strict=True))
+        term = {key: rest[top] / b[lead]}
+        quotient |= term
+        rest = by.plus(rest, by.times(term, b), "-")
+    return quotient
+
+
+def is_constant(p: Terms) -> bool:
+    """Whether no parameter occurs."""
+    return not any(map(any, p))
+
+
+def one_of(p: Terms) -> Terms:
+    """The constant 1, in as many parameters."""
+    return {(0,) * len(next(iter(p))): Fraction(1)}
+
+
+def monic(p: Terms) -> Terms:
+    """The polynomial divided by its leading coefficient."""
+    spend(fractions(len(p), 2 * limbs_of(p.values())))
+    c = p[max(p)]
+    return {e: d / c for e, d in p.items()}
+
+
+def degree(p: Terms, v: int) -> int:
+    """The degree in the parameter of position v, 0 of 0."""
+    spend(10 * len(p))
+    return max((e[v] for e in p), default=0)
+
+
+def coefficients(p: Terms, v: int) -> dict[int, Terms]:
+    """The coefficients of the powers of a parameter, which are polynomials in the others."""
+    spend(fractions(len(p), 1))
+    found: dict[int, Terms] = {}
+    for e, c in p.items():
+        found.setdefault(e[v], {})[(*e[:v], 0, *e[v + 1 :])] = c
+    return found
+
+
+def _of_all(polynomials: Iterable[Terms], by: Arithmetic) -> Terms:
+    """The greatest common divisor of some polynomials, the shortest first."""
+    first, *others = sorted(polynomials, key=lambda p: (len(p), sorted(p)))
+    found = monic(first)
+    for p in others:
+        if is_constant(found):
+            break
+        found = common_factor(p, found, by)
+    return found
+
+
+def _primitive(p: Terms, v: int, by: Arithmetic) -> tuple[Terms, Terms]:
+    """The greatest common divisor of the coefficients of a parameter, and p divided by it."""
+    inside = _of_all(coefficients(p, v).values(), by)
+    return inside, divided(p, inside, by)
+
+
+def _remainder(p: Terms, q: Terms, v: int, by: Arithmetic) -> Terms:
+    """The remainder of p, times a power of the leading coefficient of q, by q."""
+    known = coefficients(q, v)
+    size = max(known)
+    while p and degree(p, v) >= size:
+        own = coefficients(p, v)
+        top = max(own)
+        power = {tuple((top - size) * (i == v) for i in range(len(next(iter(p))))): Fraction(1)}
+        turned = by.times(by.times(own[top], power), q)
+        p = by.plus(by.times(known[size], p), turned, "-")
+    return p
+
+
+def _apart(a: Terms, b: Terms, v: int) -> bool:
+    """Whether a value of the other parameters modulo a prime shows that no common factor has v."""
+    rng = random.Random(SEED)
+    values = [rng.randrange(1, PRIME) for _ in next(iter(b))]
+    first, second = (_at(p, v, values) for p in (a, b))
+    kept = len(first) > degree(a, v) or len(second) > degree(b, v)
+    return kept and coprime(first, second, PRIME)
+
+
+def _at(p: Terms, v: int, values: list[int]) -> Polynomial:
+    """A multiple of p at values of all parameters but one, modulo the prime."""
+    spend(fractions(len(p), limbs_of(p.values())) + reductions(40 * len(p) * len(values), 3))
+    d = math.lcm(*(c.denominator for c in p.values()))
+    found = [0] * (degree(p, v) + 1)
+    for exponents, c in p.items():
+        term = int(c * d) % PRIME
+        for i, (value, e) in enumerate(zip(values, exponents, strict=True)):
+            if e and i != v:
+                term = term * pow(value, e, PRIME) % PRIME
+        found[exponents[v]] = (found[exponents[v]] + term) % PRIME
+    return stripped(found)
+
+
+# Entries with a parameter, such as "1/2 + 3*t^2", by the grammar of ``FORMAT.md``.
+
+P = TypeVar("P")
+Function = tuple[Polynomial, Polynomial]
+"""Numerator and monic denominator in lowest terms."""
+
+TOKEN = re.compile(r" *+([0-9]++(?:\.[0-9]++)?|[A-Za-z][A-Za-z0-9_]*+|[-+*/^()])")
+PARAMETER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
+MOST_DEGREE = 1000
+LONGEST, DEEPEST = 100_000, 50
+
+
+def function(value: Json, place: str, parameter: str, limits: Limits | None) -> Function:
+    """An entry: a number, or an expression."""
+    return _OneParameter(value, place, (parameter,), limits).whole()
+
+
+def function_text(value: Function, parameter: str) -> Json:
+    """The canonical form of an entry: a rational, or a text."""
+    top, bottom = value
+    if max(len(top), len(bottom)) < 2:
+        found = sum(top, Fraction(0))
+        return found.numerator if found.denominator == 1 else str(found)
+    text = polynomial_text(top, parameter)
+    if len(bottom) == 1:
+        return text
+    return f"({text})/({polynomial_text(bottom, parameter)})"
+
+
+def common_divisor(a: Polynomial, b: Polynomial) -> Polynomial:
+    """The monic greatest common divisor of a and b ≠ 0 over Q."""
+    while a:
+        a, b = poly_divide(b, a)[1], a
+    return _over(b, b[-1])
+
+
+def _over(p: Polynomial, number: Fraction) -> Polynomial:
+    """The polynomial divided by a number."""
+    spend(fractions(len(p), 2 * limbs_of([*p, number])))
+    return [c / number for c in p]
+
+
+def in_lowest_terms(top: Polynomial, bottom: Polynomial) -> Function:
+    """The quotient by bottom ≠ 0 without common factors, with a monic denominator."""
+    g = common_divisor(top, bottom)
+    top, bottom = poly_divide(top, g)[0], poly_divide(bottom, g)[0]
+    return _over(top, bottom[-1]), _over(bottom, bottom[-1])
+
+
+class Reader(ABC, Generic[P]):
+    """The tokens of an expression, those that are left, and how polynomials are computed with."""
+
+    def __init__(
+        self, value: Json, place: str, parameters: tuple[str, ...], limits: Limits | None
+    ) -> None:
+        self.place, self.parameters, self.limits, self.depth = place, parameters, limits, 0
+        self.value, self.tokens = value, list[str]()
+
+    def whole(self) -> tuple[P, P]:
+        """All of the text, or the number that it is."""
+        text, place = self.value, self.place
+        spend(200 + 10 * len(self.parameters))
+        if type(text) is not str or system.NUMBER.fullmatch(text):
+            found = Fraction(system.number(text, place, self.limits))
+            return self.number(found), self.number(Fraction(1))
+        if len(text) > LONGEST:
+            malformed(place, f"expected at most {LONGEST} characters")
+        end, text = 0, text.rstrip(" ")
+        spend(100 * len(text))
+        while end < len(text):
+            match = TOKEN.match(text, end)
+            if match is None:
+                malformed(place, f"expected an expression, found {shown(text[end:])}")
+            self.tokens.append(match[1])
+            end = match.end()
+        self.tokens.reverse()
+        result = self.sum()
+        if self.tokens:
+            malformed(place, f"expected an operator, found {shown(self.tokens[-1])}")
+        return result
+
+    def take(self, *choices: str) -> str:
+        """The next token, which is then passed, if it is one of these."""
+        return self.tokens.pop() if self.tokens and self.tokens[-1] in choices else ""
+
+    def sum(self) -> tuple[P, P]:
+        """Products, added and subtracted."""
+        self.depth += 1
+        if self.depth > DEEPEST:
+            malformed(self.place, f"more than {DEEPEST} sums inside each other")
+        sign = self.take("-") or "+"
+        a, b = self.product()
+        result = (self.times(a, self.number(Fraction(-1))) if sign == "-" else a), b
+        while sign := self.take("+", "-"):
+            (a, b), (c, d) = result, self.product()
+            result = self.fraction([(a, d, "+"), (c, b, sign)], (b, d))
+        self.depth -= 1
+        return result
+
+    def product(self) -> tuple[P, P]:
+        """Powers, multiplied and divided."""
+        a, b = self.power()
+        while sign := self.take("*", "/"):
+            c, d = self.power()
+            if sign == "/":
+                if not c:
+                    malformed(self.place, "division by 0")
+                c, d = d, c
+            a, b = self.fraction([(a, c, "+")], (b, d))
+        return a, b
+
+    def power(self) -> tuple[P, P]:
+        """An atom, perhaps with an exponent."""
+        c, d = self.atom()
+        if not self.take("^"):
+            return c, d
+        digits = self.tokens.pop() if self.tokens else ""
+        if not digits.isdigit() or len(digits) > 9:
+            malformed(self.place, f"expected an exponent, found {shown(digits)}")
+        self.limit(int(digits) * max(self.degree(c), self.degree(d), 1))
+        return self.raised(c, int(digits)), self.raised(d, int(digits))
+
+    def atom(self) -> tuple[P, P]:
+        """A number, a parameter, or a sum in parentheses."""
+        token = self.tokens.pop() if self.tokens else ""
+        if token == "(":
+            result = self.sum()
+            if not self.take(")"):
+                malformed(self.place, "expected a closing parenthesis")
+            return result
+        one = Fraction(1)
+        if token in self.parameters:
+            return self.parameter(token), self.number(one)
+        if not token[:1].isdigit():
+            malformed(self.place, f"expected a number or the parameter, found {shown(token)}")
+        number = Fraction(system.number(token, self.place, self.limits))
+        return self.number(number), self.number(one)
+
+    def limit(self, degree: int) -> None:
+        """Stop where a degree is too large."""
+        if degree > MOST_DEGREE:
+            malformed(self.place, f"the degree {degree} exceeds {MOST_DEGREE}")
+
+    def fraction(self, terms: list[tuple[P, P, str]], below: tuple[P, P]) -> tuple[P, P]:
+        """The sum or difference of products, over a product, in lowest terms."""
+        top = self.number(Fraction(0))
+        for a, b, sign in terms:
+            self.limit(self.degree(a) + self.degree(b))
+            top = self.plus(top, self.times(a, b), sign)
+        self.limit(self.degree(below[0]) + self.degree(below[1]))
+        return self.lowest(top, self.times(*below))
+
+    def raised(self, p: P, exponent: int) -> P:
+        """A power."""
+        result = self.number(Fraction(1))
+        for bit in format(exponent, "b"):
+            result = self.times(result, result)
+            result = self.times(result, p) if bit == "1" else result
+        return result
+
+    @abstractmethod
+    def number(self, c: Fraction) -> P:
+        """A constant."""
+
+    @abstractmethod
+    def parameter(self, name: str) -> P:
+        """A parameter."""
+
+    @abstractmethod
+    def degree(self, p: P) -> int:
+        """The total degree, 0 of 0."""
+
+    @abstractmethod
+    def times(self, a: P, b: P) -> P:
+        """The product."""
+
+    @abstractmethod
+    def plus(self, a: P, b: P, sign: str) -> P:
+        """The sum, or the difference."""
+
+    @abstractmethod
+    def lowest(self, top: P, bottom: P) -> tuple[P, P]:
+        """A quotient in lowest terms, the leading coefficient of its denominator being 1."""
+
+
+class _OneParameter(Reader[Polynomial]):
+    """Polynomials by their coefficients, constant first."""
+
+    def number(self, c: Fraction) -> Polynomial:
+        return stripped([c])
+
+    def parameter(self, name: str) -> Polynomial:
+        return [Fraction(0), Fraction(1)]
+
+    def degree(self, p: Polynomial) -> int:
+        return max(len(p) - 1, 0)
+
+    def times(self, a: Polynomial, b: Polynomial) -> Polynomial:
+        return poly_product(a, b) if a and b else []
+
+    def plus(self, a: Polynomial, b: Polynomial, sign: str) -> Polynomial:
+        spend(fractions(len(a) + len(b), limbs_of(a) + limbs_of(b)))
+        b = [-c for c in b] if sign == "-" else b
+        return stripped([x + y for x, y in zip_longest(a, b, fillvalue=Fraction(0))])
+
+    def lowest(self, top: Polynomial, bottom: Polynomial) -> Function:
+        return in_lowest_terms(top, bottom)
+
+
+# Entries with several parameters: quotients of polynomials in lowest terms.
+
+Quotient = tuple[Terms, Terms]
+"""Numerator and denominator in lowest terms, the leading coefficient of the latter being 1."""
+
+
+def quotient(
+    value: Json, place: str, parameters: tuple[str, ...], limits: Limits | None
+) -> Quotient:
+    """An entry: a number, or an expression."""
+    return _SeveralParameters(value, place, parameters, limits).whole()
+
+
+def quotient_text(value: Quotient, parameters: tuple[str, ...]) -> Json:
+    """The canonical form of an entry: a rational, or a text."""
+    top, bottom = value
+    if not top:
+        return 0
+    constant = (0,) * len(parameters)
+    if {*top, *bottom} == {constant}:
+        found = top[constant]
+        return found.numerator if found.denominator == 1 else str(found)
+    text = terms_text(top, parameters)
+    return text if {*bottom} == {constant} else f"({text})/({terms_text(bottom, parameters)})"
+
+
+def terms_text(p: Terms, parameters: tuple[str, ...]) -> str:
+    """A polynomial, its terms in decreasing lexicographic order of the exponents."""
+    spend(fractions(len(p) * _keys(parameters), limbs_of(list(p.values()))))
+    words = []
+    for exponents, c in sorted(p.items(), reverse=True):
+        powers = zip(parameters, exponents, strict=True)
+        factors = [name if e == 1 else f"{name}^{e}" for name, e in powers if e]
+        size = [str(abs(c))] if abs(c) != 1 or not factors else []
+        words += ["-" if c < 0 else "+", "*".join(size + factors)]
+    sign = "-" if words[0] == "-" else ""
+    return sign + " ".join(words[1:])
+
+
+def _keys(parameters: Sequence[str]) -> int:
+    """How many times as long as with few parameters it takes to make a key, its exponents."""
+    return len(parameters) // 8 + 1
+
+
+class _SeveralParameters(Reader[Terms]):
+    """Polynomials by their terms."""
+
+    def number(self, c: Fraction) -> Terms:
+        return {(0,) * len(self.parameters): c} if c else {}
+
+    def parameter(self, name: str) -> Terms:
+        return {tuple(int(name == other) for other in self.parameters): Fraction(1)}
+
+    def degree(self, p: Terms) -> int:
+        spend(10 * len(p) * len(self.parameters))
+        return max(map(sum, p), default=0)
+
+    def times(self, a: Terms, b: Terms) -> Terms:
+        turns = (len(a) * len(b) + 2) * _keys(self.parameters)
+        longest = limbs_of(list(a.values())) + limbs_of(list(b.values()))
+        spend(fractions(turns, 2 * longest))
+        result: Terms = {}
+        for exponents, c in a.items():
+            for more, d in b.items():
+                key = tuple(map(sum, zip(exponents, more, strict=True)))
+                result[key] = result.get(key, Fraction(0)) + c * d
+        return {key: c for key, c in result.items() if c}
+
+    def plus(self, a: Terms, b: Terms, sign: str) -> Terms:
+        turns = (len(a) + len(b)) * _keys(self.parameters)
+        spend(fractions(turns, limbs_of([*a.values(), *b.values()])))
+        one = -1 if sign == "-" else 1
+        found = {key: a.get(key, Fraction(0)) + one * b.get(key, 0) for key in {**a, **b}}
+        return {key: c for key, c in found.items() if c}
+
+    def lowest(self, top: Terms, bottom: Terms) -> Quotient:
+        """A denominator of one term has common factors that are parameters; others are searched."""
+        if len(bottom) > 1:
+            shared = common_factor(top, bottom, self)
+            top, bottom = (divided(p, shared, self) for p in (top, bottom))
+            lead = {(0,) * len(self.parameters): bottom[max(bottom)]}
+            return divided(top, lead, self), divided(bottom, lead, self)
+        [(below, d)] = bottom.items()
+        turns = (3 * len(top) + 3) * _keys(self.parameters)
+        spend(fractions(turns, limbs_of([*top.values(), d])))
+        common = [min(each) for each in zip(below, *top, strict=True)] if top else below
+
+        def without(exponents: tuple[int, ...]) -> tuple[int, ...]:
+            return tuple(e - g for e, g in zip(exponents, common, strict=True))
+
+        return {without(e): c / d for e, c in top.items()}, {without(below): Fraction(1)}
+
+
+# Plants whose entries are rational functions of a parameter, and plants of either sort.
 
 Layers = list[Matrix]
 """The coefficients of a matrix of polynomials in the parameter, constant term first."""
@@ -68,7 +552,7 @@ class FunctionSystem:
         found: Quotient = entry
         return found
 
-    def remade(self, tables: list[Table], **parts: Any) -> "FunctionSystem":
+    def remade(self, tables: list[Table], **parts: Any) -> FunctionSystem:
         """The same with other functions."""
         return replace(self, tables=tables, **parts)
 
@@ -101,7 +585,7 @@ class ParametricSystem(FunctionSystem):
 
         return of(entry[0]), of(entry[1])
 
-    def remade(self, tables: list[Table], **parts: Any) -> "FunctionSystem":
+    def remade(self, tables: list[Table], **parts: Any) -> FunctionSystem:
         """The same with other functions."""
         return replace(self, **cleared_tables(tables) | {"poles": self.poles}, **parts)
 

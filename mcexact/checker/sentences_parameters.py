@@ -4,13 +4,11 @@ from collections.abc import Callable
 from itertools import combinations, pairwise
 
 from . import reading
-from .expressions import common_divisor
-from .parameter_values import ends_of, ends_text, where_text
-from .parametric_system import FunctionSystem, ParametricSystem
+from .parameters import ends_of, ends_text, where_text
+from .parametric_system import FunctionSystem, ParametricSystem, common_divisor
 from .reading import Json
-from .sentence import PLANT, Holds, Premise, Role, restate, rule
-from .sentences_analysis import HAUTUS, RANK_RULE
-from .statement import described, edge_set, polynomial_text
+from .sentences import HAUTUS, PLANT, RANK_RULE, Holds, Premise, Role, restate, rule
+from .system import described, edge_set, polynomial_text
 
 MODES = Role(("parametric_fixed_spectrum",), PLANT)
 CONTROLLED = Role(MODES.kinds, (("full_output",), ("merged", "full_output")))

@@ -1,12 +1,324 @@
-"""The plant, read from a certificate or from a system file, and its digest."""
+"""Plant, radii, controller, and the words of statements.
 
+The words of statements: systems, sets, polynomials, and values as canonical JSON.
+
+``FORMAT.md`` specifies them.  A name always stands in quotes, so that none can imitate words.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from itertools import chain
+from typing import Any, Protocol
 
-from . import budget, reading
-from .arithmetic import Matrix
-from .reading import Json, Limits, fields, integer, items, malformed, printable, shown, string
-from .system_matrices import form_of, number, read_matrix
-from .uncertainty import as_typed, radii_form
+from . import arithmetic, budget, reading
+from .arithmetic import Matrix, Polynomial, SparseMatrix, entries_of
+from .budget import current, limited
+from .reading import (
+    Json,
+    Limits,
+    fields,
+    incomplete,
+    integer,
+    items,
+    malformed,
+    parse,
+    printable,
+    shown,
+    string,
+)
+
+# The matrices of systems, of controllers and of radii: their numbers, and their canonical form.
+
+LONGEST = 2**20
+"""The most rows and columns of a matrix that lists its entries."""
+
+NUMBER = re.compile(r"-?[0-9]++(?:/0*+[1-9][0-9]*+|(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)?)")
+
+
+def number(value: Json, place: str, limits: Limits | None = None) -> Fraction | int:
+    """A number of a system file: an integer, a decimal as typed, or a string "p/q".
+
+    ``limits`` are those of a file; a certificate's numbers were limited when it was parsed.
+    """
+    result: Fraction | int
+    if type(value) is int or isinstance(value, Fraction):
+        result, typed = value, 0
+    else:
+        good = type(value) is str and NUMBER.fullmatch(value)
+        mantissa, exponent, *_ = [*re.split("[eE]", value), "0"] if good else ["", "0"]
+        if not good or abs(int(exponent)) > (limits or Limits).exponent:
+            malformed(place, f'expected an integer, a decimal or "p/q", found {shown(value)}')
+        typed = 0 if "/" in mantissa else len(mantissa.strip("-").replace(".", ""))
+        budget.spend(300 + (len(value) + abs(int(exponent))) ** 2 // 500)
+        result = Fraction(value)
+    if limits is None:
+        return result
+    size = max(abs(result.numerator), result.denominator)
+    if typed > limits.digits or too_long(size, limits.digits):
+        reading.incomplete("size", place, f"needs more than {limits.digits} digits (Limits.digits)")
+    return result
+
+
+def too_long(value: int, digits: int) -> bool:
+    """Whether an integer that is not negative has more than so many digits."""
+    return value.bit_length() > 3 * digits and value >= 10**digits
+
+
+def read_matrix(
+    value: Json, place: str, nrows: int | None, ncols: int | None, limits: Limits | None = None
+) -> Matrix:
+    """A matrix of a system: a list of rows, or an object that lists its nonzero entries."""
+    rows: list[list[Json]] = []
+    cells: dict[tuple[int, int], Json] = {}
+    if isinstance(value, dict):
+        shape, entries = fields(value, place, "shape", "entries")
+        r, c = (integer(size, f"{place}.shape") for size in items(shape, f"{place}.shape", 2))
+        if max(r, c) > LONGEST:
+            reading.incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
+        for i, j, entry in (items(triple, place, 3) for triple in items(entries, place)):
+            if integer(i, place) >= r or integer(j, place) >= c or (i, j) in cells:
+                malformed(place, f"expected a position of its own inside {r} by {c}")
+            cells[i, j] = number(entry, place, limits)
+    else:
+        r, listed = len(items(value, place)), value
+        c = len(items(listed[0], place)) if listed else ncols or 0
+        plain = limits is None and _are_integers(listed, c)
+        rows = listed if plain else [_numbers(items(x, place, c), place, limits) for x in listed]
+    if nrows not in (None, r) or ncols not in (None, c):
+        malformed(place, f"expected another shape, found {r} by {c}")
+    given = [*chain(*rows), *cells.values()]
+    whole = set(map(type, given)) <= {int}
+    different = {1} if whole else {entry.denominator for entry in given}
+    budget.spend(budget.fractions(len(different), sum(budget.limbs([d]) for d in different)))
+    d = math.lcm(*different)
+    size = budget.limbs(given if whole else [entry.numerator for entry in given])
+    size += budget.limbs([d])
+    budget.build(r if rows else 1, c if rows else len(cells), size, size)
+    if isinstance(value, dict):
+        known = sorted(
+            (i, j, e.numerator * (d // e.denominator)) for (i, j), e in cells.items() if e
+        )
+        found = SparseMatrix(r, c, known, d)
+        return arithmetic.listed(found) or Matrix(found.rows, c, d)
+    if whole:
+        return Matrix(rows, c)
+    return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
+
+
+def _are_integers(rows: list[Json], ncols: int) -> bool:
+    """Whether each row is a list of so many integers; a row at a time takes three times as long."""
+    lists = set(map(type, rows)) <= {list} and set(map(len, rows)) <= {ncols}
+    return lists and set(map(type, chain.from_iterable(rows))) <= {int}
+
+
+def _numbers(row: list[Json], place: str, limits: Limits | None) -> list[Json]:
+    """The numbers of a row; integers of a certificate are as they should be."""
+    known = limits is None and set(map(type, row)) <= {int}
+    return row if known else [number(entry, place, limits) for entry in row]
+
+
+def rows_of(M: Matrix) -> list[list[Json]]:
+    """The rows of a matrix as in JSON: integers, or "p/q" in lowest terms."""
+    budget.spend(budget.fractions(M.nrows * M.ncols, M.limbs))
+    if M.denominator == 1:
+        return M.rows
+    return [[in_json(entry, M.denominator) for entry in row] for row in M.rows]
+
+
+def in_json(numerator: int, denominator: int) -> Json:
+    value = Fraction(numerator, denominator)
+    return value.numerator if value.denominator == 1 else str(value)
+
+
+def form_of(M: Matrix) -> Json:
+    """The canonical form of a matrix: its rows, or the entries of a large one that is sparse."""
+    found = arithmetic.listed(M)
+    if found is None and (M.nrows or not M.ncols):
+        return rows_of(M)
+    entries = [] if found is None else found.entries
+    budget.spend(budget.fractions(len(entries), M.limbs))
+    triples = [[i, j, in_json(x, M.denominator)] for i, j, x in entries]
+    return {"shape": [M.nrows, M.ncols], "entries": triples}
+
+
+# How far entries may be from their values: the radii of a plant, and the words for any radii.
+
+WAYS = ("relative", "digits", "absolute")
+Pair = tuple[Fraction, Fraction]
+"""A radius, and the absolute value of the entry that it is of."""
+
+
+def as_typed(data: bytes, document: Json, limits: Limits) -> Json:
+    """The document with its numbers as texts, where radii follow from how they are typed."""
+    doubt = document.get("uncertainty")
+    wanted = isinstance(doubt, dict) and "digits" in doubt
+    return parse(data, limits, str) if wanted else None
+
+
+def radii_form(
+    value: Json, names: list[str], nominal: list[Matrix], limits: Limits | None, typed: Json
+) -> Json:
+    """The canonical form of the radii that a document gives, None if all are 0.
+
+    ``nominal`` are A, then all B_i, then all C_i.  A certificate gives the radii themselves, a
+    system file also a part of every entry, or the digits with which it is typed.
+    """
+    ways = WAYS if limits else WAYS[2:]
+    given = fields(value, "uncertainty", optional=ways)
+    if len(value) != 1:
+        expected = " or ".join(map(shown, ways))
+        malformed("uncertainty", f"expected exactly one key, {expected}")
+    if "absolute" in value:
+        found = _absolute(value["absolute"], names, nominal, limits)
+    elif "relative" in value:
+        part = Fraction(number(given[0], "uncertainty.relative", limits))
+        if part < 0:
+            malformed("uncertainty.relative", "expected a number from 0 on")
+        found = [_multiple(M, part) for M in nominal]
+    else:
+        string(given[1], "uncertainty.digits", "as typed")
+        found = [_half_units(part) for part in _matrices_of(typed)]
+    form = _form(found, names)
+    if limits:
+        _require_short(form, limits)
+    return form
+
+
+def _require_short(form: Json, limits: Limits) -> None:
+    """Stop where a radius has more digits than numbers of a file may have."""
+    text = json.dumps(form)
+    budget.spend(len(text))
+    if max(map(len, re.findall("[0-9]+", text)), default=0) > limits.digits:
+        message = f"a radius has more than {limits.digits} digits (Limits.digits)"
+        incomplete("size", "uncertainty", message)
+
+
+def read_radii(form: Json, names: list[str], nominal: list[Matrix]) -> list[Matrix]:
+    """The radii of A, of all B_i and of all C_i, from their canonical form."""
+    if form is not None:
+        return _absolute(form["absolute"], names, nominal, None)
+    return [Matrix.zeros(M.nrows, M.ncols) for M in nominal]
+
+
+def pairs_of(nominal: list[Matrix], radii: list[Matrix]) -> list[Pair]:
+    """The radius of each entry that is uncertain or not 0."""
+    found = list[Pair]()
+    for M, D in zip(nominal, radii, strict=True):
+        values = {(i, j): abs(x) for i, j, x in entries_of(M)}
+        spread = {(i, j): radius for i, j, radius in entries_of(D)}
+        places, longest = {**values, **spread}, max(M.limbs, D.limbs)
+        budget.spend(100 + 200 * len(places) + 4 * budget.fractions(len(places), longest))
+        for place in places:
+            radius = Fraction(spread.get(place, 0), D.denominator)
+            found.append((radius, Fraction(values.get(place, 0), M.denominator)))
+    return found
+
+
+def radii_in_words(pairs: list[Pair], whose: str) -> str:
+    """How far entries may be from "the latter", whose radii are ``whose`` in words.
+
+    Where all radii are one part of the absolute values, this part says all; otherwise how many
+    radii there are, the largest one, and the largest part, unless an entry that is 0 is uncertain.
+    """
+    wide = [pair for pair in pairs if pair[0]]
+    longest = budget.limbs_of([number for pair in pairs for number in pair])
+    budget.spend(budget.fractions(4 * len(pairs) + 4, 2 * longest))
+    if not wide:
+        return f"by at most {whose} (no entry has one)"
+    parts = [radius / value for radius, value in wide if value]
+    largest = f"none above {max(radius for radius, _ in wide)}"
+    if len(parts) == len(wide):
+        most = f"{max(parts)} of the absolute value"
+        if len(pairs) == len(wide) and len(set(parts)) == 1:
+            return f"by at most {most}s of the latter"
+        largest += f" and none above {most} of its entry"
+    have = "1 entry has one" if len(wide) == 1 else f"{len(wide)} entries have one"
+    return f"by at most {whose} ({have}, {largest})"
+
+
+def _absolute(
+    value: Json, names: list[str], nominal: list[Matrix], limits: Limits | None
+) -> list[Matrix]:
+    """The matrices of radii that are given, and zeros for those that are left out."""
+    place = "uncertainty.absolute"
+    A, *ports = fields(value, place, optional=("A", "B", "C"))
+    given, places = [A], [f"{place}.A"]
+    for key, port in zip("BC", ports, strict=True):
+        where = f"{place}.{key}"
+        given += fields({} if port is None else port, where, optional=tuple(names))
+        places += [where] * len(names)
+    return [
+        Matrix.zeros(M.nrows, M.ncols)
+        if part is None
+        else _positive(read_matrix(part, where, M.nrows, M.ncols, limits), where)
+        for part, where, M in zip(given, places, nominal, strict=True)
+    ]
+
+
+def _positive(M: Matrix, place: str) -> Matrix:
+    """A matrix without negative entries."""
+    if any(entry < 0 for _, _, entry in entries_of(M)):
+        malformed(place, "expected radii from 0 on")
+    return M
+
+
+def _multiple(M: Matrix, part: Fraction) -> Matrix:
+    """So many times the absolute value of every entry."""
+    entries, p, q = entries_of(M), part.numerator, part.denominator
+    a, b = M.limbs, budget.limbs_of([part])
+    budget.spend(100 * len(entries) + budget.products(len(entries) + 1, a, b))
+    return SparseMatrix(
+        M.nrows, M.ncols, [(i, j, p * abs(x)) for i, j, x in entries if p], q * M.denominator
+    )
+
+
+def _matrices_of(document: Json) -> list[Json]:
+    """A, all B_i and all C_i of a document."""
+    channels = document["channels"]
+    return [document["A"], *(each["B"] for each in channels), *(each["C"] for each in channels)]
+
+
+def _half_units(value: Json) -> Matrix:
+    """Half a unit of the last digit of every entry that is typed with a point or an exponent."""
+    if isinstance(value, dict):
+        halves = [[i, j, _half_unit(entry)] for i, j, entry in value["entries"]]
+        return read_matrix({**value, "entries": halves}, "uncertainty", None, None)
+    return read_matrix([[_half_unit(x) for x in row] for row in value], "uncertainty", None, None)
+
+
+def _half_unit(text: Json) -> Fraction:
+    """Half a unit of the last digit; 0 of an integer, of a quotient, and of 0."""
+    mantissa, _, exponent = str(text).lower().partition("e")
+    if "/" in mantissa or not ("." in mantissa or exponent) or not Fraction(mantissa):
+        return Fraction(0)
+    budget.spend(300 + (len(text) + abs(int(exponent or 0))) ** 2 // 500)
+    return Fraction(10) ** (int(exponent or 0) - len(mantissa.partition(".")[2])) / 2
+
+
+def _form(radii: list[Matrix], names: list[str]) -> Json:
+    """The radii that are not 0, by their positions, in lowest terms."""
+    forms = []
+    for M in radii:
+        entries = entries_of(M)
+        budget.spend(budget.fractions(len(entries), M.limbs))
+        listed = [[i, j, in_json(x, M.denominator)] for i, j, x in entries]
+        forms.append({"shape": [M.nrows, M.ncols], "entries": listed} if listed else None)
+    B, C = forms[1 : len(names) + 1], forms[len(names) + 1 :]
+    parts: dict[str, Json] = {"A": forms[0]}
+    for key, port in (("B", B), ("C", C)):
+        parts[key] = {name: form for name, form in zip(names, port, strict=True) if form}
+    found = {key: part for key, part in parts.items() if part}
+    return {"absolute": found} if found else None
+
+
+# The plant, read from a certificate or from a system file, and its digest.
 
 
 @dataclass(frozen=True)
@@ -154,3 +466,197 @@ def read_system_file(data: bytes, limits: Limits) -> System:
         if not isinstance(document, dict) or document.get("format") != "mcexact-system/1":
             malformed("format", 'expected a system file, "format": "mcexact-system/1"')
         return read_system(document, limits, as_typed(data, document, limits))
+
+
+# The words of statements: systems, sets, polynomials, and values as canonical JSON.
+
+FIXED = "fixed under linear time-invariant decentralized control"
+PENCIL = "[xI - A, B; C, 0]"
+SHORT = 80
+"""The longest text of a matrix or a controller that is written out beside its digest."""
+
+
+def canonical_json(value: Any) -> str:
+    """A value as JSON: sorted keys, no blanks, ASCII; a matrix as its rows in lowest terms."""
+
+    def plain(part: Any) -> Any:
+        if isinstance(part, Matrix):
+            return rows_of(part)
+        return part.numerator if part.denominator == 1 else str(part)
+
+    text = json.dumps(value, sort_keys=True, separators=(",", ":"), default=plain)
+    budget.spend(len(text))
+    return text
+
+
+def digest_of(text: str) -> str:
+    """The SHA-256 of an ASCII text, in lower-case hexadecimal."""
+    return hashlib.sha256(text.encode("ascii")).hexdigest()
+
+
+def digest(system: System) -> str:
+    """The SHA-256 of the canonical object of a plant."""
+    return digest_of(canonical_json(canonical(system)))
+
+
+def with_digest(text: str) -> str:
+    """The digest of the JSON of matrices or of a controller, and this itself where it is short."""
+    return f"SHA-256 {digest_of(text)}" + (f" = {text}" if len(text) <= SHORT else "")
+
+
+def by_channel(system: System, values: Iterable[Any]) -> dict[str, Any]:
+    """One value for each channel, by the names of the channels."""
+    return dict(zip(system.names, values, strict=True))
+
+
+def quoted(name: str) -> str:
+    """A name, which can hold no more than its quotes."""
+    budget.spend(100 + 6 * len(name))
+    return json.dumps(name)
+
+
+def channel_set(names: Iterable[str]) -> str:
+    """A set of channels by name, such as {"1", "3"}."""
+    return "{" + ", ".join(map(quoted, names)) + "}"
+
+
+def edge_set(edges: Iterable[Any]) -> str:
+    """A set of edges [from, to], perhaps with a cost, such as {"1" -> "2", "2" -> "1"}."""
+    ends = [(f"{quoted(j)} -> {quoted(i)}", cost) for j, i, *cost in edges]
+    return "{" + ", ".join(": ".join([edge, *map(str, cost)]) for edge, cost in ends) + "}"
+
+
+def polynomial_text(p: Polynomial, x: str = "x") -> str:
+    """A polynomial in x, highest power first, such as x^2 - 3/2*x + 1."""
+    terms, p = [], [Fraction(c) for c in p]
+    budget.spend(budget.fractions(len(p), budget.limbs_of(p)))
+    for k, c in reversed(list(enumerate(p))):
+        if c:
+            power = "" if k == 0 else x if k == 1 else f"{x}^{k}"
+            size = str(abs(c)) if abs(c) != 1 or not power else ""
+            terms += ["-" if c < 0 else "+", size + ("*" if size and power else "") + power]
+    sign = "-" if terms and terms[0] == "-" else ""
+    return sign + " ".join(terms[1:]) if terms else "0"
+
+
+def denied(holds: bool) -> str:
+    """The word that denies what follows where it does not hold."""
+    return "" if holds else "not "
+
+
+def counted(number: int, noun: str) -> str:
+    """A number of things, such as 1 state or 2 states."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+# Systems: the plant by its digest, and constructions before or behind what they are applied to.
+
+
+def prefixed(
+    words: str, system: System, blocks: tuple[int, ...] = (), ports: str = "", **parts: Any
+) -> System:
+    """The system with these parts that a construction makes, named before what it is made from."""
+    named = f"{words} of: {system.words}"
+    return replace(system, words=named, blocks=blocks, ports=ports, **parts)
+
+
+def suffixed(system: System, words: str, **parts: Any) -> System:
+    """The same, named behind what it is made from.
+
+    What begins with a construction stands in parentheses, so that the text parses in one way only.
+    """
+    alone = system.words.startswith(("the plant", "("))
+    before = system.words if alone else f"({system.words})"
+    return replace(system, words=f"{before} {words}", blocks=(), ports="", **parts)
+
+
+class Described(Protocol):
+    """What a statement says of a system, of numbers or of functions."""
+
+    @property
+    def n(self) -> int: ...
+    @property
+    def m(self) -> int: ...
+    @property
+    def names(self) -> Sequence[str]: ...
+    @property
+    def time(self) -> str: ...
+    @property
+    def words(self) -> str: ...
+    @property
+    def ports(self) -> str: ...
+
+
+def described(system: Described) -> str:
+    """The system a claim is about: what it was made from, its states, its channels, its time."""
+    channels = f"channels {channel_set(system.names)}" if system.m else "no channels"
+    told = f"{counted(system.n, 'state')}, {system.ports or channels}, {system.time} time"
+    return f"{system.words} ({told})"
+
+
+# Controllers in canonical form, from a certificate or a controller file, and their digest.
+
+MAPS = ("shared_update", "private_update", "input")
+USED = ("outputs", "shared", "private", "reference")
+FORMAT = "mcexact-controller/1"
+
+
+def read_controller(
+    value: Json, place: str, system: System | None = None, limits: Limits | None = None
+) -> dict[str, Json]:
+    """The canonical object of a controller, its matrices read.
+
+    What is absent or empty is left out, and so are matrices of zeros and a hold of no steps: who
+    does not act on a signal does not use it.  Without a system the numbers of inputs and outputs
+    are not known; ``limits`` are those of a file.
+    """
+    time, listed = fields(value, place, "time", "agents")
+    keys = ("name", "shared", "private", *MAPS)
+    agents = [fields(agent, place, *keys, optional=("hold",)) for agent in items(listed, place)]
+    if not agents:
+        malformed(place, "expected at least one agent")
+    known = reading.own_names([agent[0] for agent in agents], [place] * len(agents))
+    ports = system if system and system.names == known else None
+    q = [C.nrows for C in ports.C] if ports else [None] * len(known)
+    p = [B.ncols for B in ports.B] if ports else [None] * len(known)
+    x, z = ([integer(agent[k], place) for agent in agents] for k in (1, 2))
+    programs: list[dict[str, Json]] = []
+    for i, (*_, shared_update, private_update, control, hold) in enumerate(agents):
+        steps = {name: integer(d, place) for name, _, d in reading.by_name(hold, place, known)}
+        program: dict[str, Json] = {"hold": {name: d for name, d in steps.items() if d}}
+        given = (shared_update, x[i]), (private_update, z[i]), (control, p[i])
+        for label, (parts, nrows) in zip(MAPS, given, strict=True):
+            where = f"{place}.{label}"
+            *by_agent, private, reference = fields(parts, where, optional=USED)
+            found: dict[str, Json] = {}
+            read: list[Matrix] = []
+            for key, entries, widths in zip(USED, by_agent, (q, x), strict=False):
+                used = [
+                    (name, read_matrix(M, where, nrows, widths[j], limits))
+                    for name, j, M in reading.by_name(entries, where, known)
+                ]
+                read += [M for _, M in used]
+                found[key] = {name: M for name, M in used if not M.is_zero()}
+            for key, entry, width in (("private", private, z[i]), ("reference", reference, q[i])):
+                if entry is not None:
+                    read.append(read_matrix(entry, where, nrows, width, limits))
+                    found[key] = None if read[-1].is_zero() else read[-1]
+            if len({M.nrows for M in read}) > 1:
+                malformed(where, "expected matrices of one number of rows")
+            program[label] = {key: part for key, part in found.items() if part}
+        kept = {key: part for key, part in program.items() if part}
+        programs.append({"name": known[i], "shared": x[i], "private": z[i], **kept})
+    return {"time": string(time, place, "continuous", "discrete"), "agents": programs}
+
+
+def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:
+    """The digest of the controller in a file, and that of its plant, empty if it names none."""
+    with limited(current(limits.work), len(data)):
+        document = parse_file(data, limits)
+        keys = ("format", "system", "time", "agents")
+        version, plant, *parts = fields(document, "controller", *keys)
+        if version != FORMAT:
+            malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
+        given = dict(zip(("time", "agents"), parts, strict=True))
+        controller = read_controller(given, "controller", limits=limits)
+        return digest_of(canonical_json(controller)), string(plant, "system")

@@ -100,7 +100,6 @@ def command(
     """
     from dataclasses import asdict
 
-    from mcexact.checker.allowance import Clock, memory
     from mcexact.checker.command import (
         FORMAT,
         UNWRITTEN,
@@ -110,6 +109,7 @@ def command(
         status_of,
         verdicts,
     )
+    from mcexact.checker.kinds import Clock, memory
     from mcexact.checker.reading import Limits
     from mcexact.cli.files import deliver, json_text
     from mcexact.errors import InputError, NotWritten

@@ -35,7 +35,7 @@ from mcexact.processes import Child
 if TYPE_CHECKING:
     from mcexact.analysis.analyze import Asking
     from mcexact.answer.account import Account
-    from mcexact.checker import Verdict
+    from mcexact.checker.kinds import Verdict
 
 
 # Verification of every answer's certificate by the independent checker.

@@ -13,8 +13,9 @@ import pytest
 import mcexact
 from mcexact.analysis.analyze import Analysis, analyze
 from mcexact.analysis.questions import QUESTIONS, Question
-from mcexact.checker import Expectation, Limits
-from mcexact.checker.manifest import manifest_verdicts
+from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.kinds import Expectation
+from mcexact.checker.reading import Limits
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model import gallery
 from mcexact.model.box import Box

@@ -14,8 +14,9 @@ from mcexact.analysis.analyze import account_of_dimensions, account_of_links
 from mcexact.answer.account import Account
 from mcexact.answer.sentence import Given, Sentences
 from mcexact.answer.templates import Sentence
-from mcexact.checker import Expectation, Limits
-from mcexact.checker.manifest import manifest_verdicts
+from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.kinds import Expectation
+from mcexact.checker.reading import Limits
 from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.roots import StabilityRegion

@@ -16,7 +16,7 @@ from mcexact.answer.account import Account
 from mcexact.answer.rulebook import FILE, TOPICS, everything, listing, premises_of
 from mcexact.answer.sentence import LOOP, Certified
 from mcexact.answer.templates import templates
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from mcexact.checker import Verdict, check_document
+from mcexact.checker.kinds import Verdict, check_document
 
 from .meaning import meaning
 from .oracle.judge import TRUE, UNDECIDED, judge

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import sparse
+from mcexact.checker import arithmetic
 from mcexact.checker.kinds import KINDS
 from mcexact.exact import tables
 from tests.attack import oracle
@@ -33,7 +33,7 @@ def test_nothing_false_is_accepted_and_nothing_true_is_refused() -> None:
 
 def test_the_same_holds_where_matrices_list_their_entries(monkeypatch: pytest.MonkeyPatch) -> None:
     for module, least, share in (
-        (sparse, "LEAST", "SHARE"),
+        (arithmetic, "LEAST", "SHARE"),
         (oracle_reading, "LEAST", "SHARE"),
         (tables, "LEAST_SPARSE", "_SHARE"),
     ):

@@ -14,9 +14,10 @@ import pytest
 from mcexact import MultiChannelSystem, fixed_spectrum
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer import protocol
-from mcexact.checker import check_document, moved_modes, parametric_rank
+from mcexact.checker import parameters
 from mcexact.checker.arithmetic import cleared, coprime, poly_modulo
-from mcexact.checker.two_variables import characteristic, without
+from mcexact.checker.bivariate import characteristic, without
+from mcexact.checker.kinds import check_document
 from mcexact.model.system_file import read_parametric_system
 from tests.attack.campaign import judged
 from tests.attack.conditions import GATES, require_one_gate, weakened_checker
@@ -86,22 +87,22 @@ def divided_characteristic(A: Any, ell: int = 0) -> Any:
 SHORT_CUTS: list[tuple[str, Any, str, Callable[..., Any]]] = [
     (
         "a value is divided out modulo ℓ, with one that is congruent to it",
-        moved_modes,
+        parameters,
         "exponent",
         partial(divided_out, 7),
     ),
     (
         "a value is divided out of a minor modulo ℓ",
-        parametric_rank,
+        parameters,
         "exponent",
         partial(divided_out, 7),
     ),
-    (DIVIDED[0], moved_modes, "poly_modulo", multiple_modulo),
-    (DIVIDED[1], parametric_rank, "poly_modulo", multiple_modulo),
-    (NO_UNIT, moved_modes, "coprime", lambda a, b, ell: coprime(b, a, ell)),
+    (DIVIDED[0], parameters, "poly_modulo", multiple_modulo),
+    (DIVIDED[1], parameters, "poly_modulo", multiple_modulo),
+    (NO_UNIT, parameters, "coprime", lambda a, b, ell: coprime(b, a, ell)),
     (
         "powers of a generic polynomial are divided out modulo ℓ",
-        moved_modes,
+        parameters,
         "characteristic",
         divided_characteristic,
     ),

@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import Expectation, Limits, Verdict, check_document
+from mcexact.checker.kinds import Expectation, Verdict, check_document
+from mcexact.checker.reading import Limits
 from tests.attack.oracle.judge import FALSE, TRUE, judge
 from tests.attack.oracle.reading import Unspecified
 from tests.attack.oracle.statement import plant_digest, statement

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from tests.attack.campaign import checked
 from tests.attack.conditions import GATES, weakened_checker
 from tests.attack.forgeries import TRAPS

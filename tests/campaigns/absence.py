@@ -20,7 +20,7 @@ from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.evidence import Block, CoprimePolynomials
 from mcexact.answer.modes import ByBlocks, FixedSpectrum, TwoPolynomials
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.agreement import drawn_pair, fixed_factors

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mcexact.checker import reading
-from mcexact.checker.statement import digest as checked_digest
+from mcexact.checker.system import digest as checked_digest
 from mcexact.checker.system import read_plant, read_system_file
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits

@@ -13,17 +13,23 @@ from operator import mul
 from typing import Any
 
 from mcexact.checker.arithmetic import Matrix, beside
-from mcexact.checker.box_fixed import augmented
-from mcexact.checker.box_stable import segments_of
-from mcexact.checker.boxes import Box, absolute, system_of
-from mcexact.checker.covers import ROOT_2, Cell
+from mcexact.checker.boxes import augmented, segments_of
+from mcexact.checker.cells import cells_of, members_of_cell
+from mcexact.checker.cells import subject_of as read_subject
+from mcexact.checker.discs import (
+    ROOT_2,
+    Box,
+    Cell,
+    Pencil,
+    Regular,
+    absolute,
+    left_inverse,
+    loop_pencil,
+    right_inverse,
+    system_of,
+)
 from mcexact.checker.evidence import inputs
-from mcexact.checker.function_loops import members_of_cell
-from mcexact.checker.loop_pencil import loop_pencil
-from mcexact.checker.moved_entries import subject_of as read_subject
-from mcexact.checker.parameter_cells import cells_of
 from mcexact.checker.parametric_system import plant_of
-from mcexact.checker.regular_discs import Pencil, Regular, left_inverse, right_inverse
 from mcexact.checker.system import read_plant
 from tests.checker.handmade import Document, certificate, matrix
 

@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from tests.checker.corpus_plants import based, pool
 from tests.checker.handmade import Document
 from tests.checker.recorded import (

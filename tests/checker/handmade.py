@@ -10,7 +10,7 @@ import json
 from collections.abc import Sequence
 from typing import Any
 
-from mcexact.checker import Verdict, check_document
+from mcexact.checker.kinds import Verdict, check_document
 
 Document = dict[str, Any]
 

@@ -42,7 +42,7 @@ def answer(case: Case) -> str:
     try:
         module = importlib.import_module(f"mcexact.checker.{case['read']}")
         if case["read"] == "system":
-            statement = importlib.import_module("mcexact.checker.statement")
+            statement = importlib.import_module("mcexact.checker.system")
             return str(statement.digest(module.read_system_file(data, limits)))
         return " ".join(module.read_controller_file(data, limits))
     except reading.Refused as refused:

@@ -9,9 +9,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mcexact.checker import Expectation, Limits, Verdict
-from mcexact.checker.manifest import manifest_verdicts
-from mcexact.checker.sentence import RULES
+from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.kinds import Expectation, Verdict
+from mcexact.checker.reading import Limits
+from mcexact.checker.sentences import RULES
 from tests.checker.handmade import (
     FIXED,
     LOSS,

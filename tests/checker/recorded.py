@@ -16,13 +16,11 @@ from pathlib import Path
 from typing import Any
 
 from mcexact.checker.budget import Budget
-from mcexact.checker.expectation import Expectation
-from mcexact.checker.kinds import Verdict, attempt
-from mcexact.checker.manifest import Evidence
+from mcexact.checker.command import Evidence
+from mcexact.checker.kinds import Expectation, Verdict, attempt
 from mcexact.checker.reading import Limits
-from mcexact.checker.sentence import RULES, Premise
-from mcexact.checker.statement import digest, digest_of
-from mcexact.checker.system import read_plant
+from mcexact.checker.sentences import RULES, Premise
+from mcexact.checker.system import digest, digest_of, read_plant
 
 CORPUS = Path(__file__).parent / "corpus" / "sentences"
 TABLE = CORPUS / "rules.txt"

@@ -10,8 +10,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import Verdict
-from mcexact.checker.allowance import AGAIN, Clock, OutOfTime, memory
+from mcexact.checker.kinds import AGAIN, Clock, OutOfTime, Verdict, memory
 
 ABOUT = {"file": "a.json"}
 

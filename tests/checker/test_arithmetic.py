@@ -11,20 +11,18 @@ import pytest
 from sympy import QQ, ZZ, isprime
 from sympy.polys.matrices import DomainMatrix
 
-from mcexact.checker import characteristic_polynomial as characteristic
+from mcexact.checker import arithmetic as characteristic
 from mcexact.checker.arithmetic import (
     Echelon,
     Matrix,
     NotAUnit,
+    characteristic_polynomial,
+    characteristic_polynomial_modulo,
     coprime,
     exponent,
     poly_divide,
     poly_product,
     rank,
-)
-from mcexact.checker.characteristic_polynomial import (
-    characteristic_polynomial,
-    characteristic_polynomial_modulo,
 )
 
 

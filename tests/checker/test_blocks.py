@@ -8,8 +8,8 @@ from itertools import pairwise
 import pytest
 
 from mcexact.checker.arithmetic import Matrix as Exact
-from mcexact.checker.blocks import split
 from mcexact.checker.budget import Budget, limited
+from mcexact.checker.evidence import split
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import System
 from tests.checker.handmade import (

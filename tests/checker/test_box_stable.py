@@ -10,14 +10,12 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.box_stable import segments_of
-from mcexact.checker.characteristic_polynomial import characteristic_polynomial
-from mcexact.checker.location import in_region
-from mcexact.checker.loop_pencil import loop_pencil
+from mcexact.checker.arithmetic import Matrix, characteristic_polynomial
+from mcexact.checker.boxes import segments_of
+from mcexact.checker.constructions import read_subject
+from mcexact.checker.discs import Pencil, loop_pencil
 from mcexact.checker.reading import Refused
-from mcexact.checker.regular_discs import Pencil
-from mcexact.checker.subject import read_subject
+from mcexact.checker.roots import in_region
 from mcexact.checker.system import read_plant
 from tests.checker.box_maker import Rows, fractions, solved, stable, subject_of
 from tests.checker.box_plants import (

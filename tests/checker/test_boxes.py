@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.boxes import LOOP as CLOSED
-from mcexact.checker.boxes import absolute
+from mcexact.checker.constructions import CONSTRUCTIONS, read_subject
+from mcexact.checker.discs import LOOP as CLOSED
+from mcexact.checker.discs import absolute
 from mcexact.checker.reading import Refused
-from mcexact.checker.subject import CONSTRUCTIONS, read_subject
 from tests.checker.box_maker import fractions, subject_of
 from tests.checker.box_plants import CALM, CERTAIN, DAMPED, LOOP, PAIR, uncertain
 from tests.checker.handmade import matrix, plant

@@ -11,7 +11,7 @@ import pytest
 from mcexact.checker import budget, command
 from mcexact.checker.arithmetic import Polynomial
 from mcexact.checker.budget import GRANTED, MORE, PER_BYTE, Budget, Refused, current, limited
-from mcexact.checker.location import is_hurwitz
+from mcexact.checker.roots import is_hurwitz
 from tests.checker.test_work import named
 
 

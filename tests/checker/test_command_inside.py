@@ -15,8 +15,9 @@ from typing import Any
 import pytest
 
 from mcexact import checker
-from mcexact.checker import Verdict, allowance, command, reading
+from mcexact.checker import command, kinds, reading
 from mcexact.checker.command import main
+from mcexact.checker.kinds import Verdict
 from tests.checker.handmade import FIXED, FREE, PAPER, changed
 from tests.checker.manifests import EVIDENCE, SENTENCES, write
 
@@ -294,10 +295,10 @@ def test_an_interruption_ends_with_130(folder: Path, monkeypatch: pytest.MonkeyP
 def test_when_the_time_is_over_the_rest_is_incomplete(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def late(self: allowance.Clock, work: Any) -> Any:
-        raise allowance.OutOfTime
+    def late(self: kinds.Clock, work: Any) -> Any:
+        raise kinds.OutOfTime
 
-    monkeypatch.setattr(allowance.Clock, "within", late)
+    monkeypatch.setattr(kinds.Clock, "within", late)
     for asked in ([], ["--system", "system.json"]):
         assert main(["valid.json", "--timeout", "900", *asked]) == 5
         told = capsys.readouterr()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.complex_matrices import ComplexMatrix, magnitude
+from mcexact.checker.discs import ComplexMatrix, magnitude
 
 
 def test_a_magnitude_is_the_least_integer_that_is_not_below() -> None:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact.checker.controllability import krylov_ranks, require_reached
 from mcexact.checker.reading import Refused
-from mcexact.checker.statement import digest
-from mcexact.checker.system import read_plant
+from mcexact.checker.structure import krylov_ranks, require_reached
+from mcexact.checker.system import digest, read_plant
 from tests.checker.handmade import (
     CONTROLLABLE,
     UNCONTROLLABLE,

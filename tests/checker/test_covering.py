@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.covering import Program
 from mcexact.checker.reading import Refused
+from mcexact.checker.sharing import Program
 
 Cuts = Sequence[tuple[set[int], int]]
 

@@ -7,10 +7,8 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.complex_matrices import magnitude
-from mcexact.checker.covers import ROOT_2, Cell, require_covered
+from mcexact.checker.discs import ROOT_2, Cell, Regular, magnitude, require_covered
 from mcexact.checker.reading import Refused
-from mcexact.checker.regular_discs import Regular
 
 
 def cell(re: Any, im: Any, size: Any, square: bool) -> Cell:

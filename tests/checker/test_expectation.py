@@ -9,12 +9,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import Expectation, Limits, Verdict
-from mcexact.checker.controller import FORMAT
-from mcexact.checker.expectation import difference
-from mcexact.checker.reading import Refused
-from mcexact.checker.statement import canonical_json, digest
-from mcexact.checker.system import read_plant
+from mcexact.checker.kinds import Expectation, Verdict, difference
+from mcexact.checker.reading import Limits, Refused
+from mcexact.checker.system import FORMAT, canonical_json, digest, read_plant
 from tests.checker.handmade import (
     FIXED,
     FREE,
@@ -366,7 +363,7 @@ def test_a_claim_that_is_missing_is_asked_for() -> None:
 
 
 def judged(tmp_path: Any, evidence: Any, sentences: list[Document], expected: Expectation) -> Any:
-    from mcexact.checker.manifest import manifest_verdicts
+    from mcexact.checker.command import manifest_verdicts
 
     write(tmp_path, evidence, manifest(evidence, sentences))
     found = manifest_verdicts(str(tmp_path), expected, Limits())

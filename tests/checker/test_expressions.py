@@ -8,9 +8,8 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import Limits
-from mcexact.checker.expressions import LONGEST, common_divisor, function, function_text
-from mcexact.checker.reading import Refused
+from mcexact.checker.parametric_system import LONGEST, common_divisor, function, function_text
+from mcexact.checker.reading import Limits, Refused
 from mcexact.errors import InputError
 from mcexact.model.entries import parse_expression
 

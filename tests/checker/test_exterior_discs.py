@@ -8,8 +8,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.boxes import Box
-from mcexact.checker.exterior_discs import exterior_discs, with_gains
+from mcexact.checker.discs import Box, exterior_discs, with_gains
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import System
 from tests.checker.box_maker import decimal

@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mcexact.checker.kinds import KINDS
-from mcexact.checker.statement import digest
-from mcexact.checker.system import read_plant
+from mcexact.checker.system import digest, read_plant
 from tests.checker.handmade import FIXED, FREE, GRAPH, OSCILLATION, PAPER, VALID, Document, checked
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mcexact.checker.subject import read_subject
+from mcexact.checker.constructions import read_subject
 from mcexact.checker.system import read_plant
 from tests.checker.handmade import plant
 

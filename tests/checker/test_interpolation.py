@@ -6,8 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.checker.arithmetic import NotAUnit
-from mcexact.checker.interpolation import interpolated
+from mcexact.checker.arithmetic import NotAUnit, interpolated
 
 
 def test_values_are_interpolated_over_q_and_modulo_a_number() -> None:

@@ -9,12 +9,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import Limits, Verdict, check_document
 from mcexact.checker.arithmetic import NotAUnit
 from mcexact.checker.budget import Budget, limited
-from mcexact.checker.expectation import Expectation
-from mcexact.checker.kinds import KINDS, attempt
-from mcexact.checker.reading import Refused
+from mcexact.checker.kinds import KINDS, Expectation, Verdict, attempt, check_document
+from mcexact.checker.reading import Limits, Refused
 from tests.checker.handmade import FIXED, FREE, changed, checked, without
 
 STATUSES = [

@@ -9,7 +9,7 @@ import pytest
 
 from mcexact.checker.arithmetic import Matrix as Exact
 from mcexact.checker.arithmetic import NotAUnit
-from mcexact.checker.krylov import closed_loop, unmoved_degree
+from mcexact.checker.evidence import krylov_loop, unmoved_degree
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import (
@@ -405,8 +405,8 @@ def test_drawn_sequences_are_judged_as_the_two_conditions_say(ell: int) -> None:
 
 def test_a_loop_is_closed_modulo_l() -> None:
     system = read_plant(DOUBLE)
-    assert closed_loop(system, [Exact([[3]], 1, 2)], 5) == [[0, 1], [4, 0]]
+    assert krylov_loop(system, [Exact([[3]], 1, 2)], 5) == [[0, 1], [4, 0]]
     with pytest.raises(NotAUnit):
-        closed_loop(system, [Exact([[3]], 1, 2)], 6)
+        krylov_loop(system, [Exact([[3]], 1, 2)], 6)
     with pytest.raises(NotAUnit):
-        closed_loop(read_plant(HALVES["system"]), [Exact([[0]], 1)], 6)
+        krylov_loop(read_plant(HALVES["system"]), [Exact([[0]], 1)], 6)

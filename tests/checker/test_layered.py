@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.layered import difference, is_zero, product, reduced
+from mcexact.checker.bivariate import is_zero, layered_difference, product, reduced
 
 ONE = Fraction(1)
 
@@ -50,10 +50,10 @@ def test_the_remainder_is_that_of_polynomials() -> None:
 
 
 def test_a_difference_has_all_coefficients() -> None:
-    assert values(difference(numbers(1, 2), numbers(4))) == [-3, 2]
-    assert values(difference(numbers(1), numbers(4, 5))) == [-3, -5]
+    assert values(layered_difference(numbers(1, 2), numbers(4))) == [-3, 2]
+    assert values(layered_difference(numbers(1), numbers(4, 5))) == [-3, -5]
     assert [
-        layer.rows for layer in difference([Matrix([[1, 2]], 2)], [Matrix([[3, 5]], 2)] * 2)
+        layer.rows for layer in layered_difference([Matrix([[1, 2]], 2)], [Matrix([[3, 5]], 2)] * 2)
     ] == [
         [[-2, -3]],
         [[-3, -5]],

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.communication import candidates, carried, link
 from mcexact.checker.reading import Refused
+from mcexact.checker.sharing import candidates, carried, link
 from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import plant
 

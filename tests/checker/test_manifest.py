@@ -8,14 +8,11 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import Expectation, Limits
 from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, limited
-from mcexact.checker.expectation import same
-from mcexact.checker.kinds import FORMAT, KINDS
-from mcexact.checker.manifest import pointed, verdicts_of
-from mcexact.checker.reading import Refused
-from mcexact.checker.statement import digest
-from mcexact.checker.system import read_plant
+from mcexact.checker.command import pointed, verdicts_of
+from mcexact.checker.kinds import FORMAT, KINDS, Expectation, same
+from mcexact.checker.reading import Limits, Refused
+from mcexact.checker.system import digest, read_plant
 from tests import effort
 from tests.checker.handmade import FREE, PAPER, Document, changed, checked, without
 from tests.checker.manifests import (

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.constructions import read_subject
 from mcexact.checker.reading import Refused
-from mcexact.checker.subject import read_subject
 from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import (
     FIXED,

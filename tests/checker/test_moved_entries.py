@@ -26,7 +26,7 @@ from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer.check import constructed
 from mcexact.answer.protocol import document
 from mcexact.checker.budget import Budget, Refused, limited
-from mcexact.checker.moved_entries import MOVING, subject_of
+from mcexact.checker.cells import MOVING, subject_of
 from mcexact.checker.parametric_system import ParametricSystem as Read
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.derived import constructions

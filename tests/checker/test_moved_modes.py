@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import NotAUnit
-from mcexact.checker.moved_modes import MovedModes
+from mcexact.checker.parameters import MovedModes
 from mcexact.checker.parametric_system import one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from tests.attack.forgeries.parametric_traps import LARGE, constant, plant, scalar

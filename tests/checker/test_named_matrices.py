@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.named_matrices import named_matrix, named_text
+from mcexact.checker.bivariate import named_matrix, named_text
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from tests.attack.forgeries.parametric_traps import plant

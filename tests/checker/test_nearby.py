@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from mcexact.answer.protocol import document
-from mcexact.checker import Expectation, Limits
-from mcexact.checker.manifest import manifest_verdicts
+from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.kinds import Expectation
+from mcexact.checker.reading import Limits
 from mcexact.model.box import Box
 from mcexact.model.controller import controller_text
 from mcexact.model.statespace import local_controllers

@@ -6,8 +6,7 @@ import random
 
 import pytest
 
-from mcexact.checker.budget import Budget, limited
-from mcexact.checker.packed_rows import (
+from mcexact.checker.arithmetic import (
     FEW,
     LONG,
     SMALL,
@@ -19,6 +18,7 @@ from mcexact.checker.packed_rows import (
     most_addends,
     multiples,
 )
+from mcexact.checker.budget import Budget, limited
 from mcexact.checker.reading import Refused
 
 MODULI = [2, 3, 7, SMALL - 1, SMALL, SMALL + 1, 127, 128, 2**30 - 35, 10**20 + 39]

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from mcexact import ParametricSystem
-from mcexact.checker.boxes import Box
-from mcexact.checker.parameter_cells import box_of_cell, cells_of
+from mcexact.checker.cells import box_of_cell, cells_of
+from mcexact.checker.discs import Box
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.checker.reading import Refused
 from tests.checker.box_maker import fractions

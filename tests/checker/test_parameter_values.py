@@ -7,13 +7,8 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.moved_entries import moved
-from mcexact.checker.parameter_values import (
-    listed_value,
-    roots_text,
-    values_left_out,
-    where_text,
-)
+from mcexact.checker.cells import moved
+from mcexact.checker.parameters import listed_value, roots_text, values_left_out, where_text
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from tests.attack.forgeries.parametric_traps import plant

@@ -8,13 +8,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.closed_loop import closed_loop
-from mcexact.checker.expectation import Expectation
-from mcexact.checker.function_loops import members_of_cell
-from mcexact.checker.kinds import check_document
-from mcexact.checker.loop_pencil import loop_pencil
-from mcexact.checker.moved_entries import subject_of
-from mcexact.checker.parameter_cells import cells_of
+from mcexact.checker.cells import cells_of, members_of_cell, subject_of
+from mcexact.checker.constructions import closed_loop
+from mcexact.checker.discs import loop_pencil
+from mcexact.checker.kinds import Expectation, check_document
 from mcexact.checker.parametric_system import plant_of
 from mcexact.checker.reading import Limits
 from tests.checker.box_maker import Rows, fractions

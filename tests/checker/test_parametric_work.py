@@ -8,22 +8,20 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import (
-    box_stable,
-    budget,
-    layered,
-    parameter_cells,
-    reading,
-    resultants,
-    two_variables,
-)
+from mcexact.checker import bivariate, boxes, budget, cells, reading
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.budget import Budget, limited
-from mcexact.checker.common_factors import Terms
-from mcexact.checker.expressions import common_divisor, function
-from mcexact.checker.parametric_system import ONE, cleared_tables, read_parametric
-from mcexact.checker.regular_discs import Pencil
-from mcexact.checker.several_parameters import quotient, quotient_text
+from mcexact.checker.discs import Pencil
+from mcexact.checker.parametric_system import (
+    ONE,
+    Terms,
+    cleared_tables,
+    common_divisor,
+    function,
+    quotient,
+    quotient_text,
+    read_parametric,
+)
 from tests.checker import heavy_parameters as heavy
 
 MANY = heavy.MANY
@@ -48,7 +46,7 @@ STEPS: dict[str, tuple[Callable[[], Any], int]] = {
     "rows of nothing": (lambda: Matrix([], 0).at([]), 398),
     "many rows of nothing": (lambda: Matrix([[]], 0).at([0] * 1000), 8_358),
     "a product of 1000 layers without rows": (
-        lambda: layered.product([Matrix([], 0)] * 1000, [Matrix([], 0)]),
+        lambda: bivariate.product([Matrix([], 0)] * 1000, [Matrix([], 0)]),
         796_398,
     ),
     "matrices of functions": (
@@ -82,66 +80,66 @@ STEPS: dict[str, tuple[Callable[[], Any], int]] = {
         lambda: quotient_text((SUM, CONSTANT), MANY),
         76_224,
     ),
-    "cuts": (lambda: parameter_cells.cells_of([0, None, None], "", WIDE), 60_356),
-    "exponents": (lambda: parameter_cells._units(100), 86_366),
+    "cuts": (lambda: cells.cells_of([0, None, None], "", WIDE), 60_356),
+    "exponents": (lambda: cells._units(100), 86_366),
     "a constant in a cell": (
-        lambda: parameter_cells._form((CONSTANT, CONSTANT), CENTER, CENTER, UNITS, ""),
+        lambda: cells._form((CONSTANT, CONSTANT), CENTER, CENTER, UNITS, ""),
         49_859,
     ),
     "slopes in a cell": (
-        lambda: parameter_cells._form((SUM, CONSTANT), CENTER, CENTER, UNITS, ""),
+        lambda: cells._form((SUM, CONSTANT), CENTER, CENTER, UNITS, ""),
         11_465_484,
     ),
     "the largest values of terms": (
-        lambda: parameter_cells._largest(SUM, CENTER),
+        lambda: cells._largest(SUM, CENTER),
         178_038,
     ),
     "a polynomial moved to a center": (
-        lambda: parameter_cells._shifted({(50,): Fraction(1)}, CENTER[:1]),
+        lambda: cells._shifted({(50,): Fraction(1)}, CENTER[:1]),
         289_771,
     ),
     "terms that are not moved": (
-        lambda: parameter_cells._shifted(SUM | CONSTANT, [Fraction(0)] * 100),
+        lambda: cells._shifted(SUM | CONSTANT, [Fraction(0)] * 100),
         11_034_749,
     ),
     "matrices of fractions": (
-        lambda: parameter_cells._matrix([[Fraction(1, LONG + k) for k in range(9)]] * 9, 9),
+        lambda: cells._matrix([[Fraction(1, LONG + k) for k in range(9)]] * 9, 9),
         1_269_295,
     ),
     "a division of polynomials in x": (
-        lambda: two_variables.divide([[]] * 1000 + SHORT, SHORT),
+        lambda: bivariate.divide([[]] * 1000 + SHORT, SHORT),
         1_188_784,
     ),
     "a difference of polynomials in t": (
-        lambda: two_variables.difference(HIGH, [[Fraction(1)]]),
+        lambda: bivariate.difference(HIGH, [[Fraction(1)]]),
         43_912,
     ),
     "lengths of rows and columns": (
-        lambda: two_variables._length([Matrix([[1] * 50] * 50, 50)] * 9, 0, True),
+        lambda: bivariate._length([Matrix([[1] * 50] * 50, 50)] * 9, 0, True),
         1_970,
     ),
     "characteristic polynomials of one state": (
-        lambda: two_variables._characteristic_values([Matrix([[1]], 1)] * 60, 0),
+        lambda: bivariate._characteristic_values([Matrix([[1]], 1)] * 60, 0),
         555_511,
     ),
     "the same modulo a number": (
-        lambda: two_variables._characteristic_values([Matrix([[1]], 1)] * 60, ELL),
+        lambda: bivariate._characteristic_values([Matrix([[1]], 1)] * 60, ELL),
         165_676,
     ),
-    "values of polynomials": (lambda: resultants._at([[1]] * 500, 3, LONG), 1_871_993),
-    "a resultant of values": (lambda: resultants._of_values([1], [1], LONG), 54_844),
+    "values of polynomials": (lambda: bivariate._at_point([[1]] * 500, 3, LONG), 1_871_993),
+    "a resultant of values": (lambda: bivariate._of_values([1], [1], LONG), 54_844),
     "remainders of values": (
-        lambda: resultants._of_values(
+        lambda: bivariate._of_values(
             [k**50 for k in range(1, 40)], [k**51 for k in range(2, 41)], ELL
         ),
         29_362,
     ),
     "a bound of a resultant": (
-        lambda: resultants.integer_resultant([[LONG], *[[1]] * 301], SHORT, [ELL, 2]),
+        lambda: bivariate.integer_resultant([[LONG], *[[1]] * 301], SHORT, [ELL, 2]),
         18_229_032,
     ),
     "a growth of signals": (
-        lambda: box_stable._require_growth([1], GROWING, Fraction(1)),
+        lambda: boxes._require_growth([1], GROWING, Fraction(1)),
         833_367,
     ),
 }

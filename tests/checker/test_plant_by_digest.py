@@ -9,11 +9,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import Expectation, Limits
 from mcexact.checker.command import main
-from mcexact.checker.reading import Refused
-from mcexact.checker.statement import digest
-from mcexact.checker.system import read_plant
+from mcexact.checker.kinds import Expectation
+from mcexact.checker.reading import Limits, Refused
+from mcexact.checker.system import digest, read_plant
 from tests.checker.handmade import FREE, PAPER, VALID, Document, changed, checked
 from tests.checker.manifests import EVIDENCE, SENTENCES, said, text_of, write
 from tests.checker.test_closed_loop_spectrum import LOOP, SCALAR

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.quadratic_forms import decreasing, require_dominant, transformed
+from mcexact.checker.loops import decreasing, require_dominant, transformed
 from mcexact.checker.reading import Refused
 from tests.checker.handmade import matrix
 

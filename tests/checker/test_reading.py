@@ -11,7 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.checker import Limits, check_document, reading
+from mcexact.checker import reading
+from mcexact.checker.kinds import check_document
+from mcexact.checker.reading import Limits
 from tests import effort
 from tests.checker.handmade import FIXED, FREE, PAPER, Document, changed, checked, without
 

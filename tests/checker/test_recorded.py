@@ -6,8 +6,7 @@ import json
 
 import pytest
 
-from mcexact.checker import check_document
-from mcexact.checker.kinds import KINDS
+from mcexact.checker.kinds import KINDS, check_document
 from tests.checker.recorded import REFUSED, World, recorded_rules, statement_mark, table, worlds
 
 WORLDS = worlds()

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.modes import claimed_cost, read_bound, require_absence, require_outside
 from mcexact.checker.reading import Refused
-from mcexact.checker.region import claimed_cost, read_bound, require_absence, require_outside
 from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import CHAIN, PAIR, changed, matrix, plant
 

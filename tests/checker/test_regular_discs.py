@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.regular_discs import Pencil, left_inverse, right_inverse
+from mcexact.checker.discs import Pencil, left_inverse, right_inverse
 from tests.checker.complex_numbers import CLEAR, drawn, numbers, real, sizes, times
 
 

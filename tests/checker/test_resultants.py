@@ -10,9 +10,14 @@ import pytest
 import sympy
 
 from mcexact.checker.arithmetic import NotAUnit
+from mcexact.checker.bivariate import (
+    degree_bound,
+    difference,
+    integer_resultant,
+    residues,
+    resultant,
+)
 from mcexact.checker.reading import Refused
-from mcexact.checker.resultants import degree_bound, integer_resultant, residues, resultant
-from mcexact.checker.two_variables import difference
 
 t = sympy.Symbol("t")
 PRIME = 1000003

@@ -11,7 +11,7 @@ import pytest
 
 from mcexact.checker.arithmetic import poly_product
 from mcexact.checker.reading import Refused
-from mcexact.checker.root_discs import Disc, require_rate, root_discs
+from mcexact.checker.roots import Disc, require_rate, root_discs
 
 
 def disc(re: Any, im: Any, radius: Any) -> dict[str, Any]:

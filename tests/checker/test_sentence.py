@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact.checker.sentence import DUAL, HEARD, PLANT, SYSTEM, Path, Premise, Role
+from mcexact.checker.sentences import DUAL, HEARD, PLANT, SYSTEM, Path, Premise, Role
 from mcexact.checker.system import read_plant
 from tests.checker.handmade import FREE
 

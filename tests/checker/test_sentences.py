@@ -23,11 +23,11 @@ from mcexact.answer.account import Account
 from mcexact.answer.protocol import document
 from mcexact.answer.rulebook import everything
 from mcexact.answer.templates import Template
-from mcexact.checker import Expectation, Verdict
-from mcexact.checker.manifest import Evidence
+from mcexact.checker.command import Evidence
+from mcexact.checker.kinds import Expectation, Verdict
 from mcexact.checker.reading import Limits
-from mcexact.checker.sentence import RULES, Premise, Rule
-from mcexact.checker.sentences_design import DIMENSIONS
+from mcexact.checker.sentences import RULES, Premise, Rule
+from mcexact.checker.sentences_loops import DIMENSIONS
 from mcexact.derived.constructions import Share, extended_system
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery

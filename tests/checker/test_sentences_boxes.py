@@ -10,9 +10,8 @@ import pytest
 from mcexact.analysis.boxes.loops import box_stability
 from mcexact.answer.protocol import document
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.sentences_boxes import least
-from mcexact.checker.system_matrices import read_matrix
-from mcexact.checker.uncertainty import pairs_of, radii_in_words
+from mcexact.checker.sentences_loops import least
+from mcexact.checker.system import pairs_of, radii_in_words, read_matrix
 from mcexact.model.box import Box
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem

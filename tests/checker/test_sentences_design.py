@@ -10,8 +10,8 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.protocol import document
-from mcexact.checker import Verdict
-from mcexact.checker.sentence import RULES
+from mcexact.checker.kinds import Verdict
+from mcexact.checker.sentences import RULES
 from mcexact.derived.constructions import error_system, extended_system, setpoint_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem

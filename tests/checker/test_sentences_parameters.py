@@ -16,8 +16,8 @@ from mcexact.answer.account import ParametricAccount
 from mcexact.answer.loops import EVERY_VALUE
 from mcexact.answer.rulebook import PARAMETERS, premises_of
 from mcexact.answer.templates import templates
-from mcexact.checker import check_document
-from mcexact.checker.sentence import RULES
+from mcexact.checker.kinds import check_document
+from mcexact.checker.sentences import RULES
 from tests.checker.manifests import Document, manifest, said, sentence, write
 
 IDENTITY = [[[1], [0]], [[0], [1]]]

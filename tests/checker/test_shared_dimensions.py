@@ -9,7 +9,7 @@ import pytest
 from mcexact.analysis.sharing import minimal_shared_dimensions
 from mcexact.answer.protocol import document
 from mcexact.checker.reading import Refused
-from mcexact.checker.shared_dimensions import read_cut
+from mcexact.checker.sharing import read_cut
 from mcexact.checker.system import read_plant
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph

@@ -9,13 +9,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.arithmetic import Matrix, SparseMatrix, listed
 from mcexact.checker.budget import Budget, limited
 from mcexact.checker.reading import Refused
-from mcexact.checker.sparse import SparseMatrix, listed
-from mcexact.checker.statement import digest
-from mcexact.checker.system import read_plant
-from mcexact.checker.system_matrices import read_matrix
+from mcexact.checker.system import digest, read_matrix, read_plant
 from mcexact.model import system_file
 from tests.checker.handmade import listed as in_json
 from tests.checker.handmade import plant

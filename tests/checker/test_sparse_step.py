@@ -7,15 +7,11 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import krylov, sparse, sparse_step
-from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.blocks import split
+from mcexact.checker import arithmetic, evidence
+from mcexact.checker.arithmetic import SMALL, Matrix, SparseMatrix, entries_of, residues, within
 from mcexact.checker.budget import Budget, limited
-from mcexact.checker.krylov import closed_loop
-from mcexact.checker.packed_rows import SMALL
+from mcexact.checker.evidence import LONG, SparseStep, krylov_loop, loop_entries, split
 from mcexact.checker.reading import Refused
-from mcexact.checker.sparse import SparseMatrix, entries_of, residues, within
-from mcexact.checker.sparse_step import LONG, SparseStep, loop_entries
 from mcexact.checker.system import System
 from tests.checker.handmade import Document, changed, checked
 from tests.checker.test_krylov import ACCEPTED, FALSE, REJECTED, spectrum
@@ -100,7 +96,7 @@ def test_the_entries_of_a_closed_loop_are_those_of_its_rows(
     n, ell = rng.randint(1, 5), rng.choice([3, 7, 64, 2**19 - 1])
     system, gains = drawn_system(rng, n)
     assert loop_entries(system, gains, ell) is None
-    monkeypatch.setattr(sparse, "SHARE", 0)
+    monkeypatch.setattr(arithmetic, "SHARE", 0)
     assert loop_entries(system, gains, ell) is None
     found = loop_entries(sparsely(system), gains, ell)
     assert found is not None
@@ -108,7 +104,7 @@ def test_the_entries_of_a_closed_loop_are_those_of_its_rows(
     for i, j, x in found:
         assert x
         rows[i][j] = x
-    assert rows == closed_loop(system, gains, ell)
+    assert rows == krylov_loop(system, gains, ell)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -117,9 +113,9 @@ def test_steps_by_entries_are_those_by_rows(seed: int, monkeypatch: pytest.Monke
     n, ell = rng.randint(1, 5), rng.choice([3, 31, 2**19 - 1])
     system, gains = drawn_system(rng, n)
     b, c = ([rng.choice([0, rng.randrange(ell)]) for _ in range(n)] for _ in range(2))
-    by_rows, u, none = krylov._steps(system, gains, ell, b, c)
-    monkeypatch.setattr(sparse, "SHARE", 0)
-    by_entries, v, units = krylov._steps(sparsely(system), gains, ell, b, c)
+    by_rows, u, none = evidence._steps(system, gains, ell, b, c)
+    monkeypatch.setattr(arithmetic, "SHARE", 0)
+    by_entries, v, units = evidence._steps(sparsely(system), gains, ell, b, c)
     step = SparseStep(loop_entries(sparsely(system), gains, ell) or [], n, ell)
     assert none == 0
     assert units == step.units + 2 * sum(map(bool, b))
@@ -160,13 +156,13 @@ def test_verdicts_do_not_depend_on_the_form(
     reason: str, document: Document, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     expected, used = checked(document), []
-    monkeypatch.setattr(sparse, "SHARE", 0)
+    monkeypatch.setattr(arithmetic, "SHARE", 0)
 
     def entries(system: System, gains: Any, ell: int) -> Any:
         used.append(system)
         return loop_entries(sparsely(system), gains, ell)
 
-    monkeypatch.setattr(krylov, "loop_entries", entries)
+    monkeypatch.setattr(evidence, "loop_entries", entries)
     found = checked(document)
     assert (found.verdict, found.code, found.place) == (
         expected.verdict,
@@ -268,6 +264,6 @@ def test_all_steps_are_charged_before_the_first_one(monkeypatch: pytest.MonkeyPa
         "cofactors": [[1], []],
     }
     with limited(Budget(25 * 10**5)), pytest.raises(Refused, match="units of work"):
-        krylov.unmoved_degree(value, "witness", system)
+        evidence.unmoved_degree(value, "witness", system)
     monkeypatch.undo()
-    assert sparse_step.LONG == 32
+    assert evidence.LONG == 32

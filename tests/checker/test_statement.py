@@ -12,15 +12,13 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import check_document
-from mcexact.checker.boxes import box_of
-from mcexact.checker.kinds import KINDS
-from mcexact.checker.moved_entries import looped, moved
+from mcexact.checker.cells import looped, moved
+from mcexact.checker.constructions import CONSTRUCTIONS, read_subject
+from mcexact.checker.discs import box_of
+from mcexact.checker.kinds import KINDS, check_document
 from mcexact.checker.parametric_system import digest, plant_of
 from mcexact.checker.reading import Refused
-from mcexact.checker.statement import canonical_json, described, polynomial_text
-from mcexact.checker.subject import CONSTRUCTIONS, read_subject
-from mcexact.checker.system import System, read_plant
+from mcexact.checker.system import System, canonical_json, described, polynomial_text, read_plant
 from mcexact.model.system_file import read_system
 from mcexact.model.text import plain
 from tests.attack.draws.certificates import some_certificate

@@ -10,10 +10,9 @@ from typing import Any
 import pytest
 
 from mcexact.checker import arithmetic
+from mcexact.checker.constructions import CONSTRUCTIONS, LINE, read_subject
 from mcexact.checker.reading import Refused
-from mcexact.checker.statement import digest
-from mcexact.checker.subject import CONSTRUCTIONS, LINE, read_subject
-from mcexact.checker.system import System, read_plant
+from mcexact.checker.system import System, digest, read_plant
 from mcexact.derived.constructions import (
     add_links,
     augmented_outputs,

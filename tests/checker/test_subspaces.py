@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.evidence import require_pencil_kernel, shrunk_subspace, zero_transfer
 from mcexact.checker.reading import Refused
-from mcexact.checker.subspaces import require_pencil_kernel, shrunk_subspace, zero_transfer
 from mcexact.checker.system import read_plant
 from tests.checker.handmade import CHAIN, OSCILLATOR, PAIR, layers, matrix, plant
 

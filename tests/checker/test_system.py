@@ -7,11 +7,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import system_matrices
+from mcexact.checker import system
 from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.statement import digest
-from mcexact.checker.system import read_plant, read_system_file
-from mcexact.checker.system_matrices import read_matrix, too_long
+from mcexact.checker.system import digest, read_matrix, read_plant, read_system_file, too_long
 from mcexact.model import gallery, system_file
 from tests.checker.handmade import PAPER
 
@@ -159,10 +157,10 @@ def test_a_number_needs_the_digits_of_its_longer_part(number: object, digits: in
     needed = {0: 1, 7: 1, "7/8": 1, "0.7": 2, 12: 2, "12/5": 2, "-123": 3}[number]
     limits = Limits(digits=digits)
     if digits >= needed:
-        assert system_matrices.number(number, "A", limits) is not None
+        assert system.number(number, "A", limits) is not None
     else:
         with pytest.raises(Refused) as found:
-            system_matrices.number(number, "A", limits)
+            system.number(number, "A", limits)
         assert (found.value.verdict, found.value.code) == ("INCOMPLETE", "size")
 
 
@@ -178,8 +176,8 @@ def test_a_number_needs_the_digits_of_its_longer_part(number: object, digits: in
 def test_a_sparse_matrix_has_so_many_rows_and_columns_at_most(
     nrows: int, ncols: int, good: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert system_matrices.LONGEST == 1_048_576
-    monkeypatch.setattr(system_matrices, "LONGEST", 12)
+    assert system.LONGEST == 1_048_576
+    monkeypatch.setattr(system, "LONGEST", 12)
     sparse = {"shape": [nrows, ncols], "entries": []}
     if good:
         assert read_matrix(sparse, "A", None, None).nrows == nrows

@@ -11,7 +11,7 @@ import pytest
 
 from mcexact import checker
 from mcexact.checker.kinds import KINDS
-from mcexact.checker.sentence import RULES as RULES_OF_SENTENCES
+from mcexact.checker.sentences import RULES as RULES_OF_SENTENCES
 
 FOLDER = Path(checker.__file__).parent
 PROOFS = FOLDER.parent.parent / "proofs"

@@ -10,11 +10,10 @@ import pytest
 
 from mcexact.checker.arithmetic import Matrix, product
 from mcexact.checker.budget import Budget, limited
-from mcexact.checker.markov import unseen
-from mcexact.checker.paths import without_path
+from mcexact.checker.evidence import unseen, without_path
 from mcexact.checker.reading import Refused
+from mcexact.checker.structure import read_arcs, require_arcs, require_connected
 from mcexact.checker.system import System, read_plant
-from mcexact.checker.transfer_graph import read_arcs, require_arcs, require_connected
 from tests.checker.handmade import GRAPH, certificate, changed, checked, matrix, plant
 from tests.checker.tables import accepts, rejects
 

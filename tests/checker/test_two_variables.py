@@ -10,8 +10,7 @@ import pytest
 import sympy
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.reading import Refused
-from mcexact.checker.two_variables import (
+from mcexact.checker.bivariate import (
     characteristic,
     degree,
     determinant,
@@ -23,6 +22,7 @@ from mcexact.checker.two_variables import (
     text,
     without,
 )
+from mcexact.checker.reading import Refused
 
 t, x = sympy.symbols("t x")
 PRIME = 1000003

@@ -11,9 +11,7 @@ from mcexact import Box, MultiChannelSystem
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.parametric_system import plant_of_file
 from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.statement import digest
-from mcexact.checker.system import canonical, read_plant, read_system_file
-from mcexact.checker.uncertainty import read_radii
+from mcexact.checker.system import canonical, digest, read_plant, read_radii, read_system_file
 from mcexact.model import system_file
 from tests.checker.box_plants import PAIR
 from tests.checker.handmade import INTEGRATOR, VALID, changed, checked, plant

@@ -16,11 +16,12 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem, check, fixed_spectrum
-from mcexact.checker import Expectation, Limits, budget, check_document, kinds
+from mcexact.checker import budget, kinds
 from mcexact.checker.arithmetic import (
     Echelon,
     Matrix,
     Polynomial,
+    characteristic_polynomial,
     cleared,
     poly_divide,
     poly_modulo,
@@ -29,19 +30,15 @@ from mcexact.checker.arithmetic import (
     rank,
     stack,
 )
+from mcexact.checker.arithmetic import characteristic_polynomial_modulo as char_modulo
 from mcexact.checker.budget import GRANTED, MORE, PER_BYTE, Budget, current, limited
-from mcexact.checker.characteristic_polynomial import characteristic_polynomial
-from mcexact.checker.characteristic_polynomial import (
-    characteristic_polynomial_modulo as char_modulo,
-)
-from mcexact.checker.closed_loop_spectrum import require_spectrum
-from mcexact.checker.controller import read_controller_file
-from mcexact.checker.location import in_region, is_hurwitz, is_schur
-from mcexact.checker.manifest import verdicts_of
-from mcexact.checker.neighbor_graph import components
-from mcexact.checker.reading import Refused
-from mcexact.checker.sector import turned
-from mcexact.checker.system import read_system_file
+from mcexact.checker.command import verdicts_of
+from mcexact.checker.kinds import Expectation, check_document
+from mcexact.checker.loops import require_spectrum, turned
+from mcexact.checker.reading import Limits, Refused
+from mcexact.checker.roots import in_region, is_hurwitz, is_schur
+from mcexact.checker.structure import components
+from mcexact.checker.system import read_controller_file, read_system_file
 from mcexact.errors import InputError
 from tests import effort
 from tests.checker import heavy

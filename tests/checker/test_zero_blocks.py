@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.parameters import polynomial_layers, require_multiple, zero_block
 from mcexact.checker.parametric_system import one_parameter, read_parametric
 from mcexact.checker.reading import Refused
-from mcexact.checker.zero_blocks import polynomial_layers, require_multiple, zero_block
 from tests.attack.forgeries.parametric_traps import block, layers, plant
 from tests.checker.handmade import changed
 

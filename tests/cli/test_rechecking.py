@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from mcexact.answer import check
-from mcexact.checker import Verdict, manifest
-from mcexact.checker.sentence import RULES
+from mcexact.checker import command as manifest
+from mcexact.checker.kinds import Verdict
+from mcexact.checker.sentences import RULES
 from mcexact.cli import files, main
 from mcexact.cli.files import Deadline
 from mcexact.cli.running import Rechecked

@@ -8,7 +8,7 @@ import pytest
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer import protocol
 from mcexact.answer.modes import ByBlocks
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.derived.modular import (

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.checker.statement import digest as checked_digest
-from mcexact.checker.subject import read_subject
+from mcexact.checker.constructions import read_subject
+from mcexact.checker.system import digest as checked_digest
 from mcexact.checker.system import read_plant
 from mcexact.derived.constructions import (
     Share,

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mcexact import testing
 from mcexact.analysis.stability import certify_stability
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import feedback
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix, vstack

@@ -16,7 +16,7 @@ from mcexact.analysis.sharing import deficiency
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer import protocol
 from mcexact.answer.modes import FixedSpectrum
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle import enumeration as oracle
 from tests.oracle.draws import exact, sparse_system

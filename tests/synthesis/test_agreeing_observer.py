@@ -8,7 +8,7 @@ import pytest
 
 from mcexact import design_observer, design_setpoint
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery

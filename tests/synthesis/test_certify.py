@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import Impossible, LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.statespace import local_controllers

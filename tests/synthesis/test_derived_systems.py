@@ -9,8 +9,9 @@ import pytest
 
 from mcexact.answer.account import Account
 from mcexact.answer.protocol import encode
-from mcexact.checker import Expectation, Limits, check_document
-from mcexact.checker.manifest import manifest_verdicts
+from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.kinds import Expectation, check_document
+from mcexact.checker.reading import Limits
 from mcexact.derived.constructions import augmented_outputs, extended_system, feedback, full_output
 from mcexact.errors import Impossible
 from mcexact.model.statespace import local_controllers

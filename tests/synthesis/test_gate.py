@@ -7,7 +7,7 @@ import pytest
 
 from mcexact.analysis.stability import agreeing_moduli, coefficient_bound
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import Impossible, InternalError, LimitReached, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import certify_controller

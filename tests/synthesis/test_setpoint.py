@@ -9,7 +9,7 @@ import pytest
 
 from mcexact.answer.check import check
 from mcexact.answer.protocol import encode
-from mcexact.checker import Expectation, check_document
+from mcexact.checker.kinds import Expectation, check_document
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix

@@ -25,7 +25,7 @@ from mcexact import (
 )
 from mcexact.analysis.boxes.cells import box_of_cell, whole_cell
 from mcexact.analysis.boxes.members import parametric_box_fixed_modes
-from mcexact.checker.parameter_cells import box_of_cell as checked_box
+from mcexact.checker.cells import box_of_cell as checked_box
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.errors import LimitReached, UsageError
 

@@ -21,7 +21,7 @@ from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.evidence import KrylovSequence
 from mcexact.answer.modes import ByBlocks, TwoPolynomials
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.derived import modular
 from mcexact.exact import krylov, tables
 from mcexact.exact.matrix import Matrix

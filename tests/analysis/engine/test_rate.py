@@ -8,7 +8,7 @@ from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.stability import best_rate, closed_loop_spectrum, located
 from mcexact.answer import protocol
 from mcexact.answer.evidence import RateInterval, RootDisc
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.exact.linear_algebra import companions
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import StabilityRegion

@@ -6,7 +6,7 @@ import pytest
 
 from mcexact.analysis.stability import Separation, certify_stability, matrix_system
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix
 

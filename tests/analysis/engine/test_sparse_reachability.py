@@ -15,7 +15,7 @@ from mcexact.analysis.sparse import edge_modulus, reachable_pairs
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.modes import BlocksWitness
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import LimitReached
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.draws import exact, sparse_system

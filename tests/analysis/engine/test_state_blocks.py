@@ -20,7 +20,7 @@ from mcexact.analysis.sharing import deficiency
 from mcexact.answer.evidence import CoprimePolynomials, KrylovSequence
 from mcexact.answer.modes import ByBlocks, TwoPolynomials
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from tests.campaigns.absence import tried

@@ -7,7 +7,7 @@ import random
 from mcexact import MultiChannelSystem, assignability, fixed_spectrum
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from tests.oracle.draws import exact, sparse_system

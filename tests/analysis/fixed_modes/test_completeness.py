@@ -16,7 +16,7 @@ from mcexact.answer.modes import (
     FreedomWitness,
     TwoPolynomials,
 )
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 

@@ -7,7 +7,7 @@ import pytest
 from mcexact import MultiChannelSystem, error_gains
 from mcexact.answer.protocol import encode
 from mcexact.answer.structure import StuckWitness
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import minimal_polynomial
 from mcexact.exact.matrix import Matrix, block

@@ -4,7 +4,7 @@ import pytest
 
 from mcexact.analysis.fixed_modes import pencil_rank, pencil_ranks
 from mcexact.answer import protocol
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery

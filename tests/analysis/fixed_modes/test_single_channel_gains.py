@@ -10,7 +10,7 @@ from mcexact import MultiChannelSystem, completeness, single_channel_gains
 from mcexact.analysis.single_channel import Want
 from mcexact.answer.protocol import encode
 from mcexact.answer.structure import GainsWitness, UnreachedWitness
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import minimal_polynomial

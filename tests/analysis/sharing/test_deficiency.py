@@ -9,7 +9,7 @@ from mcexact.analysis import sharing as module
 from mcexact.analysis.sharing import deficiency
 from mcexact.answer import protocol
 from mcexact.answer.sharing import ByBlocks
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.draws import exact, sparse_system
 from tests.oracle.planted import planted

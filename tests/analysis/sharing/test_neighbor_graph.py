@@ -4,7 +4,7 @@ import pytest
 
 from mcexact.analysis.sharing import neighbor_graph
 from mcexact.answer import protocol
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem
 

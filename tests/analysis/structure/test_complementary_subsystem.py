@@ -10,7 +10,7 @@ from hypothesis import given
 
 from mcexact import MultiChannelSystem, complementary_subsystem, completeness, dual
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.systems import Drawn
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial, companions, invariant_form, rank

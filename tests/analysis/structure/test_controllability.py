@@ -11,7 +11,7 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer import protocol
 from mcexact.answer.structure import ByBlocks
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
 from mcexact.exact.krylov import controllable_subspace

@@ -4,7 +4,7 @@ import random
 
 from mcexact.analysis.controllability import controllability_indices, observability_indices
 from mcexact.answer import protocol
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.draws import exact, sparse_system

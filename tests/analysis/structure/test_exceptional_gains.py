@@ -9,7 +9,7 @@ import pytest
 
 from mcexact import MultiChannelSystem, controllability_indices, exceptional_gains
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, Impossible, InputError
 from mcexact.exact.matrix import Matrix
 

@@ -5,7 +5,7 @@ import pytest
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer import protocol
 from mcexact.answer.protocol import Answer
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import dual
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery

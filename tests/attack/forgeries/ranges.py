@@ -7,7 +7,7 @@ import random
 from collections.abc import Callable
 from fractions import Fraction
 
-from mcexact.checker.boxes import Box
+from mcexact.checker.discs import Box
 from tests.checker.box_maker import in_cells
 
 from ..draws.boxes import beside_crossing, beside_failure, proof_in_cells, vanishing

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from mcexact.answer.protocol import encode
-from mcexact.checker import Expectation, check_document
+from mcexact.checker.kinds import Expectation, check_document
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial

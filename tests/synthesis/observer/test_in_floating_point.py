@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.roots import StabilityRegion

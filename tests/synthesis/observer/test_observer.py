@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mcexact.answer.protocol import encode
-from mcexact.checker import Expectation, check_document
+from mcexact.checker.kinds import Expectation, check_document
 from mcexact.derived.constructions import feedback
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached
 from mcexact.model.graph import NeighborGraph

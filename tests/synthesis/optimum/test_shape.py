@@ -7,7 +7,7 @@ import pytest
 
 from mcexact.answer.loops import StabilityVerdict
 from mcexact.answer.protocol import encode
-from mcexact.checker import check_document
+from mcexact.checker.kinds import check_document
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.assessment import assess

@@ -1,23 +1,37 @@
-"""What the certificates of a design, of a verdict on a controller and of a refusal imply."""
+"""Rules of sentences about loops and boxes."""
 
 import json
 from fractions import Fraction
 
 from . import budget
-from .boxes import absolute
-from .controller import MAPS
-from .expectation import same
-from .location import in_stability_region
-from .moved_entries import constructed
+from .boxes import gain_pairs
+from .cells import constructed
+from .constructions import read_subject
+from .discs import absolute
+from .kinds import same
 from .reading import Json, polynomial
-from .sentence import Holds, Path, Premise, Role, either, restate, rule
-from .sentences_analysis import FIXED_DYNAMIC, SETPOINT, controls
-from .sentences_sharing import demands
-from .statement import counted
-from .subject import read_subject
-from .system import System
-from .system_matrices import read_matrix
-from .uncertainty import pairs_of, read_radii
+from .roots import in_stability_region
+from .sentences import (
+    DUAL,
+    FIXED_DYNAMIC,
+    HAUTUS,
+    SETPOINT,
+    WANG_DAVISON,
+    Holds,
+    Path,
+    Premise,
+    Role,
+    controls,
+    demands,
+    either,
+    everywhere,
+    followed,
+    restate,
+    rule,
+)
+from .system import MAPS, Pair, System, counted, pairs_of, read_matrix, read_radii
+
+# What the certificates of a design, of a verdict on a controller and of a refusal imply.
 
 UNCONTROLLABLE = "controllability.uncontrollable_modes"
 NO_FIXED = "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed"
@@ -317,3 +331,66 @@ def _mode_of_the_integrators(found: Premise) -> str:
     found.expect(lost, "every row of the evidence is about the outputs, or there is none")
     place = int(found.system.time == "discrete")
     return f"{found.about}: the mode {place} is not controlled by all channels together"
+
+
+# What certificates about boxes imply: sentences about all members, or values in ranges.
+
+
+def all_modes(found: Premise) -> bool:
+    """Whether all channels act on every mode."""
+    found.expect(everywhere(found), "not about all channels together")
+    return found["bound"] is None
+
+
+NOTHING = "boxes.regular_not_fixed"
+OWN = "is stabilized by some decentralized controller of its own"
+
+
+def of_plants(stem: str, kinds: str, each: str) -> None:
+    """Enter four rules about all plants within radii or ranges, and what follows of each."""
+    modes, control = Role((f"{kinds}_fixed",)), f"{kinds}_controllable"
+    restate(f"{stem}-nothing-fixed", modes, lambda c: c["bound"] is None, NOTHING)
+    restate(f"{stem}-stabilizable", modes, lambda c: True, WANG_DAVISON, followed(each))
+    restate(f"{stem}-controllable", Role((control,)), all_modes, HAUTUS)
+    restate(f"{stem}-observable", Role((control,), DUAL), all_modes, HAUTUS)
+
+
+of_plants("members", "box", f"each of them {OWN}")
+of_plants("parametric-ranges", "parametric_box", f"each of these plants {OWN}")
+HOLDS = "some decentralized controller of its own holds all outputs at any constant set-points"
+restate(
+    "members-setpoints",
+    Role(("box_fixed",), (("integrators",),)),
+    lambda c: True,
+    f"{WANG_DAVISON}; E. J. Davison 1976",
+    followed(f"so for each plant {HOLDS}"),
+)
+
+
+LOOPS = Role(("box_stable",), CLOSED)
+
+
+def least(pairs: list[Pair]) -> Fraction:
+    """The largest number such that every radius is at least so many times the absolute value."""
+    longest = budget.limbs_of([number for pair in pairs for number in pair])
+    budget.spend(budget.fractions(len(pairs), longest))
+    return min((radius / value for radius, value in pairs if value), default=Fraction(0))
+
+
+def within(loops: Premise) -> str:
+    """The claim, and changes of entries that it allows, whatever the radii are."""
+    plant, radii = loops.plant, loops["gain_radii"]
+    nominal = [plant.A, *plant.B, *plant.C]
+    spread = read_radii(plant.uncertainty, plant.names, nominal)
+    told = [f"in the plant by more than {least(pairs_of(nominal, spread))}"]
+    if radii is not None:
+        pairs = gain_pairs(loops.document["subject"][-1]["controller"], radii)
+        told.append(f"in the controller by more than {least(pairs)}")
+    return (
+        f"{loops.statement}; it holds if no entry changes {' and none '.join(told)} of its modulus"
+    )
+
+
+restate("members-in-region", LOOPS, lambda c: True)
+restate("members-in-region-part", LOOPS, lambda c: True, words=within)
+restate("parametric-ranges-in-region", Role(("parametric_box_stable",), CLOSED), lambda c: True)

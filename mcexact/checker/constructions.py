@@ -1,0 +1,412 @@
+"""Systems made from the plant."""
+
+import json
+
+from .arithmetic import Matrix, beside, diagonal, stack
+from .budget import spend, table
+from .evidence import closed_loop as evidence_closed_loop
+from .evidence import inputs, outputs, read_gains
+from .reading import (
+    Json,
+    fields,
+    incomplete,
+    integer,
+    items,
+    malformed,
+    matrices,
+    names,
+    require,
+    shown,
+    string,
+)
+from .system import (
+    MAPS,
+    System,
+    by_channel,
+    canonical_json,
+    channel_set,
+    digest_of,
+    edge_set,
+    prefixed,
+    read_controller,
+    suffixed,
+    with_digest,
+)
+
+# Construction ``closed_loop``: the plant and the programs of its agents, as one matrix.
+
+STATES = (("x", "shared"), ("z", "private"))
+Signal = tuple[str, int, int]
+"""(signal, j, age): signal is "X" for the plant's state, "x", "y" or "z" for x_j, y_j, z_j."""
+Terms = list[tuple[Signal, Matrix]]
+"""The signals that a map uses, with their coefficients."""
+
+
+def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
+    """State (x, x_1, z_1, x_2, …), then for each j the x_j(t−1), …, y_j(t−1), … that are in use.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (given,) = fields(step, place, "controller")
+    controller, m = read_controller(given, place, system), system.m
+    agents = controller["agents"]
+    fits = controller["time"] == system.time and [a["name"] for a in agents] == system.names
+    require(fits, "subject", place, "expected a controller for these agents and this time")
+    programs = programs_of(system, agents, place)
+    order = signals_of(system, agents, programs)
+    reads = rows_that_read(order)
+    x = reads["X", 0, 0]
+    reads |= {("y", j, 0): C_j @ x for j, C_j in enumerate(system.C)}
+    inputs = [mapped(programs[i][2], reads, B_i.ncols, x.ncols) for i, B_i in enumerate(system.B)]
+    A = stack(rows_of_states(system, programs, order, reads, inputs), x.ncols)
+    blocks, text = tuple(width for _, width in order[: 2 * m + 1]), canonical_json(controller)
+    words = f"the closed loop with the controller with {with_digest(text)}"
+    alone = System(system.time, [], A, [], [], words=system.words)
+    own = f"{system.n} of the controlled system and {A.nrows - system.n} added by the controller"
+    ports = f"{own} of the channels {channel_set(system.names)}"
+    return prefixed(words, alone, blocks=blocks, ports=ports, controller=digest_of(text))
+
+
+def programs_of(system: System, agents: list[Json], place: str) -> list[list[Terms]]:
+    """The signals that the three maps of each agent use."""
+    return [_terms(system, agents, i, place) for i in range(system.m)]
+
+
+def signals_of(
+    system: System, agents: list[Json], programs: list[list[Terms]]
+) -> list[tuple[Signal, int]]:
+    """The signals that make up the state of the loop, with their widths."""
+    m = system.m
+    width = {what: [agent[key] for agent in agents] for what, key in STATES}
+    width |= {"X": [system.n], "y": [C_j.nrows for C_j in system.C]}
+    used = {signal for maps in programs for found in maps for signal, _ in found}
+    spend(30 * m * len(used))
+    order: list[Signal] = [("X", 0, 0), *((what, j, 0) for j in range(m) for what in "xz")]
+    for what, j in ((what, j) for j in range(m) for what in "xy"):
+        oldest = max((age for w, k, age in used if (w, k) == (what, j)), default=0)
+        spend(500 * oldest)
+        order += [(what, j, age + 1) for age in range(oldest)]
+    return [((what, j, age), width[what][j]) for what, j, age in order]
+
+
+def rows_that_read(order: list[tuple[Signal, int]]) -> dict[Signal, Matrix]:
+    """For each signal, the matrix that takes it out of all of them."""
+    total, start, reads = sum(width for _, width in order), 0, {}
+    spend(table(total, total))
+    for signal, width in order:
+        reads[signal] = Matrix.unit_rows(total, start, width)
+        start += width
+    return reads
+
+
+def mapped(terms: Terms, reads: dict[Signal, Matrix], nrows: int, ncols: int) -> Matrix:
+    """What a map computes of all signals."""
+    return sum((M @ reads[signal] for signal, M in terms), Matrix.zeros(nrows, ncols))
+
+
+def rows_of_states(
+    system: System,
+    programs: list[list[Terms]],
+    order: list[tuple[Signal, int]],
+    reads: dict[Signal, Matrix],
+    inputs: list[Matrix],
+    one: int = 1,
+) -> list[Matrix]:
+    """What follows on each signal of the state; ``inputs`` are the u_i in terms of all signals.
+
+    A message follows on the younger one ``one`` times: with 0, only what is uncertain is left.
+    """
+    x = reads["X", 0, 0]
+    rows = [sum((B_i @ u_i for B_i, u_i in zip(system.B, inputs, strict=True)), system.A @ x)]
+    for (what, j, age), width in order[1:]:
+        if age:
+            rows.append(reads[what, j, age - 1].times(one))
+        else:
+            rows.append(mapped(programs[j]["xz".index(what)], reads, width, x.ncols))
+    return rows
+
+
+def _terms(system: System, agents: list[Json], i: int, place: str) -> list[Terms]:
+    """The signals that the three maps of agent i use, with their coefficients."""
+    N_i, result = system.neighbors[i] if system.neighbors else [i], []
+    for label in MAPS:
+        used, found = agents[i].get(label, {}), []
+        for what, key in (("x", "shared"), ("y", "outputs")):
+            for name, M in used.get(key, {}).items():
+                j = system.names.index(name)
+                steps = agents[j].get("hold", {}).get(system.names[i], 0)
+                age = system.delays.get((i, j), 0) + steps * (what == "x")
+                right = j in N_i and (not age or system.time == "discrete")
+                message = f"agent {i + 1} does not get this from {j + 1}"
+                require(right, "subject", f"{place}.{label}", message)
+                found.append(((what, j, age), M))
+        if "private" in used:
+            found.append((("z", i, 0), used["private"]))
+        result.append(found)
+    return result
+
+
+# Constructions ``augmented_outputs``, ``arcs``, ``extended``, ``lifted`` and ``held``.
+
+SHARED = {"outputs+states": "outputs and sub-states", "states": "sub-states"}
+
+
+def neighbors_of(system: System, place: str) -> list[list[int]]:
+    """The sets N_i; the system must have a neighbor graph."""
+    message = "the system has no neighbor graph"
+    require(system.neighbors is not None, "subject", place, message)
+    return system.neighbors or []
+
+
+def augmented_outputs(system: System, step: dict[str, Json], place: str) -> System:
+    """C_i becomes C_{N_i}.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    fields(step, place)
+    N = neighbors_of(system, place)
+    C = [outputs(system, N_i) for N_i in N]
+    return suffixed(system, "with the outputs of neighbors measured by each agent", C=C)
+
+
+def arcs(system: System, step: dict[str, Json], place: str) -> System:
+    """j joins N_i for each added edge [j, i].
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "added")
+    spend(40 * sum(map(len, neighbors_of(system, place))) + 100 * system.m)
+    sets, added = [set(N_i) for N_i in neighbors_of(system, place)], []
+    for arc in items(listed, place):
+        j, i = (system.place_of(end, place) for end in items(arc, place, 2))
+        require(j not in sets[i], "subject", place, "the edge is there already")
+        sets[i].add(j)
+        added.append((j, i))
+    named = edge_set((system.names[j], system.names[i]) for j, i in sorted(added))
+    words = f"with the links {named} added to its neighbor graph"
+    return suffixed(system, words, neighbors=[sorted(N_i) for N_i in sets])
+
+
+def read_shares(system: System, step: dict[str, Json], place: str) -> tuple[str, list[int]]:
+    """Read which signals are shared, and the dimensions n_i of the sub-states."""
+    share, listed = fields(step, place, "share", "dimensions")
+    return string(share, place, *SHARED), read_dimensions(system, listed, place)
+
+
+def read_dimensions(system: System, value: Json, place: str) -> list[int]:
+    """The dimensions n_i, one for each agent."""
+    return [integer(size, place) for size in items(value, place, system.m)]
+
+
+def shared(system: System, share: str, sizes: list[int]) -> str:
+    """What agents share, and in how many dimensions."""
+    return f"{SHARED[share]} of dimensions {canonical_json(by_channel(system, sizes))}"
+
+
+def extended(system: System, step: dict[str, Json], place: str) -> System:
+    """Paper, section IV-C: state (x, x_1, …, x_m); x_i' or x_i(t+1) is an input of agent i.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (share, sizes), N = read_shares(system, step, place), neighbors_of(system, place)
+    total = sum(sizes)
+    E = [Matrix.unit_rows(total, sum(sizes[:i]), size) for i, size in enumerate(sizes)]
+    B = [diagonal(B_i, E_i.T) for B_i, E_i in zip(system.B, E, strict=True)]
+    own = [outputs(system, N_i if share == "outputs+states" else [i]) for i, N_i in enumerate(N)]
+    heard = [stack([E[j] for j in N_i], total) for N_i in N]
+    C = [diagonal(C_i, E_N) for C_i, E_N in zip(own, heard, strict=True)]
+    A = diagonal(system.A, Matrix.zeros(total, total))
+    words = f"the extended system without delays sharing {shared(system, share, sizes)}"
+    return prefixed(words, system, A=A, B=B, C=C)
+
+
+def lifted(system: System, step: dict[str, Json], place: str) -> System:
+    """Paper, section V-A: x, then for each j the x_j(t), …, x_j(t−d_j), y_j(t−1), …, y_j(t−d_j).
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    return _delayed(system, *read_shares(system, step, place), place, hold=False)
+
+
+def held(system: System, step: dict[str, Json], place: str) -> System:
+    """Paper, section V-B: x, then for each j the x_j(t), …, x_j(t−d_j); all receive x_j(t−d_j).
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "dimensions")
+    return _delayed(system, "states", read_dimensions(system, listed, place), place, hold=True)
+
+
+def _delayed(system: System, share: str, sizes: list[int], place: str, hold: bool) -> System:
+    """Shift registers behind the plant; x(j, δ) and y(j, δ) read what is δ steps old."""
+    require(system.time == "discrete", "subject", place, "expected a plant in discrete time")
+    N, n, m, with_outputs = neighbors_of(system, place), system.n, system.m, share != "states"
+    d = [max([system.delays.get((i, j), 0) for i in range(m)]) for j in range(m)]
+    q = [C_j.nrows if with_outputs else 0 for C_j in system.C]
+    widths = [(d[j] + 1) * sizes[j] + d[j] * q[j] for j in range(m)]
+    spend(500 * sum(d) + table(n + sum(widths), n + sum(widths)) + m * m)
+    total, starts = n + sum(widths), [n + sum(widths[:j]) for j in range(m)]
+    plant = Matrix.unit_rows(total, 0, n)
+
+    def x(j: int, delta: int) -> Matrix:
+        return Matrix.unit_rows(total, starts[j] + delta * sizes[j], sizes[j])
+
+    def y(j: int, delta: int) -> Matrix:
+        if not delta:
+            return system.C[j] @ plant
+        first = starts[j] + (d[j] + 1) * sizes[j] + (delta - 1) * q[j]
+        return Matrix.unit_rows(total, first, q[j])
+
+    rows, B, C = [system.A @ plant], [], []
+    for j in range(m):
+        rows += [Matrix.zeros(sizes[j], total), *(x(j, delta) for delta in range(d[j]))]
+        rows += [y(j, delta) for delta in range(d[j]) if with_outputs]
+        B.append(beside([plant.T @ system.B[j], x(j, 0).T], total))
+        waits = [(k, d[k] if hold else system.delays.get((j, k), 0)) for k in N[j]]
+        late = sorted(waits, key=lambda wait: wait[1] > 0)  # signals without delay come first
+        own = [y(*wait) for wait in late] if with_outputs else [y(j, 0)]
+        C.append(stack([*own, *(x(*wait) for wait in waits)], total))
+    form = f"{'held' if hold else 'lifted'}, sharing {shared(system, share, sizes)}"
+    words = f"the extended system with delays, {form}"
+    return prefixed(words, system, A=stack(rows, total), B=B, C=C)
+
+
+# Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``restricted`` and others.
+
+
+def dual(system: System, step: dict[str, Json], place: str) -> System:
+    """A', (C_i)', (B_i)'; no neighbor graph.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    fields(step, place)
+    B, C = [M.T for M in system.C], [M.T for M in system.B]
+    return prefixed("the dual", system, A=system.A.T, B=B, C=C, neighbors=None, delays={})
+
+
+def feedback(system: System, step: dict[str, Json], place: str) -> System:
+    """A_F instead of A.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "gains")
+    F = read_gains(listed, place, system)
+    given = with_digest(canonical_json(by_channel(system, F)))
+    words = f"under the decentralized gains F with {given}"
+    return suffixed(system, words, A=evidence_closed_loop(system, F))
+
+
+def full_output(system: System, step: dict[str, Json], place: str) -> System:
+    """C_q becomes the identity.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (name,) = fields(step, place, "channel")
+    q = system.place_of(name, place)
+    identity = Matrix.unit_rows(system.n, 0, system.n)
+    C = [identity if i == q else C_i for i, C_i in enumerate(system.C)]
+    words = f"with the whole state measured by channel {json.dumps(name)}"
+    return suffixed(system, words, C=C)
+
+
+def merged(system: System, step: dict[str, Json], place: str) -> System:
+    """One channel for each part T of a partition of the channels, (B_T, C_T); no neighbor graph.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "parts")
+    parts = [names(part, place, system.names) for part in items(listed, place)]
+    if not all(parts) or parts != sorted(parts):
+        malformed(place, "expected parts that are not empty, by their first members")
+    whole = sorted(i for part in parts for i in part) == list(range(system.m))
+    message = "expected every channel in exactly one part, and a part"
+    require(bool(parts) and whole, "subject", place, message)
+    known = ["+".join(system.names[i] for i in part) for part in parts]
+    distinct = len(set(known)) == len(known)
+    require(distinct, "subject", place, "two channels would have the same name")
+    sets = ", ".join(channel_set(system.names[i] for i in part) for part in parts)
+    words = f"with its channels merged into {sets}"
+    B, C = [inputs(system, part) for part in parts], [outputs(system, part) for part in parts]
+    return suffixed(system, words, names=known, B=B, C=C, neighbors=None, delays={})
+
+
+def restricted(system: System, step: dict[str, Json], place: str) -> System:
+    """Only some of the channels, at least one; no neighbor graph.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "channels")
+    chosen = names(listed, place, system.names)
+    require(bool(chosen), "subject", place, "expected at least one channel")
+    known = [system.names[i] for i in chosen]
+    B, C = [system.B[i] for i in chosen], [system.C[i] for i in chosen]
+    words = f"with the channels {channel_set(known)} alone"
+    return suffixed(system, words, names=known, B=B, C=C, neighbors=None, delays={})
+
+
+def integrators(system: System, step: dict[str, Json], place: str) -> System:
+    """Paper, section III: w' = y or w(t+1) = w + y at the outputs, and agent i measures its w_i.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    fields(step, place)
+    n, q = system.n, [C_i.nrows for C_i in system.C]
+    N = n + sum(q)
+    x, w = Matrix.unit_rows(N, 0, n), Matrix.unit_rows(N, n, sum(q))
+    change = outputs(system, range(system.m)) @ x
+    A = stack([system.A @ x, change + w if system.time == "discrete" else change], N)
+    B = [stack([B_i, Matrix.zeros(sum(q), B_i.ncols)], B_i.ncols) for B_i in system.B]
+    C = [Matrix.unit_rows(N, n + sum(q[:i]), q_i) for i, q_i in enumerate(q)]
+    return suffixed(system, "with integrators of its outputs", A=A, B=B, C=C)
+
+
+def error(system: System, step: dict[str, Json], place: str) -> System:
+    """Paper, section II: the errors e_i of m estimates, I⊗(A + ΣB_jF_j) − Q with Q_ij = B_jF_j.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "gains")
+    n, N = system.n, neighbors_of(system, place)
+    F = matrices(listed, place, [(B_i.ncols, n) for B_i in system.B])
+    BF = [B_i @ F_i for B_i, F_i in zip(system.B, F, strict=True)]
+    e = [Matrix.unit_rows(n * system.m, i * n, n) for i in range(system.m)]
+    closed, Q = sum(BF, system.A), beside(BF, n)
+    A = stack([closed @ e_i - Q for e_i in e], n * system.m)
+    C = []
+    for i, N_i in enumerate(N):
+        seen = [e[i] - e[j] for j in N_i if j != i]
+        C.append(stack([system.C[i] @ e[i], *seen], n * system.m))
+    given = with_digest(canonical_json(by_channel(system, F)))
+    words = f"the open-loop error system under the state feedback F with {given}"
+    return prefixed(words, system, A=A, B=[e_i.T for e_i in e], C=C)
+
+
+# The system that a claim is about, built from the plant by the constructions of ``FORMAT.md``.
+
+LINE = "line"
+"""The construction that only plants with parameters have, and before all others."""
+LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
+CONSTRUCTIONS = {
+    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, restricted)
+}
+
+
+def read_subject(value: Json, plant: System, before: int = 0) -> System:
+    """Apply the constructions in order, perhaps behind some that were applied already.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    system = plant
+    for k, step in enumerate(items(value, "subject"), before):
+        place = f"subject[{k}]"
+        if not isinstance(step, dict) or type(step.get("construction")) is not str:
+            malformed(place, 'expected an object with the key "construction"')
+        name = step["construction"]
+        message = "a line needs a plant with parameters, and comes before all other constructions"
+        require(name != LINE, "subject", place, message)
+        if name not in CONSTRUCTIONS:
+            incomplete("construction", place, f"{shown(name)} is not a construction known here")
+        spend(1000 + 200 * system.m + len(system.words))
+        parameters = {key: part for key, part in step.items() if key != "construction"}
+        system = CONSTRUCTIONS[name](system, parameters, place)
+    return system

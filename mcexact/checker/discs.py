@@ -1,0 +1,554 @@
+"""Boxes, discs on which a pencil is regular, and covers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import NamedTuple
+
+from . import budget, reading
+from .arithmetic import Matrix, entries_of, stack
+from .constructions import (
+    Signal,
+    Terms,
+    mapped,
+    programs_of,
+    read_subject,
+    rows_of_states,
+    rows_that_read,
+    signals_of,
+)
+from .evidence import closed_loop, read_gains
+from .modes import Bound
+from .reading import Json, decimal, fields, incomplete, integer, items, malformed, require
+from .roots import Disc
+from .system import MAPS, System, digest, pairs_of, radii_in_words, read_controller, read_radii
+
+# Complex matrices, of pairs of integers over one denominator, and their absolute values.
+
+
+def magnitude(re: int, im: int) -> int:
+    """The least integer that is not below |re + i·im|."""
+    if not im:
+        return abs(re)
+    square = re * re + im * im
+    return math.isqrt(square - 1) + 1
+
+
+def extractions(number: int, a: int) -> int:
+    """The units of so many absolute values of pairs of numbers of a limbs."""
+    return budget.reductions(4 * number, 2 * a)
+
+
+@dataclass(frozen=True)
+class ComplexMatrix:
+    """re + i·im; both have the same shape and the same denominator."""
+
+    re: Matrix
+    im: Matrix
+
+    @property
+    def limbs(self) -> int:
+        """The limbs of the longest entry, or of the denominator."""
+        return max(self.re.limbs, self.im.limbs)
+
+    def __matmul__(self, other: ComplexMatrix) -> ComplexMatrix:
+        re = self.re @ other.re - self.im @ other.im
+        return ComplexMatrix(re, self.re @ other.im + self.im @ other.re)
+
+    def after(self, M: Matrix) -> ComplexMatrix:
+        """The product M (re + i·im), M real."""
+        return ComplexMatrix(M @ self.re, M @ self.im)
+
+    def before(self, M: Matrix) -> ComplexMatrix:
+        """The product (re + i·im) M, M real."""
+        return ComplexMatrix(self.re @ M, self.im @ M)
+
+    def magnitudes(self) -> Matrix:
+        """The absolute values of all entries, rounded up to integers over the denominator."""
+        nrows, ncols, a = self.re.nrows, self.re.ncols, self.limbs
+        budget.spend(budget.table(nrows, ncols, a) + extractions(nrows * ncols, a))
+        pairs = zip(self.re.rows, self.im.rows, strict=True)
+        return Matrix([list(map(magnitude, *pair)) for pair in pairs], ncols, self.re.denominator)
+
+
+def complex_matrix(value: Json, place: str, nrows: int, ncols: int) -> ComplexMatrix:
+    """Read a complex matrix of the prescribed shape."""
+    denominator, *parts = fields(value, place, "denominator", "re", "im")
+    re, im = (
+        reading.matrix({"denominator": denominator, "entries": part}, place, nrows, ncols)
+        for part in parts
+    )
+    return ComplexMatrix(re, im)
+
+
+# Discs of λ on which a pencil is regular for every member of a box; ``proofs/boxes.md``.
+
+Regular = Callable[[Fraction, Fraction, Fraction], bool]
+"""Whether a pencil is regular on the disc of this center, re + i·im, and this radius."""
+
+
+@dataclass(frozen=True)
+class Pencil:
+    """λE − Z, whose entries of Z have the radii D; E has ``dynamic`` ones, and then zeros.
+
+    Each of ``tied`` is added to Z with a factor from −1 to 1 of its own.
+    """
+
+    Z: Matrix
+    D: Matrix
+    dynamic: int
+    tied: Sequence[Matrix] = ()
+
+
+def read_weights(value: Json, place: str, size: int) -> Matrix:
+    """A column of positive integers."""
+    weights = [[integer(entry, place, 1)] for entry in items(value, place, size)]
+    return Matrix(weights, 1)
+
+
+def left_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Regular:
+    """V about (cE − Z)⁻¹: I − V(λE − Z) is I − (λP − Q), P = VE and Q = VZ.
+
+    Theorems ``boxes.regular_disc_left``, ``boxes.regular_disc_left_tied``.
+    """
+    size = pencil.Z.nrows
+    V, w = complex_matrix(value, place, size, size), read_weights(weights, place, size)
+    dynamic = range(pencil.dynamic)
+    P = ComplexMatrix(V.re.take(None, dynamic), V.im.take(None, dynamic))
+    moved = V.magnitudes() @ (pencil.D @ w)
+    for M in pencil.tied:
+        moved = moved + V.before(M).magnitudes() @ w
+    return near_identity(P, V.before(pencil.Z), moved, w)
+
+
+def right_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Regular:
+    """R about a right inverse of cE − Z, E = [I, 0]: I − (λP − Q), P = ER and Q = ZR.
+
+    Theorems ``boxes.regular_disc_right``, ``boxes.regular_disc_right_tied``.
+    """
+    size = pencil.dynamic
+    R = complex_matrix(value, place, pencil.Z.ncols, size)
+    w, dynamic = read_weights(weights, place, size), range(size)
+    P = ComplexMatrix(R.re.take(dynamic), R.im.take(dynamic))
+    moved = pencil.D @ (R.magnitudes() @ w)
+    for M in pencil.tied:
+        moved = moved + R.after(M).magnitudes() @ w
+    return near_identity(P, R.after(pencil.Z), moved, w)
+
+
+def near_identity(P: ComplexMatrix, Q: ComplexMatrix, moved: Matrix, w: Matrix) -> Regular:
+    """Whether Σ_j |I − (cP − Q)|_ij w_j + moved_i + ρ (|P| w)_i < w_i in every row i.
+
+    P has the first columns; in the others it is 0.
+    """
+    size, width = Q.re.nrows, P.re.ncols
+    d = math.lcm(P.re.denominator, Q.re.denominator)
+    f, g = d // P.re.denominator, d // Q.re.denominator
+    a, b = P.limbs + budget.limbs([f]), Q.limbs + budget.limbs([g])
+    budget.build(2 * size, 2 * size, a, b)
+    rest = [0] * (size - width)
+    xs = [[f * entry for entry in row] + rest for row in P.re.rows]
+    ys = [[f * entry for entry in row] + rest for row in P.im.rows]
+    us = [[g * entry for entry in row] for row in Q.re.rows]
+    vs = [[g * entry for entry in row] for row in Q.im.rows]
+    weights = [row[0] for row in w.rows]
+    for i in range(size):
+        us[i][i] += d
+    grown = P.magnitudes() @ Matrix(w.rows[:width], 1)
+    slacks = [
+        w_i - Fraction(e[0], moved.denominator) for w_i, e in zip(weights, moved.rows, strict=True)
+    ]
+    slopes = [Fraction(e[0], grown.denominator) for e in grown.rows]
+
+    def regular(re: Fraction, im: Fraction, rho: Fraction) -> bool:
+        z = math.lcm(re.denominator, im.denominator)
+        p, q = int(re * z), int(im * z)
+        c = budget.limbs([p, q, z])
+        longest = max(a, b) + c + 1
+        budget.spend(
+            budget.products(8 * size * size, max(a, b), c) + extractions(size * size, longest)
+        )
+        budget.spend(budget.fractions(4 * size, longest + moved.limbs + budget.limbs_of([rho])))
+        for x, y, u, v, slack, slope in zip(xs, ys, us, vs, slacks, slopes, strict=True):
+            total = sum(
+                magnitude(x_j * p - y_j * q - z * u_j, x_j * q + y_j * p - z * v_j) * w_j
+                for x_j, y_j, u_j, v_j, w_j in zip(x, y, u, v, weights, strict=True)
+            )
+            if not Fraction(total, d * z) + rho * slope < slack:
+                return False
+        return True
+
+    return regular
+
+
+# Covers of discs by discs and squares, each of which is proved; ``proofs/boxes.md``.
+
+ROOT_2 = Fraction(1414214, 1000000)
+"""More than the square root of 2."""
+
+
+ZERO = Fraction(0)
+
+
+class Cell(NamedTuple):
+    """A disc around re + i·im of this radius, or a square of half this side."""
+
+    re: Fraction
+    im: Fraction
+    size: Fraction
+    square: bool
+
+    def outside(self, time: str, bound: Bound) -> bool:
+        """Whether it lies below the real axis, or inside the region where modes are allowed.
+
+        Theorems ``cells.conjugate_fixed``, ``cells.conjugate_rank``.
+        """
+        re, im, size, square = self
+        if im + size < 0:
+            return True
+        if bound is None:
+            return False
+        if time == "continuous":
+            return re + size < -bound
+        if square:
+            return (abs(re) + size) ** 2 + (abs(im) + size) ** 2 < bound**2
+        return bound > size and re**2 + im**2 < (bound - size) ** 2
+
+    def meets(self, disc: Disc) -> bool:
+        """Whether it has a point in common with a disc."""
+        re, im, radius = disc
+        x, y, reach = abs(re - self.re), abs(im - self.im), radius + self.size
+        if max(x, y) > reach:
+            return False
+        if self.square:
+            x, y, reach = max(x - self.size, ZERO), max(y - self.size, ZERO), radius
+        return x**2 + y**2 <= reach**2
+
+    def parts(self) -> list[Cell]:
+        """Four squares that cover it, in the order in which they are taken from the end.
+
+        Theorems ``cells.disc_in_square``, ``cells.four_parts``.
+        """
+        re, im, size, _ = self
+        h = size / 2
+        return [Cell(re + x, im + y, h, True) for x in (h, -h) for y in (h, -h)]
+
+    def regular(self, on_disc: Regular) -> bool:
+        """Whether a pencil is regular on the disc around it."""
+        return on_disc(self.re, self.im, self.size * ROOT_2 if self.square else self.size)
+
+
+def require_covered(
+    value: Json,
+    place: str,
+    exterior: list[list[Disc]],
+    outside: Callable[[Cell], bool],
+    frames: Sequence[Regular],
+) -> None:
+    """Stop unless all points in a disc of each list are in cells that are regular by one frame.
+
+    The discs of the first list are cut into cells; those that are outside, or that meet no disc of
+    another list, are left out.
+
+    Theorems ``boxes.square_in_disc``, ``cells.cover_disc``.
+    """
+    first, *others = exterior
+    longest = max((budget.limbs_of(disc) for discs in others for disc in discs), default=0)
+    for k, nodes in enumerate(items(value, place, len(first))):
+        where, used = f"{place}[{k}]", 0
+        left = [(Cell(*first[k], False), others)]
+        while left:
+            cell, near = left.pop()
+            turns = 12 + 3 * sum(map(len, near))
+            budget.spend(budget.fractions(turns, 2 * budget.limbs_of(cell[:3]) + longest))
+            if outside(cell):
+                continue
+            near = [[disc for disc in discs if cell.meets(disc)] for discs in near]
+            if not all(near):
+                continue
+            require(used < len(items(nodes, where)), "cover", where, "a cell is not covered")
+            node, used = nodes[used], used + 1
+            if node is None:
+                left += [(part, near) for part in cell.parts()]
+                continue
+            if integer(node, where) >= len(frames):
+                malformed(where, f"expected null or a position below {len(frames)}")
+            regular = cell.regular(frames[node])
+            require(regular, "cell", f"{where}[{used - 1}]", "not regular by this frame")
+        if used < len(items(nodes, where)):
+            malformed(where, f"expected {used} cells, found {len(nodes)}")
+
+
+# The box of a plant: all systems whose entries are within their radii, and what is made of it.
+
+LOOP = "closed_loop"
+NONE = System("", [], Matrix.zeros(0, 0), [], [])
+
+
+@dataclass(frozen=True)
+class Box(System):
+    """All systems with |A − A_0| ≤ D_A, |B_i − B_i0| ≤ D_Bi, |C_i − C_i0| ≤ D_Ci in every entry.
+
+    Its A, B_i and C_i are the values A_0, B_i0 and C_i0, ``radii`` has D_A, D_Bi and D_Ci.  Each of
+    ``tied`` may be added to the values with a factor from −1 to 1.  For a closed loop ``plant`` is
+    the box in the loop, and ``programs`` the controller.  ``members`` are the words with which a
+    statement about all of them begins.
+    """
+
+    radii: System = NONE
+    tied: tuple[System, ...] = ()
+    plant: Box | None = None
+    programs: Json = None
+    members: str = ""
+
+    def independent(self) -> Box:
+        """A box without ties that contains all members."""
+        radii = self.radii
+        for each in self.tied:
+            radii = _combined(radii, _sizes(each), 1)
+        return replace(self, radii=radii, tied=())
+
+    def outside(self, bound: Bound) -> Callable[[Cell], bool]:
+        """Whether modes may be in a cell, or are those of another one by conjugation."""
+        return lambda cell: cell.outside(self.time, bound)
+
+
+def at_values(plant: System) -> System:
+    """The plant itself, which is named so where its values are uncertain."""
+    if plant.uncertainty is None:
+        return plant
+    return replace(plant, words=f"{plant.words} at its nominal values")
+
+
+def system_of(steps: Json, plant: System, kind: str) -> System:
+    """The subject of a claim about a plant without parameters: a box for the kinds about boxes."""
+    if kind.startswith("box_"):
+        return box_of(steps, plant, kind)
+    return read_subject(steps, at_values(plant))
+
+
+def box_of(steps: Json, plant: System, kind: str) -> Box:
+    """What constructions make from all plants within the radii.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    center = read_subject(steps, plant)
+    looped = kind == "box_stable" and [step["construction"] for step in steps[-1:]] == [LOOP]
+    computed = steps[:-1] if looped else steps
+    for k, step in enumerate(computed):
+        if step["construction"] == LOOP:
+            message = "a closed loop is the last construction, for the kind box_stable alone"
+            incomplete("construction", f"subject[{k}]", message)
+    radii, members = _radii(computed, plant), members_in_words(plant)
+    if not looped:
+        return Box(**vars(center), radii=radii, members=members)
+    inside = Box(**vars(read_subject(computed, plant)), radii=radii)
+    programs = steps[-1]["controller"]
+    return Box(**vars(center), plant=inside, programs=programs, members=members)
+
+
+def members_in_words(plant: System) -> str:
+    """All plants within the radii, by the digest of the plant without radii and their size."""
+    if plant.uncertainty is None:
+        return "for this plant alone, as none of its entries has a radius"
+    values = digest(replace(plant, uncertainty=None))
+    nominal = [plant.A, *plant.B, *plant.C]
+    pairs = pairs_of(nominal, read_radii(plant.uncertainty, plant.names, nominal))
+    near = radii_in_words(pairs, f"the radii of {plant.words}")
+    return f"for all plants whose entries differ from those of the plant {values} {near}"
+
+
+def _radii(steps: Json, plant: System) -> System:
+    """The radii of what is made: by how much larger absolute values make it larger.
+
+    Each construction adds and multiplies; it is applied to absolute values, those of gains too,
+    and to the same with the radii added.
+    """
+    radii = read_radii(plant.uncertainty, plant.names, [plant.A, *plant.B, *plant.C])
+    A, *ports = radii
+    D = replace(plant, A=A, B=ports[: plant.m], C=ports[plant.m :])
+    if not steps:
+        return D
+    low, high = ends(plant, D)
+    for step in steps:
+        sizes = [_of_sizes(step)]
+        low, high = (_sizes(read_subject(sizes, each)) for each in (low, high))
+    return _combined(high, low, -1)
+
+
+def ends(system: System, radii: System) -> tuple[System, System]:
+    """The absolute values of all entries, and the largest that are within the radii."""
+    low = _sizes(system)
+    return low, _combined(low, radii, 1)
+
+
+def _of_sizes(step: Json) -> Json:
+    """A construction that was applied already, with the absolute values of its gains."""
+    if "gains" not in step:
+        return step
+    sizes = [{**F, "entries": [[*map(abs, row)] for row in F["entries"]]} for F in step["gains"]]
+    return {**step, "gains": sizes}
+
+
+def _combined(first: System, second: System, factor: int) -> System:
+    """The entries of the first system and so many times those of the second one."""
+    parts = ((first.A, *first.B, *first.C), (second.A, *second.B, *second.C))
+    return _of_parts(first, [M + N.times(factor) for M, N in zip(*parts, strict=True)])
+
+
+def _sizes(system: System) -> System:
+    """The absolute values of all entries."""
+    return _of_parts(system, list(map(absolute, (system.A, *system.B, *system.C))))
+
+
+def _of_parts(system: System, parts: list[Matrix]) -> System:
+    """The system with these A, B_i and C_i, of which there may be fewer than channels."""
+    A, *ports = parts
+    return replace(system, A=A, B=ports[: len(system.B)], C=ports[len(system.B) :])
+
+
+def absolute(M: Matrix) -> Matrix:
+    """The absolute values of all entries."""
+    budget.spend(budget.table(M.nrows, M.ncols, M.limbs))
+    rows = [[abs(entry) for entry in row] for row in M.rows]
+    return Matrix(rows, M.ncols, M.denominator)
+
+
+# Discs that contain the spectrum of every member of a box, with gains; ``proofs/boxes.md``.
+
+
+def discs_of_gains(value: Json, place: str, box: Box) -> list[list[Disc]]:
+    """Lists of discs, each of which contains what is fixed for any member.
+
+    Theorem ``boxes.fixed_in_exterior``.
+    """
+    found = []
+    for k, entry in enumerate(items(value, place)):
+        where = f"{place}[{k}]"
+        F, Y, T, listed = fields(entry, where, "F", "Y", "T", "discs")
+        A, D, tied = box.A, box.radii.A, [each.A for each in box.tied]
+        if F is not None:
+            (A, D), tied = with_gains(F, f"{where}.F", box.independent()), []
+        found.append(exterior_discs(Y, T, listed, where, A, D, tied))
+    if not found:
+        malformed(place, "expected the discs of one matrix or more")
+    return found
+
+
+def with_gains(value: Json, place: str, box: Box) -> tuple[Matrix, Matrix]:
+    """A_F = A + Σ B_i F_i C_i, and how far it is from that of any member.
+
+    Theorem ``boxes.gains_within``.
+    """
+    F = read_gains(value, place, box)
+    low, high = (closed_loop(each, list(map(absolute, F))) for each in ends(box, box.radii))
+    return closed_loop(box, F), high - low
+
+
+def exterior_discs(
+    Y_given: Json,
+    T_given: Json,
+    listed: Json,
+    place: str,
+    A: Matrix,
+    D: Matrix,
+    tied: Sequence[Matrix] = (),
+) -> list[Disc]:
+    """Discs outside of which Y(λI − A)T is strictly diagonally dominant for every member.
+
+    Each of ``tied`` is added to A with a factor from −1 to 1 of its own.
+
+    Theorems ``boxes.exterior``, ``boxes.exterior_tied``.
+    """
+    n = A.nrows
+    Y = complex_matrix(Y_given, f"{place}.Y", n, n)
+    T = complex_matrix(T_given, f"{place}.T", n, n)
+    G, H = Y @ T, Y @ T.after(A)
+    ones = Matrix([[1]] * n, 1)
+    e = Y.magnitudes() @ (D @ (T.magnitudes() @ ones))
+    for M in tied:
+        e = e + (Y @ T.after(M)).magnitudes() @ ones
+    sizes, g, h = G.magnitudes().rows, G.re.denominator, H.re.denominator
+    discs: list[Disc] = []
+    for i, entry in enumerate(items(listed, f"{place}.discs", n)):
+        where = f"{place}.discs[{i}]"
+        re, im, radius = (
+            decimal(part, where) for part in fields(entry, where, "re", "im", "radius")
+        )
+        z = re.denominator * im.denominator
+        p, q, f = int(re * z) * (h // g), int(im * z) * (h // g), z
+        longest = H.limbs + budget.limbs([p, q, f]) + 1
+        budget.spend(budget.products(6 * n, H.limbs, longest) + extractions(n, longest))
+        budget.spend(budget.fractions(8, longest + e.limbs + budget.limbs_of([radius])))
+        numbers = zip(G.re.rows[i], G.im.rows[i], H.re.rows[i], H.im.rows[i], strict=True)
+        total = sum(
+            magnitude(p * x - q * y - f * u, p * y + q * x - f * v) for x, y, u, v in numbers
+        )
+        # |G_ii| is rounded down, the others up
+        own = math.isqrt(G.re.rows[i][i] ** 2 + G.im.rows[i][i] ** 2)
+        slack = Fraction(own + sizes[i][i] - sum(sizes[i]), g)
+        require(slack > 0, "dominance", where, "Y T is not diagonally dominant in this row")
+        needed = Fraction(total, h * z) + Fraction(e.rows[i][0], e.denominator)
+        require(radius * slack > needed, "disc", where, "too small for this row")
+        discs.append((re, im, radius))
+    return discs
+
+
+# The pencil of a closed loop with its outputs and inputs as signals, for all members of a box.
+
+PLACE = "claim.gain_radii"
+
+
+def loop_pencil(box: Box, gain_radii: Json) -> Pencil:
+    """λE − Z in the order of the loop's state, then of all y_i, then of all u_i.
+
+    Z is [A, 0, 0, B; 0, L_z, L_y, 0; C, 0, −I, 0; 0, K_z, K_y, −I]: the last two blocks of columns
+    are unit lower triangular in the last rows, up to the sign, for every member.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    if box.plant is None:
+        require(gain_radii is None, "claim", PLACE, "expected null without a controller")
+        return Pencil(box.A, box.radii.A, box.n, [each.A for each in box.tied])
+    plant, radii = box.plant, box.plant.radii
+    agents = read_controller(box.programs, "subject", plant)["agents"]
+    programs = programs_of(plant, agents, "subject")
+    order = signals_of(plant, agents, programs)
+    still: list[list[Terms]] = [[[] for _ in MAPS] for _ in agents]
+    moved = still if gain_radii is None else _read_radii(gain_radii, plant, agents)
+    Z, D = _pencil(plant, order, programs, 1), _pencil(radii, order, moved, 0)
+    return Pencil(Z, D, box.n, [_pencil(each, order, still, 0) for each in plant.tied])
+
+
+def _read_radii(value: Json, plant: System, agents: list[Json]) -> list[list[Terms]]:
+    """The radii of the programs' matrices, for signals that are in the loop."""
+    given = read_controller(value, PLACE, plant)
+    known = [{**agent, **dict.fromkeys(MAPS)} for agent in agents]
+    fits = given["time"] == plant.time
+    fits &= [{**agent, **dict.fromkeys(MAPS)} for agent in given["agents"]] == known
+    require(fits, "claim", PLACE, "expected agents of the same sizes, which hold as long")
+    found = programs_of(plant, given["agents"], PLACE)
+    for M in (M for maps in found for terms in maps for _, M in terms):
+        if any(entry < 0 for _, _, entry in entries_of(M)):
+            malformed(PLACE, "expected radii from 0 on")
+    return found
+
+
+def _pencil(
+    system: System, order: list[tuple[Signal, int]], programs: list[list[Terms]], one: int
+) -> Matrix:
+    """The matrix Z, where identities are ``one`` times themselves."""
+    outputs = [(("y", j, 0), C_j.nrows) for j, C_j in enumerate(system.C)]
+    inputs = [(("u", j, 0), B_j.ncols) for j, B_j in enumerate(system.B)]
+    reads = rows_that_read([*order, *outputs, *inputs])
+    x, m = reads["X", 0, 0], range(system.m)
+    used = {signal for maps in programs for terms in maps for signal, _ in terms}
+    require(used <= reads.keys(), "claim", PLACE, "expected radii for signals of the loop alone")
+    rows = rows_of_states(system, programs, order, reads, [reads["u", j, 0] for j in m], one)
+    rows += [system.C[j] @ x - reads["y", j, 0].times(one) for j in m]
+    for j, (signal, width) in enumerate(inputs):
+        rows.append(mapped(programs[j][2], reads, width, x.ncols) - reads[signal].times(one))
+    return stack(rows, x.ncols)

@@ -1,0 +1,462 @@
+"""Kinds about fixed modes, and their absence beyond a region."""
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import zip_longest
+
+from . import arithmetic, evidence, reading, structure
+from . import roots as location
+from . import roots as root_discs
+from .arithmetic import (
+    NotAUnit,
+    Polynomial,
+    characteristic_polynomial,
+    exponent,
+    inverse,
+    poly_divide,
+    poly_modulo,
+    poly_product,
+)
+from .evidence import Blocks, Loss, TwoPolynomials, by_blocks
+from .parametric_system import FunctionSystem
+from .reading import (
+    Json,
+    boolean,
+    fields,
+    integer,
+    items,
+    malformed,
+    matrix,
+    names,
+    polynomial,
+    positions,
+    rational,
+    require,
+)
+from .roots import in_region
+from .structure import require_connected, require_reached
+from .system import FIXED, PENCIL, System, channel_set, denied, polynomial_text
+
+# Absence of fixed modes beyond a region; ``proofs/shared_dimensions.md``.
+
+Bound = Fraction | None
+"""The rate or the radius that a claim is about, if any."""
+
+
+def require_absence(value: Json, system: System, bound: Bound, connected: bool = False) -> None:
+    """Stop unless every fixed mode lies in the region; and the graph is connected, if asked.
+
+    Theorem ``transfer_graph.strongly_connected_arcs``.
+    """
+    place = "witness.absence"
+    if by_blocks(value):
+        parts, number, arcs = fields(value, place, "blocks", "modulus", "arcs")
+        Blocks(parts, place, system).require_no_more([])
+        alone = (number is None) == (arcs is None)
+        require(alone, "claim", f"{place}.modulus", "expected for edges alone")
+    else:
+        keys = ("gains", "modulus", "allowed", "arcs")
+        gains, number, listed, arcs = fields(value, place, *keys)
+        proof = TwoPolynomials(gains, number, place, system)
+        proof.require_moved(_without(listed, f"{place}.allowed", system, bound))
+    require((arcs is not None) == connected, "claim", f"{place}.arcs", "expected iff claimed")
+    if arcs is not None:
+        ell = evidence.modulus(number, f"{place}.modulus")
+        require_connected(arcs, f"{place}.arcs", system, ell)
+
+
+def _without(value: Json, place: str, system: System, bound: Bound) -> Polynomial:
+    """det(xI − A) without factors that lie in the region; [] if there is none."""
+    allowed = items(value, place)
+    rest = characteristic_polynomial(system.A) if allowed else []
+    for k, entry in enumerate(allowed):
+        where = f"{place}[{k}]"
+        factor, power = items(entry, where, 2)
+        p = polynomial(factor, where, 1)
+        inside = in_region(p, system.time, bound)
+        require(inside, "region", where, "has a root outside the region")
+        times, rest = exponent(p, rest)
+        require(times == integer(power, where, 1), "exponent", where, f"divides {times} times")
+    return rest
+
+
+def read_bound(value: Json, system: System) -> Bound:
+    """A rate ≥ 0 in continuous time, a radius in (0, 1] in discrete time, or null."""
+    if value is None:
+        return None
+    bound = rational(value, "claim.bound")
+    fits = bound >= 0 if system.time == "continuous" else 0 < bound <= 1
+    require(fits, "bound", "claim.bound", "expected a rate >= 0, or a radius in (0, 1]")
+    return bound
+
+
+def inside(bound: Json, system: System | FunctionSystem) -> str:
+    """The region within a rate or a radius, in words."""
+    limit = Fraction(bound)
+    return f"modulus below {limit}" if system.time == "discrete" else f"real part below {-limit}"
+
+
+def no_fixed_mode(bound: Json, system: System | FunctionSystem) -> str:
+    """That no mode is fixed; with a rate or a radius, none that violates it."""
+    if bound is None:
+        return f"no mode that is {FIXED}"
+    where = inside(bound, system).replace("below", "at least")
+    return f"no mode of {where} that is {FIXED}"
+
+
+def require_outside(p: Polynomial, system: System, bound: Bound, place: str) -> None:
+    """Stop if every root of p lies inside the region, where fixed modes are allowed."""
+    inside = in_region(p, system.time, bound)
+    require(not inside, "region", place, "every root lies inside the region")
+
+
+def claimed_cost(claim: dict[str, Json], answer: str, absence: Json) -> Fraction | None:
+    """The cost of the claimed answer; None if it claims that nothing suffices."""
+    if boolean(claim["feasible"], "claim.feasible"):
+        return rational(claim["cost"], "claim.cost")
+    nothing = claim[answer] is None and claim["cost"] is None and absence is None
+    require(nothing, "claim", "claim", "expected null where nothing suffices")
+    return None
+
+
+# Kind ``fixed_spectrum``: all fixed modes, and where they lie; ``proofs/fixed_spectrum.md``.
+
+CLAIM = ("polynomial", "factors", "stabilizable", "best_rate")
+COUNTS = ("multiplicity_in_A", "multiplicity_at_most", "rank")
+FACTOR = ("polynomial", "channels", "stable", "roots", *COUNTS)
+SLOWEST = {
+    "continuous": "minus the largest real part of a fixed mode",
+    "discrete": "the largest modulus of a fixed mode",
+}
+REGION = {"continuous": "Hurwitz", "discrete": "Schur"}
+
+
+def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
+    """Check a shrunk subspace for every factor, and that no more is fixed.
+
+    Theorems ``fixed_spectrum.fixed_spectrum_rule``, ``wang_davison.region_attained``.
+    """
+    whole, entries, verdict, rate = fields(claim, "claim", *CLAIM)
+    proof, spaces, completion = _proof(witness, system)
+    reading.items(spaces, "witness.subspaces", len(reading.items(entries, "claim.factors")))
+    n, product = system.n, [1]
+    psi: Polynomial = []
+    found: list[tuple[Polynomial, int, bool, list[root_discs.Disc]]] = []
+    for k, entry in enumerate(entries):
+        place, space = f"claim.factors[{k}]", f"witness.subspaces[{k}]"
+        listed, names, flag, roots, times, *counts = fields(entry, place, *FACTOR)
+        p = reading.polynomial(listed, f"{place}.polynomial", 1)
+        s = reading.names(names, f"{place}.channels", system.names)
+        at_most, r = map(reading.integer, counts, [place] * 2, (1, 0))
+        T = evidence.shrunk_subspace(spaces[k], space, system, p, n - r)
+        require(s == evidence.complement(system, T), "claim", place, "T is not the complement of s")
+        evidence.require_coprime(product, p, proof.ell, "two factors")
+        product = arithmetic.poly_product(product, p)
+        if times is not None or isinstance(proof, TwoPolynomials):
+            a, psi = arithmetic.exponent(p, psi or characteristic_polynomial(system.A))
+            same = reading.integer(times, place, 1) == a
+            require(same, "claim", place, f"the multiplicity in A is {a}")
+        e = proof.multiplicity(p, n - r)
+        require(at_most == e, "claim", place, f"the multiplicity is at most {e}")
+        stable = location.in_stability_region(p, system.time)
+        require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
+        discs = root_discs.root_discs(roots, f"{place}.roots", p)
+        found.append((p, n - r, stable, discs))
+    losses = [(p, loss) for p, loss, *_ in found]
+    if isinstance(proof, Blocks):
+        proof.require_no_more(losses)
+    else:
+        proof.require_moved(psi)
+    stabilizable = all(stable for _, _, stable, _ in found)
+    agrees = reading.polynomial(whole, "claim.polynomial") == product
+    agrees = agrees and reading.boolean(verdict, "claim.stabilizable") == stabilizable
+    require(agrees, "claim", "claim", "not the product of the factors, or not where they are")
+    if not entries:
+        require(rate is None and completion is None, "claim", "claim", "expected null for both")
+    else:
+        if isinstance(proof, TwoPolynomials):
+            proof.require_ranks(completion, losses)
+        centers = [disc for *_, discs in found for disc in discs]
+        root_discs.require_rate(rate, "claim.best_rate", centers, system.time)
+
+
+def _proof(witness: Json, system: System) -> tuple[Blocks | TwoPolynomials, Json, Json]:
+    """The proof that no more is fixed, with the subspaces, and the completion if it has one."""
+    if by_blocks(witness):
+        parts, number, spaces = fields(witness, "witness", "blocks", "modulus", "subspaces")
+        return Blocks(parts, "witness", system, number), spaces, None
+    keys = ("gains", "modulus", "subspaces", "completion")
+    gains, number, spaces, completion = fields(witness, "witness", *keys)
+    return TwoPolynomials(gains, number, "witness", system), spaces, completion
+
+
+def fixed_spectrum_statement(claim: Json, system: System) -> str:
+    """All fixed modes, and whether they are stable."""
+    rate, whole = claim["best_rate"], polynomial_text(claim["polynomial"])
+    texts = sorted((len(f["polynomial"]), _factor_text(f, system)) for f in claim["factors"])
+    start = f"the modes that are {FIXED} are the roots of {whole}"
+    if whole == "1":
+        start = f"no mode is {FIXED}"
+    control = "linear time-invariant decentralized control"
+    end = f"it is {denied(claim['stabilizable'])}stabilizable by {control}"
+    if rate is not None:
+        low, high = (Fraction(rate[key]) for key in ("lower", "upper"))
+        end += f"; {SLOWEST[system.time]} is from {low} to {high}"
+    return "; ".join([start, *(text for _, text in texts), end])
+
+
+def _factor_text(factor: Json, system: System) -> str:
+    """The proved properties of one factor."""
+    p, region = polynomial_text(factor["polynomial"]), REGION[system.time]
+    times = factor["multiplicity_in_A"]
+    exponent = "some exponent" if times is None else f"the exponent {times}"
+    return (
+        f"{p} is {denied(factor['stable'])}{region}, has {exponent} in det(xI - A) and at most "
+        f"{factor['multiplicity_at_most']} in the greatest common divisor of det(xI - A_F) over "
+        f"all constant gains F, and one root in each of the discs "
+        f"{root_discs.disc_set(factor['roots'])}, where the least rank of {PENCIL} over all sets "
+        "of channels, C the outputs of the set and B the inputs of the others, is "
+        f"{factor['rank']}, reached by {channel_set(factor['channels'])}"
+    )
+
+
+# Kind ``completeness``: connected and nothing fixed, or not; ``proofs/completeness.md``.
+
+
+def check_completeness(claim: Json, witness: Json, system: System) -> None:
+    """Check freedom and edges for yes; a fixed mode or a cut of the transfer graph for no.
+
+    Theorems ``completeness.completeness_yes``, ``completeness.completeness_no_mode``,
+    ``completeness.completeness_no_cut``.
+    """
+    (verdict,) = fields(claim, "claim", "complete")
+    if boolean(verdict, "claim.complete"):
+        _require_freedom(witness, system)
+    elif isinstance(witness, dict) and "zero" in witness:
+        (zero,) = fields(witness, "witness", "zero")
+        sources, X = evidence.zero_transfer(zero, "witness.zero", system)
+        rest = evidence.complement(system, sources)
+        proper = bool(sources and rest)
+        require(proper, "cut", "witness.zero.from", "expected a nonempty proper set")
+        for i in rest:
+            message = f"C X is not zero for channel number {i + 1}"
+            require((system.C[i] @ X).is_zero(), "identity", "witness.zero", message)
+    else:
+        coefficients, subspace = fields(witness, "witness", "polynomial", "subspace")
+        p = polynomial(coefficients, "witness.polynomial", 1)
+        evidence.shrunk_subspace(subspace, "witness.subspace", system, p, 1)
+
+
+def completeness_statement(claim: Json, system: System) -> str:
+    """Whether the system is complete."""
+    means = f"its transfer graph is strongly connected and no mode is {FIXED}"
+    return f"it is {denied(claim['complete'])}complete, which means that {means}"
+
+
+def _require_freedom(witness: Json, system: System) -> None:
+    """Check that no mode is fixed, and edges that connect all channels.
+
+    Theorem ``transfer_graph.strongly_connected_arcs``.
+    """
+    if by_blocks(witness):
+        number, value, listed = fields(witness, "witness", "modulus", "blocks", "arcs")
+        ell = evidence.modulus(number, "witness.modulus")
+        Blocks(value, "witness", system).require_no_more([])
+    else:
+        number, gains, listed = fields(witness, "witness", "modulus", "gains", "arcs")
+        proof = TwoPolynomials(gains, number, "witness", system)
+        proof.require_moved([])
+        ell = proof.ell
+    require_connected(listed, "witness.arcs", system, ell)
+
+
+# Kind ``pencil_rank``: the rank of P_s at the roots of a polynomial; ``proofs/pencil_rank.md``.
+
+
+def check_pencil_rank(claim: Json, witness: Json, system: System) -> None:
+    """Check a kernel from above, and elimination modulo (ℓ, p) from below.
+
+    Theorems ``deficiency.pencil_rank_upper``, ``deficiency.pencil_rank_lower``.
+    """
+    listed, coefficients, number = fields(claim, "claim", "subset", "polynomial", "rank")
+    ell, layers, rows = fields(witness, "witness", "modulus", "kernel", "pivots")
+    s, n = reading.names(listed, "claim.subset", system.names), system.n
+    p = reading.polynomial(coefficients, "claim.polynomial", 1)
+    B, C = evidence.inputs(system, evidence.complement(system, s)), evidence.outputs(system, s)
+    c, r = n + B.ncols, reading.integer(number, "claim.rank")
+    pivots = reading.positions(rows, "witness.pivots", c)
+    require(len(pivots) == c - r, "rank", "witness.pivots", f"expected {c} - {r} of them")
+    kernel = reading.polynomial_matrix(layers, "witness.kernel", c, c - r, len(p) - 1)
+    evidence.require_identity(kernel, pivots, "witness.pivots")
+    U = [layer.take(range(n)) for layer in kernel]
+    V = [layer.take(range(n, c)).times(-1) for layer in kernel]
+    evidence.require_pencil_kernel(system.A, B, U, V, p, "witness.kernel")
+    require(all((C @ layer).is_zero() for layer in U), "identity", "witness.kernel", "C U is not 0")
+    ell = evidence.modulus(ell, "witness.modulus")
+    kept = sorted(set(range(c)) - set(pivots))
+    top = arithmetic.beside([system.A.times(-1), B], n)
+    bottom = arithmetic.beside([C, arithmetic.Matrix.zeros(C.nrows, B.ncols)], C.nrows)
+    constant = arithmetic.stack([top, bottom], c)
+    residues = enumerate(constant.take(cols=kept).modulo(ell))
+    pencil = [[[e, int(i == j < n)] for j, e in zip(kept, row, strict=True)] for i, row in residues]
+    independent = _are_independent(pencil, len(kept), poly_modulo(p, ell), ell)
+    require(independent, "rank", "witness", f"elimination modulo l and p does not reach {r}")
+
+
+def pencil_rank_statement(claim: Json, system: System) -> str:
+    """The rank of the pencil at the roots."""
+    sets = f"C the outputs of the channels {channel_set(claim['subset'])} and B the inputs of the"
+    which = f"the pencil {PENCIL}, {sets} others, has rank exactly {claim['rank']}"
+    return f"{which} at every root of {polynomial_text(claim['polynomial'])}"
+
+
+def _are_independent(rows: list[list[Polynomial]], ncols: int, p: Polynomial, ell: int) -> bool:
+    """Whether every column finds a pivot that is a unit of (Z/ℓ)[x]/(p)."""
+    for j in range(ncols):
+        inverses = ((k, _inverse(row[j], p, ell)) for k, row in enumerate(rows))
+        k, f = next(((k, f) for k, f in inverses if f), (-1, []))
+        if not f:
+            return False
+        pivot = rows.pop(k)
+        for row in rows:
+            if g := poly_divide(poly_product(row[j], f), p, ell)[1]:
+                for c in range(j, ncols):
+                    row[c] = _less(row[c], poly_product(g, pivot[c]), p, ell)
+    return True
+
+
+def _less(a: Polynomial, b: Polynomial, p: Polynomial, ell: int) -> Polynomial:
+    return poly_divide([x - y for x, y in zip_longest(a, b, fillvalue=0)], p, ell)[1]
+
+
+def _inverse(a: Polynomial, p: Polynomial, ell: int) -> Polynomial:
+    """The inverse of a modulo p, or None if it is not a unit or that is undecided."""
+    (r, t), (rest, u) = (p, []), (poly_divide(a, p, ell)[1], [1])
+    try:
+        while rest:
+            q, left = poly_divide(r, rest, ell)
+            (r, t), (rest, u) = (rest, u), (left, _less(t, poly_product(q, u), p, ell))
+        return [c * inverse(r[0], ell) % ell for c in t] if len(r) == 1 else []
+    except NotAUnit:
+        return []
+
+
+# Kind ``assignability``: how a spectrum splits; ``proofs/assignability.md``.
+
+
+def check_assignability(claim: Json, witness: Json, system: System) -> None:
+    """Check the components, and a minimal realization of the transfer within each.
+
+    Theorems ``assignability.assignability_rule``, ``assignability.component_own_gains``,
+    ``assignability.mcmillan_degree``.
+    """
+    listed, left = fields(claim, "claim", "blocks", "fixed_degree")
+    number, graph, shown = fields(witness, "witness", "modulus", "transfer_graph", "realizations")
+    ell = evidence.modulus(number, "witness.modulus")
+    known, proof = fields(graph, "witness.transfer_graph", "claim", "witness")
+    structure.check_transfer_graph(known, proof, system)
+    place = "claim.blocks"
+    blocks = [fields(block, place, "channels", "dimension") for block in items(listed, place)]
+    same = [c for c, _ in blocks] == known["components"]
+    require(same, "component", place, "not the components of the transfer graph")
+    degrees, entries = [], items(shown, "witness.realizations", len(blocks))
+    for (component, size), entry in zip(blocks, entries, strict=True):
+        c = names(component, place, system.names)
+        degrees.append(integer(size, place))
+        _require_minimal(system, c, degrees[-1], entry, ell)
+    fixed = integer(left, "claim.fixed_degree")
+    require(fixed == system.n - sum(degrees), "degree", "claim.fixed_degree", "does not follow")
+
+
+def assignability_statement(claim: Json, system: System) -> str:
+    """How the characteristic polynomial of every loop splits."""
+    blocks = ((block["channels"], block["dimension"]) for block in claim["blocks"])
+    parts = ", ".join(f"{degree} for {channel_set(c)}" for c, degree in blocks)
+    return (
+        "for all constant gains F, det(xI - A_F) = phi(x) times the product of chi_c(x) over the "
+        "strong components c of the transfer graph; phi is monic of degree "
+        f"{claim['fixed_degree']} and the same for all F; chi_c is monic, depends on the F_i with "
+        "i in c alone, and its degree is the McMillan degree of C_c (xI - A)^-1 B_c, "
+        f"{parts or 'none'}"
+    )
+
+
+def _require_minimal(system: System, c: list[int], d: int, value: Json, ell: int) -> None:
+    """Stop unless C_c (xI − A)⁻¹ B_c has a minimal realization of dimension d."""
+    place = "witness.realizations"
+    rows, pivots, reduced, chosen = fields(value, place, "X", "pivots", "W", "columns")
+    listed = [system.names[i] for i in c]
+    space = {"from": listed, "X": rows, "pivots": pivots}
+    _, X = evidence.zero_transfer(space, place, system)
+    inner, C = (system.A @ X).take(pivots), evidence.outputs(system, c) @ X
+    columns = positions(chosen, place, X.ncols)
+    W = matrix(reduced, place, d, X.ncols)
+    if len(columns) != d:
+        malformed(place, f"expected {d} columns")
+    evidence.require_identity([W.T], columns, place)
+    A_d, C_d = (W @ inner).take(cols=columns), C.take(cols=columns)
+    invariant = (W @ inner).equals(A_d @ W) and C.equals(C_d @ W)
+    require(invariant, "identity", place, "expected W A_x = A_d W and C_x = C_d W")
+    B_d = W @ evidence.inputs(system, c).take(pivots)
+    require_reached(replace(system, A=A_d, B=[B_d]), 0, ell, d)
+    require_reached(replace(system, A=A_d.T, B=[C_d.T]), 0, ell, d)
+
+
+# Kind ``deficiency``: the largest loss of rank over all subsets; ``proofs/deficiency.md``.
+
+WITNESS = ("modulus", "gains", "B0", "C0", "polynomial", "subspace")
+
+
+def check_deficiency(claim: Json, witness: Json, system: System) -> None:
+    """Check a completed loop that moves every mode, and a shrunk subspace that loses as much.
+
+    Theorems ``deficiency.deficiency_rule``, ``deficiency.deficiency_bound``.
+    """
+    (number,) = fields(claim, "claim", "deficiency")
+    rho, n = integer(number, "claim.deficiency"), system.n
+    if by_blocks(witness):
+        largest = _by_blocks(witness, system)
+        require(rho == largest, "claim", "claim.deficiency", f"the largest loss is {largest}")
+        return
+    ell, gains, left, right, coefficients, subspace = fields(witness, "witness", *WITNESS)
+    ell = evidence.modulus(ell, "witness.modulus")
+    F = evidence.read_gains(gains, "witness.gains", system)
+    B0, C0 = matrix(left, "witness.B0", n, rho), matrix(right, "witness.C0", rho, n)
+    completed = evidence.closed_loop(system, F) + B0 @ C0
+    before, after = (characteristic_polynomial(M, ell) for M in (system.A, completed))
+    evidence.require_coprime(before, after, ell, "det(xI - A) and det(xI - A_F - B0 C0)")
+    if rho:
+        p = polynomial(coefficients, "witness.polynomial", 1)
+        evidence.shrunk_subspace(subspace, "witness.subspace", system, p, rho)
+    else:
+        null = coefficients is None and subspace is None
+        message = "expected no polynomial and no subspace, rank is not lost"
+        require(null, "claim", "witness", message)
+
+
+def _by_blocks(witness: Json, system: System) -> int:
+    """The largest rank that a factor loses, where the factors are all that is fixed.
+
+    Theorem ``fixed_bound.bounded_deficiency``.
+    """
+    parts, number, listed = fields(witness, "witness", "blocks", "modulus", "losses")
+    proof, losses = Blocks(parts, "witness", system, number), list[Loss]()
+    product: Polynomial = [1]
+    for k, entry in enumerate(items(listed, "witness.losses")):
+        place = f"witness.losses[{k}]"
+        coefficients, loss, space = fields(entry, place, "polynomial", "deficiency", "subspace")
+        p, d = polynomial(coefficients, place, 1), integer(loss, place, 1)
+        evidence.shrunk_subspace(space, f"{place}.subspace", system, p, d)
+        evidence.require_coprime(product, p, proof.ell, "two factors")
+        product = arithmetic.poly_product(product, p)
+        losses.append((p, proof.multiplicity(p, d)))
+    proof.require_no_more(losses)
+    return max((d for _, d in losses), default=0)
+
+
+def deficiency_statement(claim: Json, system: System) -> str:
+    """The largest loss of rank."""
+    return (
+        f"the largest {system.n} - rank {PENCIL}, over all complex x and all sets of channels, C "
+        f"the outputs of the set and B the inputs of the others, is {claim['deficiency']}"
+    )

@@ -1,0 +1,674 @@
+"""Rules of sentences: premises, analysis and sharing."""
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from .arithmetic import exponent
+from .constructions import SHARED
+from .modes import no_fixed_mode
+from .reading import polynomial, require
+from .roots import in_stability_region
+from .system import PENCIL, System, channel_set, counted, described, edge_set, polynomial_text
+
+# Rules for sentences: premises, the roles that premises play, and the table of rules.
+
+Path = tuple[str, ...]
+"""The names of the constructions that lead from the manifest's system to a subject."""
+
+SYSTEM: tuple[Path, ...] = ((), ("augmented_outputs",))
+"""What agents receive: their own outputs, or also those of their neighbors."""
+DUAL = tuple((*path, "dual") for path in SYSTEM)
+PLANT, HEARD = SYSTEM[:1], SYSTEM[1:]
+
+
+@dataclass(frozen=True)
+class Premise:
+    """A certificate that was found VALID.
+
+    Attributes
+    ----------
+    file : str
+    document : dict
+        The whole certificate, whose witness has been verified as well.
+    plant, system, meant : System or ParametricSystem
+        The plant, the subject that was built from it, and the system that the manifest is about.
+    statement : str
+        The statement that the checker verified, without the sizes of the system.
+    path : tuple of str, or None
+        The constructions of the subject; None if they do not begin at the manifest's system.
+    pointers : tuple of str
+        The pointers of a sentence into this certificate.
+    nearby : bool
+        Whether the plant is another one than that of the manifest: then no rule but those about
+        such plants takes it.
+    """
+
+    file: str
+    document: dict[str, Any]
+    plant: Any
+    system: Any
+    meant: Any
+    statement: str
+    path: Path | None
+    pointers: tuple[str, ...] = ()
+    nearby: bool = False
+
+    def __getitem__(self, key: str) -> Any:
+        return self.document["claim"][key]
+
+    @property
+    def kind(self) -> str:
+        """The kind of the certificate."""
+        return str(self.document["kind"])
+
+    @property
+    def witness(self) -> Any:
+        """The evidence, verified."""
+        return self.document["witness"]
+
+    @property
+    def about(self) -> str:
+        """The subject in words, with which a sentence begins."""
+        return f"For {self.system.words}"
+
+    def expect(self, holds: bool, message: str) -> None:
+        """Stop unless the claims are as the sentence needs them."""
+        require(holds, "claim", self.file, message)
+
+    def cited(self, part: str, key: str) -> list[Any]:
+        """The members of a list to which the sentence points; all of them if it points to none."""
+        paths = [pointer.split("/")[1:] for pointer in self.pointers]
+        numbers = {int(path[2]) for path in paths if path[:2] == [part, key] and path[2:]}
+        members = enumerate(self.document[part][key])
+        return [member for k, member in members if k in numbers or not numbers]
+
+
+@dataclass(frozen=True)
+class Role:
+    """The requirements on a premise: one of these kinds, with one of these subjects.
+
+    With ``many``, all fitting premises, at least one, are taken as a list; with ``nearby`` those
+    about another plant than that of the manifest, and no others.
+    """
+
+    kinds: Path
+    paths: tuple[Path, ...] = SYSTEM
+    many: bool = False
+    nearby: bool = False
+
+    def fits(self, premise: Premise, heard: bool) -> bool:
+        """Whether a premise can play the role, for agents with or without their neighbors' outputs.
+
+        All premises with such a role must have the same information structure.
+        """
+        ways = self.paths
+        if ways in (SYSTEM, DUAL):
+            ways = ways[heard : heard + 1]
+        right = premise.kind in self.kinds and premise.path in ways
+        return right and premise.nearby == self.nearby
+
+    def words(self) -> str:
+        """The role, for a message."""
+        ways = " or ".join("+".join(path) or "the plant" for path in self.paths)
+        whose = " of a plant that is listed as nearby" if self.nearby else ""
+        return f"a premise of the kind {' or '.join(self.kinds)}, about {ways}{whose}"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """The premises that imply a sentence, the theorem, and the implied statement in words.
+
+    ``say`` takes the premises in the order of the roles, and stops if their claims do not imply the
+    sentence. Without roles it takes all premises, those of the sentence first, and repeats what was
+    given.  ``claims`` is false of a remark, which says nothing that could be true or false of the
+    system: its verdict is REMARK and never IMPLIED.
+    """
+
+    theorem: str
+    roles: tuple[Role, ...]
+    say: Callable[..., str]
+    claims: bool = True
+
+    def implied(self, cited: list[Premise], known: list[Premise]) -> str:
+        """The statement that the premises imply.
+
+        Raises
+        ------
+        Refused
+            If a premise is missing, or they do not imply the sentence.
+        """
+        if not self.roles:
+            return self.say([each for each in [*cited, *known] if not each.nearby])
+        casts = [list(self._cast(cited, heard)) for heard in (False, True)]
+        found = max(casts, key=len)
+        if len(found) < len(self.roles):
+            wanted = self.roles[len(found)].words()
+            require(False, "premise", "because", f"expected {wanted}")
+        return self.say(*found)
+
+    def _cast(self, cited: list[Premise], heard: bool) -> Iterator[Any]:
+        """The premise for each role, up to the first role without a premise."""
+        for role in self.roles:
+            able = [premise for premise in cited if role.fits(premise, heard)]
+            if not able:
+                return
+            yield able if role.many else able[0]
+
+
+RULES: dict[str, Rule] = {}
+"""The rule of each sentence, by the key that the manifest names."""
+
+Say = Callable[..., str]
+Holds = Callable[[Premise], object]
+
+
+def rule(keys: str, *roles: Role, theorem: str = "") -> Callable[[Say], Say]:
+    """Enter a rule under these keys, with blanks between them."""
+
+    def enter(say: Say) -> Say:
+        RULES.update({key: Rule(theorem, roles, say) for key in keys.split()})
+        return say
+
+    return enter
+
+
+def remark(keys: str) -> None:
+    """Enter rules of sentences that claim nothing: titles, and what is not decided or proved."""
+
+    def enter(key: str) -> None:
+        def say(known: list[Premise]) -> str:
+            return f"For {known[0].meant.words}: the sentence {key} claims nothing"
+
+        RULES[key] = Rule("", (), say, claims=False)
+
+    for each in keys.split():
+        enter(each)
+
+
+def repeated(premise: Premise) -> str:
+    """The certificate's claim, as it was verified."""
+    return premise.statement
+
+
+def restate(keys: str, role: Role, holds: Holds, theorem: str = "", words: Say = repeated) -> None:
+    """Enter a rule with one premise, which by default repeats the certificate's claim."""
+
+    def say(premise: Premise) -> str:
+        premise.expect(bool(holds(premise)), "the claim is different")
+        return words(premise)
+
+    rule(keys, role, theorem=theorem)(say)
+
+
+def either(yes: str, no: str, role: Role, holds: Holds) -> None:
+    """Enter a rule that repeats what holds, and one that repeats that it does not."""
+    restate(yes, role, holds)
+    restate(no, role, lambda premise: not holds(premise))
+
+
+# What the certificates of an analysis imply: modes, structure, one channel, set-points.
+
+WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
+FIXED_DYNAMIC = "evidence.shrunk_subspace_fixed_dynamic"
+PENCIL_MODES = "evidence.shrunk_subspace_pencil, joint_controllability.controllable_hautus"
+SPLIT = "component_assignment.component_assignment"
+MOVED = "fixed_spectrum.multiplicity_at_most, spectrum_split.spectrum_split"
+HAUTUS = "joint_controllability.controllable_hautus"
+DAVISON = "setpoint.setpoint_rank; E. J. Davison 1976"
+
+SIDES = ("controllable", "observable")
+
+FIXED = Role(("fixed_spectrum",))
+COMPLETE = Role(("completeness",))
+BLOCKS = Role(("assignability",))
+CONTROLLABLE, OBSERVABLE = Role(("controllability",)), Role(("controllability",), DUAL)
+GAINS = Role(("single_channel_gains",))
+SUBSYSTEM = Role(("complementary_subsystem",))
+RANK, RANKS = Role(("pencil_rank",)), Role(("pencil_rank",), many=True)
+SPECTRUM = Role(("closed_loop_spectrum",))
+SETPOINT = Role(("setpoint",), PLANT)
+
+
+def everywhere(found: Premise) -> bool:
+    """Whether a certificate about a set of channels is about all of them."""
+    return bool(found["channels"] == found.system.names)
+
+
+def controls(found: Premise) -> bool:
+    """Whether all channels together control the subject."""
+    found.expect(everywhere(found), "not about all channels together")
+    return bool(found["controllable"])
+
+
+# What is given, and remarks: titles, what is not proved, and what was not decided.
+
+
+def plain(known: list[Premise]) -> System:
+    """The system that the sentences are about, which has no parameters."""
+    meant: System = known[0].meant
+    known[0].expect(isinstance(meant, System), "the plant has parameters")
+    return meant
+
+
+@rule("heading page-heading information")
+def _given(known: list[Premise]) -> str:
+    """The sizes of what the manifest is about, and the names of its channels."""
+    plant = plain(known)
+    p, q = sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)
+    ports = f"{p} inputs and {q} outputs in all"
+    return f"For {described(plant)}: {ports}"
+
+
+remark("subsystem channel picture-graphs picture-graphs-outputs picture-dimensions certify-loop")
+remark("design-measured")
+remark("table-links-limit least-outputs-states-limit least-states-limit")
+remark("controllability-indices-left-out observability-indices-left-out")
+
+
+@rule("inactive-channels")
+def _inactive(known: list[Premise]) -> str:
+    """The channels that no edge of the transfer graph can touch."""
+    seen = [premise for premise in known if premise.kind == "transfer_graph"]
+    system = seen[0].system if seen else plain(known)
+    ports = enumerate(zip(system.B, system.C, strict=True))
+    idle = [system.names[i] for i, (B, C) in ports if B.is_zero() or C.is_zero()]
+    known[0].expect(bool(idle), "no channel is without inputs or outputs that act")
+    return f"For {system.words}: B_i = 0 or C_i = 0 for the channels {channel_set(idle)}"
+
+
+@rule("picture-neighbor-graph picture-heard")
+def _neighbors(known: list[Premise]) -> str:
+    """Who receives messages from whom."""
+    plant = plain(known)
+    known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
+    sets, names = enumerate(plant.neighbors or []), plant.names
+    told = edge_set((names[j], names[i]) for i, N_i in sets for j in N_i if i != j)
+    return f"For {plant.words}: its neighbor graph has the edges {told}"
+
+
+# Fixed modes.
+
+
+def followed(words: str) -> Callable[[Premise], str]:
+    """The words for a claim, and for what follows from it."""
+    return lambda premise: f"{premise.statement}; {words}"
+
+
+def free(found: Premise) -> bool:
+    """Whether no mode is fixed."""
+    return not found["factors"]
+
+
+ANY_RATE = followed("every decay rate is reached by linear time-invariant control")
+restate("nothing-fixed", FIXED, free, "fixed_spectrum.absence_all")
+restate("any-rate", FIXED, free, WANG_DAVISON, ANY_RATE)
+restate("stabilizable table-stabilizable", FIXED, lambda c: c["stabilizable"], WANG_DAVISON)
+NEVER = "not-stabilizable table-not-stabilizable"
+restate(NEVER, FIXED, lambda c: not c["stabilizable"], FIXED_DYNAMIC)
+LISTED = "fixed slowest fixed-modes-row fixed-modes-note latex-fixed-mode picture-obstruction"
+either("fixed-none latex-nothing-fixed", LISTED, FIXED, free)
+restate("fixed-modes", FIXED, lambda c: c["factors"], FIXED_DYNAMIC)
+
+
+def _blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
+    """Enter the rule about the fixed modes whose sets have a wanted size, among m channels."""
+
+    @rule(key, FIXED, theorem=PENCIL_MODES)
+    def _say(found: Premise) -> str:
+        texts, names = [], found.system.names
+        for factor in found.cited("claim", "factors"):
+            s, modes = factor["channels"], polynomial_text(factor["polynomial"])
+            if wanted(len(s), len(names)):
+                sets = channel_set(name for name in names if name not in s), channel_set(s)
+                texts.append(f"the roots of {modes} are fixed, {told.format(*sets)}")
+        found.expect(bool(texts), "the claim is different")
+        return f"{found.about}: {'; '.join(texts)}"
+
+
+_blame("fixed-mode", "not controlled by {} and not observed by {}", lambda size, m: 0 < size < m)
+_blame("fixed-mode-uncontrolled", "not controlled by all of {}", lambda size, m: size == 0)
+_blame("fixed-mode-unobserved", "not observed by all of {1}", lambda size, m: size == m)
+
+
+# How the spectrum can be assigned.
+
+ANY_CHANNEL = followed("channel controllers in any one channel assign the whole spectrum")
+COROLLARY = "corollary_1.free_assignment"
+restate("free-through-any-channel", COMPLETE, lambda c: c["complete"], COROLLARY, ANY_CHANNEL)
+
+
+@rule("free spectrum-free", FIXED, BLOCKS, theorem=SPLIT)
+def _free(spectrum: Premise, split: Premise) -> str:
+    """Nothing is fixed, and there is one part at most."""
+    spectrum.expect(not spectrum["factors"], "a mode is fixed")
+    split.expect(sum(b["dimension"] > 0 for b in split["blocks"]) <= 1, "the spectrum splits")
+    return f"{split.about}: linear time-invariant channel controllers assign the whole spectrum"
+
+
+@rule("parts spectrum-parts", FIXED, BLOCKS, theorem=SPLIT)
+def _parts(spectrum: Premise, split: Premise) -> str:
+    """Nothing is fixed, and strong components have parts of their own."""
+    spectrum.expect(not spectrum["factors"], "a mode is fixed")
+    blocks = [(b["dimension"], channel_set(b["channels"])) for b in split["blocks"]]
+    told = ", ".join(f"degree {size} by {names}" for size, names in blocks if size)
+    return f"{split.about}: the spectrum is assigned in parts: {told}"
+
+
+def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
+    """Between which numbers of eigenvalues gains move, by the degree of what divides every loop.
+
+    That is a multiple of every factor and of what belongs to no strong component, and divides the
+    product of the p^a, as the rest of det(xI - A) is coprime to the loop of the certificate.  The
+    loop's exponent is of p as a whole, and limits that of a root only where p has a single one.
+    """
+    sizes, n = [], spectrum.system.n
+    for factor in spectrum["factors"]:
+        degree, times = len(factor["polynomial"]) - 1, factor["multiplicity_in_A"]
+        if degree == 1:
+            at_most = factor["multiplicity_at_most"]
+            times = at_most if times is None else min(times, at_most)
+        spectrum.expect(times is not None, "a multiplicity in A is left open")
+        sizes.append(degree * times)
+    return n - sum(sizes), n - max(len(spectrum["polynomial"]) - 1, split["fixed_degree"])
+
+
+@rule("spectrum-moved-between", FIXED, BLOCKS, theorem=MOVED)
+def moved_between(spectrum: Premise, split: Premise) -> str:
+    """Bounds on how many eigenvalues gains move."""
+    least, most = moved(spectrum, split)
+    return f"{split.about}: gains move from {least} to {most} of the {split.system.n} eigenvalues"
+
+
+@rule("spectrum-moved", FIXED, BLOCKS, theorem=MOVED)
+def _moved_exactly(spectrum: Premise, split: Premise) -> str:
+    """How many eigenvalues gains move, where the bounds meet."""
+    least, most = moved(spectrum, split)
+    spectrum.expect(least == most, f"only known to be from {least} to {most}")
+    return moved_between(spectrum, split)
+
+
+# Structure, a set of channels, one channel.
+
+
+def alone(found: Premise) -> bool:
+    """Whether a certificate about a set of channels is about one."""
+    return len(found["channels"]) == 1
+
+
+either("controllable", "uncontrollable", CONTROLLABLE, controls)
+either("observable", "unobservable", OBSERVABLE, controls)
+GRAPH, CUT = Role(("transfer_graph",)), "transfer-graph-parts"
+either("transfer-graph-connected", CUT, GRAPH, lambda c: c["strongly_connected"])
+restate("picture-transfer-graph", GRAPH, lambda c: True)
+restate("complete", COMPLETE, lambda c: True)
+for side, path in (("controllability", SYSTEM), ("observability", DUAL)):
+    INDICES, ALONE = Role(("controllability_indices",), path), Role(("controllability",), path)
+    restate(f"{side}-index", INDICES, lambda c: everywhere(c) and c["index"] is not None)
+    restate(f"{side}-indices", INDICES, lambda c: everywhere(c) and c["index"] is None)
+    restate(f"channel-{side}", ALONE, lambda c: alone(c) and c["controllable"])
+    restate(f"channel-no-{side}", ALONE, lambda c: alone(c) and not c["controllable"])
+
+restate("pencil-row", RANK, lambda c: True)
+restate("subsystem-normal-rank subsystem-remnant", SUBSYSTEM, lambda c: True)
+either("subsystem-zeros", "subsystem-no-zeros", SUBSYSTEM, lambda c: c["invariant_polynomials"])
+
+
+def completeness(found: Premise) -> tuple[bool, bool]:
+    """Whether the transfer matrix is zero, and whether the rank drops below n anywhere."""
+    return found["transfer_zero"], len(found["remnant"]) > 1
+
+
+restate("subsystem-complete", SUBSYSTEM, lambda c: completeness(c) == (False, False))
+restate("subsystem-zero", SUBSYSTEM, lambda c: completeness(c) == (True, False))
+restate("subsystem-drops", SUBSYSTEM, lambda c: completeness(c) == (False, True))
+restate("subsystem-zero-and-drops", SUBSYSTEM, lambda c: completeness(c) == (True, True))
+
+
+@rule("pencil", SPECTRUM, RANKS, theorem="closed_loop_spectrum.closed_loop_spectrum")
+def _pencil(spectrum: Premise, ranks: list[Premise]) -> str:
+    """The rank of one pencil at every root of the polynomial of A."""
+    left, listed = polynomial(spectrum["polynomial"], spectrum.file), ranks[0]["subset"]
+    for found in ranks:
+        found.expect(found["subset"] == listed, "about another set of channels")
+        left = exponent(polynomial(found["polynomial"], found.file, 1), left)[1]
+    spectrum.expect(len(left) == 1, f"no rank is claimed at the roots of {polynomial_text(left)}")
+    least, s = min(found["rank"] for found in ranks), channel_set(listed)
+    which = f"the pencil {PENCIL}, C the outputs of the channels {s} and B the inputs of the others"
+    return f"{spectrum.about}: {which}, has rank {least} or more at every mode of A"
+
+
+def gains(key: str, wanted: str, about: Callable[[Premise], bool]) -> None:
+    """Enter the rules about gains for one channel, or for every channel."""
+
+    def asked(found: Premise) -> bool:
+        right = about(found) and found["property"] == wanted
+        found.expect(right, "another question was asked")
+        return bool(found["exists"])
+
+    def lost(part: str, *sides: str) -> Holds:
+        return lambda c: not asked(c) and part in c.witness and c.witness["side"] in sides
+
+    def reason(found: Premise) -> str:
+        p, q, side = (found.witness.get(part) for part in ("polynomial", "channel", "side"))
+        why = f"the roots of {polynomial_text(p)} stay out of reach" if p else "it cannot spread"
+        return f"{found.statement}: not {side} through {json.dumps(q)}, for {why}"
+
+    restate(f"{key}-gains", GAINS, asked)
+    restate(f"{key}-stuck", GAINS, lost("polynomial", *SIDES), words=reason)
+    for side in SIDES if wanted == "both" else (wanted,):
+        no_cut = "single_channel_gains.single_channel_no_cut"
+        restate(f"{key}-unreached-{side}", GAINS, lost("zero", side), no_cut, reason)
+
+
+for each in (*SIDES, "both"):
+    gains(f"channel-{each}", each, alone)
+gains("every-channel", "both", everywhere)
+
+
+# Set-points.
+
+HELD = "linear time-invariant centralized control holds all outputs at any constant set-points"
+
+
+def unreached(c: Premise, o: Premise) -> list[str]:
+    """The uncontrollable and the unobservable polynomials that are not stable."""
+    lost = [polynomial(p["uncontrollable_polynomial"], p.file) for p in (c, o)]
+    c.expect(everywhere(c) and everywhere(o), "not about all channels together")
+    return [polynomial_text(p) for p in lost if not in_stability_region(p, c.system.time)]
+
+
+@rule("setpoint", SETPOINT, CONTROLLABLE, OBSERVABLE, theorem=DAVISON)
+def _setpoint(found: Premise, c: Premise, o: Premise, *_: Premise) -> str:
+    """Integrators behind all outputs, and everything within reach."""
+    found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
+    c.expect(controls(c) and controls(o), "not jointly controllable and observable")
+    return f"{found.about}: {HELD}"
+
+
+@rule("setpoint-stable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=DAVISON)
+def _setpoint_beside(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
+    """Integrators behind all outputs, and what is out of reach is stable."""
+    found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
+    c.expect(not unreached(c, o), "what is out of reach is not stable")
+    return f"{found.about}: {HELD}; every mode out of its reach is stable"
+
+
+@rule("setpoint-unstable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=HAUTUS)
+def _setpoint_lost(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
+    """No loop is stable: a mode out of reach is not."""
+    c.expect(bool(unreached(c, o)), "what is out of reach is stable")
+    lost = f"out of reach are roots of {' and of '.join(unreached(c, o))}"
+    return f"{found.about}: no linear time-invariant loop is stable: {lost}"
+
+
+RANK_RULE = "setpoint.setpoint_rank"
+restate("setpoint-zero", SETPOINT, lambda c: c["invariant_zero"] is True, RANK_RULE)
+restate("setpoint-dependent", SETPOINT, lambda c: c["invariant_zero"] is False, RANK_RULE)
+
+
+# What the certificates about sharing imply: bounds, least dimensions, links, delays.
+
+OBSERVABLE_HAUTUS = "joint_controllability.observable_hautus"
+
+CONNECTED = Role(("neighbor_graph",), PLANT)
+LEAST = Role(("shared_dimensions",), PLANT)
+LINKS = Role(("communication",), PLANT)
+HYPOTHESES = (CONNECTED, CONTROLLABLE, OBSERVABLE)
+UNCONNECTED = "neighbor-graph-not-connected enough-unknown"
+either("neighbor-graph-connected", UNCONNECTED, CONNECTED, lambda c: c["strongly_connected"])
+
+restate("sharing-in-vain-controllability", CONTROLLABLE, lambda c: not controls(c), HAUTUS)
+restate("sharing-in-vain-observability", OBSERVABLE, lambda c: not controls(c), OBSERVABLE_HAUTUS)
+for delayed in ("lifted", "held"):
+    NETWORK = Role(("fixed_spectrum",), ((delayed,),))
+    either(f"{delayed}-nothing-fixed", f"{delayed}-fixed", NETWORK, free)
+
+
+def enough(bound: Premise, *hypotheses: Premise) -> str:
+    """So many sub-states of every agent leave no mode fixed, by Theorem 2 or Remark 2."""
+    graph, c, o = hypotheses
+    graph.expect(graph["strongly_connected"], "the neighbor graph is not strongly connected")
+    c.expect(controls(c), "not jointly controllable")
+    o.expect(controls(o), "not jointly observable")
+    what = "outputs" if bound.path == HEARD[0] else "no outputs"
+    shared = f"{what} and at least {counted(bound['deficiency'], 'sub-state')} with its neighbors"
+    return f"{graph.about}: no mode is fixed where every agent shares {shared}, without delay"
+
+
+def _enter_bound(key: str, paths: tuple[Path, ...], theorem: str, positive: bool) -> None:
+    """Enter the rule about a bound for one way of sharing that is positive, or 0."""
+
+    @rule(key, Role(("deficiency",), paths), *HYPOTHESES, theorem=theorem)
+    def _say(bound: Premise, *hypotheses: Premise) -> str:
+        bound.expect((bound["deficiency"] > 0) == positive, "the bound is another one")
+        return enough(bound, *hypotheses)
+
+
+_enter_bound("enough-outputs-states", HEARD, "extended_bound.theorem_2", positive=True)
+_enter_bound("enough-outputs", HEARD, "extended_bound.theorem_2", positive=False)
+_enter_bound("enough-states", PLANT, "extended_bound.remark_2", positive=True)
+_enter_bound("enough-nothing", PLANT, "extended_bound.remark_2", positive=False)
+
+
+# The least dimensions.
+
+
+def usual(least: Premise, share: str) -> bool:
+    """Whether the least number is asked for, without limits, so that no mode at all is fixed."""
+    asked = least["share"] == share and least["bound"] is None and not least["free_assignability"]
+    prices = all(cost == 1 for cost in least["costs"])
+    return asked and prices and all(most is None for most in least["upper"])
+
+
+def _enter_least(share: str, key: str, some: str = "", none: str = "", never: str = "") -> None:
+    """Enter the rules about the least dimensions for one way of sharing."""
+
+    def feasible(found: Premise, positive: bool) -> bool:
+        return usual(found, share) and found["feasible"] and any(found["dimensions"]) == positive
+
+    restate(f"{key} {some}", LEAST, partial(feasible, positive=True))
+    restate(f"{key}-none {none}", LEAST, partial(feasible, positive=False))
+    restate(f"{key}-impossible {never}", LEAST, lambda c: usual(c, share) and not c["feasible"])
+
+
+BOTH = ("sharing-removes", "outputs-remove", "no-sharing")
+_enter_least("outputs+states", "least-outputs-states", *BOTH)
+_enter_least("states", "least-states")
+ALLOCATED = "allocate-least allocate-row allocate-total"
+either(ALLOCATED, "allocate-impossible", LEAST, lambda c: c["feasible"])
+
+
+def _enter_common(share: str, key: str, name: str) -> None:
+    """Enter the rules about the least common dimension for one way of sharing."""
+
+    def asked(found: Premise) -> bool:
+        found.expect(found["share"] == share, "about the other way of sharing")
+        return bool(found["feasible"])
+
+    key, common = f"common-dimension-{key}", Role(("common_dimension",), PLANT)
+    restate(key, common, lambda c: asked(c) and c["dimension"], f"shared_dimensions.{name}")
+    restate(f"{key}-none", common, lambda c: asked(c) and not c["dimension"])
+    restate(f"{key}-impossible", common, lambda c: not asked(c), f"shared_dimensions.no_{name}")
+
+
+_enter_common("outputs+states", "outputs-states", "common_dimension_outputs")
+_enter_common("states", "states", "common_dimension_states")
+
+
+BOUND = Role(("deficiency",), HEARD + PLANT)
+BOUNDS = "extended_bound.theorem_2, extended_bound.remark_2"
+
+
+@rule("allocate-row-bound allocate-total-bound", LEAST, BOUND, *HYPOTHESES, theorem=BOUNDS)
+def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
+    """What is least, beside the bound for the same way of sharing."""
+    fits = bound.path == (HEARD if least["share"] == "outputs+states" else PLANT)[0]
+    bound.expect(fits, "the bound is for the other way of sharing")
+    least.expect(least["feasible"] and not least["free_assignability"], "more is asked for")
+    more = enough(bound, *hypotheses).removeprefix(f"{least.about}: ")
+    return f"{least.statement}; {more}"
+
+
+@rule("allocate-proof allocate-cost-proof", LEAST)
+@rule("allocate-links-proof", LINKS)
+def _proved(least: Premise) -> str:
+    """How long the proof is that nothing costs less."""
+    cuts, nodes = (len(least.witness[key]) for key in ("cuts", "tree"))
+    return f"{least.statement}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
+
+
+def demands(least: Premise, agents: str, alone: bool = False) -> str:
+    """Cuts of the evidence in words, and why: a mode, or no transfer to their agents.
+
+    Of a mode those of none, some or all ``agents`` are meant, or those that are cut off; if
+    ``alone``, only those of agents that receive messages from no other agent.
+    """
+    system, told = least.system, []
+    N = system.neighbors or [[i] for i in range(system.m)]
+    sharing = f"sharing {SHARED[least['share']]} without delay"
+    for cut in least.cited("witness", "cuts"):
+        s, p = [system.names.index(name) for name in cut["subset"]], cut.get("polynomial")
+        which = "none" if not s else "all" if len(s) == system.m else "some"
+        senders = sorted({j for i in s for j in N[i]} - set(s))
+        if agents == (which if p else "cut off") and not (alone and senders):
+            goal, why = "a strongly connected transfer graph", "the others do not act on it"
+            if p:
+                goal = no_fixed_mode(least["bound"], system)
+                why = f"the roots of {polynomial_text(p)}"
+            others = channel_set(system.names[j] for j in senders)
+            lacks = f"{channel_set(cut['subset'])} receives from {others}"
+            needed = f"at least {counted(cut.get('deficiency', 1), 'sub-state')} in all"
+            told.append(f"for {goal}, {sharing}, {lacks}, which must share {needed}: {why}")
+    least.expect(bool(told), "the evidence has no such cut")
+    return f"{least.about}: {'; '.join(told)}"
+
+
+rule("allocate-reason", LEAST)(partial(demands, agents="some"))
+rule("allocate-reason-do-not-control", LEAST)(partial(demands, agents="none"))
+rule("allocate-reason-do-not-observe", LEAST)(partial(demands, agents="all"))
+rule("allocate-reason-cut-off", LEAST)(partial(demands, agents="cut off"))
+
+
+# Links.
+
+
+def fewest(links: Premise) -> bool:
+    """Whether the fewest links for outputs are asked for, so that no mode at all is fixed."""
+    system, listed = links.system, links["candidates"]
+    heard = sum(len(N_i) - 1 for N_i in system.neighbors or [])
+    everywhere = len(listed) == system.m * (system.m - 1) - heard
+    asked = links["share"] == "outputs" and links["bound"] is None
+    return asked and everywhere and all(cost == 1 for *_, cost in listed)
+
+
+restate("links", LINKS, lambda c: fewest(c) and c["added"] and c.system.neighbors is None)
+restate("links-beside-graph", LINKS, lambda c: fewest(c) and c["added"] and c.system.neighbors)
+restate("table-links", LINKS, lambda c: fewest(c) and c["added"])
+restate("links-none table-links-none", LINKS, lambda c: fewest(c) and c["added"] == [])
+restate("no-links table-links-impossible", LINKS, lambda c: fewest(c) and not c["feasible"])
+restate("allocate-links allocate-link allocate-links-total", LINKS, lambda c: c["added"])
+restate("allocate-no-links-needed", LINKS, lambda c: c["added"] == [])
+restate("allocate-no-links", LINKS, lambda c: not c["feasible"])

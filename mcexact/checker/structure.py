@@ -1,0 +1,649 @@
+"""Kinds about structure."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from fractions import Fraction
+from functools import reduce
+from itertools import pairwise
+
+from . import budget, evidence, reading, roots
+from .arithmetic import (
+    SMALL,
+    Echelon,
+    Matrix,
+    Polynomial,
+    Rows,
+    SparseMatrix,
+    beside,
+    characteristic_polynomial,
+    diagonal,
+    exponent,
+    poly_divide,
+    poly_product,
+    product,
+    rank_modulo,
+    stack,
+    stripped,
+)
+from .budget import counted, spend
+from .constructions import dual, neighbors_of
+from .evidence import (
+    Blocks,
+    by_blocks,
+    inputs,
+    modulus,
+    outputs,
+    require_identity,
+    unseen,
+    without_path,
+    zero_transfer,
+)
+from .reading import (
+    Json,
+    boolean,
+    fields,
+    integer,
+    items,
+    malformed,
+    matrix,
+    names,
+    polynomial,
+    polynomial_matrix,
+    positions,
+    require,
+    shown,
+)
+from .system import (
+    PENCIL,
+    System,
+    canonical_json,
+    channel_set,
+    denied,
+    edge_set,
+    polynomial_text,
+    with_digest,
+)
+
+# Kind ``controllability``: the subspace that channels control; ``proofs/controllability.md``.
+
+CONTROLLABILITY_CLAIM = ("channels", "dimension", "controllable", "uncontrollable_polynomial")
+
+
+def check_controllability(claim: Json, witness: Json, system: System) -> None:
+    """Check an annihilator W from above, and a Krylov rank modulo ℓ or a bound from below.
+
+    Theorems ``controllability.controllability_rule``,
+    ``controllability_bound.controllability_by_bound``.
+    """
+    listed, size, verdict, factor = fields(claim, "claim", *CONTROLLABILITY_CLAIM)
+    keys = ("blocks", "measured") if by_blocks(witness) else ("modulus",)
+    *proof, rows, columns = fields(witness, "witness", *keys, "annihilator", "pivots")
+    T = names(listed, "claim.channels", system.names)
+    d, n = integer(size, "claim.dimension"), system.n
+    chi = polynomial(factor, "claim.uncontrollable_polynomial")
+    pivots = positions(columns, "witness.pivots", n)
+    require(len(pivots) == n - d, "dimension", "witness.pivots", f"expected {n} - {d} of them")
+    W = matrix(rows, "witness.annihilator", n - d, n)
+    require_identity([W.T], pivots, "witness.pivots")
+    WA = W @ system.A
+    Z = WA.take(cols=pivots)
+    require(WA.equals(Z @ W), "identity", "witness.annihilator", "W A is not Z W")
+    unmoved = all((W @ system.B[i]).is_zero() for i in T)
+    require(unmoved, "identity", "witness.annihilator", "W B is not zero")
+    low = _by_blocks if by_blocks(witness) else _by_rank
+    reached = low(system, T, *proof)
+    require(reached >= d, "rank", "claim.dimension", f"only {reached} are proved to be reached")
+    controllable = boolean(verdict, "claim.controllable")
+    require(controllable == (d == n), "claim", "claim.controllable", f"{d} of {n} are controllable")
+    same = characteristic_polynomial(Z) == chi
+    require(same, "claim", "claim.uncontrollable_polynomial", "not det(xI - Z)")
+
+
+def controllability_statement(claim: Json, system: System) -> str:
+    """How much of the state the channels control."""
+    return (
+        f"the channels {channel_set(claim['channels'])} together control a subspace of dimension "
+        f"exactly {claim['dimension']}; it is {denied(claim['controllable'])}controllable through "
+        "them, with the uncontrollable polynomial "
+        f"{polynomial_text(claim['uncontrollable_polynomial'])}"
+    )
+
+
+def _by_rank(system: System, T: list[int], number: Json) -> int:
+    """The dimension that the inputs of T reach modulo ℓ."""
+    return krylov_ranks(system, T, modulus(number, "witness.modulus"), system.n)[-1]
+
+
+def _by_blocks(system: System, T: list[int], parts: Json, measured: Json) -> int:
+    """L, if at most n − L modes of the channels T are fixed, whatever these measure.
+
+    Theorem ``controllability_bound.bounded_reach``.
+    """
+    C = [system.C[i] for i in T]
+    if measured is not None:
+        place = "witness.measured"
+        C = [
+            _picking(positions(chosen, f"{place}[{k}]", system.n), system.n)
+            for k, chosen in enumerate(items(measured, place, len(T)))
+        ]
+    named, B = [system.names[i] for i in T], [system.B[i] for i in T]
+    return system.n - Blocks(parts, "witness", System(system.time, named, system.A, B, C)).left
+
+
+def _picking(places: list[int], ncols: int) -> Matrix:
+    """The rows of the identity for these places."""
+    spend(100 * len(places))
+    return SparseMatrix(len(places), ncols, [(k, place, 1) for k, place in enumerate(places)])
+
+
+def krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[int]:
+    """Ranks modulo ℓ of [B_T], [B_T, A B_T], …, at most this many, until they stop growing.
+
+    Each bounds the rank over Q from below: the block k + 1 adds A times what the block k added.
+
+    Theorem ``arithmetic.rank_from_below``.
+    """
+    A, fresh = system.A.modulo(ell), list(zip(*inputs(system, T).modulo(ell), strict=True))
+    echelon, ranks = Echelon(ell), [0]
+    while len(ranks) <= blocks and fresh:
+        left = [echelon.add(vector) for vector in fresh]
+        kept = [vector for vector in left if vector is not None]
+        images = product(A, [list(row) for row in zip(*kept, strict=True)], len(kept), ell)
+        fresh = list(zip(*images, strict=True)) if kept else []
+        ranks.append(len(echelon.rows))
+    return ranks
+
+
+def require_reached(system: System, channel: int, ell: int, blocks: int) -> None:
+    """Stop unless [B_q, …, A^{blocks−1}B_q] has rank n modulo ℓ."""
+    reached = krylov_ranks(system, [channel], ell, blocks)[-1]
+    message = f"only {reached} dimensions are reached modulo l in {blocks} blocks"
+    require(reached == system.n, "rank", "witness", message)
+
+
+# Kind ``controllability_indices``; ``proofs/controllability_indices.md``.
+
+
+def check_controllability_indices(claim: Json, witness: Json, system: System) -> None:
+    """Check rows that annihilate the first k blocks, and the ranks modulo ℓ from below.
+
+    Theorems ``controllability.indices_rule``, ``controllability.indices_stationary``,
+    ``controllability.rank_from_above``.
+    """
+    listed, claimed, top, parts = fields(claim, "claim", "channels", "ranks", "index", "indices")
+    number, rows = fields(witness, "witness", "modulus", "annihilator")
+    T, n = names(listed, "claim.channels", system.names), system.n
+    ranks = [0, *(integer(r, "claim.ranks", 1) for r in items(claimed, "claim.ranks"))]
+    growing = ranks == sorted(set(ranks)) and ranks[-1] <= n
+    require(growing, "claim", "claim.ranks", f"expected strictly increasing ranks up to {n}")
+    ell, nu = modulus(number, "witness.modulus"), len(ranks) - 1
+    W = matrix(rows, "witness.annihilator", n - ranks[min(nu, 1)], n)
+    independent = rank_modulo(W, ell) == W.nrows
+    require(independent, "rank", "witness.annihilator", "its rows are dependent modulo l")
+    power = inputs(system, T)
+    for k in range(1, nu + 2):
+        first = W.take(range(n - ranks[min(k, nu)]))
+        message = f"its first {first.nrows} rows do not annihilate block {k}"
+        require((first @ power).is_zero(), "identity", "witness.annihilator", message)
+        power = system.A @ power
+    reached = krylov_ranks(system, T, ell, nu)
+    # Where the blocks stop growing modulo ℓ, the last rank stands for all that follow.
+    reached += [reached[-1]] * (nu + 1 - len(reached))
+    enough = all(low >= r for low, r in zip(reached, ranks, strict=True))
+    require(enough, "rank", "claim.ranks", f"only {reached[1:]} are reached modulo l")
+    index = None if top is None else integer(top, "claim.index")
+    require(index == (nu if ranks[-1] == n else None), "claim", "claim.index", "does not follow")
+    steps = [b - a for a, b in pairwise(ranks)]
+    conjugate = [sum(step > i for step in steps) for i in range(max(steps, default=0))]
+    kappa = [integer(part, "claim.indices") for part in items(parts, "claim.indices")]
+    require(kappa == conjugate, "claim", "claim.indices", f"the ranks give {conjugate}")
+
+
+def controllability_indices_statement(claim: Json, system: System) -> str:
+    """The ranks, and the indices that follow from them."""
+    index = "none" if claim["index"] is None else claim["index"]
+    return (
+        "the ranks of [B, A B, ..., A^(k-1) B], B the inputs of the channels "
+        f"{channel_set(claim['channels'])}, for k = 1, 2, ... are {canonical_json(claim['ranks'])} "
+        f"and do not grow further; the controllability indices are "
+        f"{canonical_json(claim['indices'])} and the controllability index is {index}"
+    )
+
+
+# Kind ``complementary_subsystem``: a Smith form; ``proofs/complementary_subsystem.md``.
+
+SUBSYSTEM_CLAIM = [
+    "subset",
+    "normal_rank",
+    "invariant_polynomials",
+    "remnant",
+    "transfer_zero",
+    "complete",
+]
+SUBSYSTEM_WITNESS = ["modulus", "reachable", "X", "F", "A1", "S", "B1", "L", "G", "N"]
+
+
+def check_complementary_subsystem(claim: Json, witness: Json, system: System) -> None:
+    """Check bases that bring the pencil to block triangular form, and read off its Smith form.
+
+    Theorems ``complementary_subsystem.invariant_polynomials``,
+    ``complementary_subsystem.normal_rank``, ``complementary_subsystem.remnant_gcd``,
+    ``complementary_subsystem.remnant_roots``, ``complementary_subsystem.transfer_zero``,
+    ``complementary_subsystem.complete_rule``.
+    """
+    listed, rank, invariants, rest, zero, verdict = fields(claim, "claim", *SUBSYSTEM_CLAIM)
+    number, size, *values = fields(witness, "witness", *SUBSYSTEM_WITNESS)
+    s, n = reading.names(listed, "claim.subset", system.names), system.n
+    others = evidence.complement(system, s)
+    require(bool(s and others), "claim", "claim.subset", "expected a nonempty proper subset")
+    B, C = evidence.inputs(system, others), evidence.outputs(system, s)
+    f = [
+        polynomial(g, "claim.invariant_polynomials", 1)
+        for g in items(invariants, SUBSYSTEM_CLAIM[2])
+    ]
+    require(not any(poly_divide(g, h)[1] for h, g in pairwise(f)), "divisor", "claim", "no chain")
+    a, k = integer(size, "witness.reachable"), integer(rank, "claim.normal_rank", n)
+    v, free = a + sum(len(g) - 1 for g in f), n + B.ncols - k
+    require(v <= n and free >= 0, "claim", "claim.normal_rank", "the dimensions do not fit")
+    c, p, q = n - v, B.ncols, C.nrows
+    shapes = [(n, v), (p, v), (a, v), (p, free), (a, free), (c, n), (c, q), (c, c)]
+    X, F, A1, S, B1, L, G, N = reading.matrices(values, "witness", shapes)
+    K = reduce(diagonal, map(_companion, f), Matrix.zeros(0, a))
+    identities = {
+        "A X + B F = X [A1; 0 K]": (system.A @ X + B @ F).equals(X @ stack([A1, K], v)),
+        "B S = X1 B1": (B @ S).equals(X.take(cols=range(a)) @ B1),
+        "[C; L] X = 0": (stack([C, L], n) @ X).is_zero(),
+        "L = G C + N L A": L.equals(G @ C + N @ L @ system.A),
+        "N L B = 0": (N @ L @ B).is_zero(),
+        "N strictly lower triangular": not any(any(row[i:]) for i, row in enumerate(N.rows)),
+    }
+    for name, good in identities.items():
+        require(good, "identity", "witness", f"expected {name}")
+    ell = evidence.modulus(number, "witness.modulus")
+    for M, least in ((X.T, v), (L, c), (S.T, free), (L @ B, k - n)):
+        reached = rank_modulo(M, ell)
+        require(reached == least, "rank", "witness", f"rank {reached} modulo l, not {least}")
+    require_reached(replace(system, A=A1.take(cols=range(a)), B=[B1]), 0, ell, a)
+    remnant = reduce(poly_product, f[: max(len(f) - (k - n), 0)], [Fraction(1)])
+    given = polynomial(rest, "claim.remnant"), boolean(zero, "claim"), boolean(verdict, "claim")
+    implied = remnant, k == n, k > n and len(remnant) == 1
+    require(given == implied, "claim", "claim", "does not follow from the invariant polynomials")
+
+
+def complementary_subsystem_statement(claim: Json, system: System) -> str:
+    """The Smith form of the pencil, and what follows from it."""
+    found = ", ".join(map(polynomial_text, claim["invariant_polynomials"]))
+    return (
+        f"the pencil {PENCIL}, C the outputs of the channels {channel_set(claim['subset'])} and B "
+        f"the inputs of the others, has normal rank {claim['normal_rank']}; its invariant "
+        f"polynomials of degree at least 1 are {found or 'none'}; the greatest common divisor of "
+        f"its minors of order {system.n}, the remnant polynomial, is "
+        f"{polynomial_text(claim['remnant'])}; C (xI - A)^-1 B is {denied(claim['transfer_zero'])}"
+        f"zero; the complementary subsystem is {denied(claim['complete'])}complete"
+    )
+
+
+def _companion(p: list[Fraction]) -> Matrix:
+    """Ones below the diagonal, −p in the last column."""
+    d = math.lcm(*(c.denominator for c in p))
+    rows = [[d * (i == j + 1) for j in range(len(p) - 2)] + [int(-c * d)] for i, c in enumerate(p)]
+    return Matrix(rows[:-1], len(p) - 1, d)
+
+
+# Kind ``exceptional_gains``: where [B, (M+gA)B, …] loses rank; ``proofs/exceptional_gains.md``.
+
+
+def check_exceptional_gains(claim: Json, witness: Json, system: System) -> None:
+    """Check a row at every root of each factor, and two determinants without other common roots.
+
+    Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``.
+    """
+    rows, number, p, discs = fields(claim, "claim", "M", "blocks", "polynomial", "roots")
+    modulus, listed, drawn = fields(witness, "witness", "modulus", "factors", "compressions")
+    n, blocks = system.n, integer(number, "claim.blocks", 1)
+    require(blocks <= max(n, 1), "blocks", "claim.blocks", f"expected at most {n}")
+    M, B = matrix(rows, "claim.M", n, n), evidence.inputs(system, range(system.m))
+    ell, parts = evidence.modulus(modulus, "witness.modulus"), (system.A, M, B, blocks)
+    whole = reading.polynomial(p, "claim.polynomial")
+    found = roots.root_discs(discs, "claim.roots", whole)
+    roots.require_real_or_not(found, "claim.roots")
+    place = "witness.factors"
+    factors = [_lost_at(entry, place, *parts) for entry in items(listed, place)]
+    require(reduce(poly_product, factors, [Fraction(1)]) == whole, "product", "claim", "no product")
+    R = reading.matrices(drawn, "witness.compressions", [(blocks * B.ncols, n)] * 2)
+    first, second = (_determinant(system.A, M, B, part, blocks) for part in R)
+    require(any(first), "product", "witness.compressions", "the first determinant is zero")
+    first = reduce(lambda left, f: exponent(f, left)[1], factors, first)
+    # monic: a coefficient that only ℓ makes vanish could hide a common root
+    first = [c / first[-1] for c in first]
+    evidence.require_coprime(first, second, ell, "the rest of det(K R) and det(K R')")
+
+
+def exceptional_gains_statement(claim: Json, system: System) -> str:
+    """For which g the blocks lose rank."""
+    n, k = system.n, claim["blocks"]
+    M = canonical_json(matrix(claim["M"], "claim.M", n, n))
+    discs = roots.disc_set(claim["roots"])
+    return (
+        f"the first {k} blocks of [B, (M + gA) B, (M + gA)^2 B, ...], B the inputs of all channels "
+        f"and M the matrix with {with_digest(M)}, have rank below {n} exactly where g is a root of "
+        f"{polynomial_text(claim['polynomial'])}; its roots are simple and lie one in each of the "
+        f"discs {discs}, real ones where the disc is centered on the real axis, and only there"
+    )
+
+
+def _lost_at(value: Json, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: int) -> Polynomial:
+    """A factor f; a row with an entry 1 annihilates all blocks modulo f."""
+    p, row, pivot = fields(value, place, "polynomial", "row", "pivot")
+    f = reading.polynomial(p, f"{place}.polynomial", 1)
+    w = reading.polynomial_matrix(row, f"{place}.row", 1, A.nrows, len(f) - 1)
+    pivots = reading.positions([pivot], f"{place}.pivot", A.nrows)
+    evidence.require_identity([layer.T for layer in w], pivots, f"{place}.pivot")
+    for _ in budget.counted(range(blocks)):
+        gone = all((layer @ B).is_zero() for layer in w)
+        require(gone, "identity", f"{place}.row", "it does not annihilate every block")
+        moved = [Matrix.zeros(1, A.nrows), *(layer @ A for layer in w)]
+        terms = zip(w, moved, f, strict=False)
+        w = [layer @ M + shifted - moved[-1].times(c) for layer, shifted, c in terms]
+    return f
+
+
+def _determinant(A: Matrix, M: Matrix, B: Matrix, R: Matrix, blocks: int) -> Polynomial:
+    """det([B, (M+gA)B, …] R), through its values at 0, 1, … (Newton).
+
+    Theorem ``interpolation.determinant_by_values``.
+    """
+    result, basis = Polynomial(), [Fraction(1)]
+    for g in budget.counted(range(A.nrows * (blocks - 1) + 1)):
+        total = Matrix.zeros(A.nrows, A.nrows)
+        for k in reversed(range(0, R.nrows, B.ncols or 1)):
+            total = B @ R.take(range(k, k + B.ncols)) + (M + A.times(g)) @ total
+        wanted = (-1) ** A.nrows * characteristic_polynomial(total)[0]
+        longest = budget.limbs_of((wanted, *result, *basis))
+        longest += g.bit_length() * len(basis) // budget.LIMB
+        budget.spend(budget.fractions(8 * len(basis), longest))
+        now, room = (sum(c * g**k for k, c in enumerate(p)) for p in (result, basis))
+        slope = (wanted - now) / room
+        result = [a + slope * b for a, b in zip([*result, Fraction(0)], basis, strict=True)]
+        basis = poly_product(basis, [Fraction(-g), Fraction(1)])
+    return stripped(result)
+
+
+# Kind ``neighbor_graph``: whether it is strongly connected; ``proofs/neighbor_graph.md``.
+
+
+def check_neighbor_graph(claim: Json, witness: Json, system: System) -> None:
+    """Recompute the answer from the sets of neighbors.
+
+    Theorem ``strong_components.strongly_connected_rule``.
+    """
+    (verdict,) = fields(claim, "claim", "strongly_connected")
+    fields(witness, "witness")
+    arcs = [(j, i) for i, N_i in enumerate(neighbors_of(system, "subject")) for j in N_i]
+    connected = len(components(system.m, arcs)) <= 1
+    place, answer = "claim.strongly_connected", f"{denied(connected)}strongly connected"
+    require(boolean(verdict, place) == connected, "claim", place, f"the graph is {answer}")
+
+
+def neighbor_graph_statement(claim: Json, system: System) -> str:
+    """Whether the neighbor graph is strongly connected."""
+    return f"its neighbor graph is {denied(claim['strongly_connected'])}strongly connected"
+
+
+def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:
+    """The strong components of the graph on m nodes with edges j → i, sorted by first member.
+
+    Theorems ``strong_components.closure_connect``, ``strong_components.component_rule``.
+    """
+    spend(m * m * (12 + m // 500) + 100)
+    ahead, behind = ([1 << j for j in range(m)] for _ in range(2))  # sets of nodes, as bits
+    for j, i in arcs:
+        ahead[j] |= 1 << i
+        behind[i] |= 1 << j
+    for reached in (ahead, behind):
+        for k in range(m):
+            for j in range(m):
+                if reached[j] >> k & 1:
+                    reached[j] |= reached[k]
+    parts = {a & b for a, b in zip(ahead, behind, strict=True)}
+    return sorted([i for i in range(m) if part >> i & 1] for part in parts)
+
+
+# Kind ``transfer_graph``: which channels reach which; ``proofs/transfer_graph.md``.
+
+PAIRS = 100
+"""What a pair of channels costs where every pair is looked at."""
+
+
+def check_transfer_graph(claim: Json, witness: Json, system: System) -> None:
+    """Check a power for each edge, no path or a zero transfer for other pairs, and the components.
+
+    Theorems ``transfer_graph.transfer_graph_rule``, ``transfer_graph.zero_transfer_no_arc``.
+    """
+    listed, parts, verdict = fields(claim, "claim", "arcs", "components", "strongly_connected")
+    number, exponents, zeros = fields(witness, "witness", "modulus", "powers", "zeros")
+    powers = items(exponents, "witness.powers", len(items(listed, "claim.arcs")))
+    ends = [items(arc, "claim.arcs", 2) for arc in listed]
+    joined = [[*arc, power] for arc, power in zip(ends, powers, strict=True)]
+    triples = read_arcs(joined, "claim.arcs", system)
+    require_arcs(system, triples, modulus(number, "witness.modulus"))
+    arcs = [(j, i) for j, i, _ in triples]
+    spend(PAIRS * system.m**2)
+    missing = {(j, i) for j in range(system.m) for i in range(system.m)} - set(arcs)
+    for k, entry in enumerate(items(zeros, "witness.zeros")):
+        sources, X = zero_transfer(entry, f"witness.zeros[{k}]", system)
+        unseen = [i for i, C in enumerate(system.C) if (C @ X).is_zero()]
+        spend(10 * len(sources) * len(unseen))
+        missing -= {(j, i) for j in sources for i in unseen}
+    if missing:
+        missing -= without_path(system, missing)
+    pair = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
+    require(not missing, "arc", "witness.zeros", f"nothing proves that {pair!a} is not an edge")
+    claimed = [names(p, "claim.components", system.names) for p in items(parts, "claim.components")]
+    found = components(system.m, arcs)
+    require(claimed == found, "claim", "claim.components", "these are not the strong components")
+    connected = boolean(verdict, "claim.strongly_connected")
+    require(connected == (len(found) <= 1), "claim", "claim.strongly_connected", "does not follow")
+
+
+def transfer_graph_statement(claim: Json, system: System) -> str:
+    """The edges, the strong components and whether there is one at most."""
+    return (
+        "its transfer graph, in which j -> i means that C_i (xI - A)^-1 B_j is not zero, has "
+        f"exactly the edges {edge_set(claim['arcs'])}, the strong components "
+        f"{', '.join(map(channel_set, claim['components'])) or 'none'}, and is "
+        f"{denied(claim['strongly_connected'])}strongly connected"
+    )
+
+
+def read_arcs(value: Json, where: str, system: System) -> list[tuple[int, int, int]]:
+    """Read edges (j, i) with a power k each, sorted and none twice."""
+    arcs, known = [], {name: i for i, name in enumerate(system.names)}
+    for place, entry in ((f"{where}[{k}]", e) for k, e in enumerate(items(value, where))):
+        *ends, power = items(entry, place, 3)
+        spend(40)
+        for end in ends:
+            if type(end) is not str or end not in known:
+                malformed(place, f"expected the name of a channel, found {shown(end)}")
+        j, i = (known[end] for end in ends)
+        arcs.append((j, i, integer(power, place)))
+    if [arc[:2] for arc in arcs] != sorted({arc[:2] for arc in arcs}):
+        malformed(where, "expected them sorted, none twice")
+    return arcs
+
+
+def require_arcs(system: System, triples: list[tuple[int, int, int]], ell: int) -> None:
+    """Stop unless k < n and C_i A^k B_j ≠ 0 modulo ℓ for every (j, i, k).
+
+    Theorem ``transfer_graph.arc_rule``.
+    """
+    wanted: dict[int, dict[int, list[int]]] = {}
+    for j, i, k in triples:
+        require(k < system.n, "arc", "witness", f"the power {k} is not below {system.n}")
+        wanted.setdefault(j, {}).setdefault(k, []).append(i)
+    if ell <= SMALL:
+        j, i, k = unseen(system, triples, ell) or (0, 0, -1)
+        message = f"C A^{k} B is 0 modulo l from channel number {j + 1} to {i + 1}"
+        require(k < 0, "arc", "witness", message)
+        return
+    A, C = system.A.modulo(ell), [M.modulo(ell) for M in system.C]
+    for j, targets in counted(list(wanted.items())):
+        width = system.B[j].ncols
+        power: Rows = system.B[j].modulo(ell)
+        for k in counted(range(max(targets) + 1)):
+            for i in targets.get(k, []):
+                seen = any(map(any, product(C[i], power, width, ell)))
+                message = f"C A^{k} B is 0 modulo l from channel number {j + 1} to {i + 1}"
+                require(seen, "arc", "witness", message)
+            power = product(A, power, width, ell)
+
+
+def require_connected(value: Json, place: str, system: System, ell: int) -> None:
+    """Stop unless these edges of the transfer graph make it strongly connected.
+
+    Theorem ``transfer_graph.strongly_connected_arcs``.
+    """
+    arcs = read_arcs(value, place, system)
+    require_arcs(system, arcs, ell)
+    connected = len(components(system.m, [(j, i) for j, i, _ in arcs])) <= 1
+    require(connected, "arc", place, "these edges do not connect all channels")
+
+
+# Kind ``setpoint``: whether integrators can hold outputs at set-points; ``proofs/setpoint.md``.
+
+
+def check_setpoint(claim: Json, witness: Json, system: System) -> None:
+    """Check bounds on the rank of [A B; C 0], and whether a rank defect is an invariant zero.
+
+    Theorems ``setpoint.setpoint_rank``, ``setpoint.setpoint_unreachable``,
+    ``setpoint.setpoint_output_part``, ``setpoint.normal_rank_deficient``.
+    """
+    verdict, size, zero = fields(claim, "claim", "solvable", "rank", "invariant_zero")
+    keys = ("modulus", "left", "pivots", "point", "normal")
+    number, left, columns, x0, row = fields(witness, "witness", *keys)
+    A, n = system.A, system.n
+    B, C = inputs(system, range(system.m)), outputs(system, range(system.m))
+    rows, width, place = n + C.nrows, n + B.ncols, int(system.time == "discrete")
+    lower = beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)
+    fixed = stack([beside([A.times(-1), B], n), lower], width)
+    moving = diagonal(Matrix.unit_rows(n, 0, n), Matrix.zeros(C.nrows, B.ncols))
+    S = stack([beside([A - Matrix.unit_rows(n, 0, n).times(place), B], n), lower], width)
+    r, ell = integer(size, "claim.rank"), modulus(number, "witness.modulus")
+    require(r <= rows and rank_modulo(S, ell) >= r, "rank", "claim.rank", "not reached modulo l")
+    pivots = positions(columns, "witness.pivots", rows)
+    require(len(pivots) == rows - r, "rank", "witness.pivots", f"expected {rows} - {r} of them")
+    W = matrix(left, "witness.left", rows - r, rows)
+    require_identity([W.T], pivots, "witness.pivots")
+    require((W @ S).is_zero(), "identity", "witness.left", "W [A B; C 0] is not zero")
+    solvable = boolean(verdict, "claim.solvable")
+    require(solvable == (r == rows), "claim", "claim.solvable", f"the rank is {r} of {rows}")
+    if solvable:
+        unused = zero is None and x0 is None and row is None
+        require(unused, "claim", "claim.invariant_zero", "expected null where it is solvable")
+        return
+    if boolean(zero, "claim.invariant_zero"):
+        require(row is None, "claim", "witness.normal", "expected null for an invariant zero")
+        point = integer(x0, "witness.point")
+        full = rank_modulo(fixed + moving.times(point), ell) == rows
+        require(full, "rank", "witness.point", "the rank there is not full modulo l")
+        return
+    require(x0 is None, "claim", "witness.point", "expected null where there is no such point")
+    layers = polynomial_matrix(row, "witness.normal", 1, rows, rows + 1)
+    require(not all(w.is_zero() for w in layers), "zero", "witness.normal", "the row is zero")
+    below = [Matrix.zeros(1, rows), *layers]
+    for w, before in zip([*layers, below[0]], below, strict=True):
+        same = (w @ fixed + before @ moving).is_zero()
+        require(same, "identity", "witness.normal", "the row does not annihilate the pencil")
+
+
+def setpoint_statement(claim: Json, system: System) -> str:
+    """Whether the rank is full, and else what follows from the defect."""
+    shift, place = (" - I", 1) if system.time == "discrete" else ("", 0)
+    which = f"[A{shift}, B; C, 0], B and C those of all channels, has rank exactly {claim['rank']}"
+    rows = f"{which}, which is {denied(claim['solvable'])}its number of rows"
+    if claim["solvable"]:
+        return f"{rows}, so that integrators of all outputs add no uncontrollable mode"
+    zero = f", so that {place} is an invariant zero" if claim["invariant_zero"] else ""
+    goal = "every output tends to every constant set-point"
+    normal = f"the normal rank of {PENCIL} is {denied(claim['invariant_zero'])}its number of rows"
+    return f"{rows}, so that in no stable linear time-invariant loop {goal}; {normal}{zero}"
+
+
+# Kind ``single_channel_gains``: gains, or an obstruction; ``proofs/single_channel_gains.md``.
+
+SIDES = ("controllable", "observable")
+GAIN_PAIRS = dict(zip(SIDES, ("(A_F, B_q)", "(C_q, A_F)"), strict=True))
+GAINS_CLAIM = ("channels", "property", "exists", "cyclic", "indices")
+GAINS_WITNESS = ("gains", "modulus", "annihilators", "generator")
+
+
+def check_single_channel_gains(claim: Json, witness: Json, system: System) -> None:
+    """Check gains and their indices for yes; a mode or a cut out of reach of one channel for no.
+
+    Theorem ``single_channel_gains.single_channel_yes``.
+    """
+    listed, wanted, verdict, spun, numbers = fields(claim, "claim", *GAINS_CLAIM)
+    Q, cyclic = reading.names(listed, "claim.channels", system.names), boolean(spun, "claim.cyclic")
+    sides = SIDES if wanted == "both" else (reading.string(wanted, "claim.property", *SIDES),)
+    if not boolean(verdict, "claim.exists"):
+        require(numbers is None and not cyclic, "claim", "claim", "without gains, no index")
+        return _require_lost(witness, system, Q, sides)
+    gains, modulus, rows, b = fields(witness, "witness", *GAINS_WITNESS)
+    A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))
+    closed, k, n = replace(system, A=A_F), len(sides), system.n
+    ell = evidence.modulus(modulus, "witness.modulus")
+    require(cyclic or b is None, "claim", "witness.generator", "expected null unless cyclic")
+    if cyclic:
+        require_reached(replace(closed, B=[matrix(b, "witness.generator", n, 1)]), 0, ell, n)
+    indices = [items(part, "claim.indices", k) for part in items(numbers, "claim", len(Q))]
+    rows = [items(part, "witness.annihilators", k) for part in items(rows, "witness", len(Q))]
+    for q, found, part in zip(Q, indices, rows, strict=True):
+        for side, number, row in zip(sides, found, part, strict=True):
+            target, nu = _seen(closed, side), integer(number, "claim.indices")
+            require_reached(target, q, ell, nu)
+            w = matrix(row, "witness.annihilators", 1, n)
+            require(nu == 0 or not w.is_zero(), "row", "witness.annihilators", "a row of zeros")
+            for _ in range(nu - 1):
+                gone = (w @ target.B[q]).is_zero()
+                require(gone, "identity", "witness.annihilators", f"index below {nu} is open")
+                w = w @ target.A
+
+
+def single_channel_gains_statement(claim: Json, system: System) -> str:
+    """What gains do for every channel named, or that none do."""
+    wanted, listed = claim["property"], claim["channels"]
+    sides = SIDES if wanted == "both" else (wanted,)
+    goal = f"{' and '.join(f'{GAIN_PAIRS[side]} {side}' for side in sides)} for every q"
+    among = f"{goal} in {channel_set(listed)}"
+    if not claim["exists"]:
+        return f"no constant gains F, the same for all q, make {among}"
+    indices = canonical_json(dict(zip(listed, claim["indices"], strict=True)))
+    end = ", and A_F cyclic" if claim["cyclic"] else ""
+    start = f"some constant gains F, the same for all q, make {among}"
+    return f"{start}, with the indices {indices}{end}"
+
+
+def _seen(system: System, side: str) -> System:
+    return system if side == "controllable" else dual(system, {}, "")
+
+
+def _require_lost(witness: Json, system: System, Q: list[int], sides: tuple[str, ...]) -> None:
+    """Check a mode or a cut out of reach of one channel.
+
+    Theorems ``single_channel_gains.single_channel_no_mode``,
+    ``single_channel_gains.single_channel_no_cut``.
+    """
+    cut = isinstance(witness, dict) and "zero" in witness
+    keys = ("zero",) if cut else ("polynomial", "subspace")
+    name, side, *parts = fields(witness, "witness", "channel", "side", *keys)
+    q, side = system.place_of(name, "witness.channel"), reading.string(side, "witness.side", *sides)
+    target = _seen(system, side)
+    if cut:
+        T, X = evidence.zero_transfer(parts[0], "witness.zero", target)
+        C = evidence.outputs(target, evidence.complement(target, T))
+        require(not C.is_zero() and (C @ X).is_zero(), "cut", "witness.zero", "C = 0 or C X is not")
+    else:
+        p = reading.polynomial(parts[0], "witness.polynomial", 1)
+        T = evidence.shrunk_subspace(parts[1], "witness.subspace", target, p, 1)
+    require(q in T and q in Q, "channel", "witness.channel", "not in the set T, or not asked about")
