@@ -71,7 +71,7 @@ class Question:
 
     @property
     def module(self) -> str:
-        """The file of the function that decides it."""
+        """The module of the function that decides it."""
         return self.home.partition(":")[0]
 
     @property
@@ -100,7 +100,7 @@ def _joint(
     """The questions on controllability and observability of all channels or of one channel."""
     return {
         f"{what}ability": Question(
-            f"structure.controllability:joint_{what}ability",
+            f"controllability:joint_{what}ability",
             f"which modes the channels {verb}",
             about=about,
             needs=needs,
@@ -115,18 +115,16 @@ def _joint(
     }
 
 
-# The question, the file of its function, the kind of its certificate, its option, what is decided.
+# The question, the kind of its certificate, its option, what is decided.
 _SHARING = (
-    ("shared_dimension_bound", "allocation", "deficiency", "", "dimensions that suffice"),
+    ("shared_dimension_bound", "deficiency", "", "dimensions that suffice"),
     (
         "minimal_shared_dimensions",
-        "allocation",
         "shared_dimensions",
         "minimal",
         "the least dimensions that agents must share, in all and if all share equally many",
     ),
     (
-        "common_dimension",
         "common_dimension",
         "common_dimension",
         "minimal",
@@ -240,7 +238,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         ),
         **{
             f"{name}_{stem}": Question(
-                f"sharing.{file}:{name}",
+                f"sharing:{name}",
                 help,
                 about="plant",
                 needs="neighbors",
@@ -249,20 +247,20 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                 given={"share": share},
                 kind=kind,
             )
-            for name, file, kind, option, help in _SHARING
+            for name, kind, option, help in _SHARING
             for share, stem in SHARES.items()
         },
         **{
             name: Question(
-                f"boxes.{home}:{name}",
+                f"boxes.members:{name}",
                 f"whether {said} for every plant within the radii of the entries, or the ranges",
                 needs="uncertainty",
                 for_all_values=True,
-                reuses={"spectrum": "fixed_spectrum"} if home == "box_fixed" else {},
-                kind=home,
+                reuses={"spectrum": "fixed_spectrum"} if kind == "box_fixed" else {},
+                kind=kind,
                 dual=name == "box_observability",
             )
-            for name, home, said in (
+            for name, kind, said in (
                 ("box_fixed_modes", "box_fixed", "no mode is fixed"),
                 ("box_stabilizability", "box_fixed", "a controller of its own stabilizes,"),
                 ("box_controllability", "box_controllable", "the channels control every mode,"),

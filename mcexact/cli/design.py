@@ -37,10 +37,10 @@ if TYPE_CHECKING:
     name="design",
     cls=Commands,
     names={
-        "decentralized": "mcexact.cli.design:command",
-        "observer": "mcexact.cli.design:command",
-        "extended": "mcexact.cli.design:command",
-        "setpoint": "mcexact.cli.design:command",
+        "decentralized": "mcexact.cli.design:design_decentralized_command",
+        "observer": "mcexact.cli.design:design_observer_command",
+        "extended": "mcexact.cli.design:design_extended_command",
+        "setpoint": "mcexact.cli.design:design_setpoint_command",
     },
     short_help="Design a controller and prove its closed loop.",
 )

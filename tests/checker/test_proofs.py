@@ -20,7 +20,8 @@ KNOWN = {f"{kind}.md" for kind in KINDS}
 def test_every_kind_has_a_page_that_names_its_rule(kind: str) -> None:
     page = (PROOFS / f"{kind}.md").read_text(encoding="utf-8")
     assert page.startswith(f"# `{kind}`")
-    assert f"mcexact/checker/{kind}.py" in page
+    check = KINDS[kind].check
+    assert f"`{check.__name__}` of `{check.__module__.replace('.', '/')}.py`" in page
     assert "ot claimed" in page
 
 

@@ -15,30 +15,10 @@ from mcexact.checker.kinds import KINDS
 
 FOLDER = Path(checker.__file__).parent
 FILES = sorted(FOLDER.glob("*.py"))
-FRONT = {"__init__", "__main__", "allowance", "command", "expectation"}
-"""What starts the checker, and what is asked of it; no rule rests on it."""
-SHARED = {
-    "arithmetic",
-    "budget",
-    "evidence",
-    "kinds",
-    "packed_rows",
-    "reading",
-    "sparse",
-    "statement",
-    "subject",
-    "system",
-    "system_matrices",
-}
-"""What all rules rest on."""
-SENTENCES = {path.stem for path in FILES if path.stem.startswith("sentence")} | {"manifest"}
-"""What says of sentences that they are implied; no rule about a certificate rests on it."""
-BOXES = {"complex_matrices", "uncertainty"}
-"""What the rules about boxes rest on: radii, and the arithmetic of complex matrices."""
-PARAMETERS = {"expressions", "parametric_system", "several_parameters"}
-"""What the rules about plants with a parameter rest on: their entries and their reader."""
-RULES = sorted({path.stem for path in FILES} - FRONT - SHARED - SENTENCES - PARAMETERS - BOXES)
-"""One rule a file: a kind, a construction, or a piece of evidence that several kinds use."""
+RULES = {rule.check.__module__.rpartition(".")[2] for rule in KINDS.values()}
+"""The modules with the rules about certificates."""
+SENTENCES = {path.stem for path in FILES if path.stem.startswith("sentences")}
+"""The rules of sentences, no rule about a certificate rests on which."""
 SKIPPED = {
     tokenize.COMMENT,
     tokenize.DEDENT,
@@ -96,18 +76,27 @@ def outer(x):
     assert lengths(source) == {"outer in line 2": 6, "inner in line 7": 4}
 
 
+def imported(stem: str) -> set[str]:
+    """The modules of the checker that one of them imports."""
+    nodes = ast.walk(ast.parse((FOLDER / f"{stem}.py").read_text(encoding="utf-8")))
+    found = [node for node in nodes if isinstance(node, ast.ImportFrom) and node.level == 1]
+    names = {name for node in found for name in (node.module, *(each.name for each in node.names))}
+    return {path.stem for path in FILES} & names
+
+
 def test_no_rule_about_a_certificate_rests_on_the_sentences() -> None:
-    for stem in {*RULES, *SHARED}:
-        for node in ast.walk(ast.parse((FOLDER / f"{stem}.py").read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ImportFrom):
-                assert not SENTENCES & {node.module, *(alias.name for alias in node.names)}, stem
+    used, new = set[str](), set(RULES)
+    while new:
+        used |= new
+        new = {each for stem in new for each in imported(stem)} - used
+    assert not used & {*SENTENCES, "kinds", "command"}
 
 
-def test_every_kind_is_a_rule_in_the_file_of_its_name() -> None:
-    assert set(KINDS) <= set(RULES)
+def test_every_kind_has_a_check_and_a_statement_of_its_name() -> None:
     for kind, rule in KINDS.items():
-        assert rule.check.__module__.endswith(f".{kind}")
-        assert rule.statement.__module__.endswith(f".{kind}")
+        assert rule.check.__name__ == f"check_{kind}"
+        assert rule.statement.__name__ == f"{kind}_statement"
+        assert rule.check.__module__ == rule.statement.__module__
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
@@ -16,28 +17,11 @@ from mcexact.checker.sentences import RULES as RULES_OF_SENTENCES
 FOLDER = Path(checker.__file__).parent
 PROOFS = FOLDER.parent.parent / "proofs"
 STEMS = sorted(path.stem for path in FOLDER.glob("*.py"))
-SENTENCES = {stem for stem in STEMS if stem.startswith("sentence")} | {"manifest"}
-SPOKEN = {"__init__", "__main__", "command", "controller", "expectation", "kinds", "reading"}
-SPOKEN |= {
-    "allowance",
-    "expressions",
-    "parametric_system",
-    "several_parameters",
-    "statement",
-    "system",
-}
-SPOKEN |= {"system_matrices", "uncertainty"}
-NO_RULE = {
-    *SPOKEN,
-    "budget",
-    "complex_matrices",
-    "packed_rows",
-    "sparse",
-    "sparse_step",
-} | SENTENCES
-"""What reads, starts, speaks, counts and packs numbers.
+NO_RULE = {"__init__", "__main__", "budget", "command", "kinds", "reading", "system"}
+NO_RULE |= {stem for stem in STEMS if stem.startswith("sentences")}
+"""What reads, starts, speaks and counts.
 
-Every other file holds a rule, or evidence of several."""
+Every other module holds rules, or evidence of several."""
 SENTENCE = re.compile(r"Theorems? ((?:``\w+\.\w+``(?:,\s+)?)+)\.")
 OPEN = "Open: see ``proofs/OPEN.md``."
 ELSEWHERE = ("paper, ", "supporting: ")
@@ -46,46 +30,67 @@ ELSEWHERE = ("paper, ", "supporting: ")
 
 @cache
 def tree(stem: str) -> ast.Module:
-    """The parsed file of the checker."""
+    """The parsed module of the checker."""
     return ast.parse((FOLDER / f"{stem}.py").read_text(encoding="utf-8"))
 
 
-@cache
-def docstrings(stem: str) -> tuple[str, ...]:
-    """What the functions and classes of a file say of themselves."""
-    nodes = [n for n in ast.walk(tree(stem)) if isinstance(n, ast.FunctionDef | ast.ClassDef)]
-    return tuple(ast.get_docstring(node) or "" for node in nodes)
+def documented(node: ast.AST) -> list[str]:
+    """What the functions and classes of a part of a module say of themselves, the part included."""
+    nodes = [n for n in ast.walk(node) if isinstance(n, ast.FunctionDef | ast.ClassDef)]
+    return [ast.get_docstring(each) or "" for each in nodes]
+
+
+def theorems_in(texts: Iterable[str]) -> set[str]:
+    """The theorems that docstrings name."""
+    found = (listed for text in texts for listed in SENTENCE.findall(text))
+    return {name for listed in found for name in re.findall(r"[\w.]+", listed)}
 
 
 @cache
-def named(stem: str) -> frozenset[str]:
-    """The theorems that a file of the checker names."""
-    found = (listed for text in docstrings(stem) for listed in SENTENCE.findall(text))
-    return frozenset(name for listed in found for name in re.findall(r"[\w.]+", listed))
-
-
-def is_open(stem: str) -> bool:
-    """Whether a function of this file says that a part of it is open."""
-    return any(OPEN in text for text in docstrings(stem))
+def definitions() -> dict[str, ast.AST]:
+    """What the modules define: functions, classes and tables, by module and name."""
+    found: dict[str, ast.AST] = {}
+    for stem in STEMS:
+        for node in tree(stem).body:
+            if isinstance(node, ast.FunctionDef | ast.ClassDef):
+                found[f"{stem}.{node.name}"] = node
+            elif isinstance(node, ast.Assign):
+                names = [t.id for t in node.targets if isinstance(t, ast.Name)]
+                found |= {f"{stem}.{name}": node for name in names}
+    return found
 
 
 @cache
-def imported(stem: str) -> frozenset[str]:
-    """The files of the checker that one of them imports itself."""
-    found: set[str] = set()
+def imported(stem: str) -> dict[str, str]:
+    """Names in a module for what other modules of the checker define, or for these modules."""
+    found: dict[str, str] = {}
     for node in ast.walk(tree(stem)):
         if isinstance(node, ast.ImportFrom) and node.level == 1:
-            found |= {node.module} if node.module else {alias.name for alias in node.names}
-    return frozenset(found & set(STEMS))
+            start = f"{node.module}." if node.module else ""
+            found |= {alias.asname or alias.name: f"{start}{alias.name}" for alias in node.names}
+    return found
 
 
 @cache
-def rests_on(stem: str) -> frozenset[str]:
-    """The files of the checker that one of them imports, itself and what they import included."""
-    found, new = set[str](), {stem}
+def uses(name: str) -> frozenset[str]:
+    """The definitions that one of them names."""
+    stem, known = name.partition(".")[0], imported(name.partition(".")[0])
+    found: set[str] = set()
+    for node in ast.walk(definitions()[name]):
+        if isinstance(node, ast.Name):
+            found |= {f"{stem}.{node.id}", known.get(node.id, "")}
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            found.add(f"{known.get(node.value.id, '')}.{node.attr}")
+    return frozenset(found & definitions().keys())
+
+
+@cache
+def rests_on(name: str) -> frozenset[str]:
+    """A definition, and all that it uses, directly or not."""
+    found, new = set[str](), {name}
     while new:
         found |= new
-        new = {each for part in new for each in imported(part)} - found
+        new = {each for part in new for each in uses(part)} - found
     return frozenset(found)
 
 
@@ -111,14 +116,14 @@ RULES = {name: rule for name, rule in LISTED.items() if not rule.startswith(ELSE
 
 
 @pytest.mark.parametrize("stem", STEMS)
-def test_what_a_file_names_is_listed(stem: str) -> None:
-    assert named(stem) <= set(LISTED)
+def test_what_a_module_names_is_listed(stem: str) -> None:
+    assert theorems_in(documented(tree(stem))) <= set(LISTED)
 
 
 @pytest.mark.parametrize("stem", STEMS)
 def test_every_mention_of_a_theorem_has_the_one_form(stem: str) -> None:
     proved = {path.stem for path in PROOFS.glob("*.v")}
-    for text in docstrings(stem):
+    for text in documented(tree(stem)):
         mentioned = set(re.findall(r"``(\w+\.\w+)``", text))
         formed = {n for found in SENTENCE.findall(text) for n in re.findall(r"[\w.]+", found)}
         assert {name for name in mentioned if name.partition(".")[0] in proved} <= formed
@@ -127,23 +132,28 @@ def test_every_mention_of_a_theorem_has_the_one_form(stem: str) -> None:
 
 
 @pytest.mark.parametrize("stem", sorted(set(STEMS) - NO_RULE))
-def test_every_rule_names_a_theorem_or_is_open(stem: str) -> None:
-    assert named(stem) or is_open(stem)
+def test_every_module_of_rules_names_a_theorem_or_is_open(stem: str) -> None:
+    said = documented(tree(stem))
+    assert theorems_in(said) or any(OPEN in text for text in said)
 
 
 @pytest.mark.parametrize("kind", sorted(KINDS))
 def test_the_rule_of_a_kind_names_a_theorem_or_is_open(kind: str) -> None:
-    (check,) = [node for node in tree(kind).body if getattr(node, "name", "") == "check"]
-    text = ast.get_docstring(check) or ""  # type: ignore[arg-type]
+    text = KINDS[kind].check.__doc__ or ""
     assert SENTENCE.search(text) or OPEN in text
 
 
 @pytest.mark.parametrize("name", sorted(RULES))
-def test_every_theorem_of_a_rule_is_named_by_a_file_that_the_rule_rests_on(name: str) -> None:
+def test_every_theorem_of_a_rule_is_named_by_a_function_that_the_rule_uses(name: str) -> None:
     kinds = kinds_of(RULES[name])
     assert kinds <= set(KINDS)
-    for places in [rests_on(kind) for kind in kinds] or [frozenset(STEMS)]:
-        assert any(name in named(stem) for stem in places)
+    for kind in kinds:
+        check = KINDS[kind].check
+        used = rests_on(f"{check.__module__.rpartition('.')[2]}.{check.__name__}")
+        assert name in theorems_in(
+            text for each in used for text in documented(definitions()[each])
+        )
+    assert kinds or name in theorems_in(text for stem in STEMS for text in documented(tree(stem)))
 
 
 @pytest.mark.parametrize("name", sorted(LISTED))
@@ -163,8 +173,15 @@ def test_every_theorem_of_a_sentence_is_proved_by_machine_or_has_an_author() -> 
 def test_what_says_that_it_is_open_is_what_the_page_lists() -> None:
     page = (PROOFS / "OPEN.md").read_text(encoding="utf-8").partition("## Statements")[0]
     rows = [line.split("|")[1] for line in page.splitlines() if line.startswith("| `")]
-    said = {stem for row in rows for stem in re.findall(r"`(\w+)(?:\.\w+)?`", row)}
-    assert said & set(STEMS) == {stem for stem in STEMS if is_open(stem)}
+    listed = {name for row in rows for name in re.findall(r"`(\w+\.\w+)`", row)}
+    said = {
+        f"{stem}.{node.name}"
+        for stem in STEMS
+        for node in ast.walk(tree(stem))
+        if isinstance(node, ast.FunctionDef | ast.ClassDef)
+        and OPEN in (ast.get_docstring(node) or "")
+    }
+    assert said == listed
 
 
 def test_what_is_weakened_is_there_and_every_file_of_rules_has_such_a_line() -> None:
