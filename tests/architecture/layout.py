@@ -1,13 +1,12 @@
-"""The plan of the modules, ``layout.toml``, held against the package.
+"""The modules of the package, as ``layout.toml`` lists them, held against its files.
 
     python -m tests.architecture.layout
 
-A module is what one person changes at once: a topic with 80 to 1,000 lines of code.  The plan lists
-every module once, with its purpose.  While a folder is being put together, ``from`` names the files
-that are to become a module; they are judged as if they were one already.  What is judged: that the
-plan and the package agree, the sizes, that imports make no circle (those inside functions and those
-of types count), that folders import only folders before them in ``order``, and what the command
-line loads when it starts.  Prints the figures, then what is wrong.
+A module is what one person changes at once: a topic with 80 to 1,000 lines of code.  What is
+judged: that the list and the files agree, the sizes, that imports make no circle (those inside
+functions and those of types count), that folders import only folders before them in ``order``, and
+what the command line loads when it starts.  Prints the figures, then what is wrong; with ``--tree``
+it prints the list as ARCHITECTURE.md has it.
 """
 
 from __future__ import annotations
@@ -22,7 +21,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import networkx as nx
 
@@ -186,66 +184,47 @@ class Package:
 
 
 class Layout:
-    """The modules of the plan."""
+    """The modules that the list has."""
 
     def __init__(self, package: Package, path: Path = PLAN) -> None:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
         self.package = package
         self.order: list[str] = data["order"]
         self.exceptions: dict[str, str] = data["exceptions"]
-        self.breaks = {(e["importer"], e["imported"]) for e in data.get("break", ())}
-        self.target: dict[str, str] = {}  # the module of the plan to which a file belongs
-        self.planned = {f"{PACKAGE}.{name}" for name in data["modules"]}
-        self.problems: list[str] = []
-        for name, entry in data["modules"].items():
-            self._enter(name, entry)
-        for file, module in package.modules.items():
-            if module.is_package or file.endswith("__main__"):
-                self.target.setdefault(file, file)
-            elif file not in self.target:
-                self.problems.append(f"{file} is not in layout.toml")
+        self.purposes: dict[str, str] = data["modules"]
+        listed = {f"{PACKAGE}.{name}" for name in self.purposes}
+        files = {name for name in package.modules if not self._has_no_topic(name)}
+        self.problems = [f"{name} is not in {PLAN.name}" for name in sorted(files - listed)]
+        self.problems += [f"there is no {name}" for name in sorted(listed - package.modules.keys())]
+        self.problems += [
+            f"{name}: its purpose is longer than a line"
+            for name, purpose in self.purposes.items()
+            if len(purpose) > 92
+        ]
 
-    def _enter(self, name: str, entry: dict[str, Any]) -> None:
-        if len(str(entry["purpose"])) > 92:
-            self.problems.append(f"{name}: its purpose is longer than a line")
-        folder = f"{PACKAGE}.{name.split('.')[0]}" if "." in name else PACKAGE
-        parts = [f"{folder}.{file}" for file in entry.get("from", ())]
-        whole = f"{PACKAGE}.{name}"
-        left = {part for part in parts if part not in self.planned} & self.package.modules.keys()
-        if whole in self.package.modules and not left:  # it is put together already
-            parts = [whole]
-        for file in parts:
-            if file not in self.package.modules:
-                self.problems.append(f"{name}: there is no {file}")
-            if file in self.target:
-                self.problems.append(f"{file} is listed twice")
-            self.target[file] = whole
+    def _has_no_topic(self, name: str) -> bool:
+        """Whether a file only starts something, or hands names on."""
+        begins = name.endswith("__main__") or self.package.modules[name].is_package
+        return begins and name.removeprefix(f"{PACKAGE}.") not in self.purposes
 
     def graph(self, *places: str) -> nx.DiGraph:
-        """The modules, with an edge for imports that stand at these places."""
+        """The files, with an edge for imports that stand at these places."""
         graph = nx.DiGraph()
         for each in self.package.imports:
             home = self.package.origin(each)
-            broken = tuple(x.removeprefix(f"{PACKAGE}.") for x in (each.importer, home))
-            one, other = self.target.get(each.importer), self.target.get(home)
-            if (
-                each.where in places
-                and one
-                and other
-                and one != other
-                and broken not in self.breaks
-            ):
-                graph.add_edge(one, other)
+            if each.where in places and home != each.importer:
+                graph.add_edge(each.importer, home)
         return graph
 
     @cached_property
     def sizes(self) -> dict[str, int]:
         """The lines of code of each module."""
-        sizes: dict[str, int] = defaultdict(int)
-        for file, module in self.target.items():
-            if file in self.package.modules and module in self.planned:
-                sizes[module] += self.package.modules[file].size
-        return dict(sizes)
+        known = self.package.modules
+        return {
+            name: known[f"{PACKAGE}.{name}"].size
+            for name in self.purposes
+            if f"{PACKAGE}.{name}" in known
+        }
 
     def circles(self) -> list[list[str]]:
         """The modules that import each other, directly or not."""
@@ -272,20 +251,16 @@ class Layout:
     def loaded(self, start: str) -> set[str]:
         """The heavy libraries that a start loads."""
         graph = self.graph(TOP)
-        first = {self.target[f] for f in self.target if f == start or f.startswith(f"{start}.")}
-        modules = first.union(*(nx.descendants(graph, one) for one in first & graph.nodes))
-        files = {file for file, module in self.target.items() if module in modules}
+        first = {f for f in self.package.modules if f == start or f.startswith(f"{start}.")}
+        files = first.union(*(nx.descendants(graph, one) for one in first & graph.nodes))
         return {library for file in files for library in self.package.outside[file]} & HEAVY
 
     def wrong(self) -> list[str]:
-        """What is not as the plan and the rule have it."""
+        """What is not as the list and the rule have it."""
         found = list(self.problems)
         for name, size in self.sizes.items():
-            if (
-                not LEAST <= size <= MOST
-                and name.removeprefix(f"{PACKAGE}.") not in self.exceptions
-            ):
-                found.append(f"{name} has {size} lines of code")
+            if not LEAST <= size <= MOST and name not in self.exceptions:
+                found.append(f"{PACKAGE}.{name} has {size} lines of code")
         found += [f"these import each other: {', '.join(part)}" for part in self.circles()]
         found += [f"{one} imports {other}, against the order" for one, other in self.backwards()]
         for start in STARTS:
@@ -295,25 +270,32 @@ class Layout:
 
     def figures(self) -> Iterator[str]:
         """How many modules there are, how large, and how many names cross their borders."""
-        files = nx.DiGraph()
-        names = set()
-        for each in self.package.imports:
-            home = self.package.origin(each)
-            if home != each.importer:
-                files.add_edge(each.importer, home)
-            if self.target.get(home) != self.target.get(each.importer):
-                names.add((self.target.get(each.importer), home, each.name))
+        names = {
+            (each.importer, self.package.origin(each), each.name)
+            for each in self.package.imports
+            if self.package.origin(each) != each.importer
+        }
         sizes = sorted(self.sizes.values())
         inside = sum(each.where == INSIDE for each in self.package.imports)
-        yield f"files: {len(self.package.modules)}, with {files.number_of_edges()} imports"
-        circles = sum(len(part) > 1 for part in nx.strongly_connected_components(files))
         edges = self.graph(TOP, INSIDE, TYPES).number_of_edges()
-        yield f"circles between files: {circles}"
-        yield f"modules of the plan: {len(sizes)}, with {edges} imports"
+        median = sizes[len(sizes) // 2]
+        yield f"modules: {len(sizes)}, with {edges} imports"
+        yield f"circles between files: {len(self.circles())}"
         yield f"names that cross a border: {len(names)}"
         yield f"imports of the package inside functions: {inside}"
-        median = sizes[len(sizes) // 2]
         yield f"lines of code of a module: {sizes[0]} to {sizes[-1]}, median {median}"
+
+    def tree(self) -> str:
+        """The list, folder by folder."""
+        lines, last = [], ""
+        for name, purpose in self.purposes.items():
+            folder = name.split(".")[0] if "." in name else ""
+            if folder != last:
+                lines.append(f"    {folder}/")
+            rest = name.removeprefix(f"{folder}.").replace(".", "/") if folder else name
+            lines.append(f"      {rest:<24} {purpose}" if folder else f"    {rest:<26} {purpose}")
+            last = folder
+        return "\n".join(lines)
 
 
 def folder_of(module: str) -> str:
@@ -323,6 +305,8 @@ def folder_of(module: str) -> str:
 
 def main() -> None:
     layout = Layout(Package())
+    if "--tree" in sys.argv:
+        sys.exit(print(layout.tree()))
     print(*layout.figures(), sep="\n")
     wrong = layout.wrong()
     print(*(f"WRONG {each}" for each in wrong), sep="\n")

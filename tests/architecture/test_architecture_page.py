@@ -8,7 +8,6 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
-ROOMS = re.findall(r"^\| `(\w+/\w+)/` ", PAGE, re.MULTILINE)
 # Names in capitals stand for others.
 FILES = sorted(set(re.findall(r"`((?:mcexact|tests|proofs)/[a-z\d_/.]+)`", PAGE)))
 FORMULAS = re.findall(r"^\| (.+) \| `(mcexact/[\w/]+\.py)` \| `(\w+)` \|$", PAGE, re.MULTILINE)
@@ -40,12 +39,3 @@ def test_the_tree_has_every_folder() -> None:
     assert set(re.findall(r"^      (\w+)/ +\w", tree, re.MULTILINE)) == stages
     for folder in re.findall(r"^    (\w+)/ *", tree, re.MULTILINE):
         assert (ROOT / folder).is_dir(), folder
-
-
-def test_the_rooms_are_those_on_the_page() -> None:
-    rooms = {
-        f"{stage}/{path.parent.name}"
-        for stage in ("analysis", "synthesis")
-        for path in (ROOT / "mcexact" / stage).glob("*/__init__.py")
-    }
-    assert rooms == set(ROOMS)

@@ -4,25 +4,21 @@ from pathlib import Path
 
 import pytest
 
-from tests.architecture.layout import Layout, Package
+from tests.architecture.layout import ROOT, Layout, Package
 
 PLAN = """
 order = ["exact", "model"]
 exceptions = {"exact.second" = "small for the sake of the test"}
-[modules."exact.first"]
-purpose = "One topic."
-[modules."exact.second"]
-purpose = "Another topic."
-[modules."model.third"]
-purpose = "A topic of a later folder."
-from = ["third", "fourth"]
+[modules]
+"exact.first" = "One topic."
+"exact.second" = "Another topic."
+"model.third" = "A topic of a later folder."
 """
 BODY = "".join(f"name_{k} = {k}\n" for k in range(90))
 CLEAN = {
     "exact/first.py": BODY,
     "exact/second.py": "from mcexact.exact.first import name_1\n",
     "model/third.py": "from mcexact.exact.second import name_1\n" + BODY,
-    "model/fourth.py": "def late():\n    from mcexact.model.third import name_2\n",
 }
 
 
@@ -82,8 +78,8 @@ def test_what_the_plan_does_not_have_is_named(tmp_path: Path, files, said) -> No
 
 
 def test_a_module_that_is_not_there_is_named(tmp_path: Path) -> None:
-    plan = PLAN.replace('"fourth"', '"fourth", "fifth"')
-    assert "there is no mcexact.model.fifth" in judged(tmp_path, {}, plan)
+    plan = PLAN + '"model.fourth" = "A topic that nobody has written."\n'
+    assert "there is no mcexact.model.fourth" in judged(tmp_path, {}, plan)
 
 
 def test_a_heavy_library_at_the_start_of_the_command_line_is_named(tmp_path: Path) -> None:
@@ -94,15 +90,6 @@ def test_a_heavy_library_at_the_start_of_the_command_line_is_named(tmp_path: Pat
     assert "the start of mcexact.cli loads numpy" in judged(tmp_path, files, plan)
 
 
-def test_a_module_may_take_the_name_of_a_file_that_goes_into_another(tmp_path: Path) -> None:
-    plan = """
-    order = ["exact"]
-    exceptions = {}
-    modules."exact.first" = {purpose = "Made of one file.", from = ["old"]}
-    modules."exact.second" = {purpose = "Made of the file of that name.", from = ["first"]}
-    """
-    before = {"exact/old.py": BODY, "exact/first.py": "from .old import name_1\n" + BODY}
-    after = {"exact/first.py": BODY, "exact/second.py": "from .first import name_1\n" + BODY}
-    for folder, files in (("before", before), ("after", after)):
-        package = {"__init__.py": "", "exact/__init__.py": "", **files}
-        assert wrong(tmp_path / folder, package, plan) == ""
+def test_the_page_on_the_architecture_has_the_list() -> None:
+    page = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    assert Layout(Package()).tree() in page
