@@ -373,13 +373,7 @@ def _heading(given: Given) -> Said:
     )
 
 
-@analysis_rule(
-    "answer",
-    NOTHING_FIXED,
-    STABLE,
-    UNSTABLE,
-    about={"linked": "linked_fixed_spectrum"},
-)
+@analysis_rule("answer", NOTHING_FIXED, STABLE, UNSTABLE, premises=("linked_fixed_spectrum",))
 def _linked(linked: Claim, given: Given) -> Said:
     """What the agents can do over the links that are there, which leads."""
     heard = control(linked, given)
@@ -390,19 +384,19 @@ def _linked(linked: Claim, given: Given) -> Said:
         yield told(control=heard, slowest=slowest(linked, given))
 
 
-@analysis_rule("answer", NOTHING_FIXED)
+@analysis_rule("answer", NOTHING_FIXED, premises=("fixed_spectrum",))
 def _nothing_fixed(fixed_spectrum: Claim, given: Given) -> Said:
     if empty(fixed_spectrum):
         yield NOTHING_FIXED(control=control(fixed_spectrum, given))
 
 
-@analysis_rule("answer", FREE_THROUGH_ANY)
+@analysis_rule("answer", FREE_THROUGH_ANY, premises=("completeness",))
 def _free_through_any(completeness: Claim, given: Given) -> Said:
     if given.n and completeness.complete:
         yield FREE_THROUGH_ANY()
 
 
-@analysis_rule("answer", FREE, PARTS)
+@analysis_rule("answer", FREE, PARTS, premises=("fixed_spectrum", "assignability", "completeness"))
 def _assigned(
     fixed_spectrum: Claim, assignability: Claim, completeness: Claim, given: Given
 ) -> Said:
@@ -411,7 +405,7 @@ def _assigned(
         yield FREE() if len(parts) <= 1 else PARTS(k=len(parts))
 
 
-@analysis_rule("answer", STABLE, UNSTABLE)
+@analysis_rule("answer", STABLE, UNSTABLE, premises=("fixed_spectrum",))
 def _stabilized(fixed_spectrum: Claim, given: Given) -> Said:
     if not empty(fixed_spectrum):
         told = STABLE if fixed_spectrum.stabilizable else UNSTABLE
@@ -430,7 +424,13 @@ def fewest(links: Claim) -> bool:
     )
 
 
-@analysis_rule("answer", *LINKS.values(), LINKS_NONE, NO_LINKS)
+@analysis_rule(
+    "answer",
+    *LINKS.values(),
+    LINKS_NONE,
+    NO_LINKS,
+    premises=("minimal_communication", "fixed_spectrum"),
+)
 def _links_remove(minimal_communication: Claim, fixed_spectrum: Claim, given: Given) -> Said:
     links = minimal_communication
     if empty(fixed_spectrum) or not fewest(links):
@@ -453,7 +453,13 @@ def usual(least: Claim, share: str) -> bool:
     )
 
 
-@analysis_rule("answer", SHARING_REMOVES, OUTPUTS_REMOVE, NO_SHARING)
+@analysis_rule(
+    "answer",
+    SHARING_REMOVES,
+    OUTPUTS_REMOVE,
+    NO_SHARING,
+    premises=("minimal_shared_dimensions_outputs_states", "fixed_spectrum"),
+)
 def _sharing_removes(
     minimal_shared_dimensions_outputs_states: Claim, fixed_spectrum: Claim, given: Given
 ) -> Said:
@@ -469,7 +475,7 @@ def _sharing_removes(
         yield OUTPUTS_REMOVE(time=given.delays)
 
 
-@analysis_rule("answer.mode", BLAME, UNCONTROLLED, UNOBSERVED)
+@analysis_rule("answer.mode", BLAME, UNCONTROLLED, UNOBSERVED, premises=("fixed_spectrum",))
 def _blame(fixed_spectrum: Claim, given: Given) -> Said:
     """The channels that do not control a mode, and those that do not observe it.
 
@@ -502,41 +508,41 @@ def reached(found: Claim, yes: Template, no: Template) -> Said:
     yield yes() if found.controllable else no(p=found.uncontrollable_polynomial)
 
 
-@analysis_rule("table", CONTROLLABLE, UNCONTROLLABLE)
-def _controllable(joint_controllability: Claim) -> Said:
+@analysis_rule("table", CONTROLLABLE, UNCONTROLLABLE, premises=("joint_controllability",))
+def _controllable(joint_controllability: Claim, given: Given) -> Said:
     yield from reached(joint_controllability, CONTROLLABLE, UNCONTROLLABLE)
 
 
-@analysis_rule("table", OBSERVABLE, UNOBSERVABLE)
-def _observable(joint_observability: Claim) -> Said:
+@analysis_rule("table", OBSERVABLE, UNOBSERVABLE, premises=("joint_observability",))
+def _observable(joint_observability: Claim, given: Given) -> Said:
     yield from reached(joint_observability, OBSERVABLE, UNOBSERVABLE)
 
 
-@analysis_rule("table", GRAPH_CONNECTED, GRAPH_PARTS)
-def _graph(transfer_graph: Claim) -> Said:
+@analysis_rule("table", GRAPH_CONNECTED, GRAPH_PARTS, premises=("transfer_graph",))
+def _graph(transfer_graph: Claim, given: Given) -> Said:
     told = GRAPH_CONNECTED if transfer_graph.strongly_connected else GRAPH_PARTS
     yield told(arcs=transfer_graph.arcs, components=transfer_graph.components)
 
 
-@analysis_rule("table", INACTIVE)
+@analysis_rule("table", INACTIVE, premises=("transfer_graph",))
 def _inactive(transfer_graph: Claim, given: Given) -> Said:
     if given.inactive and transfer_graph.subject == given.system.subject:
         yield INACTIVE(names=given.inactive)
 
 
-@analysis_rule("table", FIXED_NONE, FIXED)
-def _fixed(fixed_spectrum: Claim) -> Said:
+@analysis_rule("table", FIXED_NONE, FIXED, premises=("fixed_spectrum",))
+def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
     p = fixed_spectrum.polynomial
     yield FIXED(p=p) if p.degree else FIXED_NONE()
 
 
-@analysis_rule("table", STABILIZABLE, NOT_STABILIZABLE)
+@analysis_rule("table", STABILIZABLE, NOT_STABILIZABLE, premises=("fixed_spectrum",))
 def _stabilizable(fixed_spectrum: Claim, given: Given) -> Said:
     told = STABILIZABLE if fixed_spectrum.stabilizable else NOT_STABILIZABLE
     yield told(control=control(fixed_spectrum, given))
 
 
-@analysis_rule("table", SLOWEST, ANY_RATE)
+@analysis_rule("table", SLOWEST, ANY_RATE, premises=("fixed_spectrum",))
 def _slowest_mode(fixed_spectrum: Claim, given: Given) -> Said:
     if empty(fixed_spectrum):
         yield ANY_RATE()
@@ -544,21 +550,21 @@ def _slowest_mode(fixed_spectrum: Claim, given: Given) -> Said:
         yield SLOWEST(slowest=slowest(fixed_spectrum, given))
 
 
-@analysis_rule("table", COMPLETE)
-def _complete(completeness: Claim) -> Said:
+@analysis_rule("table", COMPLETE, premises=("completeness",))
+def _complete(completeness: Claim, given: Given) -> Said:
     yield COMPLETE(complete=completeness.complete)
 
 
 def _index_rules(question: str, one: Template, many: Template, none: Template) -> None:
     """Make the rules of controllability or observability indices, or of their omission."""
 
-    @analysis_rule("table", one, many, about={"found": question})
-    def _indices(found: Claim) -> Said:
+    @analysis_rule("table", one, many, premises=(question,))
+    def _indices(found: Claim, given: Given) -> Said:
         told = many if found.index is None else one
         yield told(indices=found.indices, index=found.index)
 
     @analysis_rule("table", none, missing=question)
-    def _left_out() -> Said:
+    def _left_out(given: Given) -> Said:
         yield none()
 
 
@@ -566,8 +572,8 @@ _index_rules("controllability_indices", *CONTROLLABILITY_INDICES)
 _index_rules("observability_indices", *OBSERVABILITY_INDICES)
 
 
-@analysis_rule("table", SPECTRUM_FREE, SPECTRUM_PARTS)
-def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim) -> Said:
+@analysis_rule("table", SPECTRUM_FREE, SPECTRUM_PARTS, premises=("fixed_spectrum", "assignability"))
+def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim, given: Given) -> Said:
     if empty(fixed_spectrum):
         blocks = [(block.dimension, block.channels) for block in assignability.blocks]
         free = sum(size > 0 for size, _ in blocks) <= 1
@@ -583,7 +589,9 @@ def _most(factor: Claim) -> int | None:
     return at_most if in_A is None else min(in_A, at_most)
 
 
-@analysis_rule("table", SPECTRUM_MOVED, SPECTRUM_MOVED_BETWEEN)
+@analysis_rule(
+    "table", SPECTRUM_MOVED, SPECTRUM_MOVED_BETWEEN, premises=("fixed_spectrum", "assignability")
+)
 def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -> Said:
     """Bounds on the number of eigenvalues, with multiplicity, that gains can move.
 
@@ -607,7 +615,7 @@ def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -
 # Set-points.
 
 
-@analysis_rule("table", SETPOINT_ZERO, SETPOINT_DEPENDENT)
+@analysis_rule("table", SETPOINT_ZERO, SETPOINT_DEPENDENT, premises=("setpoint",))
 def _no_setpoints(setpoint: Claim, given: Given) -> Said:
     if setpoint.invariant_zero:
         yield SETPOINT_ZERO(place=steady_point(given.time))
@@ -615,8 +623,12 @@ def _no_setpoints(setpoint: Claim, given: Given) -> Said:
         yield SETPOINT_DEPENDENT()
 
 
-@analysis_rule("table", SETPOINT)
-def _setpoints(setpoint: Claim, joint_controllability: Claim, joint_observability: Claim) -> Said:
+@analysis_rule(
+    "table", SETPOINT, premises=("setpoint", "joint_controllability", "joint_observability")
+)
+def _setpoints(
+    setpoint: Claim, joint_controllability: Claim, joint_observability: Claim, given: Given
+) -> Said:
     if (
         setpoint.solvable
         and joint_controllability.controllable
@@ -625,9 +637,18 @@ def _setpoints(setpoint: Claim, joint_controllability: Claim, joint_observabilit
         yield SETPOINT()
 
 
-@analysis_rule("table", SETPOINT_STABLE_REST, SETPOINT_UNSTABLE_REST)
+@analysis_rule(
+    "table",
+    SETPOINT_STABLE_REST,
+    SETPOINT_UNSTABLE_REST,
+    premises=("setpoint", "joint_controllability", "joint_observability", "fixed_spectrum"),
+)
 def _setpoints_beside(
-    setpoint: Claim, joint_controllability: Claim, joint_observability: Claim, fixed_spectrum: Claim
+    setpoint: Claim,
+    joint_controllability: Claim,
+    joint_observability: Claim,
+    fixed_spectrum: Claim,
+    given: Given,
 ) -> Said:
     """Modes that are not controllable or not observable are fixed, perhaps stable."""
     reach = (joint_controllability, joint_observability)
@@ -645,7 +666,7 @@ def _setpoints_beside(
     yield told(p=unstable)
 
 
-@analysis_rule("table", *GAINS["every"].values())
+@analysis_rule("table", *GAINS["every"].values(), premises=("every_channel",))
 def _every_channel(every_channel: Claim, given: Given) -> Said:
     yield gains("every", every_channel, given.names)
 
@@ -765,14 +786,14 @@ detail_rule = DETAIL_RULES.rule
 # The table of fixed modes.
 
 
-@detail_rule("fixed-modes.title", FIXED_MODES)
+@detail_rule("fixed-modes.title", FIXED_MODES, premises=("fixed_spectrum",))
 def _fixed_modes(fixed_spectrum: Claim, given: Given) -> Said:
     if not empty(fixed_spectrum):
         yield FIXED_MODES(control=control(fixed_spectrum, given))
 
 
-@detail_rule("fixed-modes", FIXED_MODE)
-def _fixed_mode(fixed_spectrum: Claim) -> Said:
+@detail_rule("fixed-modes", FIXED_MODE, premises=("fixed_spectrum",))
+def _fixed_mode(fixed_spectrum: Claim, given: Given) -> Said:
     for factor in fixed_spectrum.factors.ordered("stable"):
         yield FIXED_MODE(
             p=factor.polynomial,
@@ -792,7 +813,7 @@ def _centers(factor: Claim) -> list[tuple[Fraction, Fraction]]:
     return [(exact_decimal(disc.re), exact_decimal(disc.im)) for disc in factor.roots]
 
 
-@detail_rule("fixed-modes.note", FIXED_MODES_NOTE)
+@detail_rule("fixed-modes.note", FIXED_MODES_NOTE, premises=("fixed_spectrum",))
 def _columns(fixed_spectrum: Claim, given: Given) -> Said:
     if not empty(fixed_spectrum):
         yield FIXED_MODES_NOTE(n=given.n)
@@ -801,32 +822,32 @@ def _columns(fixed_spectrum: Claim, given: Given) -> Said:
 # A set of channels.
 
 
-@detail_rule("pencil.title", PENCIL)
-def _pencil(spectrum_of_A: Claim, pencil_rank: Iterable[Claim]) -> Said:
+@detail_rule("pencil.title", PENCIL, premises=("spectrum_of_A", "pencil_rank"))
+def _pencil(spectrum_of_A: Claim, pencil_rank: Iterable[Claim], given: Given) -> Said:
     subsets = [found.subset for found in pencil_rank if found.polynomial.degree]
     if subsets and spectrum_of_A.polynomial.degree:
         yield PENCIL(s=subsets[0])
 
 
-@detail_rule("pencil", PENCIL_ROW)
+@detail_rule("pencil", PENCIL_ROW, premises=("pencil_rank",))
 def _ranks(pencil_rank: Iterable[Claim], given: Given) -> Said:
     for found in pencil_rank:
         rank = found.rank
         yield PENCIL_ROW(p=found.polynomial, rank=rank, below=rank < given.n)
 
 
-@detail_rule("subsystem.title", SUBSYSTEM)
-def _subsystem(complementary_subsystem: Claim) -> Said:
+@detail_rule("subsystem.title", SUBSYSTEM, premises=("complementary_subsystem",))
+def _subsystem(complementary_subsystem: Claim, given: Given) -> Said:
     yield SUBSYSTEM(s=complementary_subsystem.subset)
 
 
-@detail_rule("subsystem", NORMAL_RANK)
-def _normal_rank(complementary_subsystem: Claim) -> Said:
+@detail_rule("subsystem", NORMAL_RANK, premises=("complementary_subsystem",))
+def _normal_rank(complementary_subsystem: Claim, given: Given) -> Said:
     yield NORMAL_RANK(rank=complementary_subsystem.normal_rank)
 
 
-@detail_rule("subsystem", ZEROS, NO_ZEROS)
-def _zeros(complementary_subsystem: Claim) -> Said:
+@detail_rule("subsystem", ZEROS, NO_ZEROS, premises=("complementary_subsystem",))
+def _zeros(complementary_subsystem: Claim, given: Given) -> Said:
     """The largest invariant polynomial has all invariant zeros: each of the others divides it."""
     polynomials = complementary_subsystem.invariant_polynomials
     if polynomials:
@@ -835,16 +856,17 @@ def _zeros(complementary_subsystem: Claim) -> Said:
         yield NO_ZEROS()
 
 
-@detail_rule("subsystem", REMNANT)
-def _remnant(complementary_subsystem: Claim) -> Said:
+@detail_rule("subsystem", REMNANT, premises=("complementary_subsystem",))
+def _remnant(complementary_subsystem: Claim, given: Given) -> Said:
     yield REMNANT(p=complementary_subsystem.remnant)
 
 
 @detail_rule(
     "subsystem",
     *(SUBSYSTEM_COMPLETE, SUBSYSTEM_ZERO, SUBSYSTEM_DROPS, SUBSYSTEM_BOTH),
+    premises=("complementary_subsystem",),
 )
-def _subsystem_complete(complementary_subsystem: Claim) -> Said:
+def _subsystem_complete(complementary_subsystem: Claim, given: Given) -> Said:
     """The roots of the remnant polynomial are the points where the rank is below n."""
     found = complementary_subsystem
     drops = [p for p, _ in found.remnant.factor()]
@@ -859,26 +881,26 @@ def _subsystem_complete(complementary_subsystem: Claim) -> Said:
 # A channel.
 
 
-@detail_rule("channel.title", CHANNEL)
-def _channel(channel_controllability: Claim) -> Said:
+@detail_rule("channel.title", CHANNEL, premises=("channel_controllability",))
+def _channel(channel_controllability: Claim, given: Given) -> Said:
     [name] = channel_controllability.channels
     yield CHANNEL(name=name)
 
 
-@detail_rule("channel", *ALONE["controllability"])
-def _controlled_alone(channel_controllability: Claim) -> Said:
+@detail_rule("channel", *ALONE["controllability"], premises=("channel_controllability",))
+def _controlled_alone(channel_controllability: Claim, given: Given) -> Said:
     yield from reached(channel_controllability, *ALONE["controllability"])
 
 
-@detail_rule("channel", *ALONE["observability"])
-def _observed_alone(channel_observability: Claim) -> Said:
+@detail_rule("channel", *ALONE["observability"], premises=("channel_observability",))
+def _observed_alone(channel_observability: Claim, given: Given) -> Said:
     yield from reached(channel_observability, *ALONE["observability"])
 
 
 def _gains_rules(want: str) -> None:
     """Make the rule of gains with which one channel controls or observes everything."""
 
-    @detail_rule("channel", *GAINS[want].values(), about={"found": f"channel_gains_{want}"})
+    @detail_rule("channel", *GAINS[want].values(), premises=(f"channel_gains_{want}",))
     def _with_gains(found: Claim, given: Given) -> Said:
         yield gains(want, found, given.names)
 
@@ -910,12 +932,12 @@ def _neighbor_edges(given: Given) -> Said:
         yield PICTURE_NEIGHBORS(arcs=edges)
 
 
-@detail_rule("graphs", PICTURE_TRANSFER)
-def _transfer_edges(transfer_graph: Claim) -> Said:
+@detail_rule("graphs", PICTURE_TRANSFER, premises=("transfer_graph",))
+def _transfer_edges(transfer_graph: Claim, given: Given) -> Said:
     yield PICTURE_TRANSFER(arcs=[edge for edge in transfer_graph.arcs if edge[0] != edge[1]])
 
 
-@detail_rule("graphs", PICTURE_OBSTRUCTION, PICTURE_HEARD)
+@detail_rule("graphs", PICTURE_OBSTRUCTION, PICTURE_HEARD, premises=("fixed_spectrum",))
 def _obstruction(fixed_spectrum: Claim, given: Given) -> Said:
     """The picture marks the set of the first mode, and the outside agents that send to it."""
     for factor in fixed_spectrum.factors:
@@ -928,20 +950,22 @@ def _obstruction(fixed_spectrum: Claim, given: Given) -> Said:
         break
 
 
-@detail_rule("dimensions.title", PICTURE_DIMENSIONS)
-def _dimensions_title(minimal_shared_dimensions_outputs_states: Claim) -> Said:
+@detail_rule(
+    "dimensions.title", PICTURE_DIMENSIONS, premises=("minimal_shared_dimensions_outputs_states",)
+)
+def _dimensions_title(minimal_shared_dimensions_outputs_states: Claim, given: Given) -> Said:
     if minimal_shared_dimensions_outputs_states.share == "outputs+states":
         yield PICTURE_DIMENSIONS()
 
 
-@detail_rule("latex", LATEX_NOTHING_FIXED)
-def _latex_nothing(fixed_spectrum: Claim) -> Said:
+@detail_rule("latex", LATEX_NOTHING_FIXED, premises=("fixed_spectrum",))
+def _latex_nothing(fixed_spectrum: Claim, given: Given) -> Said:
     if empty(fixed_spectrum):
         yield LATEX_NOTHING_FIXED()
 
 
-@detail_rule("latex", LATEX_FIXED_MODE)
-def _latex_modes(fixed_spectrum: Claim) -> Said:
+@detail_rule("latex", LATEX_FIXED_MODE, premises=("fixed_spectrum",))
+def _latex_modes(fixed_spectrum: Claim, given: Given) -> Said:
     for factor in fixed_spectrum.factors:
         yield LATEX_FIXED_MODE(
             p=factor.polynomial, in_A=factor.multiplicity_in_A, rank=factor.rank, s=factor.channels

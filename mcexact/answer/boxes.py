@@ -117,20 +117,20 @@ SETPOINTS = Template(
 BOX_FIXED_RULES = Rulebook()
 
 
-@BOX_FIXED_RULES.rule("table", NOTHING_FIXED)
-def _nothing_fixed(box_fixed_modes: Claim) -> Iterator[Sentence]:
+@BOX_FIXED_RULES.rule("table", NOTHING_FIXED, premises=("box_fixed_modes",))
+def _nothing_fixed(box_fixed_modes: Claim, given: Given) -> Iterator[Sentence]:
     if box_fixed_modes.bound is None:
         yield NOTHING_FIXED()
 
 
-@BOX_FIXED_RULES.rule("table", STABILIZABLE)
-def _stabilizable(box_stabilizability: Claim) -> Iterator[Sentence]:
+@BOX_FIXED_RULES.rule("table", STABILIZABLE, premises=("box_stabilizability",))
+def _stabilizable(box_stabilizability: Claim, given: Given) -> Iterator[Sentence]:
     if box_stabilizability.bound is not None:
         yield STABILIZABLE()
 
 
-@BOX_FIXED_RULES.rule("table", SETPOINTS)
-def _setpoints(box_setpoints: Claim) -> Iterator[Sentence]:
+@BOX_FIXED_RULES.rule("table", SETPOINTS, premises=("box_setpoints",))
+def _setpoints(box_setpoints: Claim, given: Given) -> Iterator[Sentence]:
     if box_setpoints.bound is not None:
         yield SETPOINTS()
 
@@ -203,13 +203,13 @@ OBSERVABLE = Template(
 BOX_CONTROLLABLE_RULES = Rulebook()
 
 
-@BOX_CONTROLLABLE_RULES.rule("table", CONTROLLABLE)
+@BOX_CONTROLLABLE_RULES.rule("table", CONTROLLABLE, premises=("box_controllability",))
 def _controllable(box_controllability: Claim, given: Given) -> Iterator[Sentence]:
     if box_controllability.bound is None and len(box_controllability.channels) == given.m:
         yield CONTROLLABLE()
 
 
-@BOX_CONTROLLABLE_RULES.rule("table", OBSERVABLE)
+@BOX_CONTROLLABLE_RULES.rule("table", OBSERVABLE, premises=("box_observability",))
 def _observable(box_observability: Claim, given: Given) -> Iterator[Sentence]:
     if box_observability.bound is None and len(box_observability.channels) == given.m:
         yield OBSERVABLE()

@@ -307,7 +307,9 @@ def about(loop: Claim, region: StabilityRegion) -> bool:
 EVERY_LOOP_RULES = Rulebook()
 
 
-@EVERY_LOOP_RULES.rule("table", EVERY_LOOP, EVERY_LOOP_PART, EVERY_VALUE)
+@EVERY_LOOP_RULES.rule(
+    "table", EVERY_LOOP, EVERY_LOOP_PART, EVERY_VALUE, premises=("box_stability",)
+)
 def _every_loop(box_stability: Claim, given: Given) -> Said:
     """Where the eigenvalues of all loops are, with radii or parameters as they were asked for."""
     region = StabilityRegion.of(given.time, bound=box_stability.bound)
@@ -320,7 +322,9 @@ def _every_loop(box_stability: Claim, given: Given) -> Said:
         yield EVERY_LOOP_PART(region=region, part=given.part_of_plant, gains=gains)
 
 
-@EVERY_LOOP_RULES.rule("table", FAILING_PLANT, FAILING_PLANT_RADII)
+@EVERY_LOOP_RULES.rule(
+    "table", FAILING_PLANT, FAILING_PLANT_RADII, premises=("failing_loop", "loop")
+)
 def _failing_plant(failing_loop: Claim, loop: Claim, given: Given) -> Said:
     """How near a plant is whose loop with the same controller is not stable."""
     if not failing_loop.stable and failing_loop.bound is None and inside(loop, given.region):
@@ -331,7 +335,7 @@ def _failing_plant(failing_loop: Claim, loop: Claim, given: Given) -> Said:
 # Designs.
 
 
-@design_rule("title", OBSERVER, OBSERVER_FLOAT, NETWORK, SETPOINT, LOOP)
+@design_rule("title", OBSERVER, OBSERVER_FLOAT, NETWORK, SETPOINT, LOOP, premises=("loop",))
 def _title(loop: Claim, given: Given) -> Said:
     """The heading of a design; without a certified region there is no other sentence."""
     if not inside(loop, given.region):
@@ -372,7 +376,7 @@ def _carrier(given: Given) -> Said:
         yield told(agent=block.agent, order=block.order, channels=block.channels)
 
 
-@design_rule("table", ASSIGNED)
+@design_rule("table", ASSIGNED, premises=("loop",))
 def _assigned(loop: Claim, given: Given) -> Said:
     if given.has("blocks") and loop.has("polynomial"):
         for block in given.blocks:
@@ -380,7 +384,7 @@ def _assigned(loop: Claim, given: Given) -> Said:
                 yield ASSIGNED(p=block.polynomial)
 
 
-@design_rule("table", KEPT)
+@design_rule("table", KEPT, premises=("loop", "fixed_spectrum"))
 def _kept(loop: Claim, fixed_spectrum: Claim, given: Given) -> Said:
     """The fixed modes that remain under the design."""
     if given.has("kept") and given.kept.degree and inside(loop, given.region):
@@ -389,33 +393,33 @@ def _kept(loop: Claim, fixed_spectrum: Claim, given: Given) -> Said:
             yield KEPT(p=given.kept)
 
 
-@design_rule("table", FEEDBACK)
-def _feedback(loop: Claim) -> Said:
+@design_rule("table", FEEDBACK, premises=("loop",))
+def _feedback(loop: Claim, given: Given) -> Said:
     if loop.has("feedback"):
         yield FEEDBACK(p=loop.feedback)
 
 
-@design_rule("table", ERRORS)
-def _errors(loop: Claim) -> Said:
+@design_rule("table", ERRORS, premises=("loop",))
+def _errors(loop: Claim, given: Given) -> Said:
     if loop.has("error"):
         yield ERRORS(p=loop.error)
 
 
-@design_rule("table", REGION)
+@design_rule("table", REGION, premises=("bounded_loop",))
 def _region(bounded_loop: Claim, given: Given) -> Said:
     loop, bound = bounded_loop, given.region.bound
     if bound is not None and loop.bound == bound and inside(loop, given.region):
         yield REGION(region=given.region)
 
 
-@design_rule("table", OUTSIDE)
+@design_rule("table", OUTSIDE, premises=("stability",))
 def _unstable(stability: Claim, given: Given) -> Said:
     """A loop whose prescribed spectrum is not stable was wanted, and is not to be installed."""
     if not stability.stable:
         yield OUTSIDE(region=given.region)
 
 
-@design_rule("table", STEADY)
+@design_rule("table", STEADY, premises=("loop",))
 def _steady(loop: Claim, given: Given) -> Said:
     if given.has("solvability") and inside(loop, given.region):
         yield STEADY()
@@ -439,8 +443,8 @@ DESIGN_RULES = Rulebook()
 design_rule = DESIGN_RULES.rule
 
 
-@design_rule("title", LOOP)
-def _verdict(loop: Claim) -> Said:
+@design_rule("title", LOOP, premises=("loop",))
+def _verdict(loop: Claim, given: Given) -> Said:
     """The title of a verdict."""
     _ = loop.stable
     yield LOOP()
@@ -451,21 +455,21 @@ def _states(given: Given) -> Said:
     yield LOOP_STATES(n=given.states)
 
 
-@design_rule("table", INSIDE, OUTSIDE)
+@design_rule("table", INSIDE, OUTSIDE, premises=("loop",))
 def _location(loop: Claim, given: Given) -> Said:
     if about(loop, given.region):
         yield (INSIDE if loop.stable else OUTSIDE)(region=given.region)
 
 
-@design_rule("table", DECIDED, DECIDED_BLOCKS)
-def _decided(loop: Claim) -> Said:
+@design_rule("table", DECIDED, DECIDED_BLOCKS, premises=("loop",))
+def _decided(loop: Claim, given: Given) -> Said:
     """The method of the decision, and the blocks to which it was applied."""
     proof = loop.proof
     sizes = [block.size for block in proof.blocks] if proof.has("blocks") else []
     yield DECIDED_BLOCKS(sizes=sizes) if len(sizes) > 1 else DECIDED(method=proof.method)
 
 
-@design_rule("table", LARGEST, LEAST)
+@design_rule("table", LARGEST, LEAST, premises=("loop",))
 def _largest(loop: Claim, given: Given) -> Said:
     if given.largest and loop.stable and loop.bound is not None:
         yield (LEAST if given.region.discrete else LARGEST)(bound=loop.bound)
@@ -629,6 +633,7 @@ def refusal(place: str, answer: Answer, **asked: Any) -> Impossible:
     *UNREACHED.values(),
     NOT_OBSERVABLE,
     *INTEGRATORS_UNREACHED.values(),
+    premises=("controllability",),
 )
 def _unreached(controllability: Claim, given: Given) -> Said:
     if not controllability.controllable:
@@ -636,13 +641,13 @@ def _unreached(controllability: Claim, given: Given) -> Said:
         yield given.told(p=p, region=given.region if given.has("region") else None)
 
 
-@refusal_rule("not complete", ERRORS_NOT_COMPLETE)
-def _not_complete(completeness: Claim) -> Said:
+@refusal_rule("not complete", ERRORS_NOT_COMPLETE, premises=("completeness",))
+def _not_complete(completeness: Claim, given: Given) -> Said:
     if not completeness.complete:
         yield ERRORS_NOT_COMPLETE()
 
 
-@refusal_rule("fixed", FIXED, FIXED_SHARED, ERRORS_FIXED)
+@refusal_rule("fixed", FIXED, FIXED_SHARED, ERRORS_FIXED, premises=("fixed_spectrum",))
 def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
     """The first fixed mode that is outside the region."""
     sizes = []
@@ -657,13 +662,20 @@ def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
             return
 
 
-@refusal_rule("integrators", INTEGRATORS_FIXED)
-def _integrators_fixed(fixed_spectrum: Claim) -> Said:
+@refusal_rule("integrators", INTEGRATORS_FIXED, premises=("fixed_spectrum",))
+def _integrators_fixed(fixed_spectrum: Claim, given: Given) -> Said:
     if fixed_spectrum.polynomial.degree:
         yield INTEGRATORS_FIXED(p=fixed_spectrum.polynomial)
 
 
-@refusal_rule("dimensions", NO_DIMENSIONS, NOT_CONTROLLED, NOT_OBSERVED, NO_CONNECTION)
+@refusal_rule(
+    "dimensions",
+    NO_DIMENSIONS,
+    NOT_CONTROLLED,
+    NOT_OBSERVED,
+    NO_CONNECTION,
+    premises=("shared_dimensions",),
+)
 def _no_dimensions(shared_dimensions: Claim, given: Given) -> Said:
     """A set of agents that need shared states and receive from no other agent."""
     if shared_dimensions.feasible:
@@ -681,13 +693,19 @@ def _no_dimensions(shared_dimensions: Claim, given: Given) -> Said:
         return
 
 
-@refusal_rule("outside", REFUSED_OUTSIDE)
+@refusal_rule("outside", REFUSED_OUTSIDE, premises=("stability",))
 def _outside(stability: Claim, given: Given) -> Said:
     if not stability.stable and about(stability, given.region):
         yield REFUSED_OUTSIDE(region=given.region)
 
 
-@refusal_rule("equilibrium", NO_EQUILIBRIUM, NO_EQUILIBRIUM_ZERO, MODE_OF_THE_INTEGRATORS)
+@refusal_rule(
+    "equilibrium",
+    NO_EQUILIBRIUM,
+    NO_EQUILIBRIUM_ZERO,
+    MODE_OF_THE_INTEGRATORS,
+    premises=("setpoint",),
+)
 def _no_equilibrium(setpoint: Claim, given: Given) -> Said:
     if not setpoint.solvable:
         zero = setpoint.invariant_zero

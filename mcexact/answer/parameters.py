@@ -1089,7 +1089,7 @@ RANGE_RULES = Rulebook()
 
 
 def _within_ranges(question: str, holds: Callable[[Claim, Given], bool]) -> None:
-    @RANGE_RULES.rule("answer", RANGES[question], about={"found": question})
+    @RANGE_RULES.rule("answer", RANGES[question], premises=(question,))
     def _said(found: Claim, given: Given) -> Said:
         if holds(found, given):
             yield RANGES[question](parameters=given.parameters)
@@ -1104,18 +1104,18 @@ for each in ("box_controllability", "box_observability"):
 RULES.extend(RANGE_RULES)
 
 
-@rule("answer", FIXED, NOTHING_FIXED)
+@rule("answer", FIXED, NOTHING_FIXED, premises=("fixed_spectrum",))
 def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
     yield from fixed(modes_of(fixed_spectrum, given), values_of([fixed_spectrum], given))
 
 
-@rule("answer", ANOTHER)
+@rule("answer", ANOTHER, premises=("fixed_spectrum",))
 def _another(fixed_spectrum: Claim, given: Given) -> Said:
     yield from another(modes_of(fixed_spectrum, given), values_of([fixed_spectrum], given))
 
 
 def _of_modes(question: str) -> None:
-    @rule("table", *MODES[question], about={"found": question})
+    @rule("table", *MODES[question], premises=(question,))
     def _row(found: Claim, given: Given) -> Said:
         yield from in_table(question, modes_of(found, given), values_of([found], given))
 
@@ -1131,7 +1131,7 @@ def _columns(edges: Iterable[Claim], given: Given) -> list[tuple[Edge, int, Valu
     ]
 
 
-@rule("table", *GRAPH)
+@rule("table", *GRAPH, premises=("transfer_graph",))
 def _graph(transfer_graph: Iterable[Claim], given: Given) -> Said:
     yield from graph(_columns(transfer_graph, given))
 
@@ -1139,7 +1139,7 @@ def _graph(transfer_graph: Iterable[Claim], given: Given) -> Said:
 _of_modes("fixed_spectrum")
 
 
-@rule("table", *COMPLETE)
+@rule("table", *COMPLETE, premises=("fixed_spectrum", "transfer_graph"))
 def _complete(fixed_spectrum: Claim, transfer_graph: Iterable[Claim], given: Given) -> Said:
     yield from complete(
         given.names,
@@ -1151,7 +1151,7 @@ def _complete(fixed_spectrum: Claim, transfer_graph: Iterable[Claim], given: Giv
 
 
 def _of_indices(name: str) -> None:
-    @rule("table", *INDICES[name], about={"found": f"{name}_indices"})
+    @rule("table", *INDICES[name], premises=(f"{name}_indices",))
     def _row(found: Iterable[Claim], given: Given) -> Said:
         parts = [(each.rank, values_of([each], given)) for each in found]
         every = max((values.every for _, values in parts), key=len)
@@ -1163,7 +1163,7 @@ for each in INDICES:
     _of_indices(each)
 
 
-@rule("table", *SETPOINT)
+@rule("table", *SETPOINT, premises=("setpoint",))
 def _setpoints(setpoint: Claim, given: Given) -> Said:
     values = values_of([setpoint], given)
     yield from setpoints(setpoint.rank, given.n + given.outputs, values, given.parameter)

@@ -141,7 +141,7 @@ def templates_of(topic: str) -> Iterator[Template]:
 
 def premises_of(template: Template, rulebook: Rulebook) -> tuple[str, ...]:
     """Return the questions whose answers are premises of each template."""
-    seen = (rule.premises.values() for rule in rulebook if template in rule.templates)
+    seen = (rule.premises for rule in rulebook if template in rule.templates)
     return tuple(dict.fromkeys(name for names in seen for name in names))
 
 

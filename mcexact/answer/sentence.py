@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from html import escape
-from types import MappingProxyType
 from typing import Any, TypeVar
 
 from mcexact.answer.protocol import Answer
@@ -171,9 +168,9 @@ class Rule:
     templates : tuple of Template
         The templates that it may use.
     says : callable
-        A function that yields sentences; its parameters are questions, and ``given``.
-    about : mapping
-        The question of a parameter that has another name.
+        A function that yields sentences; it takes the claims of the premises, and ``given``.
+    premises : tuple of str
+        The questions whose answers it reads, in the order of its arguments.
     missing : str
         For a rule about an undecided question, the name of the question.
     """
@@ -181,14 +178,8 @@ class Rule:
     place: str
     templates: tuple[Template, ...]
     says: Callable[..., Iterator[Sentence]]
-    about: Mapping[str, str]
+    premises: tuple[str, ...]
     missing: str
-
-    @cached_property
-    def premises(self) -> dict[str, str]:
-        """The questions whose answers are its parameters."""
-        names = inspect.signature(self.says).parameters
-        return {name: self.about.get(name, name) for name in names if name != "given"}
 
     def apply(
         self, answers: Mapping[str, Answer], given: Given, missing: Collection[str]
@@ -197,14 +188,10 @@ class Rule:
         if self.missing and self.missing not in missing:
             return
         read: Read = {}
-        arguments: dict[str, Any] = {}
-        for name, question in self.premises.items():
-            arguments[name] = _found(question, answers, read)
-            if arguments[name] is None:
-                return
-        if "given" in inspect.signature(self.says).parameters:
-            arguments["given"] = given
-        for sentence in self.says(**arguments):
+        claims = [_found(question, answers, read) for question in self.premises]
+        if any(claim is None for claim in claims):
+            return
+        for sentence in self.says(*claims, given):
             because = tuple((*at, plain(value)) for at, value in read.items())
             yield sentence.bound(self.place, because)
 
@@ -238,13 +225,13 @@ class Rulebook(list[Rule]):
         self,
         place: str,
         *templates: Template,
-        about: Mapping[str, str] = MappingProxyType({}),
+        premises: tuple[str, ...] = (),
         missing: str = "",
     ) -> Callable[[F], F]:
         """Make a rule of a function that yields sentences."""
 
         def made(says: F) -> F:
-            self.append(Rule(place, templates, says, about, missing))
+            self.append(Rule(place, templates, says, premises, missing))
             return says
 
         return made

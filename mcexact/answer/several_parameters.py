@@ -445,7 +445,7 @@ RULES.extend(RANGE_RULES)
 def _almost(question: str, place: str, holds: Callable[[Claim, Given], bool]) -> None:
     """Enter the rule of a sentence about almost all values that one certificate implies."""
 
-    @RULES.rule(place, say.ALMOST[question], about={"found": question})
+    @RULES.rule(place, say.ALMOST[question], premises=(question,))
     def _said(found: Iterable[Claim], given: Given) -> Said:
         for each in found:
             if holds(each, given):
@@ -470,13 +470,13 @@ def _edges(found: Iterable[Claim]) -> list[Edge]:
     return [*dict.fromkeys(edge for edge, rank in pairs if rank)]
 
 
-@RULES.rule("proved", say.ALMOST["transfer_graph"])
+@RULES.rule("proved", say.ALMOST["transfer_graph"], premises=("transfer_graph",))
 def _graph(transfer_graph: Iterable[Claim], given: Given) -> Said:
     if edges := _edges(transfer_graph):
         yield say.ALMOST["transfer_graph"](parameters=given.parameter, edges=edges)
 
 
-@RULES.rule("proved", say.ALMOST["completeness"])
+@RULES.rule("proved", say.ALMOST["completeness"], premises=("fixed_spectrum", "transfer_graph"))
 def _completeness(
     fixed_spectrum: Iterable[Claim], transfer_graph: Iterable[Claim], given: Given
 ) -> Said:
@@ -488,7 +488,7 @@ def _completeness(
 def _on_line(question: str, told: Callable[[Claim, str, Given], str]) -> None:
     """Enter the rule that repeats what each certificate says of its line."""
 
-    @RULES.rule("line", say.ON_LINE[question], about={"found": question})
+    @RULES.rule("line", say.ON_LINE[question], premises=(question,))
     def _said(found: Iterable[Claim], given: Given) -> Said:
         for each in found:
             line, s = _line(each.subject[0])

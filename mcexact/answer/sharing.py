@@ -245,7 +245,7 @@ def _rule(share: str) -> None:
     some, none, impossible = WORDS[share]
     question = f"common_dimension_{share.replace('+', '_')}"
 
-    @COMMON_DIMENSION_RULES.rule("table", some, none, impossible, about={"found": question})
+    @COMMON_DIMENSION_RULES.rule("table", some, none, impossible, premises=(question,))
     def least(found: Claim, given: Given) -> Iterator[Sentence]:
         k = found.dimension
         if found.share == share:
@@ -317,7 +317,11 @@ SHARING_RULES = Rulebook()
 sharing_rule = SHARING_RULES.rule
 
 
-@sharing_rule("table", *[told for key, told in say.TABLE_LINKS.items() if key != "limit"])
+@sharing_rule(
+    "table",
+    *[told for key, told in say.TABLE_LINKS.items() if key != "limit"],
+    premises=("minimal_communication",),
+)
 def _links_in_the_table(minimal_communication: Claim, given: Given) -> Said:
     found = minimal_communication
     if fewest(found):
@@ -326,30 +330,34 @@ def _links_in_the_table(minimal_communication: Claim, given: Given) -> Said:
 
 
 @sharing_rule("table", say.TABLE_LINKS["limit"], missing="minimal_communication")
-def _links_open() -> Said:
+def _links_open(given: Given) -> Said:
     yield say.TABLE_LINKS["limit"]()
 
 
-@sharing_rule("table", say.CONNECTED, say.NOT_CONNECTED)
-def _connected(neighbor_graph: Claim) -> Said:
+@sharing_rule("table", say.CONNECTED, say.NOT_CONNECTED, premises=("neighbor_graph",))
+def _connected(neighbor_graph: Claim, given: Given) -> Said:
     yield say.CONNECTED() if neighbor_graph.strongly_connected else say.NOT_CONNECTED()
 
 
-@sharing_rule("table", say.NEVER_CONTROLLED)
+@sharing_rule("table", say.NEVER_CONTROLLED, premises=("joint_controllability",))
 def _never_controlled(joint_controllability: Claim, given: Given) -> Said:
     if given.neighbors is not None and not joint_controllability.controllable:
         yield say.NEVER_CONTROLLED(p=joint_controllability.uncontrollable_polynomial)
 
 
-@sharing_rule("table", say.NEVER_OBSERVED)
+@sharing_rule("table", say.NEVER_OBSERVED, premises=("joint_observability",))
 def _never_observed(joint_observability: Claim, given: Given) -> Said:
     if given.neighbors is not None and not joint_observability.controllable:
         yield say.NEVER_OBSERVED(p=joint_observability.uncontrollable_polynomial)
 
 
-@sharing_rule("table", say.NO_BOUND)
+@sharing_rule(
+    "table",
+    say.NO_BOUND,
+    premises=("neighbor_graph", "joint_controllability", "joint_observability"),
+)
 def _no_bound(
-    neighbor_graph: Claim, joint_controllability: Claim, joint_observability: Claim
+    neighbor_graph: Claim, joint_controllability: Claim, joint_observability: Claim, given: Given
 ) -> Said:
     reach = (joint_controllability, joint_observability)
     if not neighbor_graph.strongly_connected and all(found.controllable for found in reach):
@@ -365,7 +373,17 @@ def _sharing_rules(share: str, stem: str) -> None:
     """Make the rules of the bound and of the least dimensions for one way of sharing."""
     some, none = say.ENOUGH[share]
 
-    @sharing_rule("table", some, none, about={"bound": f"shared_dimension_bound_{stem}"})
+    @sharing_rule(
+        "table",
+        some,
+        none,
+        premises=(
+            f"shared_dimension_bound_{stem}",
+            "neighbor_graph",
+            "joint_controllability",
+            "joint_observability",
+        ),
+    )
     def _enough(
         bound: Claim,
         neighbor_graph: Claim,
@@ -383,7 +401,7 @@ def _least_rules(share: str, stem: str) -> None:
     some, none, impossible, limit = say.LEAST[share]
     question = f"minimal_shared_dimensions_{stem}"
 
-    @sharing_rule("table", some, none, impossible, about={"least": question})
+    @sharing_rule("table", some, none, impossible, premises=(question,))
     def _least_of(least: Claim, given: Given) -> Said:
         if not usual(least, share):
             return
@@ -394,7 +412,7 @@ def _least_rules(share: str, stem: str) -> None:
             yield (some if any(least.dimensions) else none)(sizes=sizes, time=given.delays)
 
     @sharing_rule("table", limit, missing=question)
-    def _least_open() -> Said:
+    def _least_open(given: Given) -> Said:
         yield limit()
 
 
@@ -408,8 +426,8 @@ def _delayed_rules(network: str) -> None:
     """Make the rules of the fixed modes of a network with delays."""
     nothing, something = say.DELAYED[network]
 
-    @sharing_rule("table", nothing, something, about={"spectrum": f"{network}_fixed_spectrum"})
-    def _delayed(spectrum: Claim) -> Said:
+    @sharing_rule("table", nothing, something, premises=(f"{network}_fixed_spectrum",))
+    def _delayed(spectrum: Claim, given: Given) -> Said:
         [step] = spectrum.subject
         told = nothing if empty(spectrum) else something
         yield told(p=spectrum.polynomial, k=step["dimensions"][0])
@@ -465,7 +483,7 @@ ALLOCATION_RULES = Rulebook()
 allocation_rule = ALLOCATION_RULES.rule
 
 
-@allocation_rule("title", LEAST, IMPOSSIBLE)
+@allocation_rule("title", LEAST, IMPOSSIBLE, premises=("minimal_shared_dimensions",))
 def _least(minimal_shared_dimensions: Claim, given: Given) -> Said:
     found = minimal_shared_dimensions
     told = IMPOSSIBLE if found.dimensions is None else LEAST
@@ -479,7 +497,20 @@ def _least(minimal_shared_dimensions: Claim, given: Given) -> Said:
     )
 
 
-@allocation_rule("table", ROW, TOTAL, ROW_BOUND, TOTAL_BOUND)
+@allocation_rule(
+    "table",
+    ROW,
+    TOTAL,
+    ROW_BOUND,
+    TOTAL_BOUND,
+    premises=(
+        "minimal_shared_dimensions",
+        "shared_dimension_bound",
+        "neighbor_graph",
+        "joint_controllability",
+        "joint_observability",
+    ),
+)
 def _rows(
     minimal_shared_dimensions: Claim,
     shared_dimension_bound: Claim,
@@ -509,7 +540,7 @@ def _rows(
     yield total(size=sum(found.dimensions), bound=k * given.m)
 
 
-@allocation_rule("table.note", PROOF, COST_PROOF)
+@allocation_rule("table.note", PROOF, COST_PROOF, premises=("minimal_shared_dimensions",))
 def _proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
     found = minimal_shared_dimensions
     if found.dimensions is not None:
@@ -517,7 +548,13 @@ def _proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
         yield told(cost=found.cost, cuts=given.cuts, nodes=given.nodes)
 
 
-@allocation_rule("why", REASON, REASON_CUT_OFF, *REASON_UNREACHED.values())
+@allocation_rule(
+    "why",
+    REASON,
+    REASON_CUT_OFF,
+    *REASON_UNREACHED.values(),
+    premises=("minimal_shared_dimensions",),
+)
 def _reasons(minimal_shared_dimensions: Claim, given: Given) -> Said:
     """The active cuts, which the dimensions meet with equality; if no dimensions suffice, all cuts.
 
@@ -568,7 +605,7 @@ LINK_RULES = Rulebook()
 link_rule = LINK_RULES.rule
 
 
-@link_rule("title", LINKS_LEAST, LINKS_IMPOSSIBLE, NONE_NEEDED)
+@link_rule("title", LINKS_LEAST, LINKS_IMPOSSIBLE, NONE_NEEDED, premises=("minimal_communication",))
 def _links(minimal_communication: Claim, given: Given) -> Said:
     found = minimal_communication
     told = LINKS_LEAST if found.added else NONE_NEEDED
@@ -581,8 +618,8 @@ def _links(minimal_communication: Claim, given: Given) -> Said:
     )
 
 
-@link_rule("table", LINKS_ROW, LINKS_TOTAL)
-def _added(minimal_communication: Claim) -> Said:
+@link_rule("table", LINKS_ROW, LINKS_TOTAL, premises=("minimal_communication",))
+def _added(minimal_communication: Claim, given: Given) -> Said:
     found = minimal_communication
     if found.added:
         prices = {(j, i): price for j, i, price in found.candidates}
@@ -591,7 +628,7 @@ def _added(minimal_communication: Claim) -> Said:
         yield LINKS_TOTAL(cost=found.cost)
 
 
-@link_rule("table.note", LINKS_PROOF)
+@link_rule("table.note", LINKS_PROOF, premises=("minimal_communication",))
 def _proof_of_links(minimal_communication: Claim, given: Given) -> Said:
     """The proof of what the certificate claims, feasible or not."""
     _ = minimal_communication.feasible
