@@ -99,7 +99,7 @@ def in_words(said: Iterable[Sentence]) -> str:
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
         Rulebook([*ANALYSIS, *(rule for own in OWN.values() for rule in own)]),
-        (analysis, analysis, boxes, boxes, sharing),
+        (analysis, boxes, sharing),
     ),
     "analyze, with parameters": (PARAMETERS, (parameters,)),
     "allocate": (ALLOCATION, (sharing,)),
@@ -114,7 +114,7 @@ _INTRODUCTION = """\
 # Every sentence about a system
 
 The templates below make all sentences of `mcexact analyze`, `allocate`, `design` and `certify` on a
-user's system, in text, JSON, HTML and LaTeX. A rule of `rules/` decides when a sentence holds. It
+user's system, in text, JSON, HTML and LaTeX. A rule decides when a sentence holds. It
 reads the claims of its premises and nothing else; the manifest records the values that it read, and
 the independent checker verifies the manifest with its own rules. A premise is a certificate, given
 by the stem of its file (`loop` is the one about the closed loop); the checker verifies every
