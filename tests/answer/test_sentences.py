@@ -13,9 +13,15 @@ from typing import Any
 import pytest
 
 from mcexact.answer.account import Account
-from mcexact.answer.rulebook import FILE, TOPICS, everything, listing, premises_of
+from mcexact.answer.rulebook import (
+    FILE,
+    TOPICS,
+    everything,
+    listing,
+    premises_of,
+    templates_of,
+)
 from mcexact.answer.sentence import LOOP, Certified
-from mcexact.answer.templates import templates
 from mcexact.checker.kinds import check_document
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
@@ -221,8 +227,8 @@ def test_a_text_that_no_rule_said_is_found(text: str) -> None:
 
 
 def test_every_template_belongs_to_the_rules_of_one_place() -> None:
-    for topic, (rulebook, modules) in TOPICS.items():
-        for template in templates(*modules):
+    for topic, (rulebook, _) in TOPICS.items():
+        for template in templates_of(topic):
             places = {rule.place for rule in rulebook if template in rule.templates}
             assert len(places) == 1, (topic, template.key)
 
