@@ -179,7 +179,7 @@ def test_a_limit_keeps_answers_about_parameters_and_names_a_search_that_it_ended
     left = {each["question"] for each in told["questions"] if each["outcome"] == "open"}
     # The indices are asked last, since a limit shall not discard others for them.
     assert (status, left) == (4, {"setpoint", "controllability_indices", "observability_indices"})
-    assert "certificate" in told["fixed_spectrum"] and "not decided: " in err
+    assert "generic" in told["fixed_spectrum"] and "not decided: " in err
     monkeypatch.undo()
     monkeypatch.setattr("mcexact.analysis.boxes.largest.largest_uncertainty", endless)
     status, _, err = call(*LIMITED, "--largest-uncertainty")

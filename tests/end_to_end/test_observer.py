@@ -67,7 +67,7 @@ def test_a_spectrum_comes_from_a_file(folder, tmp_path):
     )
     assert done.status == 0, done.stderr
     answer = json.loads(done.stdout)
-    assert answer["feedback_polynomial"] == ["15/2", "8", "7/2", "1"]
+    assert answer["feedback_polynomial"] == ["15/2", 8, "7/2", 1]
     assert answer["agent"] == "1" and len(answer["error_polynomial"]) == 12
 
 
