@@ -48,9 +48,10 @@ def listed_value(value: Json, discs: Json, place: str, system: ParametricSystem)
 
     At its roots all entries of the plant are defined.
     """
-    q = reading.polynomial(value, f"{place}.value", 1)
+    where = f"{place}.value"
+    q = reading.polynomial(value, where, 1)
     defined = all(len(common_divisor(q, delta)) == 1 for delta in system.poles)
-    require(defined, "pole", f"{place}.value", "an entry of the plant is undefined there")
+    require(defined, "pole", where, "an entry of the plant is undefined there")
     root_discs.require_real_or_not(root_discs.root_discs(discs, f"{place}.roots", q), place)
     return q
 

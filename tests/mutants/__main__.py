@@ -4,8 +4,8 @@
 
 Tries every small change of the files of ``mcexact/checker`` (all, or those with these stems) in
 copies of the tree below ``build/mutants``, and prints for each file how many changes made a test of
-``tests/checker`` fail.  A change is tried with the tests that run its lines, those in the file of
-the same name first and then the shorter ones, up to S seconds of tests.
+``tests/checker`` fail.  A change is tried with the tests that run its lines, those of this module
+first (``tests.mutants.topics``) and then the shorter ones, up to S seconds of tests.
 
 What was killed stays so while its file is the same; the rest is tried again in every run, since
 tests may have been added.  Which tests run which lines is found anew only where a test or the

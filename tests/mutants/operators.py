@@ -57,11 +57,11 @@ GUARDS = {"abstractmethod", "frozen", "strict"}
 difference."""
 
 SQUARE = {
-    "absence", "characteristic_polynomial", "closed_loop_spectrum", "exceptional_gains",
-    "quadratic_forms", "sector", "stability",
+    "TwoPolynomials", "_determinant", "_lost_at", "characteristic_polynomial", "check_stability",
+    "lifted", "require_spectrum", "scaled_bound", "transformed",
 }  # fmt: skip
-"""The files in which only square matrices are called A, A_F or M, so that they have as many rows
-as columns."""
+"""The functions and the class in which only square matrices are called A, A_F or M, so that they
+have as many rows as columns."""
 
 PAIRS = (
     ("any", "all"),
@@ -229,9 +229,10 @@ def _span(node: Any) -> Span:
 
 
 def dimensions(source: str) -> list[Span]:
-    """The numbers of rows and of columns of the matrices called A, A_F or M."""
+    """The numbers of rows and of columns of the matrices called A, A_F or M that are square."""
     spans = []
-    for node in ast.walk(ast.parse(source)):
+    parts = [part for part in ast.parse(source).body if getattr(part, "name", "") in SQUARE]
+    for node in (node for part in parts for node in ast.walk(part)):
         if isinstance(node, ast.Attribute) and node.attr in ("nrows", "ncols"):
             owner = getattr(node.value, "id", getattr(node.value, "attr", ""))
             if owner in ("A", "A_F", "M"):

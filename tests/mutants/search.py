@@ -28,16 +28,16 @@ from tests.attack.campaign import checked
 from tests.attack.tries import ORDER, SIZE, batch_numbers, drawn_batch, tries
 from tests.campaigns import controller_grammar, grammar
 from tests.checker.kept import KEPT, Case, answer, group
-from tests.mutants import explained, operators, session
+from tests.mutants import explained, operators, session, topics
 from tests.mutants.documents import HANGS, NONE, UNLOADABLE, telling
 
 CHECKER = Path("mcexact/checker")
 LONGEST = 6000
 """Bytes of a document that may be kept."""
 MOST = 1500
-"""Documents of one kind that are tried on a change of the file of this kind."""
+"""Documents of one kind that are tried on a change of the module that checks this kind."""
 MIXED = 3000
-"""Documents of all kinds that are tried on a change of another file, about as many of each."""
+"""Documents of all kinds that are tried on a change of another module, about as many of each."""
 
 
 def certificates(batches: int, kinds: Collection[str]) -> Iterator[Case]:
@@ -83,13 +83,14 @@ def pool(batches: int, kinds: Collection[str], number: int) -> dict[str, list[Ca
 
 
 def tried_on(stem: str, known: dict[str, list[Case]]) -> list[Case]:
-    """The documents for changes of one file: of its kind, or some of every kind."""
-    if stem in known:
-        return spread(known[stem], MOST)
+    """The documents for changes of one module: of its kinds, or some of every kind."""
     mixed: list[Case] = []
+    if own := sorted(topics.kinds(stem) & known.keys()):
+        mixed = [case for name in own for case in spread(known[name], MOST)]
+        return sorted(mixed, key=lambda case: len(json.dumps(case)))
     for k, name in enumerate(sorted(known, key=lambda name: len(known[name]))):
         mixed += spread(known[name], (MIXED - len(mixed)) // (len(known) - k))
-    if stem in ("reading", "system", "controller"):
+    if stem in ("reading", "system"):
         mixed += [case for name in ("system", "controller") for case in spread(known[name], MOST)]
     return sorted(mixed, key=lambda case: len(json.dumps(case)))
 

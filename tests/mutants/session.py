@@ -19,7 +19,7 @@ from cosmic_ray.work_db import WorkDB, use_db
 from cosmic_ray.work_item import MutationSpec, TestOutcome, WorkerOutcome, WorkItem, WorkResult
 
 from tests.checker.kept import Case, by_group, group
-from tests.mutants import explained, operators, warm
+from tests.mutants import explained, operators, topics, warm
 from tests.mutants.documents import UNLOADABLE, telling
 
 DOCUMENTS = ("tests/checker/test_kept.py", "tests/checker/test_recorded.py")
@@ -48,7 +48,7 @@ class Selection:
         return own + sorted(set(range(len(self.seconds))) - found) if -1 in found else own
 
     def ordered(self, stem: str, tests: list[int], most: float) -> tuple[list[str], float]:
-        """Tests by what they promise: those of the same name, those of documents, short ones.
+        """Tests by what they promise: those of the module, those of documents, short ones.
 
         They end where they would take more than ``most`` seconds.
         """
@@ -62,8 +62,8 @@ class Selection:
 
 
 def stage(test: str, stem: str) -> int:
-    """0 for a test of the same name as a file, 1 for documents that are kept, else 2."""
-    if f"test_{stem}.py" in test:
+    """0 for a test of the module, 1 for documents that are kept, else 2."""
+    if Path(test.partition("::")[0]).name in topics.tests(stem):
         return 0
     return 1 if test.startswith(DOCUMENTS) else 2
 
@@ -88,8 +88,7 @@ def plan(path: Path, database: Path) -> None:
     database.unlink(missing_ok=True)
     with use_db(str(database), WorkDB.Mode.create) as session:
         init([path], session, {})
-        square = operators.dimensions(source) if path.stem in operators.SQUARE else []
-        spans = operators.outside(source) + square
+        spans = operators.outside(source) + operators.dimensions(source)
         ranks = operators.same_comparisons(source)
         seen, counts = {source}, {"outside": 0, "same comparison": 0, "same or no program": 0}
         for item in session.work_items:
@@ -202,7 +201,8 @@ def work(
 
 def _tells(stem: str, changed: str, cases: list[Case]) -> bool:
     """Whether ``test_kept.py`` fails after a change, in a small part of its time."""
-    own = sorted(cases, key=lambda case: group(case) != stem)
+    first = {stem, *topics.kinds(stem)}
+    own = sorted(cases, key=lambda case: group(case) not in first)
     found = telling(stem, compile(changed, stem, "exec", dont_inherit=True), own)
     return found >= 0 or found == UNLOADABLE
 

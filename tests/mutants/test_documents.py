@@ -14,9 +14,9 @@ RANK = "require(lost >= deficiency >= 1"
 
 def told(before: str, after: str) -> int:
     """What the documents tell of a change."""
-    source = Path(mcexact.checker.__path__[0], "subspaces.py").read_text(encoding="utf-8")
+    source = Path(mcexact.checker.__path__[0], "evidence.py").read_text(encoding="utf-8")
     assert before in source
-    return telling("subspaces", compile(source.replace(before, after), "", "exec"), CASES)
+    return telling("evidence", compile(source.replace(before, after), "", "exec"), CASES)
 
 
 def test_without_a_change_every_answer_is_the_same() -> None:

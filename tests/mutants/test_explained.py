@@ -26,6 +26,6 @@ def test_explained_lines_are_in_their_files() -> None:
 
 
 def test_a_line_that_is_elsewhere_is_noticed() -> None:
-    line = "power = layered.product(system.A, power)"
-    changes = {("named_matrices", line, "pass"), ("setpoint", line, "pass")}
-    assert gone(Explained(frozenset(changes))) == [("setpoint", line)]
+    line = "power = product(system.A, power)"
+    changes = {("bivariate", line, "pass"), ("structure", line, "pass")}
+    assert gone(Explained(frozenset(changes))) == [("structure", line)]
