@@ -14,7 +14,6 @@ from html import escape
 from types import MappingProxyType
 from typing import Any, NoReturn, overload
 
-from mcexact.analysis.boxes.largest import failing_member
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.parameters.hypersurfaces import (
     exceptional_hypersurfaces,
@@ -756,6 +755,9 @@ class Analysis(Asking):
         if system.subject or system.n > _MOST_STATES or self._left == 0:
             return {}
         for name in asked - self._refuted.keys():
+            # Few plants have radii, and this loads all that searches in boxes.
+            from mcexact.analysis.boxes.largest import failing_member
+
             self._refuted[name] = failing_member(system, PROPERTIES[name])
         found = {name: self._refuted[name] for name in sorted(asked)}
         return {name: answer for name, answer in found.items() if answer is not None}

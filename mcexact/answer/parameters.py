@@ -13,8 +13,6 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-import networkx as nx
-
 from mcexact.answer.evidence import RootDisc, ZeroBlock
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
 from mcexact.answer.sentence import Claim, Given, Rulebook
@@ -1034,10 +1032,12 @@ def complete(
 
 def connects(names: Sequence[str], edges: Iterable[Edge]) -> bool:
     """Whether a digraph is strongly connected."""
-    made = nx.DiGraph()
-    made.add_nodes_from(names)
-    made.add_edges_from(edges)
-    return bool(nx.is_strongly_connected(made))
+    import networkx  # start-up: every report loads this module
+
+    graph = networkx.DiGraph()
+    graph.add_nodes_from(names)
+    graph.add_edges_from(edges)
+    return bool(networkx.is_strongly_connected(graph))
 
 
 def indices(name: str, ranks: Sequence[int], values: Values) -> Said:
