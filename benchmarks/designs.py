@@ -25,8 +25,7 @@ from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.roots import is_discrete
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.gate import Request
-from mcexact.synthesis.optimum.diagnosis import diagnosed
-from mcexact.synthesis.optimum.figures import step_peak
+from mcexact.synthesis.optimum.diagnosis import diagnosed, step_peak
 
 
 @dataclass(frozen=True)

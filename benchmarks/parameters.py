@@ -22,20 +22,20 @@ LIMITS = {
 """Seconds for deciding and for checking, where some were asked for."""
 SIZES = dict.fromkeys(("one entry", "four entries", "all entries"), (5, 10, 20, 40))
 DECIDING = {
-    "det(xI − A_F)": ("two_variables.py", "characteristic"),
-    "modulo ℓ": ("modular_resultants.py", "characteristic_modulo"),
-    "resultants": ("modular_resultants.py", "resultant_modulo"),
-    "common divisors": ("parameter_field.py", "gcd"),
-    "zero blocks": ("zero_blocks.py", "zero_block"),
+    "det(xI − A_F)": ("exact/bivariate.py", "characteristic"),
+    "modulo ℓ": ("exact/bivariate.py", "characteristic_modulo"),
+    "resultants": ("exact/bivariate.py", "resultant_modulo"),
+    "common divisors": ("exact/bivariate.py", "gcd"),
+    "zero blocks": ("parameters/modes.py", "zero_block"),
 }
 CHECKING = {
-    "reading": ("parametric_system.py", "read_parametric"),
-    "det(xI − A_F)": ("two_variables.py", "characteristic"),
-    "resultants": ("resultants.py", "resultant"),
-    "coprimality": ("arithmetic.py", "coprime"),
-    "zero blocks": ("zero_blocks.py", "zero_block"),
+    "reading": ("checker/parametric_system.py", "read_parametric"),
+    "det(xI − A_F)": ("checker/bivariate.py", "characteristic"),
+    "resultants": ("checker/bivariate.py", "resultant"),
+    "coprimality": ("checker/arithmetic.py", "coprime"),
+    "zero blocks": ("checker/parameters.py", "zero_block"),
 }
-"""The files and names of functions that do most of the work."""
+"""The ends of files' paths, and names, of functions that do most of the work."""
 
 
 def plant(n: int, kind: str, seed: int = 1) -> ParametricSystem:

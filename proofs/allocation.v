@@ -1,4 +1,4 @@
-(* checker/sharing.py, shared_dimensions.py, communication.py: cuts and the branch tree.
+(* checker/sharing.py: cuts and the branch tree.
 
    Variables n_i (shared dimensions, or z_ji in {0, 1} for arcs) are natural numbers within bounds; a cut
    says sum_{i in boundary} n_i >= depth.  The tree proves that no choice costs less than `opt`.

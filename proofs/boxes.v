@@ -1,4 +1,4 @@
-(* checker/discs.py, exterior_discs.py, covers.py, box_*.py: answers for every system whose entries are
+(* checker/discs.py and checker/boxes.py: answers for every system whose entries are
    within their radii.
 
    A matrix near the identity, in rows with positive weights, is regular; so is a pencil on a disc, for every

@@ -1,4 +1,4 @@
-(* checker/modes.py and deficiency.py: kinds `pencil_rank` and `deficiency`.
+(* checker/modes.py: kinds `pencil_rank` and `deficiency`.
 
    pencil_rank is stated for every polynomial matrix M(x), of which P_s(x) is one: the checker's
    P_s(x) leaves out the zero rows and columns that `pencil` keeps. *)

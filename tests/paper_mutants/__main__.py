@@ -71,10 +71,9 @@ def mutated(mutant: Mutant, procedure: Procedure) -> Procedure | None:
     made = ModuleType(module.__name__)
     made.__file__ = module.__file__
     # Changes may name plants that the module does not use.
-    for source in (instances, instances):
-        made.__dict__.update({n: v for n, v in vars(source).items() if not n.startswith("_")})
+    made.__dict__.update({n: v for n, v in vars(instances).items() if not n.startswith("_")})
     exec(compile(whole, str(module.__file__), "exec"), made.__dict__)
-    found: Procedure = made.__dict__["PROCEDURES"][mutant.key]
+    found: Procedure = made.__dict__[procedure.__name__]
     return found
 
 
