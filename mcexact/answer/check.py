@@ -1,4 +1,12 @@
-"""Verification by the checker, and answers read back from certificates."""
+"""Verification by the checker, and answers read back from certificates.
+
+`check` gives the verdict of the independent checker on one answer or file, in this process or, with
+a limit on the time, in a child process that can be ended.  `recheck` verifies several certificates,
+and the sentences of their manifest if there is one.
+
+`load_certificate` makes an answer of a file once the checker has accepted it: the JSON is converted
+field by field, by the types that the dataclass of its kind declares.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +64,7 @@ if TYPE_CHECKING:
     from mcexact.model.controller import Controller
 
 
-# The verdict of the independent checker, as Python shows it.
+# Verdicts.
 
 
 @dataclass(frozen=True, repr=False)

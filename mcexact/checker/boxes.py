@@ -1,4 +1,15 @@
-"""Kinds about every member of a family."""
+"""Kinds about every plant in a box, or at all values of parameters in ranges.
+
+Three properties are checked for every member of a box: no mode is fixed (``box_fixed``), channels
+control every mode (``box_controllable``), and every eigenvalue lies in a region (``box_stable``).
+The first two require a pencil to have full rank at every λ that can be an eigenvalue of a member
+and lies outside of the allowed region: `discs` bounds these λ by discs, which it covers by cells.
+The third one checks the loop at its nominal values, and that no eigenvalue of a member crosses the
+border of the region, which is covered by discs, too.
+
+The kinds ``parametric_box_…`` are about the values of parameters in ranges.  The ranges are cut
+into cells (`cells`), and the same checks run for a box around the plants of each cell.
+"""
 
 from dataclasses import replace
 from fractions import Fraction
