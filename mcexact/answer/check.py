@@ -347,7 +347,7 @@ def _verdicts(
 def _limits(size: int) -> reading_Limits:
     """Limits that allow texts of this size, with numbers of any length, and any work.
 
-    What this program has found took more work than the check of it, which may take as long.
+    No limit is needed: finding this evidence took this program longer than checking it does.
     """
     limits = {"bytes": max(reading_Limits.bytes, size), "digits": max(reading_Limits.digits, size)}
     return reading_Limits(**limits, work=10**30)

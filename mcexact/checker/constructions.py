@@ -1,4 +1,11 @@
-"""Systems made from the plant."""
+"""Systems made from the plant.
+
+A claim is about a subject: the plant after a list of constructions.  `read_subject` applies them in
+order, each a function from a system to a system; ``CONSTRUCTIONS`` has them by name, and
+``FORMAT.md`` specifies them.  `closed_loop` is the longest one: it writes the plant and the
+programs of all agents, with what they remember of messages, as one matrix.  It treats the loop as a
+linear map of signals, which `discs` uses again to bound loops of uncertain plants.
+"""
 
 import json
 

@@ -1,4 +1,13 @@
-"""The table of kinds, what is expected, and the verdict."""
+"""The table of kinds, what is expected, and the verdict.
+
+`KINDS` maps the name of each kind to its `Rule`: a function that stops unless the witness proves
+the claim, and one that says the claim in words.  `check_document` is the one function that gives
+the verdict VALID.  It reads the document strictly, compares it with what the caller expects
+(`Expectation`: the plant, the controller, the statement or the claim), builds the subject from the
+plant, and applies the rule.  An exception on the way becomes another verdict (`attempt`).
+
+`Clock` and `memory` limit the time and the memory of a run; the work is limited by `budget`.
+"""
 
 from __future__ import annotations
 
@@ -435,7 +444,7 @@ def _parts(document: Json) -> list[Json]:
     return parts
 
 
-# What a run may take: time, also while it waits for a file, and memory.
+# Limits of a run: time, also while it waits for a file, and memory.
 
 SUPPORTED = hasattr(signal, "setitimer")
 """Whether the platform has alarms, and limits on memory."""

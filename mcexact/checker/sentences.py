@@ -176,7 +176,7 @@ def rule(keys: str, *roles: Role, theorem: str = "") -> Callable[[Say], Say]:
 
 
 def remark(keys: str) -> None:
-    """Enter rules of sentences that claim nothing: titles, and what is not decided or proved."""
+    """Add rules of sentences that claim nothing: titles, and what is not decided or proved."""
 
     def enter(key: str) -> None:
         def say(known: list[Premise]) -> str:
@@ -243,7 +243,7 @@ def controls(found: Premise) -> bool:
     return bool(found["controllable"])
 
 
-# What is given, and remarks: titles, what is not proved, and what was not decided.
+# Titles, and remarks on what is not proved or was not decided; they claim nothing.
 
 
 def plain(known: list[Premise]) -> System:
@@ -281,7 +281,7 @@ def _inactive(known: list[Premise]) -> str:
 
 @rule("picture-neighbor-graph picture-heard")
 def _neighbors(known: list[Premise]) -> str:
-    """Who receives messages from whom."""
+    """The edges of the neighbor graph: who receives messages from whom."""
     plant = plain(known)
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
     sets, names = enumerate(plant.neighbors or []), plant.names

@@ -50,7 +50,7 @@ KEPT = Role(("fixed_spectrum",), behind((), *NETWORKS))
 DIMENSIONS = Role(("shared_dimensions",), behind(()))
 
 
-# What the controller of a loop is: it stands in the subject.
+# The controller of a loop, which is a part of the subject.
 
 
 def controller(known: list[Premise]) -> tuple[Premise, list[Json]]:

@@ -72,7 +72,7 @@ restate("parametric-fixed", MODES, lambda found: found["generic"])
 restate("parametric-another", MODES, lambda found: found["exceptional"])
 
 
-# What several certificates say together: of the values of which each of them says something.
+# What several certificates imply together: only for values of which each one speaks.
 
 
 def concluded(found: list[Premise], told: str) -> str:
@@ -83,7 +83,7 @@ def concluded(found: list[Premise], told: str) -> str:
 
 
 def except_at(values: list[Json], t: str) -> str:
-    """Where something else holds."""
+    """The words that leave out the roots of some polynomials; empty if there are none."""
     roots = [f"the roots of {polynomial_text(q, t)}" for q in values]
     return f" except at {' and '.join(roots)}" if roots else ""
 
