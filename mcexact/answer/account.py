@@ -229,7 +229,7 @@ class Account(Shown):
 
     @cached_property
     def leading(self) -> tuple[str, ...]:
-        """What is said first of every plant within the radii, if there are such plants."""
+        """The sentences about every plant within the radii; empty without radii."""
         system = self.given.system
         if not isinstance(system, MultiChannelSystem):
             return ()
@@ -413,7 +413,7 @@ class ParametricAccount(Shown):
         return self.plant.canonical_text()
 
     def rows(self, name: str) -> tuple[Row, ...]:
-        """Where what holds by the answer to a question, and why."""
+        """The rows of the answer to a question: the values, what holds there, and why."""
         answer = self.answers[name]
         if name in WITHIN_RANGES:
             return ((", ".join(self.plant.parameters_in_words), WITHIN_RANGES[name], ""),)
@@ -428,12 +428,12 @@ class ParametricAccount(Shown):
         return tuple((f"{name}_{k}.json", str(line)) for k, line in enumerate(lines, 1))
 
     def proofs(self, names: Collection[str]) -> tuple[tuple[str, ...], ...]:
-        """What is proved on lines about some questions."""
+        """The rows of the sentences that repeat what certificates say of their lines."""
         keys = {ON_LINE[name].key for name in names if name in ON_LINE}
         return tuple(each.cells for each in self.sentences.at("line") if each.template.key in keys)
 
     def table(self, name: str) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
-        """The same with the heads of columns, without the reasons where there are none."""
+        """`rows` with the heads of their columns, without the column of reasons if it is empty."""
         rows = self.rows(name)
         used = len(COLUMNS) - (not any(why for *_, why in rows))
         return COLUMNS[:used], tuple(row[:used] for row in rows)

@@ -383,7 +383,7 @@ def _heading(given: Given) -> Said:
 
 @analysis_rule("answer", NOTHING_FIXED, STABLE, UNSTABLE, premises=("linked_fixed_spectrum",))
 def _linked(linked: Claim, given: Given) -> Said:
-    """What the agents can do over the links that are there, which leads."""
+    """What the agents can do over the existing links: the first sentence of the answer."""
     heard = control(linked, given)
     if empty(linked):
         yield NOTHING_FIXED(control=heard)

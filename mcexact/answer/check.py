@@ -239,7 +239,7 @@ def _check_in_child(connection: Any, text: bytes, wanted: Expectation) -> None:
 def _asked(
     where: str, ask: Callable[[bytes, reading_Limits], Expectation], data: bytes
 ) -> Expectation:
-    """What a text asks of the certificate."""
+    """The expectation with what a text adds to it, or an input error that names the argument."""
     try:
         # What a file asks may come from anybody: its work is bounded as on the command line.
         return ask(data, replace(_limits(len(data)), work=None))
@@ -272,7 +272,7 @@ def _controller(controller: Any) -> bytes:
 
 
 def about_plant(text: str) -> Expectation:
-    """What is asked of a certificate about a plant, which it may name by its digest.
+    """The expectation that a certificate is about a plant, which it may name by its digest.
 
     Parameters
     ----------

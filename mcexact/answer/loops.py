@@ -322,7 +322,7 @@ EVERY_LOOP_RULES = Rulebook()
     "table", EVERY_LOOP, EVERY_LOOP_PART, EVERY_VALUE, premises=("box_stability",)
 )
 def _every_loop(box_stability: Claim, given: Given) -> Said:
-    """Where the eigenvalues of all loops are, with radii or parameters as they were asked for."""
+    """The region of the eigenvalues of all loops: within the radii, or the ranges of parameters."""
     region = StabilityRegion.of(given.time, bound=box_stability.bound)
     gains = None if box_stability.gain_radii is None else given.part_of_gains
     if given.has("parameters"):

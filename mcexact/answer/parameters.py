@@ -426,7 +426,7 @@ class ParametricFixedSpectrum(Answer):
     @property
     @shown("in words")
     def words(self) -> tuple[str, ...]:
-        """What is fixed for every value, and at which values what else, in the parameter's name."""
+        """The modes that are fixed for every value, and those at exceptional values, in words."""
         t = self.about.parameters[0]
         scaled = "" if self.scale.degree < 1 else f" divided by {in_parameter(self.scale, t)}"
         told = [f"the roots of {mode_text(p, t)}{scaled} for every {t}" for p in self.generic]
@@ -442,14 +442,14 @@ class ParametricFixedSpectrum(Answer):
 
     @property
     def _lost(self) -> str:
-        """What modes are, in a word: those that remain where the whole state is measured."""
+        """The adjective of the modes: fixed modes are uncontrollable if all states are measured."""
         made = [each["construction"] for each in self.about.subject]
         if made[-1:] != ["full_output"]:
             return "fixed"
         return "unobservable" if "dual" in made else "uncontrollable"
 
     def at(self, value: Any) -> tuple[Polynomial, ...]:
-        """What is fixed at one value of the parameter.
+        """The modes that are fixed at one value of the parameter.
 
         Parameters
         ----------
@@ -723,7 +723,7 @@ class ParametricRank(Answer):
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """Where the rank is which."""
+        """The rows: values, the rank there, and the values of which nothing is said."""
         return *self.told, *rows_left_out([self.left_out])
 
     @property
@@ -992,7 +992,7 @@ def fixed(modes: str, values: Values) -> Said:
 
 
 def another(modes: str, values: Values) -> Said:
-    """Where another mode is fixed."""
+    """The values at which another mode is fixed."""
     if values.where:
         yield ANOTHER(another=bool(modes), where=values.where)
 

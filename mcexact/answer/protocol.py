@@ -292,7 +292,7 @@ class Part(Shown):
 
 
 def _values(system: Any) -> tuple[Any, ...]:
-    """What decisions about a system at its nominal values depend on."""
+    """All data on which decisions about the nominal system depend, to compare two systems."""
     return type(system).__name__, system.time, system.A, system.channels
 
 

@@ -358,7 +358,7 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
 
     @property
     def divided(self) -> str:
-        """What the roots of the generic polynomials are divided by, in words behind them."""
+        """What the roots of the generic polynomials are divided by, as words to append."""
         return "" if self.scale.is_constant else f", divided by {self.scale}"
 
     @property
@@ -371,9 +371,9 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
         return self.of_almost_all() if self.generic else ()
 
     def there(self, each: Hypersurface) -> tuple[str, str]:
-        """That a mode is fixed besides those for almost all values, and which channels cause it.
+        """The words for the modes that are fixed on a hypersurface, and which channels cause this.
 
-        Where the question is about control or observation, no channels do.
+        If the question is what some channels control or observe, no channels are named.
         """
         besides = " besides these" if self.generic else ""
         what = f"a mode{besides}{each.modes_in_words}"

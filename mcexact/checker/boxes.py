@@ -102,7 +102,7 @@ def augmented(value: Json, place: str, box: Box) -> Pencil:
 
 
 def box_fixed_statement(claim: Json, box: Box) -> str:
-    """What no member of the box has."""
+    """The words of the claim that no member of the box has a fixed mode."""
     return f"{box.members}, there is {no_fixed_mode(claim['bound'], box)}"
 
 
@@ -139,7 +139,7 @@ def box_controllable_statement(claim: Json, box: Box) -> str:
 
 
 def controls(claim: Json, box: System | FunctionSystem, members: str) -> str:
-    """What the channels control of these members."""
+    """The words for which modes of these members the channels control."""
     channels, bound = channel_set(claim["channels"]), claim["bound"]
     where = "" if bound is None else f" of {inside(bound, box).replace('below', 'at least')}"
     return f"{members}, the channels {channels} together control every mode{where}"
@@ -288,7 +288,7 @@ def check_parametric_box_fixed(claim: Json, witness: Json, plant: FunctionSystem
 
 
 def parametric_box_fixed_statement(claim: Json, plant: FunctionSystem) -> str:
-    """What no plant within the ranges has."""
+    """The words of the claim that no plant within the ranges has a fixed mode."""
     return f"{ranges_text(plant)}, there is {no_fixed_mode(claim['bound'], plant)}"
 
 

@@ -363,7 +363,7 @@ def _entry(plant: FunctionSystem, entry: Any, bottom: Polynomial, powers: list[P
 
 
 def looped(steps: Json, plant: FunctionSystem) -> FunctionSystem:
-    """The same, where a closed loop may be the last construction.
+    """As `moved`, but a closed loop may be the last construction.
 
     Its matrix depends on the values; its words, its controller and its states do not.
     """

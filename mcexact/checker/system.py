@@ -576,7 +576,7 @@ def suffixed(system: System, words: str, **parts: Any) -> System:
 
 
 class Described(Protocol):
-    """What a statement says of a system, of numbers or of functions."""
+    """What statements need to know of a system of numbers, or of rational functions."""
 
     @property
     def n(self) -> int: ...
