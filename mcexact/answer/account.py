@@ -1,4 +1,14 @@
-"""Answers about a system with their sentences, rows and certificates."""
+"""Answers about a system with their sentences, rows and certificates.
+
+`Account` is for one plant without parameters, and for the certified part of an analysis with them.
+It holds answers by name, the sentences that follow from them by rules, and the certificates and the
+manifest from which the checker verifies these sentences.  If the plant has radii, the answers about
+every plant within them are said first (`leading`).
+
+`ParametricAccount` is for a plant with parameters.  With one parameter every sentence follows from
+certificates.  With several, certificates are about lines, and the account also has sentences that
+are computed and not certified; its property ``proved`` has the certified ones alone.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +45,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import canonical, write_text
 from mcexact.shown import Shown, grid
 
-# What is said first of a plant with radii: the answers about every plant within them.
+# A plant with radii: the sentences about every plant within them, which come first.
 
 QUESTIONS = (
     "box_fixed_modes",
@@ -91,7 +101,7 @@ def leading(
 
 
 def _left(answers: Mapping[str, Any], open_: Collection[str]) -> list[str]:
-    """The questions about every plant within the radii that are told to be open."""
+    """The questions about every plant within the radii that are reported as open."""
     told = {*open_} - answers.keys()
     if "box_fixed_modes" in answers:
         told.discard("box_stabilizability")
@@ -101,7 +111,7 @@ def _left(answers: Mapping[str, Any], open_: Collection[str]) -> list[str]:
     return [name.removeprefix("box_").replace("_", " ") for name in QUESTIONS if name in told]
 
 
-# Accounts: answers about a system, the sentences that follow from them, and their certificates.
+# Accounts of plants without parameters.
 
 FORMAT = "mcexact-analysis/1"
 _ANSWER = ("answer", "answer.mode")
@@ -126,7 +136,7 @@ class Account(Shown):
     failing : mapping
         For some of these the exact answer about a plant within the radii that lacks what was asked.
     nearby : collection of str
-        The names of answers, as far as there are such, that are about another plant nearby.
+        The names that answers about another plant nearby have.
     """
 
     answers: Mapping[str, Any]
@@ -219,7 +229,7 @@ class Account(Shown):
 
     @cached_property
     def leading(self) -> tuple[str, ...]:
-        """What is said first of every plant within the radii, if there are such plants."""
+        """The sentences about every plant within the radii; empty without radii."""
         system = self.given.system
         if not isinstance(system, MultiChannelSystem):
             return ()
@@ -277,7 +287,7 @@ class ShownByAccount(Shown):
         return self.account._html()
 
 
-# Answers about a system with parameters by name, with their sentences, rows and certificates.
+# Accounts of plants with parameters.
 
 PARAMETRIC_FORMAT = "mcexact-parametric-analysis/1"
 LABELS = {
@@ -403,7 +413,7 @@ class ParametricAccount(Shown):
         return self.plant.canonical_text()
 
     def rows(self, name: str) -> tuple[Row, ...]:
-        """Where what holds by the answer to a question, and why."""
+        """The rows of the answer to a question: the values, what holds there, and why."""
         answer = self.answers[name]
         if name in WITHIN_RANGES:
             return ((", ".join(self.plant.parameters_in_words), WITHIN_RANGES[name], ""),)
@@ -418,12 +428,12 @@ class ParametricAccount(Shown):
         return tuple((f"{name}_{k}.json", str(line)) for k, line in enumerate(lines, 1))
 
     def proofs(self, names: Collection[str]) -> tuple[tuple[str, ...], ...]:
-        """What is proved on lines about some questions."""
+        """The rows of the sentences that repeat what certificates say of their lines."""
         keys = {ON_LINE[name].key for name in names if name in ON_LINE}
         return tuple(each.cells for each in self.sentences.at("line") if each.template.key in keys)
 
     def table(self, name: str) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
-        """The same with the heads of columns, without the reasons where there are none."""
+        """`rows` with the heads of their columns, without the column of reasons if it is empty."""
         rows = self.rows(name)
         used = len(COLUMNS) - (not any(why for *_, why in rows))
         return COLUMNS[:used], tuple(row[:used] for row in rows)

@@ -1,4 +1,12 @@
-"""The sentences of an analysis, each of which reads several kinds, in the order of the output."""
+"""Sentences of `mcexact analyze`: templates, and the rules that fill them from certificates.
+
+The first half is about the answer in words and the table of all answers (``ANALYSIS_RULES``), the
+second one about single modes, channels, sets of channels, and the pictures of a page
+(``DETAIL_RULES``).  In each half the templates come first, then the rules in the order of the
+output.  A template holds the wording, once, with the theorem that implies it; a rule is a generator
+that reads the claims of its premises and yields filled templates, or nothing where the sentence
+does not hold.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +18,7 @@ from mcexact.answer.templates import Sentence, Template
 from mcexact.exact.polynomial import product
 from mcexact.exact.roots import exact_decimal, steady_point
 
-# The sentences of `mcexact analyze`: the answer, and the table of all answers.
+# Templates of the answer, and of the table of all answers.
 
 _WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
 
@@ -336,7 +344,7 @@ DELAYED = {
 }
 
 
-# The rules of the sentences of `mcexact analyze`: the answer, and the table of all answers.
+# Rules of the answer, and of the table of all answers.
 
 ANALYSIS_RULES = Rulebook()
 analysis_rule = ANALYSIS_RULES.rule
@@ -375,7 +383,7 @@ def _heading(given: Given) -> Said:
 
 @analysis_rule("answer", NOTHING_FIXED, STABLE, UNSTABLE, premises=("linked_fixed_spectrum",))
 def _linked(linked: Claim, given: Given) -> Said:
-    """What the agents can do over the links that are there, which leads."""
+    """What the agents can do over the existing links: the first sentence of the answer."""
     heard = control(linked, given)
     if empty(linked):
         yield NOTHING_FIXED(control=heard)
@@ -683,7 +691,7 @@ def gains(want: str, found: Claim, names: Sequence[str]) -> Sentence:
     return told[why.side](name=why.channel, rest=[name for name in names if name not in inside])
 
 
-# The sentences of `mcexact analyze` about single modes, channels, sets of them, and pictures.
+# Templates about single modes, channels, sets of channels, and pictures.
 
 # The table of fixed modes.
 
@@ -778,7 +786,7 @@ LATEX_FIXED_MODE = Template(
 )
 
 
-# The rules of the sentences of `mcexact analyze` about single modes, channels and pictures.
+# Rules about single modes, channels, sets of channels, and pictures.
 
 DETAIL_RULES = Rulebook()
 detail_rule = DETAIL_RULES.rule

@@ -1,4 +1,11 @@
-"""Every member of a family, a box or ranges of parameters: answers and sentences."""
+"""Every plant in a box, or at all values in ranges: answers and sentences.
+
+The answers are that no mode is fixed, that channels control every mode, and that every eigenvalue
+lies in a region.  Each is given twice: for a box (all systems whose entries are within their
+radii), and for all real values of parameters in ranges.  The latter is proved cell by cell, with
+the evidence of a box around the plants of each cell.  Their evidence is discs, inverses and
+weights, which prove that a pencil is regular for every member on every disc of a cover.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,12 @@
-"""Verification by the checker, and answers read back from certificates."""
+"""Verification by the checker, and answers read back from certificates.
+
+`check` gives the verdict of the independent checker on one answer or file, in this process or, with
+a limit on the time, in a child process that can be ended.  `recheck` verifies several certificates,
+and the sentences of their manifest if there is one.
+
+`load_certificate` makes an answer of a file once the checker has accepted it: the JSON is converted
+field by field, by the types that the dataclass of its kind declares.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +64,7 @@ if TYPE_CHECKING:
     from mcexact.model.controller import Controller
 
 
-# The verdict of the independent checker, as Python shows it.
+# Verdicts.
 
 
 @dataclass(frozen=True, repr=False)
@@ -231,7 +239,7 @@ def _check_in_child(connection: Any, text: bytes, wanted: Expectation) -> None:
 def _asked(
     where: str, ask: Callable[[bytes, reading_Limits], Expectation], data: bytes
 ) -> Expectation:
-    """What a text asks of the certificate."""
+    """The expectation with what a text adds to it, or an input error that names the argument."""
     try:
         # What a file asks may come from anybody: its work is bounded as on the command line.
         return ask(data, replace(_limits(len(data)), work=None))
@@ -264,7 +272,7 @@ def _controller(controller: Any) -> bytes:
 
 
 def about_plant(text: str) -> Expectation:
-    """What is asked of a certificate about a plant, which it may name by its digest.
+    """The expectation that a certificate is about a plant, which it may name by its digest.
 
     Parameters
     ----------
@@ -339,7 +347,7 @@ def _verdicts(
 def _limits(size: int) -> reading_Limits:
     """Limits that allow texts of this size, with numbers of any length, and any work.
 
-    What this program has found took more work than the check of it, which may take as long.
+    No limit is needed: finding this evidence took this program longer than checking it does.
     """
     limits = {"bytes": max(reading_Limits.bytes, size), "digits": max(reading_Limits.digits, size)}
     return reading_Limits(**limits, work=10**30)

@@ -12,7 +12,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.plot.eigenvalues import eigenvalues
 
-# Evidence of several kinds of answers.
+# Evidence about fixed modes, transfer, roots, and boxes.
 
 
 @dataclass(frozen=True)
@@ -242,7 +242,7 @@ Cover = tuple[tuple[int | None, ...], ...]
 """For each exterior disc, in preorder: the position of a frame, or None for a cut into four."""
 
 
-# Evidence for the optimum of a covering program: absence, cuts, and a branch tree.
+# Evidence for the optimum of a covering program: it suffices, and cuts exclude less.
 
 Tree = Sequence[Mapping[str, Any]]
 """The nodes of a branch tree in preorder, as plain data and Fractions, as in ``FORMAT.md``."""

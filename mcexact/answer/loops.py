@@ -1,4 +1,15 @@
-"""Closed loops and refused designs: answers and sentences."""
+"""Closed loops and refused designs: answers and sentences.
+
+`StabilityVerdict` says whether every eigenvalue of a loop lies in a region, by one of three
+methods: roots of the characteristic polynomial located exactly (`PolynomialMethod`), a Lyapunov
+matrix for each diagonal block (`LyapunovMethod`), or a quadratic form that proves the contrary
+(`InstabilityMethod`).  Lyapunov matrices are proposed in floating point and verified exactly.
+`ClosedLoopSpectrum` has the characteristic polynomial itself, and `DistributedObserver` the two
+polynomials into which the loop of a distributed observer separates.
+
+The sentences are those of `mcexact design` and `mcexact certify`, and those of refusals, which say
+why no requested design exists.  Templates precede the rules that fill them.
+"""
 
 from __future__ import annotations
 
@@ -197,7 +208,7 @@ class DistributedObserver(Answer):
     moduli: tuple[int, ...] = witness()
 
 
-# The sentences of `mcexact design` and `certify`.
+# Templates of `mcexact design` and `certify`.
 
 OBSERVER = Template("design-observer", "distributed observer; closed loop certified")
 OBSERVER_FLOAT = Template(
@@ -282,7 +293,7 @@ LARGEST = Template("certify-largest", "{bound:number}", label="largest rate foun
 LEAST = Template("certify-least", "{bound:number}", label="least radius found")
 
 
-# The rules of the sentences of `mcexact design` and `certify`.
+# Rules of `mcexact design` and `certify`.
 
 DESIGN_RULES = Rulebook()
 design_rule = DESIGN_RULES.rule
@@ -311,7 +322,7 @@ EVERY_LOOP_RULES = Rulebook()
     "table", EVERY_LOOP, EVERY_LOOP_PART, EVERY_VALUE, premises=("box_stability",)
 )
 def _every_loop(box_stability: Claim, given: Given) -> Said:
-    """Where the eigenvalues of all loops are, with radii or parameters as they were asked for."""
+    """The region of the eigenvalues of all loops: within the radii, or the ranges of parameters."""
     region = StabilityRegion.of(given.time, bound=box_stability.bound)
     gains = None if box_stability.gain_radii is None else given.part_of_gains
     if given.has("parameters"):
@@ -478,7 +489,7 @@ def _largest(loop: Claim, given: Given) -> Said:
 VERDICT = Rulebook([*DESIGN_RULES, *EVERY_LOOP_RULES])
 
 
-# The sentences of refusals: why no requested design exists.
+# Templates of refusals.
 
 NOT_CONTROLLABLE = Template(
     "refused-not-controllable",
@@ -597,7 +608,7 @@ INTEGRATORS_FIXED = Template(
 )
 
 
-# The rules of refusals: why no requested design exists, from the certificate of the refusal.
+# Rules of refusals, which read the certificate of the refusal.
 
 REFUSAL_RULES = Rulebook()
 refusal_rule = REFUSAL_RULES.rule

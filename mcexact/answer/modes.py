@@ -1,4 +1,14 @@
-"""Fixed modes: the answers about them."""
+"""Fixed modes: the answers about them.
+
+`FixedSpectrum` has all fixed modes, where they lie, and the best rate that they allow.  Its
+evidence has two forms: `TwoPolynomials` compares the characteristic polynomials of A and of one
+closed loop, and `ByBlocks` bounds the number of fixed modes for each block of states, without the
+characteristic polynomial of A, for large systems with few nonzero entries.
+
+`Completeness` is no fixed mode and a strongly connected transfer graph, with evidence for yes or
+for no.  `PencilRank` is the rank of one pencil at the roots of a polynomial.  `Assignability` says
+how the characteristic polynomial of every loop splits over the strong components.
+"""
 
 from __future__ import annotations
 

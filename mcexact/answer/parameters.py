@@ -1,9 +1,17 @@
 """All values of parameters: answers and sentences.
 
-The rules of the sentences of `mcexact analyze` about a plant with parameters.
+There are two kinds of answers about one parameter t.  `ParametricFixedSpectrum` has the modes that
+are fixed for almost all t, and the exceptional values with the modes that are fixed there.
+`ParametricRank` has the rank of a matrix made from the plant (equilibria, controllability,
+transfer from one channel to another) and the values at which it is less.  Both are proved for every
+complex t at which all entries are defined.  Values without a real one in the assumed range may be
+left out of the claim (``outside``).
 
-With one parameter they read certificates.  With several the same sentences are made from answers
-that are proved along lines alone, and no manifest claims them.
+The rules of the sentences of `mcexact analyze` read certificates if the plant has one parameter.
+With several parameters a certificate is about one line through their space: what it implies for
+almost all values (``ALMOST``) and what it says of its line (``ON_LINE``) are sentences by rules.
+The functions that fill the templates of one parameter are shared with `several_parameters`, whose
+other sentences no manifest claims.
 """
 
 from __future__ import annotations
@@ -110,7 +118,7 @@ def mode_text(p: ModePolynomial, t: str) -> str:
 
 
 def value_text(q: Polynomial, roots: Sequence[RootDisc], t: str) -> str:
-    """Where a polynomial in the parameter is 0: its rational root, or all real ones about.
+    """Where a polynomial in t is 0, in words: its rational root, or its real roots, rounded.
 
     Examples
     --------
@@ -153,7 +161,7 @@ class LeftOut:
 
 
 def rows_left_out(parts: Iterable[LeftOut]) -> tuple[Row, ...]:
-    """The values of which some answers about one plant say nothing, each of them once."""
+    """Rows for the values of which some of the answers say nothing, each value once."""
     parts = [*parts]
     outside = dict.fromkeys(at for each in parts for at in each.outside)
     undefined = dict.fromkeys(at for each in parts for at in each.undefined)
@@ -208,7 +216,7 @@ def within(inside: bool, bounds: Range) -> str:
 
 
 def joined(parts: Iterable[tuple[str, Any]]) -> tuple[Row, ...]:
-    """The rows of several answers about one plant, each behind its name, and what all leave out."""
+    """The rows of several answers, each after its name, and rows for the values left out."""
     parts = [*parts]
     said = [
         (where, f"{name}: {what}", why) for name, each in parts for where, what, why in each.told
@@ -224,7 +232,7 @@ def undefined_where(about: ParametricSystem) -> list[str]:
 
 
 def apart_from_poles(about: ParametricSystem) -> str:
-    """That one parameter has none of these values, in words behind "every value of t".
+    """The values at which an entry is undefined, as words to append to "every value of t".
 
     Examples
     --------
@@ -267,7 +275,7 @@ def mode_in_sympy(p: ModePolynomial, parameter: Any = "t") -> Any:
 
 
 def meets(disc: RootDisc, bounds: Range) -> bool:
-    """Whether a disc meets a range of real numbers, as far as its center and radius tell."""
+    """Whether a disc meets a range of real numbers, by its center and radius."""
     re, im, radius = map(exact_decimal, (disc.re, disc.im, disc.radius))
     low, high = bounds
     below, above = low is not None and re + radius < low, high is not None and re - radius > high
@@ -418,7 +426,7 @@ class ParametricFixedSpectrum(Answer):
     @property
     @shown("in words")
     def words(self) -> tuple[str, ...]:
-        """What is fixed for every value, and at which values what else, in the parameter's name."""
+        """The modes that are fixed for every value, and those at exceptional values, in words."""
         t = self.about.parameters[0]
         scaled = "" if self.scale.degree < 1 else f" divided by {in_parameter(self.scale, t)}"
         told = [f"the roots of {mode_text(p, t)}{scaled} for every {t}" for p in self.generic]
@@ -434,14 +442,14 @@ class ParametricFixedSpectrum(Answer):
 
     @property
     def _lost(self) -> str:
-        """What modes are, in a word: those that remain where the whole state is measured."""
+        """The adjective of the modes: fixed modes are uncontrollable if all states are measured."""
         made = [each["construction"] for each in self.about.subject]
         if made[-1:] != ["full_output"]:
             return "fixed"
         return "unobservable" if "dual" in made else "uncontrollable"
 
     def at(self, value: Any) -> tuple[Polynomial, ...]:
-        """What is fixed at one value of the parameter.
+        """The modes that are fixed at one value of the parameter.
 
         Parameters
         ----------
@@ -715,7 +723,7 @@ class ParametricRank(Answer):
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """Where the rank is which."""
+        """The rows: values, the rank there, and the values of which nothing is said."""
         return *self.told, *rows_left_out([self.left_out])
 
     @property
@@ -744,7 +752,7 @@ class ParametricRank(Answer):
         return tuple(each for each in self.exceptional if each.inside(self.about.ranges[0]))
 
 
-# The sentences of `mcexact analyze` about a plant with parameters.
+# Templates of `mcexact analyze` about a plant with parameters.
 
 _HAUTUS = "joint_controllability.controllable_hautus"
 _RANK = "setpoint.setpoint_rank"
@@ -761,7 +769,7 @@ NOTHING_FIXED = Template("parametric-nothing-fixed", "For {every:words} no mode 
 FIXED = Template("parametric-fixed", "For {every:words} the roots of {modes:words} are fixed.")
 ANOTHER = Template("parametric-another", "{another:another} mode is fixed where {where:values}.")
 
-# What is proved for all values within ranges, by evidence about boxes.
+# For all values within ranges: proved by answers about boxes.
 
 WITHIN_RANGES = {
     "box_fixed_modes": "no mode is fixed",
@@ -870,7 +878,8 @@ SETPOINT = (
     ),
 )
 
-# With several parameters: what a certificate along a line implies, and what it says itself.
+# With several parameters: what a certificate along a line implies for almost all values, and
+# what it says of its line.
 
 
 def _almost(stem: str, said: str, theorem: str = "") -> Template:
@@ -919,7 +928,7 @@ ON_LINE = {
 }
 
 
-# The rules of the sentences of `mcexact analyze` about a plant with parameters.
+# Sentences for one parameter or several, filled from values, whatever proves these.
 
 RULES = Rulebook()
 rule = RULES.rule
@@ -930,7 +939,7 @@ Edge = tuple[str, str]
 
 @dataclass(frozen=True)
 class Values:
-    """Where something else holds than for almost all values.
+    """The exceptional values, and the words for all others.
 
     Attributes
     ----------
@@ -967,13 +976,10 @@ def values_of(claims: Iterable[Claim], given: Given) -> Values:
 
 
 def scaled(given: Given) -> str:
-    """What modes are divided by, where A has denominators."""
+    """The words for what modes are divided by; empty unless A has denominators."""
     if given.scale.degree < 1:
         return ""
     return f", divided by {in_parameter(given.scale, given.parameter)}"
-
-
-# Sentences from what was found, whatever proves it.
 
 
 def fixed(modes: str, values: Values) -> Said:
@@ -986,20 +992,20 @@ def fixed(modes: str, values: Values) -> Said:
 
 
 def another(modes: str, values: Values) -> Said:
-    """Where another mode is fixed."""
+    """The values at which another mode is fixed."""
     if values.where:
         yield ANOTHER(another=bool(modes), where=values.where)
 
 
 def in_table(question: str, modes: str, values: Values) -> Said:
-    """The modes of a question, for every value or where they are others."""
+    """The modes of a question for almost every value, and the values at which there are others."""
     always, unless, some, more = MODES[question]
     told = (more if values.where else some) if modes else (unless if values.where else always)
     yield told(modes=modes, **values.given)
 
 
 def graph(columns: Sequence[tuple[Edge, int, Values]]) -> Said:
-    """The edges for almost every value, and where which vanish."""
+    """The edges for almost every value, and the values at which edges vanish."""
     edges = [edge for edge, rank, _ in columns if rank]
     lost = [(edge, values.where) for edge, _, values in columns if values.where]
     if lost:
@@ -1057,7 +1063,7 @@ def setpoints(rank: int, full: int, values: Values, t: str) -> Said:
         yield (unless if values.where else always)(**values.given)
 
 
-# The same from certificates.
+# Rules that fill these sentences from certificates about one parameter.
 
 
 @rule("title", HEADING)

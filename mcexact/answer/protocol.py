@@ -1,16 +1,16 @@
 """The protocol of answers: claims, witness, display, and the certificate's JSON.
 
-The protocol of answers: a claim about a system with a witness that proves it, declared once.
+A kind of answer is a frozen dataclass in the module of its topic, declared with `answer`.  Each
+field is a `claim`, which the checker verifies, or a part of the `witness` that proves the claims;
+everything else is a property computed from the fields.  The certificate, reading it back, the JSON
+view, and display on one line, in HTML and in LaTeX are all derived from the fields, so a kind
+writes none of them.  ``HOMES`` names the module of each kind, to import it when a certificate of
+this kind is read.
 
-A kind of answer is a frozen dataclass in the module of its topic.  Each field is a claim or a part
-of the witness, and everything else is a property of these.  The certificate, reading it back, the
-JSON view and all forms of display are derived from the fields.
-
-Answers written as certificates, in the JSON of ``FORMAT.md``.
-
-Equal answers have equal bytes.  Exact computations find the same evidence on every processor;
-Lyapunov matrices and controllers designed in floating point differ.  ``FORMAT.md`` says which
-certificates are reproducible, and which are only valid.
+Certificates are JSON as ``FORMAT.md`` specifies it, and equal answers have equal bytes.  Exact
+computations find the same evidence on every processor; Lyapunov matrices and controllers that were
+designed in floating point differ.  ``FORMAT.md`` says which certificates are reproducible byte for
+byte.
 """
 
 from __future__ import annotations
@@ -177,7 +177,7 @@ class Parts(Shown):
         return r" \quad ".join(each._latex() for each in self._parts)
 
 
-# The protocol of answers: a claim about a system with a witness that proves it, declared once.
+# Declaration of kinds of answers: claims, witnesses, and what follows from them.
 
 KINDS: dict[str, type[Answer]] = {}
 """The kinds of answers whose modules have been imported, by name."""
@@ -292,7 +292,7 @@ class Part(Shown):
 
 
 def _values(system: Any) -> tuple[Any, ...]:
-    """What decisions about a system at its nominal values depend on."""
+    """All data on which decisions about the nominal system depend, to compare two systems."""
     return type(system).__name__, system.time, system.A, system.channels
 
 

@@ -1,4 +1,11 @@
-"""Sentences bound to claims: rules read certificates alone, and the values read are recorded."""
+"""Sentences bound to claims: rules read certificates alone, and the values read are recorded.
+
+A `Rule` is a generator that takes the answers that it names as premises, and yields sentences.  It
+sees an answer only as a `Claim`, which records the place and the value of all that is read.  So
+each sentence knows the values that it depends on, and `manifest` writes them beside it; the checker
+verifies the sentence by rules of its own.  What a rule may repeat without a premise, such as names
+and sizes, is in `Given`.
+"""
 
 from __future__ import annotations
 

@@ -1,14 +1,15 @@
 """Several parameters: hypersurfaces, lines that prove them, and sentences.
 
-What holds for almost all values of several parameters, and on which hypersurfaces more.
+`Hypersurfaces` says what holds for almost all values of several parameters, and on which
+hypersurfaces more modes are fixed or a rank is less.  It is no kind of certificate.  It holds
+answers for one parameter along lines through the space of the parameters, each a certificate:
 
-This is no kind of certificate: the answers for one parameter along lines are.
-
-Sentences about a plant with several parameters, whose certificates are about lines.
-
-What holds at one point of a line for lack of no rank holds for almost all values: these sentences,
-and what each certificate says of its line, are made by rules.  Where else it holds is computed,
-confirmed on the lines, and said with the templates of one parameter; no manifest claims that.
+- That no mode is fixed at one point, or that a rank is at least so large, holds for almost all
+  values.  Rules make such sentences from certificates, and the checker verifies them.
+- What each certificate says of its own line is also said by rules.
+- Where else modes are fixed or ranks are less is computed, and confirmed only on the lines.  It is
+  said with the templates of one parameter, and no manifest claims it.
+- What happens only where several hypersurfaces meet is not decided.
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ from mcexact.exact.rational_functions import RationalFunction, parameter_latex
 from mcexact.model.parametric import ParametricSystem
 from mcexact.shown import LINE, Shown, escaped, fitting
 
-# What holds for almost all values of several parameters, and on which hypersurfaces more.
+# Answers: lines, and hypersurfaces.
 
 A = TypeVar("A", bound=ParametricFixedSpectrum | ParametricRank)
 
@@ -241,7 +242,7 @@ class Hypersurfaces(Shown, Generic[A]):
         raise NotImplementedError
 
     def worth_a_row(self) -> tuple[str, ...]:
-        """The same, without that nothing does."""
+        """As `of_almost_all`, but empty if no mode is fixed generically."""
         return self.of_almost_all()
 
     def there(self, each: Hypersurface) -> tuple[str, str]:
@@ -357,7 +358,7 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
 
     @property
     def divided(self) -> str:
-        """What the roots of the generic polynomials are divided by, in words behind them."""
+        """What the roots of the generic polynomials are divided by, as words to append."""
         return "" if self.scale.is_constant else f", divided by {self.scale}"
 
     @property
@@ -370,9 +371,9 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
         return self.of_almost_all() if self.generic else ()
 
     def there(self, each: Hypersurface) -> tuple[str, str]:
-        """That a mode is fixed besides those for almost all values, and which channels cause it.
+        """The words for the modes that are fixed on a hypersurface, and which channels cause this.
 
-        Where the question is about control or observation, no channels do.
+        If the question is what some channels control or observe, no channels are named.
         """
         besides = " besides these" if self.generic else ""
         what = f"a mode{besides}{each.modes_in_words}"
@@ -428,7 +429,7 @@ def mode_in_x(p: tuple[RationalFunction, ...]) -> str:
     return polynomial_in_x([str(c) for c in p])
 
 
-# Sentences about a plant with several parameters, whose certificates are about lines.
+# Rules about certificates along lines, and sentences that no certificate implies.
 
 RULES = Rulebook()
 """The rules that read certificates, with those about ranges."""
@@ -443,7 +444,7 @@ RULES.extend(RANGE_RULES)
 
 
 def _almost(question: str, place: str, holds: Callable[[Claim, Given], bool]) -> None:
-    """Enter the rule of a sentence about almost all values that one certificate implies."""
+    """Add the rule of a sentence about almost all values that one certificate implies."""
 
     @RULES.rule(place, say.ALMOST[question], premises=(question,))
     def _said(found: Iterable[Claim], given: Given) -> Said:
@@ -486,7 +487,7 @@ def _completeness(
 
 
 def _on_line(question: str, told: Callable[[Claim, str, Given], str]) -> None:
-    """Enter the rule that repeats what each certificate says of its line."""
+    """Add the rule that repeats what each certificate says of its line."""
 
     @RULES.rule("line", say.ON_LINE[question], premises=(question,))
     def _said(found: Iterable[Claim], given: Given) -> Said:

@@ -1,4 +1,13 @@
-"""Shared dimensions and links: answers and sentences."""
+"""Shared dimensions and links: answers and sentences.
+
+The answers are the `Deficiency`, which is the bound of Theorem 2 on what agents must share; the
+least dimensions of each agent (`SharedDimensions`) or one for all (`CommonDimension`); the cheapest
+links to add (`MinimalCommunication`); and whether the neighbor graph is strongly connected.
+
+Each kind of answer comes first, then the sentences: those in the table of `mcexact analyze`, and
+those of `mcexact allocate` about dimensions and about links.  Templates precede the rules that fill
+them.
+"""
 
 from __future__ import annotations
 
@@ -311,7 +320,7 @@ class NeighborGraphVerdict(Answer):
     strongly_connected: bool = claim()
 
 
-# The rules of the table of `mcexact analyze` about links, shared states and delays.
+# Rules of the table of `mcexact analyze`: links, shared states and delays.
 
 SHARING_RULES = Rulebook()
 sharing_rule = SHARING_RULES.rule
@@ -437,7 +446,7 @@ for network in ("lifted", "held"):
     _delayed_rules(network)
 
 
-# The sentences of `mcexact allocate`.
+# Templates of `mcexact allocate` about dimensions.
 
 LEAST = Template(
     "allocate-least",
@@ -477,7 +486,7 @@ REASON_CUT_OFF = Template(
 )
 
 
-# The rules of the sentences of `mcexact allocate` about dimensions.
+# Rules of `mcexact allocate` about dimensions.
 
 ALLOCATION_RULES = Rulebook()
 allocation_rule = ALLOCATION_RULES.rule
@@ -577,7 +586,7 @@ def _reasons(minimal_shared_dimensions: Claim, given: Given) -> Said:
         yield told(subset=subset, senders=senders, deficiency=demand, p=p)
 
 
-# The sentences of `mcexact allocate --links`.
+# Templates of `mcexact allocate --links`.
 
 LINKS_LEAST = Template(
     "allocate-links",
@@ -599,7 +608,7 @@ LINKS_PROOF = Template(
 )
 
 
-# The rules of the sentences of `mcexact allocate --links`.
+# Rules of `mcexact allocate --links`.
 
 LINK_RULES = Rulebook()
 link_rule = LINK_RULES.rule

@@ -1,4 +1,10 @@
-"""Answers about controllability, transfer graph, subsystems, set-points, single channels."""
+"""Answers about controllability, transfer graph, subsystems, set-points, single channels.
+
+Each answer about controllability is one about observability if it is about the dual system.  The
+docstring of each class says what its fields claim; the classes named ``…Witness``, `ByRank` and
+`ByBlocks` are the alternative forms of its evidence.  `ByRank` takes ranks modulo ℓ, and `ByBlocks`
+the evidence of fixed modes, block by block, which suits large systems with few nonzero entries.
+"""
 
 from __future__ import annotations
 

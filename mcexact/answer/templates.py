@@ -1,4 +1,10 @@
-"""Templates of sentences, the forms of their fields, and words for modes."""
+"""Templates of sentences, the forms of their fields, and words for modes.
+
+A `Template` has the wording of a sentence, with fields ``{name:form}``, its key in the list of all
+sentences, and the theorem that implies it.  A form, one of ``FORMS``, writes a value as text:
+modes, channels, rates, regions, shared dimensions.  Lists are shortened where they are long.  A
+filled template is a `Sentence`.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,20 @@
 """Exact arithmetic: integers, polynomials, matrices dense and sparse.
 
-Exact arithmetic: matrices of integers over one denominator, polynomials, and both modulo an ℓ.
+A rational matrix is a table of integers over one denominator, so that sums and products take no
+gcd for each entry.  Polynomials have Fractions as coefficients over Q, and integers modulo an ℓ.
+A modulus need not be prime; inverting a number that is not a unit raises :class:`NotAUnit`.  Every
+operation charges its units to the budget before it is done.
 
-A modulus need not be prime; inverting a number that is not a unit raises :class:`NotAUnit`.
+- Products of tables and of polynomials modulo ℓ pack many numbers into one long integer, with a
+  slot of bytes for each, since one operation of Python then works on all of them.  Up to the
+  modulus ``SMALL`` a residue takes one byte.
+- Ranks over Q are computed by fraction-free elimination (`rank`).  Ranks modulo ℓ bound those over
+  Q from below, and take much shorter numbers (`Echelon`, `rank_modulo`).
+- Characteristic polynomials modulo ℓ come from a Hessenberg form, by about n³ products.  Over Q
+  they are combined from residues modulo pairwise coprime numbers, whose product is more than twice
+  a bound on all coefficients.
+- Polynomials in a parameter t are interpolated from their values at t = 0, 1, ….
+- `SparseMatrix` keeps only nonzero entries; `listed` says which matrices are worth it.
 """
 
 from __future__ import annotations
@@ -52,7 +64,7 @@ class PackedRows:
         return self.ncols * self.size * 8 // budget.LIMB + 1
 
     def _by_coefficient(self, u: Sequence[int]) -> bytes:
-        """The same where no sum of so many rows leaves a byte: rows of one coefficient together."""
+        """`combined` for bytes: rows with equal coefficients are added, then multiplied."""
         most, tables = most_addends(self.ell), multiples(self.ell)
         parts = len(self.rows) // most + min(len(self.rows), self.ell)
         spend(len(self.rows) * (4 + self._limbs // 16) + (parts + 1) * (40 + self.ncols // 8))
@@ -80,7 +92,7 @@ def byte_sum(rows: Iterable[bytes], ncols: int, ell: int) -> bytes:
 
 
 def most_addends(ell: int) -> int:
-    """How many residues a byte holds the sum of, at least four up to ``SMALL``."""
+    """How many residues can be added in one byte: at least four up to ``SMALL``."""
     return 255 // (ell - 1)
 
 
@@ -165,7 +177,7 @@ def _unpacked(number: int, length: int, size: int, ell: int) -> list[int]:
     return [int.from_bytes(data[k : k + size], "little") % ell for k in slots]
 
 
-# Exact arithmetic: matrices of integers over one denominator, polynomials, and both modulo an ℓ.
+# Rational matrices, polynomials over Q, and both modulo ℓ.
 
 Polynomial = list[Any]
 """Coefficients, constant term first: Fractions over Q, integers modulo ℓ."""
@@ -623,7 +635,7 @@ def _of_column(values: list[Any], inverses: list[Any], ell: int) -> Polynomial:
     return stripped(p)
 
 
-# Matrices of which only the entries that are not 0 are kept.
+# Sparse matrices.
 
 Entry = tuple[int, int, int]
 """Row, column and numerator."""

@@ -1,4 +1,16 @@
-"""Polynomials in x and t, and matrices of polynomials by name."""
+"""Polynomials in x and t, and matrices of polynomials by name.
+
+A polynomial in x and t is kept as the coefficients of the powers of x, which are polynomials in t;
+a matrix of polynomials in t is kept as its coefficients, one matrix for each power of t.
+
+Characteristic polynomials, determinants and resultants with respect to x are computed at
+t = 0, 1, …, at as many values as a bound on their degree in t requires, and interpolated: all
+steps between work with numbers instead of polynomials.  A resultant over Z is combined from those
+modulo several numbers, whose product is more than twice a bound on its coefficients.
+
+`named_matrix` makes the matrices of which claims about ranks speak, such as that of equilibria,
+from the plant.
+"""
 
 import math
 from fractions import Fraction

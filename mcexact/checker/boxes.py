@@ -1,4 +1,15 @@
-"""Kinds about every member of a family."""
+"""Kinds about every plant in a box, or at all values of parameters in ranges.
+
+Three properties are checked for every member of a box: no mode is fixed (``box_fixed``), channels
+control every mode (``box_controllable``), and every eigenvalue lies in a region (``box_stable``).
+The first two require a pencil to have full rank at every λ that can be an eigenvalue of a member
+and lies outside of the allowed region: `discs` bounds these λ by discs, which it covers by cells.
+The third one checks the loop at its nominal values, and that no eigenvalue of a member crosses the
+border of the region, which is covered by discs, too.
+
+The kinds ``parametric_box_…`` are about the values of parameters in ranges.  The ranges are cut
+into cells (`cells`), and the same checks run for a box around the plants of each cell.
+"""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -91,7 +102,7 @@ def augmented(value: Json, place: str, box: Box) -> Pencil:
 
 
 def box_fixed_statement(claim: Json, box: Box) -> str:
-    """What no member of the box has."""
+    """The words of the claim that no member of the box has a fixed mode."""
     return f"{box.members}, there is {no_fixed_mode(claim['bound'], box)}"
 
 
@@ -128,7 +139,7 @@ def box_controllable_statement(claim: Json, box: Box) -> str:
 
 
 def controls(claim: Json, box: System | FunctionSystem, members: str) -> str:
-    """What the channels control of these members."""
+    """The words for which modes of these members the channels control."""
     channels, bound = channel_set(claim["channels"]), claim["bound"]
     where = "" if bound is None else f" of {inside(bound, box).replace('below', 'at least')}"
     return f"{members}, the channels {channels} together control every mode{where}"
@@ -277,7 +288,7 @@ def check_parametric_box_fixed(claim: Json, witness: Json, plant: FunctionSystem
 
 
 def parametric_box_fixed_statement(claim: Json, plant: FunctionSystem) -> str:
-    """What no plant within the ranges has."""
+    """The words of the claim that no plant within the ranges has a fixed mode."""
     return f"{ranges_text(plant)}, there is {no_fixed_mode(claim['bound'], plant)}"
 
 

@@ -160,7 +160,7 @@ def counted(items: Sequence[Item]) -> Iterator[Item]:
         del budget.loops[depth:]
 
 
-# What a step takes.
+# The units of a step.
 
 
 def limbs(numbers: Iterable[int]) -> int:

@@ -1,4 +1,15 @@
-"""Ranges of parameters cut into cells, and constructions for plants with parameters."""
+"""Ranges of parameters cut into cells, and constructions for plants with parameters.
+
+A claim about all values in ranges is checked cell by cell.  The certificate lists the cuts;
+`cells_of` repeats them, and stops unless every cell is accounted for.  `box_of_cell` encloses the
+plants at all values of a cell in a box around the plant at the middle: the linear part in each
+parameter is common to all entries (``tied``), and the rest of each entry is within its radius.
+
+Constructions apply to rational functions in two ways.  Those that only place entries, zeros and
+ones are applied to numbers that stand for the entries (`moved`), so that each construction is
+written once, for numbers.  A line through the space of the parameters is substituted into the
+entries (`along_line`).  Other constructions are refused as INCOMPLETE.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -28,7 +39,7 @@ from .parametric_system import (
 from .reading import Json, fields, incomplete, integer, items, malformed, rational, require, string
 from .system import System, polynomial_text
 
-# Boxes of parameters, cut into cells, and the plants within a cell; ``proofs/boxes.md``.
+# Cells of the ranges, and boxes around the plants at their values; ``proofs/boxes.md``.
 
 Cell = list[tuple[Fraction, Fraction]]
 """The least and the largest value of each parameter."""
@@ -37,7 +48,7 @@ ZERO = Fraction(0)
 
 
 def cells_of(cuts: Json, place: str, plant: FunctionSystem) -> list[Cell]:
-    """The cells that remain where cells are cut in half, which cover the ranges."""
+    """The leaves of the bisection tree that the cuts describe; their union is the ranges."""
     whole: Cell = []
     for name, (low, high) in plant.ranges.items():
         if low is None or high is None:
@@ -172,7 +183,7 @@ def ranges_text(plant: FunctionSystem) -> str:
     return f"for all real values {' and '.join(told)}"
 
 
-# Loops of plants with parameters, and boxes around what is within a cell; ``proofs/boxes.md``.
+# Closed loops at the values of a cell; ``proofs/boxes.md``.
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,7 +220,7 @@ def boxes_of_cells(witness: Json, plant: FunctionSystem) -> Iterator[tuple[Box, 
         yield members_of_cell(plant, cell), part
 
 
-# Constructions of plants with parameters: those that only put entries elsewhere, and lines.
+# Constructions of plants with parameters: those that only place entries, and lines.
 
 # fmt: off
 MOVING = (
@@ -352,7 +363,7 @@ def _entry(plant: FunctionSystem, entry: Any, bottom: Polynomial, powers: list[P
 
 
 def looped(steps: Json, plant: FunctionSystem) -> FunctionSystem:
-    """The same, where a closed loop may be the last construction.
+    """As `moved`, but a closed loop may be the last construction.
 
     Its matrix depends on the values; its words, its controller and its states do not.
     """

@@ -359,7 +359,7 @@ def misuse(paths: Sequence[str], manifest: str | None, asking: Asking, bounded: 
 
 
 def _told(path: str, read: Callable[..., Expectation], limits: Limits, clock: Clock) -> Expectation:
-    """What one file asks."""
+    """The expectation that one file adds; a file that cannot be read is the error `NotAsked`."""
     try:
         found = clock.within(lambda: attempt(lambda: read(read_file(path, limits), limits)))
     except OutOfTime:

@@ -1,4 +1,11 @@
-"""Systems made from the plant."""
+"""Systems made from the plant.
+
+A claim is about a subject: the plant after a list of constructions.  `read_subject` applies them in
+order, each a function from a system to a system; ``CONSTRUCTIONS`` has them by name, and
+``FORMAT.md`` specifies them.  `closed_loop` is the longest one: it writes the plant and the
+programs of all agents, with what they remember of messages, as one matrix.  It treats the loop as a
+linear map of signals, which `discs` uses again to bound loops of uncertain plants.
+"""
 
 import json
 
@@ -100,7 +107,7 @@ def rows_that_read(order: list[tuple[Signal, int]]) -> dict[Signal, Matrix]:
 
 
 def mapped(terms: Terms, reads: dict[Signal, Matrix], nrows: int, ncols: int) -> Matrix:
-    """What a map computes of all signals."""
+    """The matrix from all signals to the output of a map of an agent."""
     return sum((M @ reads[signal] for signal, M in terms), Matrix.zeros(nrows, ncols))
 
 
@@ -112,9 +119,10 @@ def rows_of_states(
     inputs: list[Matrix],
     one: int = 1,
 ) -> list[Matrix]:
-    """What follows on each signal of the state; ``inputs`` are the u_i in terms of all signals.
+    """The next value of each signal of the state; ``inputs`` are the u_i in terms of all signals.
 
-    A message follows on the younger one ``one`` times: with 0, only what is uncertain is left.
+    The next value of a stored message is ``one`` times the younger message: with 0, only the
+    entries that can be uncertain are left.
     """
     x = reads["X", 0, 0]
     rows = [sum((B_i @ u_i for B_i, u_i in zip(system.B, inputs, strict=True)), system.A @ x)]

@@ -1,4 +1,19 @@
-"""Proofs that modes are fixed, and that no more are."""
+"""Proofs that modes are fixed, and that no more are.
+
+- A mode is fixed: a `shrunk_subspace`, whose columns prove that a pencil P_s loses rank at every
+  root of a polynomial p.
+- No more is fixed, by two characteristic polynomials (`TwoPolynomials`): what is left of
+  det(xI − A) after the named factors is coprime modulo ℓ to det(xI − A_F), so that the gains F
+  move all of it.
+- No more is fixed, block by block (`Blocks`): the states are split so that no closed loop leads
+  from a block to a later one.  For each block a Krylov sequence of one channel, two polynomials,
+  or the number of its states bounds the degree of what divides det(xI − A_F) for all F.  The sum
+  over the blocks must equal the degrees of the named factors, as often as they lose rank.  A
+  Krylov sequence needs products of rows with a matrix, which are cheap where few entries are
+  nonzero (`SparseStep`).
+- A channel does not reach another: an invariant subspace (`zero_transfer`), or no path through
+  nonzero entries (`without_path`).  That it does is a Markov parameter that is not 0 modulo ℓ.
+"""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -45,7 +60,7 @@ from .reading import (
 )
 from .system import System
 
-# Rules for evidence of several kinds; ``proofs/evidence.md`` proves each of them.
+# Rules that the evidence of several kinds shares; ``proofs/evidence.md``.
 
 
 def inputs(system: System, channels: Iterable[int]) -> Matrix:
@@ -167,7 +182,8 @@ def zero_transfer(value: Json, place: str, system: System) -> tuple[list[int], M
 def without_path(system: System, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]]:
     """Those pairs (j, i) for which no path leads from an input of j to an output of i.
 
-    The states on the paths from j hold what j drives, A does not leave them, and C_i is 0 there.
+    The states on the paths from j span an A-invariant subspace that contains im B_j, and C_i is 0
+    there.
 
     Theorem ``transfer_graph.closed_states_no_arc``.
     """
@@ -197,7 +213,7 @@ Triples = list[tuple[int, int, int]]
 
 
 def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] | None:
-    """An edge (j, i, k) with C_i A^k B_j = 0 modulo ℓ, if there is one; ℓ is at most ``SMALL``.
+    """A claimed edge (j, i, k) with C_i A^k B_j = 0 modulo ℓ, or None; ℓ is at most ``SMALL``.
 
     Each row of A^k [B_1 … B_m] is a string of bytes, and sums of rows are sums of long integers.
 
@@ -334,7 +350,7 @@ def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entr
     return [(i, j, x) for (i, j), x in found.items() if x]
 
 
-# How much can be fixed, by one Krylov sequence of one channel; ``proofs/krylov.md``.
+# An upper bound on the number of fixed modes, by one Krylov sequence; ``proofs/krylov.md``.
 
 Row = Sequence[int]
 
@@ -443,7 +459,7 @@ def krylov_loop(system: System, gains: Sequence[Matrix], ell: int) -> Rows:
     ]
 
 
-# Blocks of states, each decided by itself; ``proofs/krylov.md``, K8.
+# Blocks of states, each with evidence of its own; ``proofs/krylov.md``, K8.
 
 
 def split(value: Json, place: str, system: System) -> list[tuple[str, System, Json]]:
@@ -520,7 +536,7 @@ def by_blocks(witness: Json) -> bool:
 
 
 class Blocks:
-    """The blocks leave so many modes that may be fixed; the others move, whatever these are."""
+    """Proof, block by block, that at most ``left`` modes are fixed."""
 
     def __init__(self, value: Json, place: str, system: System, number: Json = None) -> None:
         self.place, self.number = f"{place}.blocks", number
@@ -565,7 +581,7 @@ def _left(proof: Json, place: str, block: System) -> int:
 
 
 class TwoPolynomials:
-    """Gains move all that is left of det(xI − A)."""
+    """Proof that gains move every root of det(xI − A) besides those of the named factors."""
 
     def __init__(self, gains: Json, number: Json, place: str, system: System) -> None:
         self.ell, self.A = modulus(number, f"{place}.modulus"), system.A

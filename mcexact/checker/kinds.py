@@ -1,4 +1,13 @@
-"""The table of kinds, what is expected, and the verdict."""
+"""The table of kinds, what is expected, and the verdict.
+
+`KINDS` maps the name of each kind to its `Rule`: a function that stops unless the witness proves
+the claim, and one that says the claim in words.  `check_document` is the one function that gives
+the verdict VALID.  It reads the document strictly, compares it with what the caller expects
+(`Expectation`: the plant, the controller, the statement or the claim), builds the subject from the
+plant, and applies the rule.  An exception on the way becomes another verdict (`attempt`).
+
+`Clock` and `memory` limit the time and the memory of a run; the work is limited by `budget`.
+"""
 
 from __future__ import annotations
 
@@ -83,18 +92,18 @@ class Expectation:
     claim: Json = None
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
-        """The same, about the plant in a system file."""
+        """Expect, in addition, that the certificate is about the plant in a system file."""
         plant = plant_of_file(data, limits)
         text = canonical_json(plant)
         return replace(self, system=digest_of(text), plant=plant, size=len(text))
 
     def controlled(self, data: bytes, limits: Limits) -> Expectation:
-        """The same, about a loop with the controller in a controller file."""
+        """Expect, in addition, that it is about a loop with the controller in a controller file."""
         controller, made_for = read_controller_file(data, limits)
         return replace(self, controller=controller, made_for=made_for)
 
     def saying(self, data: bytes, limits: Limits) -> Expectation:
-        """The same, with a statement, its digest, the line of a verdict, or a claim.
+        """Expect, in addition, a statement: as text, digest, line of a verdict, or claim.
 
         Raises
         ------
@@ -116,7 +125,7 @@ class Expectation:
         return replace(self, statement=found)
 
     def _claiming(self, value: Json) -> Expectation:
-        """The same, with the claim of a kind about a subject, by default what is there already."""
+        """Expect, in addition, a claim of a kind, about the subject if one is expected already."""
         if "claim" not in value:
             malformed("file", f'expected {CLAIM}, found no "claim"')
         kind, claim, steps = fields(value, "file", "kind", "claim", optional=("subject",))
@@ -320,7 +329,7 @@ class Verdict:
         return STATUSES.get(self.verdict, 70)
 
     def inside(self, where: str) -> Verdict:
-        """The same, about a part of something, by its place there if it is not good."""
+        """The verdict with its place inside of a larger document, if it is not good."""
         return replace(self, place=f"{where} {self.place}" if self.status else "")
 
     def line(self, name: str = "") -> str:
@@ -435,7 +444,7 @@ def _parts(document: Json) -> list[Json]:
     return parts
 
 
-# What a run may take: time, also while it waits for a file, and memory.
+# Limits of a run: time, also while it waits for a file, and memory.
 
 SUPPORTED = hasattr(signal, "setitimer")
 """Whether the platform has alarms, and limits on memory."""

@@ -1,4 +1,15 @@
-"""Kinds about closed loops."""
+"""Kinds about closed loops.
+
+``stability`` says whether every eigenvalue of a matrix lies in a region (`Region`): beyond a rate,
+or within a radius, perhaps with a least damping ratio and a largest modulus.  It has three kinds of
+evidence.  The polynomial method recomputes the characteristic polynomial and locates its roots,
+either way.  Quadratic forms, one for each diagonal block, prove stability without it, and a
+quadratic form with a direction v, vᵀPv ≤ 0, proves the contrary.
+
+``closed_loop_spectrum`` is the characteristic polynomial itself, compared modulo several numbers.
+``distributed_observer`` is the separation of a loop with a distributed observer into two diagonal
+blocks, and their polynomials.
+"""
 
 import math
 from fractions import Fraction

@@ -1,4 +1,15 @@
-"""Kinds about fixed modes, and their absence beyond a region."""
+"""Kinds about fixed modes, and their absence beyond a region.
+
+Each kind has a function ``check_…``, which stops unless the witness proves the claim, and a
+function ``…_statement``, which says the claim in words.  Most claims bound a number from both
+sides: a `shrunk_subspace` proves that modes are fixed, or that a rank is no larger; coprime
+polynomials, blocks, or elimination modulo ℓ prove that no more modes are fixed, or that a rank is
+no smaller (`evidence`).
+
+`require_absence` is shared with the kinds about shared dimensions and links: it checks that every
+fixed mode lies in a region where fixed modes are allowed, and that the transfer graph is strongly
+connected if this is claimed, too.
+"""
 
 from dataclasses import replace
 from fractions import Fraction

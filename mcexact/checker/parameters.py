@@ -1,4 +1,17 @@
-"""Kinds about all values of a parameter."""
+"""Kinds about all values of a parameter.
+
+The claims hold for every complex value of the parameter t at which all entries are defined, except
+for values that the claim leaves out because none of them is real and in the assumed range.
+
+``parametric_fixed_spectrum`` names the modes that are fixed for almost all t, and the exceptional
+values at which more are.  A zero block W (xI − A) U = 0 proves that a mode is fixed.  Gains E, F
+and G prove that nothing else is: the resultant of what is left of det(xI − A_E) and
+det(xI − A_F) vanishes only at values that are then settled one by one (`MovedModes`).
+
+``parametric_rank`` names the rank of a matrix of polynomials and the values at which it is less.
+Matrices that it annihilates bound the rank from above, two minors without other common roots bound
+it from below.
+"""
 
 from collections.abc import Sequence
 from fractions import Fraction

@@ -1,11 +1,18 @@
 """Plants with parameters, and the grammar of their entries.
 
-Common factors of polynomials in several parameters, so that quotients have lowest terms.
+An entry is a quotient of polynomials with rational coefficients.  It is brought to lowest terms,
+so that equal plants have one canonical text and one digest.  With one parameter a polynomial is
+the list of its coefficients, and Euclid's algorithm finds common factors.  With several it is a
+mapping from exponents to coefficients, and `common_factor` takes remainders in one parameter after
+another.  Such remainders grow very long if nothing is common.  So each parameter is first tried
+modulo a prime, at values of the other ones: if the leading coefficient of one polynomial stays and
+the results are coprime, no common factor contains this parameter, and the common factor is that of
+all coefficients.
 
-Remainders in one parameter after another, whose coefficients are polynomials in the others, grow
-without bound where nothing is common.  So a value of the others modulo a prime is tried first:
-where the leading coefficient of one polynomial stays and nothing is common there, no common factor
-contains this parameter, and what is common is that of all coefficients.
+`FunctionSystem` is a plant as it is read, with any number of parameters.  `ParametricSystem` has
+one parameter, and matrices of polynomials over common denominators, as the kinds for all values of
+a parameter need them.  `plant_of` reads the canonical plant of a certificate, and `plant_of_file`
+that of a system file.
 """
 
 from __future__ import annotations
@@ -48,7 +55,7 @@ from .system import (
     read_system,
 )
 
-# Common factors of polynomials in several parameters, so that quotients have lowest terms.
+# Common factors of polynomials in several parameters.
 
 Terms = dict[tuple[int, ...], Fraction]
 """A polynomial: its coefficients, none of which is 0, by the exponents of the parameters."""
@@ -57,7 +64,7 @@ SEED = 61
 
 
 class Arithmetic(Protocol):
-    """Products and sums that are charged."""
+    """Products and sums that are charged to the budget."""
 
     def times(self, a: Terms, b: Terms) -> Terms:
         """The product."""
@@ -175,7 +182,7 @@ def _remainder(p: Terms, q: Terms, v: int, by: Arithmetic) -> Terms:
 
 
 def _apart(a: Terms, b: Terms, v: int) -> bool:
-    """Whether a value of the other parameters modulo a prime shows that no common factor has v."""
+    """Whether values of the other parameters modulo a prime prove that no common factor has v."""
     rng = random.Random(SEED)
     values = [rng.randrange(1, PRIME) for _ in next(iter(b))]
     first, second = (_at(p, v, values) for p in (a, b))
@@ -383,7 +390,7 @@ class Reader(ABC, Generic[P]):
 
 
 class _OneParameter(Reader[Polynomial]):
-    """Polynomials by their coefficients, constant first."""
+    """Polynomials in one parameter, by their coefficients, constant first."""
 
     def number(self, c: Fraction) -> Polynomial:
         return stripped([c])
@@ -451,7 +458,7 @@ def _keys(parameters: Sequence[str]) -> int:
 
 
 class _SeveralParameters(Reader[Terms]):
-    """Polynomials by their terms."""
+    """Polynomials in several parameters, by their terms."""
 
     def number(self, c: Fraction) -> Terms:
         return {(0,) * len(self.parameters): c} if c else {}

@@ -1,4 +1,9 @@
-"""The location of roots, and discs around them."""
+"""The location of roots, and discs around them.
+
+Whether all roots lie in a region is decided exactly on the coefficients: by Routh's array for a
+half-plane, and after a Möbius map for a disc.  No root is computed.  Discs with one root each, and
+the intervals for a rate or a radius, come from the certificate and are verified.
+"""
 
 import math
 from fractions import Fraction

@@ -176,7 +176,7 @@ def rule(keys: str, *roles: Role, theorem: str = "") -> Callable[[Say], Say]:
 
 
 def remark(keys: str) -> None:
-    """Enter rules of sentences that claim nothing: titles, and what is not decided or proved."""
+    """Add rules of sentences that claim nothing: titles, and what is not decided or proved."""
 
     def enter(key: str) -> None:
         def say(known: list[Premise]) -> str:
@@ -243,7 +243,7 @@ def controls(found: Premise) -> bool:
     return bool(found["controllable"])
 
 
-# What is given, and remarks: titles, what is not proved, and what was not decided.
+# Titles, and remarks on what is not proved or was not decided; they claim nothing.
 
 
 def plain(known: list[Premise]) -> System:
@@ -281,7 +281,7 @@ def _inactive(known: list[Premise]) -> str:
 
 @rule("picture-neighbor-graph picture-heard")
 def _neighbors(known: list[Premise]) -> str:
-    """Who receives messages from whom."""
+    """The edges of the neighbor graph: who receives messages from whom."""
     plant = plain(known)
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
     sets, names = enumerate(plant.neighbors or []), plant.names
@@ -604,7 +604,7 @@ BOUNDS = "extended_bound.theorem_2, extended_bound.remark_2"
 
 @rule("allocate-row-bound allocate-total-bound", LEAST, BOUND, *HYPOTHESES, theorem=BOUNDS)
 def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
-    """What is least, beside the bound for the same way of sharing."""
+    """The least dimensions together with the bound for the same way of sharing."""
     fits = bound.path == (HEARD if least["share"] == "outputs+states" else PLANT)[0]
     bound.expect(fits, "the bound is for the other way of sharing")
     least.expect(least["feasible"] and not least["free_assignability"], "more is asked for")
@@ -615,7 +615,7 @@ def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
 @rule("allocate-proof allocate-cost-proof", LEAST)
 @rule("allocate-links-proof", LINKS)
 def _proved(least: Premise) -> str:
-    """How long the proof is that nothing costs less."""
+    """The claim, with the numbers of cuts and of nodes that prove that nothing costs less."""
     cuts, nodes = (len(least.witness[key]) for key in ("cuts", "tree"))
     return f"{least.statement}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
 

@@ -50,7 +50,7 @@ KEPT = Role(("fixed_spectrum",), behind((), *NETWORKS))
 DIMENSIONS = Role(("shared_dimensions",), behind(()))
 
 
-# What the controller of a loop is: it stands in the subject.
+# The controller of a loop, which is a part of the subject.
 
 
 def controller(known: list[Premise]) -> tuple[Premise, list[Json]]:
@@ -140,7 +140,7 @@ def _is_stable(loop: Premise) -> bool:
 
 
 def decays(loop: Premise) -> str:
-    """What is claimed of the loop, and that it is stable."""
+    """The claim about the loop, followed by the words that the loop is stable."""
     stable = "modulus below 1" if loop.system.time == "discrete" else "negative real part"
     return f"{loop.statement}; every eigenvalue has {stable}"
 

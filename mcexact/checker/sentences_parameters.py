@@ -72,18 +72,18 @@ restate("parametric-fixed", MODES, lambda found: found["generic"])
 restate("parametric-another", MODES, lambda found: found["exceptional"])
 
 
-# What several certificates say together: of the values of which each of them says something.
+# What several certificates imply together: only for values of which each one speaks.
 
 
 def concluded(found: list[Premise], told: str) -> str:
-    """What certificates say one by one, and what follows for the values that all are about."""
+    """The claims of the certificates, and the conclusion for the values that all are about."""
     outside = {str(entry["value"]): entry for each in found for entry in each["outside"]}
     where = where_text({"outside": [*outside.values()]}, found[0].meant)
     return "; ".join([*(each.statement for each in found), f"so {where}, {told}"])
 
 
 def except_at(values: list[Json], t: str) -> str:
-    """Where something else holds."""
+    """The words that leave out the roots of some polynomials; empty if there are none."""
     roots = [f"the roots of {polynomial_text(q, t)}" for q in values]
     return f" except at {' and '.join(roots)}" if roots else ""
 
@@ -231,7 +231,7 @@ restate(NEVER, STEADY, lambda c: not solvable(c), RANK_RULE)
 
 
 def on_a_line(role: Role) -> Role:
-    """The same role of a premise about what is constructed from the plant on a line."""
+    """The role for premises whose subject is constructed from the plant on a line."""
     return Role(role.kinds, tuple(("line", *path) for path in role.paths), role.many)
 
 
@@ -240,7 +240,7 @@ RANK_ON_LINE = on_a_line(STEADY)
 
 
 def almost(found: list[Premise], told: str) -> str:
-    """What certificates say of lines, and what follows for almost all values."""
+    """The claims about lines, and the conclusion for almost all values."""
     parameters = ", ".join(found[0].meant.ranges)
     every = f"so for almost all complex values of the parameters {parameters}, {told}"
     return "; ".join([*(each.statement for each in found), every])

@@ -1,4 +1,12 @@
-"""Kinds about shared dimensions and links."""
+"""Kinds about shared dimensions and links.
+
+Each claim names a least cost.  That it suffices is proved by the absence of fixed modes outside
+the allowed region (`modes.require_absence`).  That nothing cheaper suffices is proved by a covering
+program: each cut says of which variables the sum must be at least d, and is proved by a loss of
+rank, or by channels that others do not reach.  A branch tree proves that no integer point that
+meets all cuts costs less, or that none exists (`Program`).  The kind ``common_dimension`` has one
+variable, and needs one subset of channels instead of a tree.
+"""
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,14 @@
-"""Kinds about structure."""
+"""Kinds about structure.
+
+Each kind has a function ``check_…``, which stops unless the witness proves the claim, and a
+function ``…_statement``, which says the claim in words.
+
+Ranks and dimensions are bounded from above by rows or subspaces that are annihilated exactly, and
+from below by ranks modulo ℓ (`krylov_ranks`), which take short numbers; controllability also by
+blocks of states, for large systems with few nonzero entries.  The transfer graph needs a proof for
+each edge (a Markov parameter that is not 0 modulo ℓ) and for each pair that is no edge (no path, or
+a zero transfer).  The neighbor graph needs no witness: its strong components are recomputed.
+"""
 
 import math
 from collections.abc import Iterable

@@ -1,8 +1,13 @@
 """Plant, radii, controller, and the words of statements.
 
-The words of statements: systems, sets, polynomials, and values as canonical JSON.
+Plants and controllers are read from certificates and from system files by the same functions.  A
+file may give numbers as decimals and radii as parts of the entries or by the digits that are
+typed; a certificate must have the canonical form, of which the digest is taken.  Whether a
+certificate and a file are about the same plant is decided by comparing their digests.
 
-``FORMAT.md`` specifies them.  A name always stands in quotes, so that none can imitate words.
+`described` says what system a claim is about: the plant by its digest, and the constructions that
+were applied to it.  ``FORMAT.md`` specifies these words.  A name always stands in quotes, so that
+no name can be mistaken for words of the statement.
 """
 
 from __future__ import annotations
@@ -148,7 +153,7 @@ def form_of(M: Matrix) -> Json:
     return {"shape": [M.nrows, M.ncols], "entries": triples}
 
 
-# How far entries may be from their values: the radii of a plant, and the words for any radii.
+# Radii: how far entries may be from their nominal values.
 
 WAYS = ("relative", "digits", "absolute")
 Pair = tuple[Fraction, Fraction]
@@ -561,7 +566,7 @@ def prefixed(
 
 
 def suffixed(system: System, words: str, **parts: Any) -> System:
-    """The same, named behind what it is made from.
+    """As `prefixed`, but named after what it is made from.
 
     What begins with a construction stands in parentheses, so that the text parses in one way only.
     """
@@ -571,7 +576,7 @@ def suffixed(system: System, words: str, **parts: Any) -> System:
 
 
 class Described(Protocol):
-    """What a statement says of a system, of numbers or of functions."""
+    """What statements need to know of a system of numbers, or of rational functions."""
 
     @property
     def n(self) -> int: ...

@@ -27,7 +27,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
-# Drawn systems that Hypothesis prints as code, which a counterexample can be pasted from.
+# Printing: Hypothesis shows a drawn system as code that can be pasted.
 
 
 def printed(draw: DrawFn, found: Drawn) -> Drawn:
@@ -78,7 +78,7 @@ def _rows(M: Matrix) -> Any:
     return [[written(x) for x in row] for row in M] if M.nrows and M.ncols else M
 
 
-# Hypothesis strategies for systems with known structure and for neighbor graphs.
+# Systems with known structure, and neighbor graphs.
 
 T = TypeVar("T")
 
@@ -463,7 +463,7 @@ def incomplete_systems(
     return _incomplete(reason, max_states, max_channels, time)
 
 
-# Hypothesis strategies that draw members of boxes of plants.
+# Members of boxes of plants.
 
 _STEPS = 2**10
 
@@ -492,7 +492,7 @@ def members(box: Box, *, vertices: bool = False) -> SearchStrategy[MultiChannelS
     return _members(box, vertices)
 
 
-# Hypothesis strategies that draw systems with parameters.
+# Systems with parameters.
 
 _ONES = ("0", "1", "-1", "2")
 _SHAPES = ("{t}", "-{t}", "{t} + 1", "2*{t} - 1", "{t}^2 - 2", "{t}^2 + {t} + 1")
