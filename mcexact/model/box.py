@@ -74,7 +74,7 @@ class Box(Shown):
 
     @classmethod
     def relative(cls, system: MultiChannelSystem, radius: Any) -> Box:
-        """The plants whose entries differ by at most so large a part of the moduli of the entries.
+        """The plants each of whose entries differs by at most a given part of its modulus.
 
         Zeros are certain.
 

@@ -1,4 +1,9 @@
-"""Closed loops of a plant, agents' states and messages under way, assembled in this file only."""
+"""Closed loops of a plant, agents' states and messages under way, assembled in this file only.
+
+`ClosedLoop` eliminates outputs and inputs and gives the matrix of the loop.  `LoopPencil` keeps
+y_j and u_j as signals, so that each entry of the plant and of the controller stands in one place
+of its matrix by itself: that is what uncertain entries need.
+"""
 
 from __future__ import annotations
 

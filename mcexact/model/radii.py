@@ -65,7 +65,7 @@ class Radii(Shown):
 
     @classmethod
     def relative(cls, A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], radius: Any) -> Radii:
-        """The radii that are so large a part of the moduli of the entries.
+        """The radii that are a given part of the moduli of the entries.
 
         Raises
         ------

@@ -174,7 +174,7 @@ def _roots(p: Sequence[Any], where: Any, scale: Any) -> Any:
     return found
 
 
-# How far data may be from their values: the proved part, where a plant fails, and both of many.
+# Uncertainty: the radii that are proved, and those at which some plant fails.
 
 _RANGE = 1e6
 """The largest uncertainty of a picture of several plants, as a multiple of the smallest."""
