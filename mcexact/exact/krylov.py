@@ -117,7 +117,7 @@ _EXACT_IN_SINGLE = 2**24
 
 # A squaring costs as much as 25 products with a row at n = 130, and 600 at n = 1600.
 _FEW_SQUARINGS = 256
-# From so many states on, products with a row cost more than to reduce the row.
+# From this number of states on, a product with a row costs more than reducing the row.
 _REDUCED_ALWAYS = 512
 _PART = 2**14
 
@@ -609,7 +609,7 @@ def row_echelon(rows: Residues, ell: int) -> tuple[Residues, tuple[int, ...]]:
 
 
 def largest_prime(n: int, terms: int) -> int:
-    """A bound for primes modulo which all sums are exact: of so many products and one more.
+    """A bound for primes modulo which sums of `terms` products and one more are exact.
 
     Examples
     --------

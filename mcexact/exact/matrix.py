@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 
-# Forms of a rational matrix: lists, arrays of numpy, matrices of sympy, text, HTML and LaTeX.
+# Display, and conversions to lists, numpy, sympy, text, HTML and LaTeX.
 
 _LONGEST = 60
 MOST_SHOWN = 12

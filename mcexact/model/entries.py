@@ -509,7 +509,7 @@ def sparse_matrix_text(M: Matrix, between: str = ",") -> str:
 
 @lru_cache(maxsize=16)
 def _template(size: int, between: str) -> str:
-    """The text into which so many integers are formatted."""
+    """The text into which this number of integers is formatted."""
     return between.join(["%d"] * size)
 
 

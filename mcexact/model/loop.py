@@ -200,7 +200,7 @@ class LoopPencil(ClosedLoop):
         plant : MultiChannelSystem
         controller : Controller
         one : int
-            What stands for 1 in identities: 0 with radii, as these are certain.
+            The entry for each 1 of an identity: 0 when the entries are radii, since a 1 is certain.
         """
         agents, m = controller.agents, self.given.m
         rows = [plant.A @ self.pick("x")]

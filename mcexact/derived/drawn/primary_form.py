@@ -8,7 +8,7 @@ A *chain* of a monic p of degree d and length k is the block J_k(p), k companion
 the diagonal and identities above them: a Jordan chain for every root of p.  Its left eigenvectors
 live in its last block, its right eigenvectors in its first.  So a system of chains is controllable
 iff for every p the rows of B at the last blocks are independent over Q[x]/(p), and observable iff
-the columns of C at the first blocks are. Every pair (A, B) is similar to one of this form.
+the columns of C at the first blocks are.  Every pair (A, B) is similar to one of this form.
 
 A *zone* is 1, 2 or 3.  Blocks of a chain never step down in zone, so that A is block upper
 triangular in them::
