@@ -17,7 +17,7 @@ docstrings.
 
 For a system with parameters, `moved` applies those constructions whose entries are entries of the
 plant, 0 or 1 (`MOVING`); `along_line` puts the parameters on a line; `looped` closes a loop.
-Delays in a file may be large, so systems with messages under way have at most 20,000 states.
+Delays in a file may be large, so systems with shared sub-states have at most 20,000 states.
 """
 
 from __future__ import annotations
