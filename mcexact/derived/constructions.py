@@ -1,4 +1,24 @@
-"""Systems made from systems: dual, feedback, merged, extended, delayed, error system, loops."""
+"""Systems made from systems: dual, feedback, merged, extended, delayed, error system, loops.
+
+Each construction takes a `MultiChannelSystem` and returns another one, which records its plant
+and the construction in the words of the certificate format.  The checker repeats the construction
+from the plant's matrices (`mcexact/checker/constructions.py`).  Block forms are in the
+docstrings.
+
+- `dual`: controllability becomes observability.
+- `feedback`, `full_output`: static gains u_i = F_i y_i, and one channel that measures the state.
+- `merged`, `restricted`: channels united, and channels left out.
+- `add_links`, `augmented_outputs`: more communication, and neighbors' outputs as measurements.
+- `extended_system`: agents also share sub-states (Paper, equation (25)).
+- `lifted_system`: the same with delays, in discrete time; every message under way is a state.
+- `held_system`: all agents, also the owner, use a sub-state equally late.
+- `setpoint_system`: an integrator for every output.
+- `error_system`: the estimation errors of the distributed observer.
+
+For a system with parameters, `moved` applies those constructions whose entries are entries of the
+plant, 0 or 1 (`MOVING`); `along_line` puts the parameters on a line; `looped` closes a loop.
+Delays in a file may be large, so systems with shared sub-states have at most 20,000 states.
+"""
 
 from __future__ import annotations
 
@@ -279,7 +299,7 @@ def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiC
     )
 
 
-# The plant with some of its channels alone.
+# The plant restricted to some of its channels.
 
 
 def restricted(system: MultiChannelSystem, channels: Sequence[str]) -> MultiChannelSystem:
@@ -425,7 +445,7 @@ def augmented_outputs(
     )
 
 
-# Constructions of systems with parameters: those that only put entries elsewhere, and lines.
+# Systems with parameters: constructions that only rearrange entries, and lines.
 
 MOVING = frozenset(
     {
@@ -481,7 +501,7 @@ class DerivedParametricSystem(ParametricSystem):
 def moved(
     system: ParametricSystem, construct: Callable[[MultiChannelSystem], MultiChannelSystem]
 ) -> ParametricSystem:
-    """Apply constructions that only put entries elsewhere to a system with parameters.
+    """Apply constructions that only rearrange entries to a system with parameters.
 
     Parameters
     ----------
@@ -503,8 +523,8 @@ def moved(
 
     Notes
     -----
-    They are applied once, to numbers in the places of the entries, 0 for 0 and else 2, 3, …, which
-    tell from the result which entry stands where.
+    The constructions are applied once, to a system of numbers: 0 in the place of each zero entry,
+    and 2, 3, … in the places of the others.  In the result, each number is replaced by its entry.
 
     Examples
     --------
@@ -563,7 +583,7 @@ def along_line(
     Parameters
     ----------
     system : ParametricSystem
-        With one parameter or several; their ranges are of no account on the line.
+        With one parameter or several; their ranges are ignored on the line.
     point, direction : mapping
         For each parameter, by symbol or name, the exact numbers a and b; not every b is 0.
     parameter : str
@@ -938,7 +958,7 @@ def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
     )
 
 
-# The extended system with delays, in which every message under way is a state.
+# The extended systems with delays, in which every message under way is a state.
 
 
 def lifted_system(
@@ -1151,7 +1171,7 @@ def error_system(
     )
 
 
-# Closed loops of systems with parameters.
+# Systems with parameters: closed loops.
 
 Construct = Callable[[MultiChannelSystem], MultiChannelSystem]
 

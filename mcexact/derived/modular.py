@@ -1,4 +1,17 @@
-"""Systems modulo a prime, with drawn gains, and with polynomial matrices."""
+"""Systems modulo a prime, with drawn gains, and with polynomial matrices.
+
+A `ModularSystem` is a system modulo a prime that divides no denominator; `residue_systems` yields
+one for each prime of an endless stream, so a caller whose draw failed takes the next.  Gains are
+drawn with a `generator` that depends only on the plant, the subject and the kind of certificate,
+so that the same question gives the same certificate.
+
+Closed loops are computed in one of three ways.  `channel_sequences` takes sparse products if
+A + Σ B_i F_i C_i stays sparse; from 128 states on exact floating-point products, if the prime has
+at most `quick_bits` bits; otherwise flint.  `loop_polynomials` chooses between the last two.
+
+A `PolynomialSystem` is a system with one parameter whose matrices are each multiplied by a common
+denominator, so that their entries are polynomials.
+"""
 
 from __future__ import annotations
 
@@ -104,7 +117,7 @@ def generator(system: MultiChannelSystem | ParametricSystem, kind: str) -> rando
 def residue_systems(
     system: MultiChannelSystem, rng: random.Random, bits: int = 30
 ) -> Iterator[ModularSystem]:
-    """Yield the system modulo primes of a size that divide no denominator.
+    """Yield the system modulo primes of a bit length, none of which divides a denominator.
 
     Parameters
     ----------
@@ -162,7 +175,7 @@ def closed_loop(modular: ModularSystem, gains: Gains) -> ModularMatrix:
 
 
 def quick_bits(system: MultiChannelSystem) -> int:
-    """The size of primes modulo which `loop_polynomials` is fastest."""
+    """The bit length of the primes modulo which `loop_polynomials` is fastest."""
     if system.n < _KRYLOV_SIZE:
         return 30
     inputs, outputs = zip(*system.sizes, strict=True)
@@ -251,15 +264,15 @@ def lifted_gains(modular: ModularSystem, gains: Gains) -> tuple[Matrix, ...]:
     return tuple(map(made.__getitem__, sized))
 
 
-# A system with one parameter, its matrices multiplied by what makes them polynomial.
+# Systems with one parameter, whose matrices are multiplied by their denominators.
 
 
 @dataclass(frozen=True, eq=False)
 class PolynomialSystem:
     """A', B_i', C_i' with A = A'/δ, B_i = B_i'/β_i, C_i = C_i'/γ_i in lowest terms.
 
-    Where no denominator vanishes, a mode of the system times δ is one of these matrices, and one is
-    fixed if and only if the other is.
+    Where no denominator vanishes, the modes of these matrices are those of the system times δ, and
+    a mode is fixed if and only if its multiple is.
 
     Attributes
     ----------
@@ -328,7 +341,7 @@ class PolynomialSystem:
         )
 
     def modulo(self, t: int, ell: int) -> ModularSystem:
-        """The same modulo a prime that divides no denominator, t a residue."""
+        """The system of `at` modulo a prime that divides no denominator, t a residue."""
 
         def integers(M: PolynomialMatrix) -> Matrix:
             return Matrix.from_integers(M.at_residue(t, ell).rows(), ncols=M.ncols)

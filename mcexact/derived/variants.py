@@ -1,6 +1,8 @@
 """Families of systems made from one: grids of parameters, neighbor graphs, and owners of sensors.
 
-Each member is made when it is asked for, so that a family can be long.
+Each function yields `Variant` objects, which make their system only when it is asked for: a
+family may have up to a million members.  `tolerance_variants` makes the entries uncertain by
+parts of their values.
 """
 
 from __future__ import annotations
@@ -177,7 +179,7 @@ def _graphs(pairs: Sequence[Edge], m: int, up_to_isomorphism: bool) -> Iterator[
 
 
 def sensor_variants(plant: MultiChannelSystem, *, unused: bool = False) -> Iterator[Variant]:
-    """The plant with its sensors given to channels in all ways.
+    """The plant with its sensors assigned to channels in all ways.
 
     Parameters
     ----------
@@ -229,7 +231,7 @@ def sensor_variants(plant: MultiChannelSystem, *, unused: bool = False) -> Itera
 
 
 def tolerance_variants(plant: MultiChannelSystem, parts: Iterable[Any]) -> Iterator[Variant]:
-    """The plant with all entries that are not 0 uncertain by parts of their values.
+    """The plant with every nonzero entry uncertain by a part of its value, for each of the parts.
 
     Parameters
     ----------

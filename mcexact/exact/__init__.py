@@ -8,24 +8,17 @@ roots of a polynomial lie in a stability region.  Floats are refused; `from_floa
 
 No other stage imports flint.  This stage refuses sizes and moduli for which flint would abort.
 
-===================  ==================================================================
-`rational`           rational numbers: conversion of entries, the grammar of numbers
-`matrix`             rational matrices
-`tables`             their numerators: all of them, or those that are not 0
-`rows`               conversion of the matrices that Python callers pass
-`blocks`             rational matrices assembled from blocks
-`linear_algebra`     ranks, kernels, solutions, characteristic polynomials over Q
-`polynomial`         rational polynomials
-`modular`            matrices and polynomials modulo word-size primes
-`krylov`             Krylov sequences modulo smaller primes, by exact float products
-`sparse_krylov`      the same for sparse matrices
-`recurrence`         least recurrences of sequences modulo primes
-`reconstruction`     rational numbers from their residues
-`polynomial_matrix`  matrices of polynomials
-`field_equations`    linear equations over Q[x]/(p)
-`number_field`       kernels and ranks over Q[x]/(p)
-`location`           Hurwitz and Schur tests, stability regions
-`enclosures`         discs and intervals around roots
-`floats`             floats to rational numbers and matrices, and back
-===================  ==================================================================
+====================  ================================================================
+`rational`            rational numbers: conversion of entries, the grammar of numbers
+`tables`              integer numerators: all of them, or those that are not 0
+`matrix`              rational matrices, their blocks, and conversions of floats
+`polynomial`          rational polynomials
+`modular`             matrices and polynomials modulo primes, rational reconstruction
+`krylov`              Krylov sequences modulo primes, recurrences, invariant subspaces
+`linear_algebra`      ranks, kernels, solutions over Q, Q[x] and Q[x]/(p)
+`balls`               matrix exponentials and trajectories with errors proved
+`rational_functions`  rational functions of parameters, and matrices of them
+`bivariate`           polynomials in x and a parameter, kernels and resultants
+`roots`               discs around roots, Hurwitz and Schur tests, stability regions
+====================  ================================================================
 """

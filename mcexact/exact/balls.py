@@ -1,4 +1,14 @@
-"""Ball arithmetic: the matrix exponential, trajectories and responses, with errors proved."""
+"""Ball arithmetic: the matrix exponential, trajectories and responses, with errors proved.
+
+A ball is a number with a radius that bounds its error; flint's operations on balls enlarge the
+radius so that the exact result stays inside.
+
+`exponential` takes more and more bits until its entries are known to the decimals asked for, and
+raises `LimitReached` if 65,536 bits do not suffice.  `exponential_above` and `power_above` round
+up to floats, so that bounds on decay remain bounds.  `states_at_doubling_steps` and
+`even_powers`, again with more and more bits, and `response`, with a fixed number, give floats
+that are accurate to 1e-9 for the curves of a loop, and None if their bits do not suffice.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +79,7 @@ def exponential(M: Matrix, decimals: int) -> Matrix:
 
 
 def exponential_above(x: Fraction) -> float:
-    """Return a float that is at least exp(x), and hardly more; for x ≤ 0, as decays have it.
+    """Return a float that is at least exp(x) and close to it, for x ≤ 0.
 
     Examples
     --------
@@ -83,7 +93,7 @@ def exponential_above(x: Fraction) -> float:
 
 
 def power_above(base: Fraction, exponent: int) -> float:
-    """Return a float that is at least base^exponent, and hardly more, for 0 ≤ base ≤ 1.
+    """Return a float that is at least base^exponent and close to it, for 0 ≤ base ≤ 1.
 
     Examples
     --------

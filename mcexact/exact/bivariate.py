@@ -1,9 +1,21 @@
 """Polynomials in x and t: resultants, kernels, and arithmetic over Q[t]/(q).
 
-Polynomials in x whose coefficients are rational polynomials in a parameter t, as lists of flint.
+For plants with one parameter t.  A `Bivariate` is a list of flint's polynomials in t: the
+coefficients of the powers of x, constant first.  Over L = Q[t]/(q) they are reduced modulo q,
+which is monic and irreducible.
 
-A list holds the coefficients of the powers of x, constant first.  In ring Q[t]/(q) they are reduced
-modulo q.
+Determinants, characteristic polynomials and norms are computed by values: at enough integers t,
+by flint over Q, then interpolated.  Coprimality is tried at values of t modulo a prime first,
+since one value without a common root proves it.
+
+Over L, `factors` is Trager's algorithm: it factors the norm, a polynomial over Q.  Kernels over
+L[x]/(p) (`Tower`) are kernels of matrices over Q, in which each element is its matrix of
+multiplication.  Kernels over Q(t) (`over_functions`, `generic_kernel`) are interpolated by
+rational functions from kernels at integers, and further values have to agree, which is no proof.
+
+Resultants with respect to x are computed modulo primes, by values at t.  `common_divisor`
+combines primes until the result no longer changes; that is no proof, and the callers have to
+verify it.
 """
 
 from __future__ import annotations
@@ -23,7 +35,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import combine, rationals
 from mcexact.exact.polynomial import Polynomial, _fmpq, _from_rational
 
-# Polynomials in x whose coefficients are rational polynomials in a parameter t, as lists of flint.
+# Polynomials in x and t over Q.
 
 Coefficient = flint.fmpq_poly
 Bivariate = list[Any]
@@ -116,7 +128,7 @@ def divided(f: Bivariate, g: Bivariate, q: Any = None) -> tuple[Bivariate, Bivar
 
 
 def without(f: Bivariate, g: Bivariate, q: Any = None) -> Bivariate:
-    """f divided by g as often as it goes."""
+    """f divided by g as often as g divides it."""
     while len(f) >= len(g):
         quotient, rest = divided(f, g, q)
         if rest:
@@ -199,7 +211,7 @@ def is_coprime_modulo(q: Any, residue: flint.nmod_poly, ell: int) -> bool:
 
 
 def freed(p: Any, factors: Sequence[Any]) -> Any:
-    """p divided by each factor as often as it goes, and by its leading coefficient."""
+    """p divided by each factor as often as this divides it, and by its leading coefficient."""
     for q in factors:
         while (pair := divmod(p, q))[1] == 0:
             p = pair[0]
@@ -495,7 +507,7 @@ def _functions(
 
 
 def _function(given: Sequence[Any], where: list[int], count: int, modulus: Any) -> Any:
-    """One of them, N/D with D monic (Cauchy interpolation)."""
+    """A rational function N/D with these values, D monic (Cauchy interpolation)."""
     one = flint.fmpq_poly([1])
     if len(set(map(str, given))) == 1:
         return flint.fmpq_poly([given[0]]), one
@@ -517,7 +529,7 @@ def _function(given: Sequence[Any], where: list[int], count: int, modulus: Any) 
     return top, bottom
 
 
-# Resultants of polynomials in x and t modulo primes, and what two of them have in common.
+# Resultants with respect to x modulo primes, and the greatest common divisor of two of them.
 
 Residues = list[flint.nmod_poly]
 """Coefficients of the powers of x modulo ℓ, constant first."""
@@ -594,7 +606,7 @@ def resultant_modulo(f: Residues, g: Residues, ell: int) -> flint.nmod_poly:
 
 
 def of_rationals(f: Bivariate, g: Bivariate, ell: int) -> flint.nmod_poly:
-    """The same of polynomials over Q, modulo a prime that divides no denominator."""
+    """`resultant_modulo` of polynomials over Q, for a prime that divides no denominator."""
     return resultant_modulo(residues_in_x(f, ell), residues_in_x(g, ell), ell)
 
 
@@ -658,8 +670,8 @@ def common_divisor(
 
     Notes
     -----
-    Primes modulo which its degree is larger are left out.  What two products of primes agree on is
-    returned, and has to be verified.
+    Primes modulo which its degree is larger are left out.  A result on which two products of
+    primes agree is returned, and has to be verified.
     """
     product, found = 1, [[0]]
     before: tuple[list[list[int]], int] | None = None

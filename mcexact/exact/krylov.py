@@ -1,27 +1,28 @@
 """Krylov sequences modulo primes, dense and sparse, recurrences, and invariant subspaces.
 
-Linear recurrences modulo primes, and the proof that one of them is the least.
+For a matrix M, mostly a closed loop A + Σ B_i F_i C_i with drawn gains, modulo a prime ℓ, this
+module computes the numbers s_k = c Mᵏ b, k < 2n, and what follows from them.
 
-The numbers s_0, s_1, … satisfy the recurrence d = Σ d_j x^j if Σ_j d_j s_{k+j} = 0 for all k.  The
-numerator of d is num = Σ_i x^i Σ_{j>i} d_j s_{j−i−1}, the polynomial part of d·Σ s_k x^{−k−1}; d is
-the least recurrence iff d and num are coprime.
+Recurrences.  A monic d = Σ d_j x^j is a recurrence of s if Σ_j d_j s_{k+j} = 0 for all k.  Its
+numerator num = Σ_i x^i Σ_{j>i} d_j s_{j−i−1} is the polynomial part of d·Σ s_k x^{−k−1}, and d is
+the least recurrence iff d and num are coprime, which `cofactors` proves.  The least recurrence
+divides the minimal polynomial of M; if its degree is n, it is the characteristic polynomial.
 
-Krylov sequences modulo primes so small that sums of products are exact in floating point.
+Dense loops (`FloatLoop`, `KrylovSteps`).  A double holds every integer up to 2**53, and a single
+up to 2**24.  If n(ℓ/2)² is below that, floating-point products of matrices of symmetric residues,
+of absolute value at most about ℓ/2, are exact in every order of the additions, so the fastest
+routine of the processor computes them (`exact_bits` bounds ℓ).  Sequences are computed from few
+powers of M and many products with single vectors.  At n = 200, 400 and 800 a characteristic
+polynomial takes 0.5, 0.27 and 0.1 times as long as with flint.  Where the recurrence is too
+short, flint computes it.
 
-A double holds every integer up to 2**53, and a single up to 2**24.  With n(ℓ/2)² below that, a
-product of n × n matrices of symmetric residues is exact for every order of its additions, and the
-processor's fastest routine for floats computes it.  The numbers c Mᵏ b of 2n terms, in steps of
-some powers of two and of one, determine their least recurrence; its polynomial divides the minimal
-polynomial of M, so where it has degree n it is the characteristic polynomial.
+Sparse loops (`SparseLoop`, if `stays_sparse`).  M is a compressed sparse array, and each number
+takes one product of M with a vector.  Residues are reduced modulo ℓ after as many products as
+stay exact: modulo 7 with 6 entries a row after 5 products in singles.  `SparsePowers` applies
+polynomials of such a matrix to vectors.
 
-At n = 200, 400 and 800 a characteristic polynomial takes 0.5, 0.27 and 0.1 times as long as with
-flint.
-
-Krylov sequences of sparse matrices modulo primes, by products in floating point that are exact.
-
-A closed loop with few entries in each row is a compressed sparse array of symmetric residues, of at
-most ℓ/2 each.  As long as they are integers that floats represent exactly, products are reduced
-modulo ℓ after several steps only: modulo 7 with 6 entries a row after 5 steps in singles.
+Invariant subspaces.  `controllable_subspace` computes ⟨A | B⟩ = im B + A im B + … exactly over Q
+from its echelon forms modulo word-size primes, and tests the result in exact arithmetic.
 """
 
 from __future__ import annotations
@@ -109,14 +110,14 @@ def cofactors(
     return ModularPolynomial(ell, a), ModularPolynomial(ell, e)
 
 
-# Krylov sequences modulo primes so small that sums of products are exact in floating point.
+# Dense matrices: Krylov sequences by products that are exact in floating point.
 
 _EXACT = 2**53
 _EXACT_IN_SINGLE = 2**24
 
 # A squaring costs as much as 25 products with a row at n = 130, and 600 at n = 1600.
 _FEW_SQUARINGS = 256
-# From so many states on, products with a row cost more than to reduce the row.
+# From this number of states on, a product with a row costs more than reducing the row.
 _REDUCED_ALWAYS = 512
 _PART = 2**14
 
@@ -129,8 +130,8 @@ def exact_bits(terms: int) -> int:
 
     Notes
     -----
-    `reduced` leaves residues of at most ℓ/2 + 3, and takes off a multiple of ℓ.  One more residue
-    may be added to a sum before.
+    `reduce` leaves residues of at most ℓ/2 + 3 in size.  A sum may also contain one residue besides
+    the products.
 
     Examples
     --------
@@ -261,8 +262,8 @@ def loop_sequences(
 ) -> Iterator[list[int]]:
     """Compute y C_q (A + Σ B_i F_i C_i)ᵏ B_q x modulo ℓ, k < 2n, for each (q, x, y).
 
-    The other arguments are those of `FloatLoop`.  Its arrays are let go before there are powers:
-    at n = 200, pages of memory that are new to the process take a fifth of the time.
+    The other arguments are those of `FloatLoop`.  Its arrays are freed before powers are computed:
+    at n = 200, memory that is new to the process takes a fifth of the time.
     """
     loop = FloatLoop(A, B, C, ell)
     M, ends = loop.closed(gains), [loop.ends(*start) for start in starts]
@@ -272,7 +273,7 @@ def loop_sequences(
 
 
 def products_at_once(growth: int, ell: int, exact: int) -> int:
-    """How many products with a matrix keep residues exact, so that a multiple of ℓ can go.
+    """The number of products with a matrix after which residues are still exact, to be reduced.
 
     Parameters
     ----------
@@ -350,7 +351,7 @@ def _words(M: Matrix, ell: int) -> array[int]:
 
 
 def reduce(table: Floats, ell: int) -> Floats:
-    """Take multiples of ℓ off integers of at most 2**53 − ℓ in size: at most ℓ/2 + 3 is left.
+    """Reduce integers of at most 2**53 − ℓ in size modulo ℓ, to at most ℓ/2 + 3 in size.
 
     In place, for arrays without gaps, and part by part: new arrays take longer than the arithmetic.
 
@@ -373,9 +374,9 @@ def reduce(table: Floats, ell: int) -> Floats:
     return table
 
 
-# Krylov sequences of sparse matrices modulo primes, by products in floating point that are exact.
+# Sparse matrices: Krylov sequences by products that are exact in floating point.
 
-# So many numbers of a sequence are computed from what is seen of the vectors at once.
+# The number of vectors whose needed entries are kept, until one product gives their numbers.
 _TOGETHER = 1024
 
 
@@ -440,7 +441,7 @@ class SparseLoop:
         return self._reduced(self.A + moved)
 
     def _reduced(self, M: Any) -> Integers:
-        """Symmetric residues, of which none is kept that is 0."""
+        """The matrix in symmetric residues modulo ℓ, without stored zeros."""
         import scipy.sparse
 
         found = scipy.sparse.csr_array(M)
@@ -474,7 +475,7 @@ class SparseLoop:
 
 
 def steps_at_once(M: Integers, ell: int, exact: int) -> int:
-    """How many products with M keep residues below a number, so that a multiple of ℓ can go."""
+    """`products_at_once` for products M v with a sparse M; 1 if M is 0."""
     return products_at_once(int(abs(M).sum(axis=1).max()), ell, exact) if M.nnz else 1
 
 
@@ -529,7 +530,7 @@ def _symmetric(values: Any, ell: int) -> Any:
     return (values + ell // 2) % ell - ell // 2
 
 
-# Polynomials of a sparse matrix modulo a prime, applied to vectors in exact floating point.
+# Polynomials of a sparse matrix modulo a prime, applied to vectors.
 
 
 class SparsePowers:
@@ -571,7 +572,7 @@ class SparsePowers:
         return found
 
     def minimal_polynomial(self, rng: random.Random) -> ModularPolynomial:
-        """The least recurrence of the numbers c Mᵏ b, c and b drawn: a divisor, and mostly all."""
+        """The least recurrence of c Mᵏ b, c and b drawn: mostly all of the minimal polynomial."""
         import numpy as np
 
         small = max(1, _EXACT // (max(self.n, 1) * self.ell))
@@ -608,7 +609,7 @@ def row_echelon(rows: Residues, ell: int) -> tuple[Residues, tuple[int, ...]]:
 
 
 def largest_prime(n: int, terms: int) -> int:
-    """A bound for primes modulo which all sums are exact: of so many products and one more.
+    """A bound for primes modulo which sums of `terms` products and one more are exact.
 
     Examples
     --------
@@ -618,7 +619,7 @@ def largest_prime(n: int, terms: int) -> int:
     return min(2**26, 2 * isqrt(_EXACT // (terms + 2)) - 8, 2**52 // max(n, 1))
 
 
-# The smallest A-invariant subspace that contains im B, exactly, from its residues.
+# The smallest A-invariant subspace that contains im B, over Q.
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,23 @@
-"""Linear algebra over Q, Q[x] and number fields."""
+"""Linear algebra over Q, Q[x] and number fields.
+
+Over Q, flint computes with integer numerators.  `rank` computes modulo one prime first: full rank
+there is full rank over Q; any lower rank is computed again over Q.  `solve` takes any matrix;
+`solve_nonsingular` takes a square one, and is faster if the right side has few columns.  Kernels
+are in echelon form, with the positions of their identity block.
+
+`invariant_form` finds a basis in which a matrix is a block-diagonal matrix of companions of its
+invariant polynomials; it draws vectors, and its result is exact.
+
+A `PolynomialMatrix` Σ_k x^k M_k is a matrix over Q[x], or over K = Q[x]/(p) with p irreducible.
+Ranks and kernels over K are those at every root of p, so no root is ever approximated.
+`field_kernel` finds the pivots at a root of p modulo a prime, solves for the kernel over K, and
+proves it by the exact test of M U = 0 modulo p.
+
+`solve_over_field` has two algorithms.  For deg p below 10 each element of K is its matrix of
+multiplication over Q (`inflate`), which gives one larger system.  From degree 10 on, the solution
+is computed by values at points modulo primes, until its residues determine it: about k⁴ word
+operations for each prime, whatever the degree.  This way is no proof; callers test the equation.
+"""
 
 from __future__ import annotations
 
@@ -311,7 +330,7 @@ def invariant_form(Z: Matrix, rng: Random) -> tuple[Matrix, tuple[Polynomial, ..
     Z : Matrix
         b × b.
     rng : Random
-        Draws vectors; almost all will do.
+        Draws vectors; almost all suffice.
 
     Returns
     -------
@@ -324,7 +343,7 @@ def invariant_form(Z: Matrix, rng: Random) -> tuple[Matrix, tuple[Polynomial, ..
     -----
     A drawn v generates a space of the dimension d of the minimal polynomial, a drawn row w has
     w Z^{i+j} v nonsingular, and then the kernel of w, wZ, …, wZ^{d−1} is an invariant complement,
-    on which it goes on.  Exact.
+    on which the algorithm continues.  Exact.
 
     Examples
     --------
@@ -614,8 +633,8 @@ def solve_over_field(
     In a field of small degree every element is its matrix of multiplication, which makes one system
     of k deg p equations over Q.  Otherwise X is found modulo primes until its residues determine
     it, which costs about k⁴ word operations for each prime, whatever the degree of the field is.
-    That X agrees with N X = right modulo one prime more, which is no proof: test the equation, or
-    what is to follow from it.
+    X agrees with the solution modulo one more prime, which is no proof: test the equation, or what
+    is to follow from it.
 
     Examples
     --------

@@ -1,4 +1,19 @@
-"""Rational matrices: entries, sizes, blocks, conversion from and to rows, floats, numpy."""
+"""Rational matrices: entries, sizes, blocks, conversion from and to rows, floats, numpy.
+
+A `Matrix` is N/d, integer numerators N over one common denominator d, in lowest terms: products
+and sums then compute with integers alone.  N is a table of `exact.tables`, dense in flint or
+sparse.
+
+Around it stand, in this order: its display and its conversions to lists, numpy, sympy, text, HTML
+and LaTeX; the sizes that flint and the memory allow; `rows_of` and `entries_of`, which copy a
+matrix-like value of a caller as rows or as stored entries; the class; the size of its entries;
+the conversions between floats and rational numbers, for the whole package; and matrices assembled
+from blocks.
+
+`Matrix.from_rows` and `Matrix.from_entries` refuse floats.  `from_float`, `matrix_from_float` and
+`dyadic_matrix` convert them explicitly; `as_requested` takes a float as the decimal that it
+prints, since a rate that a user asks for is no measurement.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +49,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 
-# Forms of a rational matrix: lists, arrays of numpy, matrices of sympy, text, HTML and LaTeX.
+# Display, and conversions to lists, numpy, sympy, text, HTML and LaTeX.
 
 _LONGEST = 60
 MOST_SHOWN = 12
@@ -294,7 +309,7 @@ def _latex_of(x: Any, whole: bool) -> str:
     return rf"\text{{{number(x)}}}"
 
 
-# The sizes that matrices can have, and the positions in them.
+# Checks of sizes and positions.
 
 # 2 GiB of machine words
 _MOST_ENTRIES = 2**28

@@ -1,4 +1,18 @@
-"""Matrices and polynomials modulo word-size primes, and rational reconstruction from residues."""
+"""Matrices and polynomials modulo word-size primes, and rational reconstruction from residues.
+
+Exact decisions compute modulo a prime ℓ first, since a residue is one machine word whatever the
+length of the entries.  The rank modulo ℓ is at most the rank over Q, so it proves a lower bound;
+an upper bound needs a proof over Q.
+
+`primes` draws primes from a seed, the same on every machine; by default they have 30 bits, so
+that the checker, which uses no library, multiplies residues quickly.  `ModularMatrix` and
+`ModularPolynomial` are immutable and compute with flint; moduli for which flint would abort are
+refused.
+
+`combine` joins residues for coprime moduli, and `rational` and `rationals` find the fractions
+with small numerators and denominators that have these residues.  They are candidates: the caller
+verifies them.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +34,7 @@ from mcexact.exact.polynomial import Polynomial
 # Word-size primes, and rational numbers modulo them.
 
 # A product of two residues below 2**30 has two digits of a Python integer, so the checker, which
-# has # no library, is fast at such moduli; flint is fast at any modulus below 2**63.
+# has no library, is fast at such moduli; flint is fast at any modulus below 2**63.
 _BITS = 30
 
 
@@ -215,7 +229,7 @@ def polynomial_residues(p: Polynomial, ell: int) -> ModularPolynomial:
     return ModularPolynomial.from_coefficients([residue(c, ell) for c in p.coefficients], ell)
 
 
-# Matrices modulo word-size primes, with which every exact decision computes first.
+# Matrices modulo word-size primes.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,9 @@
-"""Polynomials in one variable over Q, and their forms."""
+"""Polynomials in one variable over Q, and their forms.
+
+A `Polynomial` is the tuple of its rational coefficients, constant term first.  It is immutable;
+flint computes products, divisions, greatest common divisors and factors over Q.
+`PolynomialForms` has its conversions to sympy and numpy, text, HTML and LaTeX.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +30,7 @@ from mcexact.exact.rational import (
     written,
 )
 
-# Forms of a rational polynomial: polynomials of sympy and numpy, text, HTML and LaTeX.
+# Conversions and display.
 
 
 class PolynomialForms:
@@ -198,7 +203,7 @@ class Polynomial(PolynomialForms):
 
     @cached_property
     def _integer(self) -> flint.fmpz_poly:
-        """The numerators for flint; shared, so never to be changed by anyone."""
+        """The numerators in flint's form; the object is shared, so nothing may change it."""
         return flint.fmpz_poly(list(self.numerators))
 
     @property

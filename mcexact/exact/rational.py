@@ -1,4 +1,11 @@
-"""Rational numbers: conversion, the grammar in which they are written, shortened texts."""
+"""Rational numbers: conversion, the grammar in which they are written, shortened texts.
+
+`as_fraction` converts an entry from Python, and `parse_rational` a text from a file: "1/3",
+"0.25" and "1e-3" are the rational numbers that they denote.  Floats are refused, since they are
+not what was meant.  `Limits` bounds the length of input.  Exact texts are written by
+`rational_text` and `written` (for certificates); the functions of the last part shorten numbers
+and polynomials for messages.
+"""
 
 from __future__ import annotations
 

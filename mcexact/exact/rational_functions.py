@@ -1,8 +1,14 @@
 """Rational functions of parameters, and matrices and polynomials of them.
 
-Polynomials in x whose coefficients are rational polynomials in several parameters, of flint.
+A `RationalFunction` is N/D in named parameters, in lowest terms, with the leading coefficient of
+D equal to 1, so that equal functions compare equal.  A `FunctionMatrix` has these as entries.
 
-They are elements of one ring, in which x is the last variable.
+For decisions about several parameters, `cleared` multiplies a matrix by the least common
+denominator of its entries.  The functions after it compute in one ring of flint, the polynomials
+over Q in the parameters and x, x being the last variable: characteristic polynomials by traces
+(Faddeev and Le Verrier), determinants by elimination without fractions (Bareiss), factors and
+resultants by flint.  For one parameter, `FunctionMatrix.reduced` leads to `PolynomialMatrix` and
+`exact.bivariate`.
 """
 
 from __future__ import annotations
@@ -413,7 +419,7 @@ class FunctionMatrix(MatrixDisplay):
     ----------
     rows : tuple of tuples of RationalFunction
     ncols : int
-        The number of columns, which no row tells where there is none.
+        The number of columns, also of a matrix without rows.
     """
 
     rows: tuple[tuple[RationalFunction, ...], ...]
@@ -495,7 +501,7 @@ class FunctionMatrix(MatrixDisplay):
         return PolynomialMatrix.from_polynomials(rows, ncols=self.ncols), common
 
 
-# Polynomials in x whose coefficients are rational polynomials in several parameters, of flint.
+# Polynomials over Q in the parameters and x, which is the last variable of their ring.
 
 Rows = list[list[Any]]
 """A matrix by its rows, whose entries are polynomials in the parameters."""
@@ -602,7 +608,7 @@ def factors(f: Any) -> list[Any]:
 
 
 def without(f: Any, g: Any) -> Any:
-    """f divided by g as often as it goes."""
+    """f divided by g as often as g divides it."""
     while True:
         quotient, rest = divmod(f, g)
         if rest != 0:

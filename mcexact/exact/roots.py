@@ -1,4 +1,19 @@
-"""Roots of polynomials: enclosures, time domains and stability regions."""
+"""Roots of polynomials: enclosures, time domains and stability regions.
+
+`root_discs` and `real_root_intervals` say where the roots are: flint proposes centers, and discs
+and intervals in short decimals are verified in rational arithmetic, each with exactly one root.
+They locate roots; whether all roots lie in a region is decided without them.
+
+`StabilityRegion` says where eigenvalues should lie: a half-plane Re λ < −R in continuous time, a
+disc |λ| < R in discrete time, and in continuous time also a least damping ratio and a largest
+modulus.  `contains_roots_of` decides exactly, by transforming the polynomial so that the region
+becomes a standard one:
+
+- `is_hurwitz`, Routh's array in integers, O(d²) operations for degree d;
+- `is_schur`, by the map of the disc to the half-plane, then `is_hurwitz`;
+- a damping ratio by `turned`, a polynomial with roots (1 ± i√c)λ, which is Hurwitz iff every λ
+  lies in the sector; `lifted` does the same to a matrix.
+"""
 
 from __future__ import annotations
 
@@ -268,7 +283,7 @@ def real_root_intervals(p: Polynomial) -> tuple[tuple[Fraction, Fraction], ...]:
     return tuple((re - radius, re + radius) for re, im, radius in exact if im == 0)
 
 
-# The sector of a damping ratio ζ, −Re λ > ζ|λ|, as the stability of other roots and matrices.
+# The sector of a damping ratio, −Re λ > ζ|λ|, reduced to the stability of a polynomial or matrix.
 
 
 def turned(p: Polynomial, zeta: Fraction) -> Polynomial:

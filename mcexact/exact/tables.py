@@ -1,8 +1,9 @@
 """Tables of integers, the numerators of matrices: all entries in flint, or those that are not 0.
 
-`DenseTable` and `SparseTable` answer the same questions.  `table_of_rows` and `table_of_cells`
-choose between them; operations of flint give dense tables, and a sparse one takes flint's form only
-when an algorithm asks for it.
+`DenseTable` and `SparseTable` have the same methods.  `table_of_rows`, `table_of_cells` and
+`suited` choose between them: a table is sparse if it has at least 2**11 cells of which at most an
+eighth are not 0.  Operations of flint give dense tables, and a sparse one takes flint's form only
+when an algorithm asks for it, up to 2**25 cells.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _SHARE = 8
 LARGEST_WRITTEN_OUT = 2**25
 """The cells of the largest sparse table that is written out with its zeros."""
 
-# A product of entries that are not 0 costs so many times as much as a product in flint.
+# The cost of a product of two entries in a sparse table, in products of entries in flint.
 _DEARER = 64
 
 

@@ -1,12 +1,19 @@
 """System files that consist of arrays: MATLAB, numpy, folders of .csv.
 
-Files of MATLAB, version 5, which ``save -v7`` and ``save -v6`` write.
+Each of the three kinds is read into `Parts`, its arrays by name, and `system_of` makes the system
+of them; `parts_of` and a writer for each kind lead back.  Arrays become exact by the rules of
+`Reading`: integers and texts are exact; a float needs a rounding, from the caller or the file,
+unless it is an integer.
 
-They are read here, and written by scipy, whose reader believes the types, sizes and shapes of a
-file: one wrong byte ends the interpreter, and 3 MB become 3 GB.  A file is a header and elements;
-an element has a type, a size and contents; and a variable is an element whose contents are
-elements: flags, shape, name and values.  Every type and size is compared with what the class and
-the shape of its variable allow, before numpy reads the values.
+Files of MATLAB, version 5, which ``save -v7`` and ``save -v6`` write, are read here and written
+by scipy.  scipy's reader believes the types, sizes and shapes of a file: one wrong byte ends the
+interpreter, and 3 MB become 3 GB.  A file is a header and elements; an element has a type, a size
+and contents; a variable is an element whose contents are elements: flags, shape, name and values.
+Every type and size is compared with what the class and the shape of its variable allow, before
+numpy reads the values.
+
+Archives of numpy, from ``numpy.savez``, are read without unpickling anything.  Folders of .csv
+files contain the numbers as typed, so they are exact in every case.
 """
 
 from __future__ import annotations
@@ -45,12 +52,12 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, split_by_sizes
 from mcexact.model.text import nearest, quoted, read_bytes, write_text
 
-# How a file is read: how much of it, and what some kinds of files leave open.
+# Options of readers: limits, rounding, and the sizes of channels.
 
 
 @dataclass(frozen=True)
 class Reading:
-    """What every reader of system files is told.
+    """The options of every reader of system files.
 
     Attributes
     ----------
@@ -223,7 +230,7 @@ def _require_finite(entries: Any, where: str) -> None:
 
 
 def _require_integers(value: Any, where: str) -> None:
-    """Refuse floats that are not integers, and those of which not every integer is one."""
+    """Refuse floats that are not integers, or so large that some integers are no floats."""
     import numpy as np
 
     entries = value.data if is_sparse_array(value) else value.ravel()
@@ -235,7 +242,7 @@ def _require_integers(value: Any, where: str) -> None:
 
 
 def integers_or_none(M: Matrix) -> Any:
-    """The matrix as an array of integers of 64 bits, or None if it is none."""
+    """The matrix as an array of integers of 64 bits; None if an entry is something else."""
     import numpy as np
 
     if M.denominator != 1 or any(abs(x) >= 2**63 for row in M.numerators for x in row):
@@ -245,12 +252,12 @@ def integers_or_none(M: Matrix) -> Any:
 
 
 def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool) -> Any:
-    """The matrix as an array of floats from which the rounding makes it again.
+    """The matrix as an array of floats from which the rounding restores it.
 
     Raises
     ------
     InputError
-        If there is none, and the nearest floats are not asked for.
+        If there is no such array, and the nearest floats are not asked for.
     """
     import numpy as np
 
@@ -274,7 +281,7 @@ def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool
     return floats
 
 
-# The parts of a system file that consists of arrays, and the system that they describe.
+# From the arrays of a file, by name, to a system, and back.
 
 ROUNDING = "rounding"
 """How the floats of a file are read where the caller does not say."""
@@ -286,7 +293,7 @@ NUMBERED = re.compile(r"([BC])_([1-9][0-9]{0,5})")
 
 @dataclass(frozen=True)
 class Parts:
-    """What a file of arrays has, by name.
+    """The contents of a file of arrays, by name.
 
     Attributes
     ----------
@@ -310,7 +317,7 @@ def require_known(names: Iterable[str], what: str) -> None:
     Raises
     ------
     InputError
-        If there is one; a misspelled part must not be left out.
+        If there is one; a misspelled part must not be ignored.
     """
     for name in names:
         if name not in KEYS and not NUMBERED.fullmatch(name):

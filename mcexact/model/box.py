@@ -1,4 +1,9 @@
-"""Boxes of plants: all plants whose entries are within radii of those of a nominal plant."""
+"""Boxes of plants: all plants whose entries are within radii of those of a nominal plant.
+
+A `Box` is a nominal plant with `Radii`.  There are three ways to make one: each radius a part of
+its entry (`relative`), radii of their own (`absolute`), or half a unit of the last digit of each
+decimal as typed (`as_typed`).  `member` draws a plant of the box.
+"""
 
 from __future__ import annotations
 
@@ -74,7 +79,7 @@ class Box(Shown):
 
     @classmethod
     def relative(cls, system: MultiChannelSystem, radius: Any) -> Box:
-        """The plants whose entries differ by at most so large a part of the moduli of the entries.
+        """The plants each of whose entries differs by at most a given part of its modulus.
 
         Zeros are certain.
 

@@ -1,4 +1,11 @@
-"""Controllers of agents, and their files."""
+"""Controllers of agents, and their files.
+
+A `Controller` has one `AgentProgram` for each agent: linear equations for its shared sub-state
+x_i, its private state z_i and its input u_i.  Each right side is a `LinearMap` of measured
+outputs, shared sub-states, the private state and the reference.  Whose signals a program uses is
+thus part of the data, and `require_fits` compares it with the neighbor graph.  The controller
+file holds these maps by the names of the agents, with exact numbers.
+"""
 
 from __future__ import annotations
 

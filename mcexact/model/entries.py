@@ -1,6 +1,13 @@
 """Matrix entries: from Python, from JSON, and with parameters.
 
-The grammar in which entries with parameters are written, such as "1/2 + 3*t^2".
+Matrices come from two sides.  From Python they are lists, arrays or sympy matrices (`as_matrix`,
+and `as_functions` with parameters).  From files they are rows, or a shape with a list of entries
+(`read_matrix`).  Both sides determine the shape first and convert entries later (`Table`,
+`Entries`), so that all shapes of a system are compared before the cost of conversion.  Numbers in
+files are exact as typed.  The writers `number_json`, `matrix_json` and `canonical_matrix_text`
+are here, too; the last one writes the form that digests and certificates use.
+
+Entries with parameters, such as "1/2 + 3*t^2", are texts in this grammar::
 
     sum     = ["-"] product {("+" | "-") product}
     product = power {("*" | "/") power}
@@ -9,8 +16,8 @@ The grammar in which entries with parameters are written, such as "1/2 + 3*t^2".
     number  = digits ["." digits]
 
 Blanks may stand between tokens.  A text that is a number as other system files have it, such as
-"-1/3" or "1e-3", is that number.  A text is read by the functions below and never evaluated by
-Python or sympy.
+"-1/3" or "1e-3", is that number.  The parser is here; no text is ever evaluated by Python or
+sympy.
 """
 
 from __future__ import annotations
@@ -92,7 +99,7 @@ def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
     where : str
         The place of the matrix, for messages.
     ncols : int, optional
-        The number of columns when there are no rows to tell it.
+        The number of columns of a value without rows.
 
     Raises
     ------
@@ -135,7 +142,7 @@ def as_table(value: Any, where: str, ncols: int | None = None) -> Table[Matrix]:
 def rows_and_width(
     value: Any, where: str, ncols: int | None = None
 ) -> tuple[list[tuple[Any, ...]], int]:
-    """The rows of a matrix-like value, and their length, which is given where there is no row.
+    """The rows of a matrix-like value, and their length, by its shape or `ncols` without rows.
 
     Raises
     ------
@@ -287,7 +294,7 @@ class Entries:
         Raises
         ------
         InputError
-            If it is no triple, or its position is outside or was there before.
+            If it is no triple, or its position is outside the shape or occurs twice.
         """
         r, c = self.shape
         seen: set[int] = set()
@@ -502,7 +509,7 @@ def sparse_matrix_text(M: Matrix, between: str = ",") -> str:
 
 @lru_cache(maxsize=16)
 def _template(size: int, between: str) -> str:
-    """The text into which so many integers are formatted."""
+    """The text into which this number of integers is formatted."""
     return between.join(["%d"] * size)
 
 
@@ -726,7 +733,7 @@ def as_functions(
         The place of the matrix, for messages.
     parameters : tuple of str
     ncols : int, optional
-        The number of columns when there are no rows to tell it.
+        The number of columns of a value without rows.
 
     Raises
     ------

@@ -1,4 +1,13 @@
-"""load_system and save_system: which kind of file some bytes are."""
+"""load_system and save_system: which kind of file some bytes are.
+
+`load_system`, `load_parametric_system` and `save_system` are the functions for users; `read_any`
+and `read_plant` read the bytes that `read_input` returns.  MATLAB files and archives are
+recognized by their first bytes, YAML by the end of the name; other texts are JSON.  A folder of
+.csv files is read as an archive, and archives are decompressed only up to the limit on the size
+of a file.  Files of other programs are refused with a hint how to save them.  The YAML reader
+accepts what JSON can express, and refuses anchors, tags and numbers that versions of YAML read
+differently.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +50,7 @@ from mcexact.model.text import (
     write_bytes,
 )
 
-# The members of a zip archive, no more of them than a file may have bytes.
+# Zip archives, decompressed up to the limit on the size of a file.
 
 
 def members(data: bytes, limits: Limits) -> dict[str, bytes]:
@@ -206,7 +215,7 @@ def _value(text: str, line: int) -> Any:
     return _CONSTANTS.get(text, text)
 
 
-# Which kind of file some bytes are, and the system in them.
+# Recognizing the kind of a file, and reading the system in it.
 
 GALLERY = "gallery:"
 _SUFFIXES = (".mat", ".npz", ".yaml", ".yml", ".csv")

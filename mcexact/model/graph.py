@@ -1,4 +1,9 @@
-"""The neighbor graph with its delays, and graphs of networkx."""
+"""The neighbor graph with its delays, and graphs of networkx.
+
+`NeighborGraph` is the directed graph of who receives whose messages, with an edge j → i if agent
+i receives messages of j; N_i always contains i.  Delays count steps and belong to edges.  Only
+directed graphs of networkx are converted, and edge weights are refused, since they would be lost.
+"""
 
 from __future__ import annotations
 

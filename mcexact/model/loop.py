@@ -1,4 +1,9 @@
-"""Closed loops of a plant, agents' states and messages under way, assembled in this file only."""
+"""Closed loops of a plant, agents' states and messages under way, assembled in this file only.
+
+`ClosedLoop` eliminates outputs and inputs and gives the matrix of the loop.  `LoopPencil` keeps
+y_j and u_j as signals, so that each entry of the plant and of the controller stands in one place
+of its matrix by itself: that is what uncertain entries need.
+"""
 
 from __future__ import annotations
 
@@ -195,7 +200,7 @@ class LoopPencil(ClosedLoop):
         plant : MultiChannelSystem
         controller : Controller
         one : int
-            What stands for 1 in identities: 0 with radii, as these are certain.
+            The entry for each 1 of an identity: 0 when the entries are radii, since a 1 is certain.
         """
         agents, m = controller.agents, self.given.m
         rows = [plant.A @ self.pick("x")]

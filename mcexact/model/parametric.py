@@ -1,4 +1,11 @@
-"""Multi-channel systems whose entries depend on parameters."""
+"""Multi-channel systems whose entries depend on parameters.
+
+A `ParametricSystem` has rational functions of named parameters as entries, and perhaps a range
+for each parameter.  `at` gives the system of numbers at one value of every parameter,
+`with_values` fixes some of them, and `along` puts them on a line or another curve.  `generic`
+takes drawn integers, whose answers nearly always are those of almost all values; that is no
+proof.
+"""
 
 from __future__ import annotations
 
@@ -171,12 +178,12 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
 
     @property
     def plant(self) -> ParametricSystem:
-        """This system; no construction is applied to systems with parameters."""
+        """This system, which was not constructed from another one."""
         return self
 
     @property
     def subject(self) -> tuple[Construction, ...]:
-        """The constructions that lead to this system, of which there is none."""
+        """The constructions that lead from the plant to this system: none."""
         return ()
 
     def at(self, values: Any) -> MultiChannelSystem:

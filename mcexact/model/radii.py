@@ -1,4 +1,9 @@
-"""Radii of uncertain entries: how far each entry of a system may be from the value given."""
+"""Radii of uncertain entries: how far each entry of a system may be from the value given.
+
+`Radii` holds one exact number, at least 0, for each entry of A, B_i and C_i; 0 means that the
+entry is certain.  `read_radii` reads the key ``uncertainty`` of a system file, which gives a
+common part, radii of their own, or the digits as typed.
+"""
 
 from __future__ import annotations
 
@@ -65,7 +70,7 @@ class Radii(Shown):
 
     @classmethod
     def relative(cls, A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], radius: Any) -> Radii:
-        """The radii that are so large a part of the moduli of the entries.
+        """The radii that are a given part of the moduli of the entries.
 
         Raises
         ------

@@ -1,4 +1,12 @@
-"""Conversion from and to python-control, and sampling."""
+"""Conversion from and to python-control, and sampling.
+
+A state-space system of python-control is one matrix of inputs and one of outputs in floats, so
+`from_statespace` needs to know which signals belong to which channel, and how floats become
+exact.  `to_statespace` converts a plant, a controller or a closed loop to floats.
+`local_controllers` makes one decentralized controller of matrices or systems of python-control,
+one for each channel.  `c2d` samples a plant whose inputs are held between samples; it rounds the
+matrix exponential to decimals, with a proved error.
+"""
 
 from __future__ import annotations
 
@@ -487,7 +495,7 @@ def _program(
     )
 
 
-# Plants in continuous time, sampled.
+# Sampling of plants in continuous time.
 
 DECIMALS = 12
 

@@ -1,4 +1,19 @@
-"""Multi-channel systems, their channels, and their forms."""
+"""Multi-channel systems, their channels, and their forms.
+
+`MultiChannelSystem` is the subject of the whole package: ẋ = A x + Σ B_i u_i, y_i = C_i x, or
+x(t+1) = …, with rational matrices and perhaps a neighbor graph and radii of entries.  It is
+immutable.  A plant comes from the user; a derived system also records its plant and the
+constructions that lead to it.
+
+`ByChannel` and `SystemForms` are what it has in common with `ParametricSystem`: sizes, channels
+by position or name, display, canonical JSON and its digest.  The digest identifies a plant in
+certificates; it does not depend on the form in which numbers are written, nor on ``name`` and
+``source``.
+
+`with_graph` and `with_links` combine a system with the graph of an argument: the first requires a
+graph, the second takes the graph without edges if there is none.  `from_stacked` makes a system
+of stacked matrices B = [B_1 … B_m] and C = [C_1; …; C_m].
+"""
 
 from __future__ import annotations
 
@@ -117,7 +132,7 @@ class ChannelMatrices(tuple[AnyMatrix, ...]):
         return shown.framed(shown.grid(["channel", ""], zip(self.names, self, strict=True)))
 
 
-# Channels by position and by name: what systems of numbers and of functions have in common.
+# What systems of numbers and systems with parameters have in common: sizes and channels.
 
 M = TypeVar("M", Matrix, FunctionMatrix)
 
@@ -395,7 +410,7 @@ class SystemForms(Shown):
         return known
 
     def digest_of_values(self: Any) -> str:
-        """Return the digest of the plant without radii, which controllers name as made for.
+        """Return the digest of the plant without radii, by which a controller names its plant.
 
         Examples
         --------
@@ -452,7 +467,7 @@ def _sentences(system: Any) -> Iterator[str]:
         yield f"Of the data, {system.uncertainty.explain()}."
 
 
-# Multi-channel systems, the subject of everything else in this package.
+# Multi-channel systems.
 
 Construction = Mapping[str, Any]
 # These constructions depend on the neighbor graph of the plant, or lead to systems without one.
@@ -799,7 +814,7 @@ def require_discrete(system: MultiChannelSystem) -> None:
 
 
 def as_plant(system: MultiChannelSystem) -> MultiChannelSystem:
-    """A derived system, as if it were a plant: it forgets what it was made from.
+    """Return a derived system as a plant, without the record of its constructions.
 
     It keeps the matrices, the time domain, the names of the channels and the neighbor graph.  A
     certificate about it contains these matrices, and names no construction.

@@ -1,4 +1,10 @@
-"""System files, with parameters or without: read, written, digest, template."""
+"""System files, with parameters or without: read, written, digest, template.
+
+The format is ``mcexact-system/1``.  Readers are strict: an unknown key, a wrong shape or a
+malformed number is an error that names its place.  Decimals are exact as typed.  `unread_plant`
+compares all shapes before any entry is read.  A file with the key ``parameters`` has texts in the
+grammar of `model.entries` where others have numbers.  `template` returns a file to start from.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,13 @@
-"""Strict JSON, its canonical form and digest, names of channels, atomic writing."""
+"""Strict JSON, its canonical form and digest, names of channels, atomic writing.
+
+- Names of channels: printable texts, no two of which look the same.
+- Reading: `parse` limits size and depth, refuses repeated keys, and keeps decimals as typed, so
+  that 0.1 is read as 1/10.  The functions ``expect_…`` check what stands at a place, and name the
+  place.
+- Writing: `canonical` gives equal text for equal data, and `sha256` its digest, by which
+  certificates refer to plants.
+- Files: `write_text` and `write_bytes` write a file completely or not at all.
+"""
 
 from __future__ import annotations
 

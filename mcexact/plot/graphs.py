@@ -1,4 +1,9 @@
-"""Directed graphs, and the gains of a controller as a matrix."""
+"""Directed graphs, and the gains of a controller as a matrix.
+
+`graph` draws up to 16 channels as circles with arrows; more channels, or crowded arrows, become a
+matrix with a cell for each edge.  `structure` draws the neighbor graph and the transfer graph
+beside each other.  `gains` draws every entry of a controller's programs as a colored cell.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +15,7 @@ from mcexact.errors import UsageError
 from mcexact.exact.matrix import to_float
 from mcexact.plot.canvas import GRAY, cut, empty_figure, one_axis, plain_label, several_axes
 
-# Directed graphs of channels: circles and arrows if there are few, otherwise a matrix.
+# Directed graphs of channels.
 
 MARKED, SENDERS, PLAIN, ADDED = "#d95f02", "#7570b3", "#e8e8e8", "#1f78b4"
 _EDGE, _FREE = "#555555", "#f4f4f4"

@@ -1,4 +1,9 @@
-"""Modes against a parameter, hypersurfaces, and uncertainty from both sides."""
+"""Modes against a parameter, hypersurfaces, and uncertainty from both sides.
+
+`parameter_modes` and `hypersurfaces` draw exact answers about one and two parameters; curves are
+computed in floating point.  `uncertainty` draws for one plant up to which radii a property is
+proved and from which on some plant lacks it; `uncertainty_shares` does so for many plants.
+"""
 
 from __future__ import annotations
 
@@ -174,14 +179,14 @@ def _roots(p: Sequence[Any], where: Any, scale: Any) -> Any:
     return found
 
 
-# How far data may be from their values: the proved part, where a plant fails, and both of many.
+# Uncertainty: the radii that are proved, and those at which some plant fails.
 
 _RANGE = 1e6
 """The largest uncertainty of a picture of several plants, as a multiple of the smallest."""
 
 
 def uncertainty(found: Any, ax: Any = None) -> Any:
-    """Draw up to which uncertainty a property is proved, and within which a plant lacks it.
+    """Draw the uncertainty up to which a property is proved, and that at which a plant lacks it.
 
     Parameters
     ----------
@@ -223,7 +228,7 @@ def uncertainty(found: Any, ax: Any = None) -> Any:
 
 
 def uncertainty_shares(found: Sequence[Any], ax: Any = None) -> Any:
-    """Draw of which share of plants a property is proved, and refuted, against the uncertainty.
+    """Draw the share of plants for which a property is proved, or fails, against the uncertainty.
 
     Parameters
     ----------
@@ -270,7 +275,7 @@ def uncertainty_shares(found: Sequence[Any], ax: Any = None) -> Any:
 
 
 def _plain_powers(axis: Any, between: tuple[float, ...] = (2.0, 5.0)) -> None:
-    """A logarithmic scale whose powers of ten are written out, with so many numbers between."""
+    """A logarithmic scale whose powers of ten are written out, with these multiples between."""
     from matplotlib.ticker import FuncFormatter, LogLocator
 
     axis.set_xscale("log")

@@ -1,4 +1,9 @@
-"""Trajectories over time, and the curves of a stable loop."""
+"""Trajectories over time, and the curves of a stable loop.
+
+`responses` and `decay` draw one simulated trajectory, beside proved bounds if there are some.
+`loop` draws eigenvalues, sensitivity, decay, and effort or step responses of a stable loop; these
+curves are computed in floating point and not certified.
+"""
 
 from __future__ import annotations
 
@@ -151,7 +156,7 @@ def decay(
     envelope: Bounds | None = None,
     errors: bool = False,
 ) -> Any:
-    """Draw the distance of the state from rest on a logarithmic axis, beside what is proved of it.
+    """Draw the distance of the state from rest on a logarithmic axis, with its proved bounds.
 
     Parameters
     ----------

@@ -1,9 +1,8 @@
 """Drawn graphs, and large sparse plants as engineers have them.
 
-Large sparse plants as engineers have them: power grids, platoons, consensus, and buildings.
-
-Each has a handful of entries in a row of A, whatever its size, and agents that act and measure at
-some places.  What is fixed is not known by construction.
+`drawn_graph` draws a neighbor graph, strongly connected or not.  `network_system` draws a plant of
+one of the kinds below.  Its matrix A has a handful of entries in each row, whatever its size, and
+its agents act and measure at some of the places.  Its fixed modes are not known by construction.
 
 =================  =================================================================================
 ``swing-grid``     swing equations on a mesh of transmission lines
@@ -116,7 +115,7 @@ def _ears(choices: Choices, heard: list[set[int]]) -> None:
         connected += ear
 
 
-# Large sparse plants as engineers have them: power grids, platoons, consensus, and buildings.
+# Large sparse plants: power grids, platoons, consensus, and buildings.
 
 Entries = dict[tuple[int, int], Fraction]
 Lines = list[tuple[int, int]]

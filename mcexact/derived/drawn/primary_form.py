@@ -1,12 +1,14 @@
 """Choices, and systems of Jordan chains from which others are drawn.
 
-Integer systems made of Jordan chains, with zones that some channels cannot control or observe.
+Choices come from a seed (`SeededChoices`) or from another source, such as a search for a simple
+counterexample.  `draw_ports` and `draw_chains` draw the parts of a system, `lay_out` assembles its
+matrices, and `finished` hides their structure by a change of basis.
 
 A *chain* of a monic p of degree d and length k is the block J_k(p), k companion matrices of p on
 the diagonal and identities above them: a Jordan chain for every root of p.  Its left eigenvectors
 live in its last block, its right eigenvectors in its first.  So a system of chains is controllable
 iff for every p the rows of B at the last blocks are independent over Q[x]/(p), and observable iff
-the columns of C at the first blocks are. Every pair (A, B) is similar to one of this form.
+the columns of C at the first blocks are.  Every pair (A, B) is similar to one of this form.
 
 A *zone* is 1, 2 or 3.  Blocks of a chain never step down in zone, so that A is block upper
 triangular in them::
@@ -368,7 +370,7 @@ def _scatter(
             row[choices.option(free)] = 1
 
 
-# The drawn parts of systems: polynomials, chains, inputs and outputs.
+# Drawn polynomials, chains, inputs and outputs.
 
 
 def irreducible(choices: Choices, degree: int) -> Coefficients:

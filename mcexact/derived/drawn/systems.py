@@ -1,4 +1,21 @@
-"""Drawn systems with prescribed fixed modes, indices and deficiency."""
+"""Drawn systems with prescribed fixed modes, indices and deficiency.
+
+Each function returns a `Drawn`: the system, and the properties that hold by construction.  No
+algorithm of this package computes them, so its answers can be compared with them.
+
+- `jointly_controllable_system`: jointly controllable and observable.
+- `uncontrollable_system`: a mode that no channel controls, or that no channel observes.
+- `sparse_system`: small sparse entries, and nothing is known.
+- `system_with_fixed_mode`, `incomplete_system`: not complete, with a fixed mode or a transfer
+  graph that is not strongly connected.
+- `system_with_indices`, `system_with_remnant`: prescribed controllability indices, and a
+  complementary subsystem with a known remnant polynomial.
+- `system_with_deficiency`: a plant over a neighbor graph for which the bound of Theorem 2 (or of
+  Remark 2) on shared dimensions is prescribed.
+
+Most are made of the chains of `primary_form`, which a change of basis then hides.  `drawn_system`
+makes one from a `Draw`: a seed and a few sizes, which determine it on every machine.
+"""
 
 from __future__ import annotations
 

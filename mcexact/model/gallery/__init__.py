@@ -1,10 +1,8 @@
 """Published and constructed systems by name.
 
-Published systems with their sources, some constructed systems, and answers known about them.
-
 Every file names its source, or says that it is constructed.  Decimals are exact as typed.  Plants
-with parameters are in the folder ``parametric``.
-``expected.json`` contains answers that two independent programs computed exactly.
+with parameters are in the folder ``parametric``.  ``expected.json`` contains answers that two
+independent programs computed exactly.
 """
 
 from __future__ import annotations
@@ -22,7 +20,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_parametric_system, read_system
 from mcexact.model.text import nearest
 
-# Published systems with their sources, some constructed systems, and answers known about them.
+# The files, read by name.
 
 _EXPECTED = "expected"
 _PARAMETRIC = "parametric"
@@ -128,7 +126,7 @@ def expected(name: str) -> dict[str, Any]:
     return answers[name]
 
 
-# The published plants by name, and a list of them with what each shows.
+# The function for users, and a list of the published plants with what each shows.
 
 _LONGEST = 24
 
