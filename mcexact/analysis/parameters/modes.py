@@ -393,7 +393,7 @@ class _Search:
         )
 
     def _draw(self, size: int) -> bool:
-        """Draw gains of this size; return whether all modes that they leave are generically fixed."""
+        """Draw gains of this size; whether all modes that they leave are generically fixed."""
         self.gains = [
             self.system.drawn_gains(lambda: self.rng.randint(-size, size)) for _ in range(3)
         ]
