@@ -1,11 +1,11 @@
 """Krylov sequences and blocks of states, which prove that no more is fixed.
 
 A shrunk subspace proves that a mode is fixed (`subspaces`); this module has the opposite proof.
-For gains modulo a prime and one channel, the recurrence of the sequence c A_Fᵏ b has a degree d, and at
-most n − d modes are fixed.  Generic gains reach n if no mode is fixed and the transfer graph is
-strongly connected (`best_sequences`).
+For gains modulo a prime and one channel, the recurrence of the sequence c A_Fᵏ b has a degree d,
+and at most n − d modes are fixed.  Generic gains reach n if no mode is fixed and the transfer graph
+is strongly connected (`best_sequences`).
 
-Where the graph is not, no single sequence reaches n.  So `state_blocks` splits the system into the
+If it is not, one sequence may stay below n although no mode is fixed.  So `state_blocks` splits the system into the
 strong components of the digraph with an arc b → a between two states if A_ab ≠ 0, or if a row a of
 some B_i and a column b of C_i are not 0.  Every closed loop is block triangular, and a channel acts
 within one block at most, so the blocks share no gain: the fixed modes of the system are those of
