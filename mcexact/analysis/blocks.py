@@ -5,12 +5,13 @@ For gains modulo a prime and one channel, the recurrence of the sequence c A_F�
 and at most n − d modes are fixed.  Generic gains reach n if no mode is fixed and the transfer graph
 is strongly connected (`best_sequences`).
 
-If it is not, one sequence may stay below n although no mode is fixed.  So `state_blocks` splits the system into the
-strong components of the digraph with an arc b → a between two states if A_ab ≠ 0, or if a row a of
-some B_i and a column b of C_i are not 0.  Every closed loop is block triangular, and a channel acts
-within one block at most, so the blocks share no gain: the fixed modes of the system are those of
-the blocks, and `bounded_blocks` has a sequence for each.  A block without fixed modes whose
-sequence is too short can be proved by two coprime polynomials in its place (`completed_blocks`).
+If it is not, one sequence may stay below n although no mode is fixed.  So `state_blocks` splits the
+system into the strong components of the digraph with an arc b → a between two states if A_ab ≠ 0,
+or if a row a of some B_i and a column b of C_i are not 0.  Every closed loop is block triangular,
+and a channel acts within one block at most, so the blocks share no gain: the fixed modes of the
+system are those of the blocks, and `bounded_blocks` has a sequence for each.  A block without fixed
+modes whose sequence is too short can be proved by two coprime polynomials in its place
+(`completed_blocks`).
 
 The same blocks prove how much channels control.  Modes that channels do not control are fixed,
 whatever the channels measure.  So the states that they measure can be chosen, and one of them can
