@@ -3,20 +3,24 @@
 Each function takes a `MultiChannelSystem`, a plant or one derived from it, and gives an answer,
 which is its own certificate.  No subset of channels is enumerated.  Decisions use arithmetic modulo
 word-size primes where this suffices for a proof, and arithmetic over Q for the contents of
-certificates.  Floating point only proposes integer solutions of covering programs, and Lyapunov
-matrices.
+certificates.  Floating point only proposes what is then verified exactly: integer solutions of
+covering programs, Lyapunov matrices, and proofs about boxes.
 
-===========================  ==============================================================
-`analyze`                    all questions about one system, each decided once
-`asking`                     which are asked, how long each takes, and what is left open
-`questions`                  the table of questions
-`parametric_analysis`        the questions that are decided for all values of parameters
-`exceptional_hypersurfaces`  what is fixed for several parameters, and where more is
-`accounts`                   least dimensions beside the bound, or links to add, in words
-`engine`                     the algorithms that several decisions use
-`structure`                  controllability, indices, transfer graph, set-points, subsystems
-`fixed_modes`                fixed modes, completeness, assignability, and gains
-`sharing`                    the least that agents must share
-`stability`                  the location of the eigenvalues of a closed loop
-===========================  ==============================================================
+=================  ============================================================================
+`covering`         covering integer programs with a proof of optimality
+`lyapunov`         Lyapunov matrices and quadratic forms
+`subspaces`        shrunk subspaces, which prove that a mode is fixed, and the search for them
+`sparse`           fixed modes, controllability and transfer graphs of large sparse systems
+`blocks`           Krylov sequences and blocks of states, which prove that no more is fixed
+`parameters`       the same questions for all values of parameters
+`controllability`  controllability, observability, their indices, and exceptional gains
+`structure`        transfer graph, complementary subsystems, and set-points
+`stability`        the location of the eigenvalues of a loop, and its rate
+`fixed_modes`      the fixed spectrum, completeness, assignability, and ranks of pencils
+`single_channel`   gains with which single channels control and observe
+`sharing`          the least that agents must share, and over which links
+`boxes`            all plants in a box, or within ranges of parameters
+`questions`        the table of questions
+`analyze`          all questions about one system, each decided once
+=================  ============================================================================
 """

@@ -1,4 +1,19 @@
-"""analyze: all questions about one system, each decided once within its limits."""
+"""analyze: all questions about one system, each decided once within its limits.
+
+`analyze` makes an `Analysis` of a plant, or a `ParametricAnalysis` of a plant with parameters, for
+all values of which the questions are decided.  Both are an `Asking`: the answer to a question is an
+attribute or an item, decided when it is first used and kept.  The table of questions
+(`questions`) says which function decides each, about which system, from which other answers, and
+whether it is asked by default; NP-hard and slow questions are asked only by name.
+
+Three things can prevent an answer.  A limit on work leaves a question open, and the other questions
+have answers.  With a timeout one child process decides the questions and sends each answer at once;
+it is ended when the time is over, and the questions that are left are open.  A question that would
+take very long on a system of this size is left out, with the reason, unless it is asked by name.
+
+`account` has the answers with their sentences and certificates.  `account_of_dimensions` and
+`account_of_links` make the same for `mcexact allocate`, without the other questions.
+"""
 
 from __future__ import annotations
 
@@ -51,12 +66,12 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.graphs import structure
 from mcexact.processes import Child
 
-# Questions asked of one system: each is decided once, when it is first used, within its limits.
+# Questions about one system, with their limits on time and work.
 
 
 @dataclass(frozen=True)
 class Effort:
-    """What became of a question: seconds that passed, and why it is open or left out."""
+    """The seconds that a question took, and why it is open or left out, if it is."""
 
     question: str
     outcome: str
@@ -147,15 +162,15 @@ class Asking(ShownByAccount):
         self._begin, self._keep = begin, keep
 
     def know(self, name: str, answer: Any, seconds: float = 0.0) -> None:
-        """Use an answer that was found elsewhere, about the same system, for a question.
+        """Set the answer to a question that was decided elsewhere, about the same system.
 
         Parameters
         ----------
         name : str
         answer : Answer or LimitReached
-            The limit that prevented an answer leaves the question open.
+            A limit that prevented the answer leaves the question open.
         seconds : float
-            What it took.
+            The time that the decision took.
 
         Raises
         ------
@@ -167,7 +182,7 @@ class Asking(ShownByAccount):
         self._asked.add(name)
 
     def leave_open(self, reason: str, names: Iterable[str] | None = None) -> None:
-        """Decide these questions no more, by default none of those that are not decided yet.
+        """Leave some questions open, by default all asked ones that are not decided yet.
 
         Parameters
         ----------
@@ -320,7 +335,7 @@ class Asking(ShownByAccount):
     def _decide_in_time(self, names: list[str]) -> None:
         """Decide questions in a child process, which is ended when the time is over.
 
-        What it has decided by then is known, and what it had not is open.
+        Questions that it has not decided by then are open.
         """
         began, left = time.monotonic(), self._left or 0.0
         if left > 0:
@@ -344,7 +359,7 @@ class Asking(ShownByAccount):
             child.end()
 
     def _listen(self, child: Child, end: float) -> None:
-        """Take what a child has decided, until it has all or the time is over."""
+        """Receive the answers of a child until it has decided all, or the time is over."""
         try:
             while child.connection.poll(max(0.0, end - time.monotonic())):
                 said, *rest = child.connection.recv()
@@ -384,7 +399,7 @@ class Asking(ShownByAccount):
         }
 
     def ended(self) -> dict[str, list[str]]:
-        """Return the questions on which the work was ended, by the reason of that."""
+        """Return the questions on which work was stopped, by the reason for it."""
         found: dict[str, list[str]] = {}
         for name in self.asked:
             if name in self._ended:
@@ -392,7 +407,7 @@ class Asking(ShownByAccount):
         return found
 
     def explain(self) -> str:
-        """Say in plain words what was found, and what a limit left undecided, one a line."""
+        """Say in plain words what is decided, and what a limit left open, one sentence a line."""
         return "\n".join([super().explain(), *self._undecided()])
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
@@ -471,7 +486,7 @@ class Asking(ShownByAccount):
         return {name: self._found[name] for name in self.asked}
 
 
-# All questions that are decided for all values of parameters, of one plant.
+# Questions for all values of parameters.
 
 _MOST = 10
 """The states of a plant with several parameters of which questions are asked by default."""
@@ -602,7 +617,7 @@ class ParametricAnalysis(Asking):
         return f"ParametricAnalysis(n={self.plant.n}, m={self.plant.m}, parameters: {named})"
 
 
-# `analyze` answers all questions about one system, each decided once and when it is first used.
+# Questions about a plant without parameters, and `analyze`.
 
 _MOST_STATES = 60
 """Plants within the radii that fail are searched for at most so many states: that takes seconds."""
@@ -715,7 +730,7 @@ class Analysis(Asking):
         return arguments, reused
 
     def _outcomes(self) -> dict[str, Any]:
-        """The same, with what the links that are there change about modes that are fixed."""
+        """The outcomes, with the change that the existing links make to the fixed modes."""
         found, graph = super()._outcomes(), self.plant.neighbors
         spectrum = found.get("fixed_spectrum")
         linked = self.information == "own" and graph is not None and graph.edges()
@@ -746,10 +761,10 @@ class Analysis(Asking):
         return Account(answers, given, said, self.plant.subject, sorted(open_), self.failing())
 
     def failing(self) -> dict[str, Answer]:
-        """Return exact answers about plants within the radii that lack what no proof was found for.
+        """Return exact answers about plants within the radii that lack an unproved property.
 
         Such a plant is searched for each question of `PROPERTIES` that was asked and is open, if
-        the system has at most 60 states.  What is not found proves nothing.
+        the system has at most 60 states.  If the search fails, this proves nothing.
         """
         system, asked = self.system, PROPERTIES.keys() & (self.open().keys() - self._ended)
         if system.subject or system.n > _MOST_STATES or self._left == 0:
@@ -853,8 +868,8 @@ def analyze(
     channel : str, optional
         The name of a channel, whose controllability and observability are asked about as well.
     timeout : float, optional
-        Seconds that deciding may take in all.  Then a process of its own decides, which is ended
-        when they are over: what it has decided stays, and the other questions are open, with this
+        Seconds that all decisions together may take.  A child process decides, and is ended when
+        they are over: answers that it has sent stay, and the other questions are open, with this
         limit as their reason in ``effort()``.
     progress : callable, optional
         It is called with a line of text before each question is decided, such as `print`.

@@ -1,15 +1,21 @@
 """Krylov sequences and blocks of states, which prove that no more is fixed.
 
-Blocks of states whose fixed modes are those of the system, and the proof that each has no more.
+A shrunk subspace proves that a mode is fixed (`subspaces`); this module has the opposite proof.
+For gains modulo a prime and one channel, the recurrence of the sequence c A_Fᵏ b has a degree d,
+and at most n − d modes are fixed.  Generic gains reach n if no mode is fixed and the transfer graph
+is strongly connected (`best_sequences`).
 
-A system splits into the strong components of the digraph with an arc b → a between two states if
-A_ab ≠ 0, or if a row a of some B_i and a column b of C_i are not 0.  Every closed loop is block
-triangular, and a channel acts within one block at most, so the blocks share no gain.
+If it is not, one sequence may stay below n although no mode is fixed.  So `state_blocks` splits the
+system into the strong components of the digraph with an arc b → a between two states if A_ab ≠ 0,
+or if a row a of some B_i and a column b of C_i are not 0.  Every closed loop is block triangular,
+and a channel acts within one block at most, so the blocks share no gain: the fixed modes of the
+system are those of the blocks, and `bounded_blocks` has a sequence for each.  A block without fixed
+modes whose sequence is too short can be proved by two coprime polynomials in its place
+(`completed_blocks`).
 
-Blocks that prove how much some channels control: what they control, feedback of them moves.
-
-Modes that channels do not control are fixed, whatever the channels measure.  So the states that
-they measure can be chosen, and one of them can measure everything.
+The same blocks prove how much channels control.  Modes that channels do not control are fixed,
+whatever the channels measure.  So the states that they measure can be chosen, and one of them can
+measure everything (`measured_system`).
 """
 
 from __future__ import annotations
@@ -34,7 +40,7 @@ from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.exact.modular import ModularPolynomial
 from mcexact.model.system import MultiChannelSystem
 
-# The proof that no more is fixed than what is known: one Krylov sequence of one channel.
+# One Krylov sequence of one channel, which bounds how many modes are fixed.
 
 MODULI = (19, 31, 2**19 - 1)
 """Small moduli make certificates that are quick to check; structured plants need larger ones.
@@ -140,7 +146,7 @@ def _evidence(
     )
 
 
-# Blocks of states whose fixed modes are those of the system, and the proof that each has no more.
+# Blocks of states, each with its sequence.
 
 # So many entries are compared with 0 by numpy: 0.1 ms at n = 200 in place of 2 ms.
 _LARGE = 2**14
@@ -327,7 +333,7 @@ def _longest_of_block(
 
 
 def modes_left(blocks: Sequence[Block]) -> int:
-    """How many modes the evidence leaves, with their multiplicities, that may be fixed."""
+    """How many modes may still be fixed, counted with multiplicity, by the evidence of blocks."""
     return sum(_left(block) for block in blocks)
 
 
@@ -357,9 +363,9 @@ def _completed(part: StateBlock, block: Block, denominator: int) -> Block:
 
 
 def free_blocks(system: MultiChannelSystem) -> tuple[Block, ...] | None:
-    """Blocks with the proof that no mode of any is fixed; None if it is not found.
+    """Blocks with a proof that no mode of any block is fixed; None if the search fails.
 
-    Where the whole system is one block, it is not found by two polynomials.
+    If the whole system is one block, only its sequence is tried, not two polynomials.
     """
     blocks = bounded_blocks(system)
     if modes_left(blocks) and len(blocks) > 1:
@@ -367,7 +373,7 @@ def free_blocks(system: MultiChannelSystem) -> tuple[Block, ...] | None:
     return None if modes_left(blocks) else blocks
 
 
-# Blocks that prove how much some channels control: what they control, feedback of them moves.
+# Blocks of channels that measure states, which prove how much these channels control.
 
 Measured = tuple[tuple[int, ...], ...]
 """The states that each channel measures."""
@@ -406,7 +412,7 @@ def measured_system(
 
 
 def measured_blocks(part: MultiChannelSystem) -> tuple[Block, ...]:
-    """Blocks of a system of `measured_system`, which leave n − d modes if enough is found."""
+    """Blocks of a system of `measured_system`; with long sequences they leave just n − d modes."""
     names = [c.name for c in part.channels if not c.B.is_zero()]
     return bounded_blocks(part, (names or part.names)[0])
 
@@ -424,7 +430,7 @@ def _picking(states: Sequence[int], n: int) -> Matrix:
 
 
 def transposed_blocks(blocks: Sequence[Block]) -> tuple[Block, ...]:
-    """The same evidence about the dual system: c Mᵏ b = b' M'ᵏ c', and arcs turn round."""
+    """The same evidence about the dual system: c Mᵏ b = b' M'ᵏ c', and arcs are reversed."""
     return tuple(Block(block.states, _transposed(block.evidence)) for block in reversed(blocks))
 
 

@@ -1,4 +1,21 @@
-"""Controllability, observability, their indices, and exceptional gains."""
+"""Controllability, observability, their indices, and exceptional gains.
+
+`joint_controllability` decides whether the channels T control (A, B_T), and which modes they do not
+control.  A rank modulo a prime bounds the controllable dimension from below, an annihilator W over
+Q, WA = ZW and WB_T = 0, from above.  Small systems are decided by that rank.  For large ones blocks
+of states (`blocks`) are tried first, O(n³): those with the outputs of the system, if all channels
+are asked about; else, and if these leave modes, the channels measure states, because the modes that
+they do not control are fixed whatever they measure.
+
+`controllability_indices` has the ranks of [B … A^{k−1}B]: modulo a prime from below, and by one
+matrix W, the first n − r_k rows of which annihilate the first k blocks, from above.
+
+Observability is controllability of the dual system.  With one parameter in the plant, both are
+decided for all its values (`parameters`).
+
+`exceptional_gains` is Lemma 3 of the paper: the values of g at which (M + gA, B) loses
+controllability or its index, as roots of an exact polynomial.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +67,7 @@ from mcexact.model.entries import as_matrix, require_shape
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
-# Controllability and observability of all channels together, or of some.
+# Controllability and observability of channels together.
 
 # Up to this size a rank modulo a prime is the shorter evidence, and quick to check.
 _SMALL = 128
@@ -119,7 +136,7 @@ def _decided(
     channels: Iterable[str] | None,
     own: Callable[[], tuple[Block, ...]],
 ) -> JointControllability:
-    """Decide it with the blocks that all channels have with their own outputs, if they serve."""
+    """Decide controllability by rank if small, else by blocks, of which ``own`` are tried first."""
     T = range(system.m) if channels is None else system.indices(channels)
     if system.n <= _SMALL:
         return _by_rank(system, T)
@@ -132,7 +149,7 @@ def _decided(
 
 
 def _by_measuring(system: MultiChannelSystem, T: Sequence[int]) -> JointControllability | None:
-    """Decide it by blocks of T that measures states; None if their sequences are too short."""
+    """Decide it by blocks, with channels T that measure states; None if sequences are too short."""
     if not T:
         return None
     part, measured = measured_system(system, T)
@@ -163,7 +180,7 @@ def _annihilator(system: MultiChannelSystem, T: Sequence[int]) -> tuple[Matrix, 
 
 
 def _own(system: MultiChannelSystem, spectrum: FixedSpectrum | None) -> tuple[Block, ...]:
-    """Blocks that leave no mode, if they are found; those of the fixed spectrum if it is known."""
+    """Blocks with the system's own outputs; those of the fixed spectrum, if it is known."""
     blocks = free_blocks(system) if spectrum is None else None
     if spectrum is not None and isinstance(spectrum.evidence, FixedByBlocks):
         blocks = spectrum.evidence.blocks
@@ -427,7 +444,7 @@ def _indices(
     )
 
 
-# Lemma 3: the values of g for which (M + gA, B) loses controllability or its index.
+# Exceptional gains of Lemma 3.
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,11 @@ The program is
 
     minimize Σ c_i x_i  subject to  Σ_{i ∈ S_k} x_i ≥ d_k for every cut k, 0 ≤ x_i ≤ u_i, x integer,
 
-with positive rational costs.  HiGHS searches in floating point, and its results are only proposals:
-values are checked as integers, and a tree of rational multipliers, verified here and again by the
-checker, proves that no point is cheaper.
+with positive rational costs.  HiGHS searches in floating point, and its results are only proposals.
+`minimize` returns an optimal point, whose values are checked as integers against every cut.  That
+no point is cheaper is proved by `branch_tree`: each leaf is a box of points with rational
+multipliers of the cuts, which bound the cost from below by weak duality; they are verified here and
+again by the checker.  The problem is NP-hard, so the tree has a limit of nodes.
 """
 
 from __future__ import annotations

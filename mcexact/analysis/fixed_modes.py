@@ -1,4 +1,23 @@
-"""The fixed spectrum, completeness, assignability, and ranks of pencils."""
+"""The fixed spectrum, completeness, assignability, and ranks of pencils.
+
+A mode is fixed if no decentralized feedback u_i = F_i y_i moves it, that is if the pencil P_s(λ) =
+[λI − A, B_{m−s}; C_s, 0] of some set s of channels has rank below n.  There are 2^m such sets; none
+is enumerated.
+
+`fixed_spectrum` tries, in this order:
+
+1. Blocks of states, each with a Krylov sequence of drawn gains (`blocks`).  These bound how many
+   modes are fixed; without fixed modes they nearly always suffice, and this takes O(n³).
+2. For large sparse systems, shrunk subspaces by sparse products (`sparse`), if the blocks leave
+   few modes.
+3. The dense search (`subspaces`): all fixed factors of χ_A, each with a shrunk subspace that proves
+   it fixed.  That no other mode is fixed is proved by the blocks, or by gains F and a prime modulo
+   which χ_{A_F} is coprime to the rest of χ_A; this also serves modes fixed by Jordan chains.
+
+`completeness` adds that the transfer graph is strongly connected, `assignability` gives the degrees
+into which the assignable spectrum splits over its strong components, and `pencil_rank` decides one
+set s and one mode.  All answers are exact.
+"""
 
 from __future__ import annotations
 
@@ -68,13 +87,13 @@ from mcexact.exact.roots import StabilityRegion, Time
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
-# The fixed spectrum: the modes that no linear time-invariant decentralized feedback moves.
+# The fixed spectrum.
 
 # Up to this size dense matrices are searched, which finds Jordan chains as well.
 _DENSE = 500
 # Blocks of so many states are decided densely, one after the other.
 _SMALL_BLOCK = 500
-# The subspaces of more fixed modes are not looked for by sparse products.
+# If more modes may be fixed, sparse products do not search for their subspaces.
 _MOST_MODES = 64
 
 
@@ -165,7 +184,7 @@ def _is_large_and_sparse(system: MultiChannelSystem) -> bool:
 def _with_small_blocks_completed(
     system: MultiChannelSystem, blocks: tuple[Block, ...]
 ) -> tuple[Block, ...]:
-    """The same blocks with two polynomials where no mode is fixed, if they are small."""
+    """The blocks; if they are small, those without fixed modes get two polynomials as proof."""
     short = [block for block in blocks if modes_left([block])]
     if len(blocks) < 2 or max(len(block.states) for block in short) > _SMALL_BLOCK:
         return blocks
@@ -175,7 +194,7 @@ def _with_small_blocks_completed(
 def _by_sparse_search(
     system: MultiChannelSystem, blocks: tuple[Block, ...]
 ) -> FixedSpectrum | None:
-    """The fixed spectrum by products with sparse matrices, without χ_A; None if it is not found."""
+    """The fixed spectrum by products with sparse matrices, without χ_A; None if that fails."""
     if modes_left(blocks) > _MOST_MODES:
         return None
     try:
@@ -226,7 +245,7 @@ def _by_blocks(
     decision: Decision,
     subspaces: tuple[ShrunkSubspace, ...],
 ) -> ByBlocks | None:
-    """The proof by blocks, if they leave no more than the factors with the ranks that they lose."""
+    """The proof by blocks, if they leave just as many modes as the fixed factors account for."""
     found = decision.obstructions
     fixed = sum(o.polynomial.degree * o.subspace.deficiency for o in found)
     if modes_left(blocks) > fixed and len(blocks) > 1:
@@ -293,7 +312,7 @@ def _completion(decision: Decision, rng: random.Random) -> Completion:
             return Completion(lifted(B0), lifted(C0))
 
 
-# Completeness: a strongly connected transfer graph and no fixed mode.
+# Completeness.
 
 Freedom = ByBlocks | tuple[Matrix, ...]
 """The proof that no mode is fixed: by blocks, or gains that move every mode."""
@@ -400,7 +419,7 @@ def _freedom(
 ) -> Iterator[tuple[ModularSystem, Freedom]]:
     """Yield systems modulo primes for the edges, each with a proof that nothing is fixed.
 
-    Gains are proved to move every mode modulo the prime of their own.
+    That gains move every mode may be proved modulo another prime than the edges.
     """
     if isinstance(spectrum.evidence, ByBlocks):
         for modular in residue_systems(system, rng):
@@ -448,7 +467,7 @@ def _connecting_edges(m: int, edges: set[Edge]) -> set[Edge]:
     return set(_reached(m, 0, edges)) | {(j, i) for i, j in backwards}
 
 
-# Free assignability of the spectrum, or its partition over the strong components.
+# Assignability of the spectrum, over the strong components of the transfer graph.
 
 
 def assignability(
@@ -520,7 +539,7 @@ def _modulus(system: MultiChannelSystem, parts: list[tuple[int, Matrix, Matrix, 
     raise InternalError("the stream of primes is endless")
 
 
-# The rank of the pencil P_s(λ) for a set of channels and a mode.
+# The rank of one pencil P_s(λ).
 
 
 def pencil(system: MultiChannelSystem, s: Iterable[int]) -> tuple[Matrix, Matrix]:

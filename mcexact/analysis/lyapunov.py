@@ -1,13 +1,22 @@
 """Lyapunov matrices and quadratic forms, proposed in floating point, verified exactly.
 
-Lyapunov matrices, proposed in floating point, and refined and verified exactly.
-
 For a square rational D and a rate b the derivative of xᵀPx along x' = (D + b)x is −xᵀSx with
 
     S = −(DᵀP + PD + 2bP),          in discrete time, radius r:   S = r²P − DᵀPD.
 
-A symmetric matrix is positive definite if RᵀPR is strictly diagonally dominant with a positive
-diagonal for some square R.  All computations use coordinates that are balanced by powers of 2.
+With P and S positive definite every eigenvalue of D lies in the region; with S positive definite
+and a v ≠ 0 for which vᵀPv ≤ 0, some eigenvalue does not.  A symmetric matrix is proved to be
+positive definite by a square R for which RᵀPR is strictly diagonally dominant with a positive
+diagonal, which is quick to check.
+
+`quadratic_form` searches P: floating point solves the equation for S near the identity, and the
+exact residual is solved for corrections until S is dominant, with O(k³) operations on floats and
+short integers.  For D far from normal, where that fails, `doubled_lyapunov` solves the equation by
+Smith's doubling in fixed-point integers, to any precision.  All computations use coordinates that
+are balanced by powers of 2.  None means that the search was inconclusive, as it is for eigenvalues
+very near the border.
+
+`separated_instability` assembles a form for a whole loop from forms of its diagonal blocks.
 """
 
 from __future__ import annotations
@@ -36,7 +45,7 @@ if TYPE_CHECKING:
     Floats = npt.NDArray[np.float64]
 
 
-# Lyapunov equations to any precision, by Smith's doubling in fixed-point integers.
+# Smith's doubling in fixed-point integers.
 
 _BITS = 320
 _DOUBLINGS = 40
@@ -60,9 +69,10 @@ def doubled_lyapunov(D: Matrix, region: StabilityRegion) -> Matrix | None:
 
     Notes
     -----
-    The result is a proposal for D far from normal, with 320 bits after the point.  P =
-    Σ (Nᵀ)ʲ Q Nʲ by squaring N: N = D/r and Q = I/r², or by Cayley's transformation with W = (pI − D
-    − bI)⁻¹, N = (pI + D + bI) W and Q = 2p WᵀW.  Each step is a few products of k × k matrices.
+    The result is a proposal for D far from normal, with 320 bits after the point.  The series
+    P = Σ (Nᵀ)ʲ Q Nʲ is summed by squaring N.  In discrete time N = D/r and Q = I/r²; in continuous
+    time Cayley's transformation gives W = (pI − D − bI)⁻¹, N = (pI + D + bI) W and Q = 2p WᵀW.
+    Each step is a few products of k × k matrices.
 
     Examples
     --------
@@ -151,7 +161,7 @@ def _inverse(M: Matrix) -> Matrix | None:
     return X
 
 
-# Lyapunov matrices, proposed in floating point, and refined and verified exactly.
+# Floating-point proposals, refined and verified exactly.
 
 _FACTOR_BITS = (26, 52)
 _REFINEMENTS = 4
@@ -400,7 +410,7 @@ def _negative_direction(P: Matrix) -> Matrix | None:
     return v if (v.T @ (P @ v))[0, 0] <= 0 else None
 
 
-# A quadratic form that proves instability, assembled from forms for diagonal blocks of a loop.
+# Instability of a loop, from forms for its diagonal blocks.
 
 _SCALES = (8, 24, 48, 96)
 

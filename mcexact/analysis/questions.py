@@ -23,9 +23,10 @@ class Question:
     help : str
         A clause that says what is decided.
     about : {"system", "plant", "linked", "lifted", "held"}
-        The plant; the system of the agents, which is the plant or the plant with the outputs that
-        they receive; the latter in any case; or the plant with sub-states shared over links with
-        delays.
+        What is asked about.  "plant" is the plant, "linked" the plant with the outputs that agents
+        receive over the graph, and "system" the one or the other, as the caller chooses what agents
+        feed back.  "lifted" and "held" are the plant with sub-states shared over links with delays,
+        "held" with sub-states that are shared alone, and held for the delays.
     needs : {"", "neighbors", "uncertainty", "subset", "channel", "channels"}
         What the question needs: a neighbor graph, radii of entries, a set of channels or a channel.
         The last three values name the function's second argument; ``channels`` is a list of one
@@ -39,13 +40,15 @@ class Question:
         If not empty, it is asked by default only if n² ≤ 10⁴ and n³ ≤ 2·10⁶ times the number of
         these, since the evidence is a Krylov sequence, which is longer with fewer of them.
     most : int
-        If not 0, it is asked by default only of so many states: one minute on one processor.
+        If not 0, it is asked by default only of at most so many states, which take about a minute
+        on one processor.
     given : mapping
         Further keyword arguments of the function.
     reuses : mapping
         Keyword arguments that take the answer to another question about the same system.
     shares : mapping
-        The same, where the other question is asked as well; the answer does not depend on it.
+        Keyword arguments that take the answer to another question only if that is asked as well:
+        they save work, and the answer does not depend on them.
     kind : str
         The kind of the certificate, if it is not the name of the question.
     dual : bool
@@ -76,11 +79,11 @@ class Question:
 
     @property
     def function(self) -> str:
-        """The name of that function."""
+        """The name of the function that decides it."""
         return self.home.partition(":")[2]
 
     def decide(self, *arguments: Any, **keywords: Any) -> Any:
-        """Call that function."""
+        """Call the function that decides it."""
         module = importlib.import_module(f"mcexact.analysis.{self.module}")
         return getattr(module, self.function)(*arguments, **self.given, **keywords)
 

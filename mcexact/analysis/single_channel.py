@@ -1,9 +1,18 @@
 """Gains with which single channels control and observe.
 
-A search for decentralized gains with which single channels control and observe a system.
+`single_channel_gains` decides whether decentralized gains F exist with which (A_F, B_q) is
+controllable and (C_q, A_F) observable for one channel q, or for all with the same F.  If some gains
+do, then all outside of a proper algebraic set do (Corfmat and Morse 1976).  So uniform residues
+modulo a prime show which answer to prove:
 
-The search draws small gains and tests ranks modulo a prime.  A rank over Q is at least the rank
-modulo a prime: accepted gains are proved; finding none proves nothing.
+- yes: small gains are drawn until ranks modulo a prime accept them.  A rank over Q is at least the
+  rank modulo a prime, so accepted gains are proved; O(n³) word operations for each channel.
+- no: a shrunk subspace that contains q in its T, or a zero transfer, is the obstruction.
+
+`error_gains` is Proposition 1 of the paper: gains with which every agent alone controls and
+observes the estimation errors, decided on the error system.  `reaching_gains` is the bare search,
+for callers with draws and limits of their own, such as `error_gain_draws`; that it yields nothing
+proves nothing.
 """
 
 from __future__ import annotations
@@ -38,7 +47,7 @@ from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 
-# A search for decentralized gains with which single channels control and observe a system.
+# The search by drawn gains.
 
 Draw = Callable[[int, Random], tuple[Matrix, ...]]
 """A function that makes the gains F_i of a trial from its number and a source of choices."""
@@ -251,7 +260,7 @@ def _signed_permutation(rng: Random, n: int) -> Matrix:
     return Matrix.from_integers(rows, ncols=n)
 
 
-# Decentralized gains with which single channels control and observe a system.
+# Existence, with gains or an obstruction as proof.
 
 SIDES = {
     "controllable": ("controllable",),
@@ -547,7 +556,7 @@ def _unreached_row(A: Matrix, B: Matrix, blocks: int, ell: int) -> Matrix | None
     return w if (w @ whole).is_zero() else None
 
 
-# Proposition 1: gains with which each agent alone controls and observes the estimation errors.
+# Proposition 1: the error system.
 
 
 @dataclass(frozen=True)

@@ -1,26 +1,26 @@
-"""The same for large sparse systems, by products modulo primes.
+"""Fixed modes, controllability and transfer graphs of large sparse systems.
 
-Fixed factors of large sparse systems with shrunk subspaces, by products with sparse matrices.
+The dense algorithms take O(n³) operations and memory for n² entries.  Here a closed loop A_F is a
+sparse matrix, used only in products with vectors modulo primes, which are exact in floating point.
 
-With N = μI − A_F, m = (x − μ) g the minimal polynomial of A_F modulo a prime, and g(μ) ≠ 0,
+Fixed factors with shrunk subspaces (`fixed_subspaces`).  With N = μI − A_F, m = (x − μ) g the
+minimal polynomial of A_F modulo a prime, and g(μ) ≠ 0,
 
     ker N = im g(A_F),      N x = b has the solution x = q(A_F) b / g(μ) or none,
 
 where (x − μ) q = g − g(μ).  So the Wong sequence of `shrunk_subspace` takes n products with A_F for
 each vector.  Its limit has a basis of few entries where the obstruction is local; it is lifted to
-the rational numbers from residues modulo one prime, or several.
+the rational numbers from residues modulo one prime, or several.  Every factor is proved to be
+fixed; that these are all is proved elsewhere, by `blocks`.
 
-What channels of a large sparse system do not control, by products with sparse matrices.
+Uncontrollable modes (`annihilator`).  Let h be the common divisor of the minimal polynomials of two
+closed loops whose feedback moves all that the channels control, and m = h g that of A_F, g coprime
+to h.  Then the rows of g(A_F) span the annihilator W of what they control.
 
-Let h be the common divisor of the minimal polynomials of two closed loops whose feedback moves all
-that the channels control, and m = h g that of A_F, g coprime to h.  Then the rows of g(A_F) span
-the annihilator W of what they control.
-
-The transfer graph of large sparse systems, by products with sparse matrices modulo a prime.
-
-Where no path leads from the inputs of a channel to the outputs of another, no transfer does, and
-the structure of the matrices is the evidence.  Where one does, a Markov parameter that is not 0
-modulo a prime is an edge; all columns of A^k B are computed at once, for one k after the other.
+The transfer graph (`reachable_pairs`, `sparse_powers`).  Where no path leads from the inputs of a
+channel to the outputs of another, no transfer does, and the structure of the matrices is the
+evidence.  Where one does, a Markov parameter that is not 0 modulo a prime is an edge; all columns
+of A^k B are computed at once, for one k after the other.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     Integers = npt.NDArray[np.int64]
 
 
-# Closed loops of sparse systems modulo primes, with their minimal polynomials.
+# Closed loops modulo primes, with their minimal polynomials.
 
 # Each column has n entries in the certificate, and takes n products with A_F.
 MOST_COLUMNS = 256
@@ -108,7 +108,7 @@ def drawn_loop(system: MultiChannelSystem, ell: int, rng: random.Random) -> Draw
     return DrawnLoop(parts, powers, powers.minimal_polynomial(rng))
 
 
-# Fixed factors of large sparse systems with shrunk subspaces, by products with sparse matrices.
+# Fixed factors with shrunk subspaces.
 
 # One of n! primes splits a polynomial of degree n, mostly.
 _MOST_DEGREE = 6
@@ -318,11 +318,11 @@ def _solution(B: Matrix, right: Matrix) -> Matrix | None:
     return found if found is not None and (B @ found - right).is_zero() else None
 
 
-# What channels of a large sparse system do not control, by products with sparse matrices.
+# Annihilators of what channels control.
 
 
 def annihilator(system: MultiChannelSystem, size: int) -> tuple[Matrix, tuple[int, ...]] | None:
-    """The W of so many rows with WA = ZW and WB = 0, B all inputs, if it is found.
+    """The W of ``size`` rows with WA = ZW and WB = 0, B all inputs; None if the search fails.
 
     Parameters
     ----------
@@ -381,7 +381,7 @@ def _annihilates(system: MultiChannelSystem, W: Matrix, pivots: tuple[int, ...])
     return stays and (W @ system.input_matrix()).is_zero()
 
 
-# The transfer graph of large sparse systems, by products with sparse matrices modulo a prime.
+# Transfer graphs.
 
 # Modulo small primes the checker adds up whole rows as long integers, a byte for each column.
 _MODULI = (31, 61, 53)
@@ -492,7 +492,7 @@ def sparse_powers(
 
 
 def _observed(loop: SparseLoop) -> Callable[[Any], Flags]:
-    """A function that tells for A^k B which channels j act (rows) on which channels i (columns)."""
+    """A function of A^k B: which channels j (rows) act on which channels i (columns)."""
     import numpy as np
 
     C = loop.C.astype(np.float32)

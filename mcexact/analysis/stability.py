@@ -1,4 +1,19 @@
-"""The location of the eigenvalues of a loop, and its rate."""
+"""The location of the eigenvalues of a loop, and its rate.
+
+`certify_stability` decides exactly whether every eigenvalue lies in a region, by two methods:
+
+- The characteristic polynomial, with a Routh or Schur–Cohn test: always conclusive, and the default
+  for small loops.
+- Lyapunov matrices (`lyapunov`): the default for large loops, and for loops with a known block
+  triangular form (`Separation`), which are certified block by block.  Near the border of the region
+  floating point may propose no matrix that holds; then the polynomial decides, unless the method
+  was prescribed.
+
+`fastest_region` bisects for the largest rate, or the least radius, that a loop meets.  `located`
+and `best_rate` enclose the roots of polynomials in discs, and the best rate that these allow, to
+ten significant digits; `closed_loop_spectrum`, `eigenvalue_outside` and `open_loop_spectrum` apply
+this to a matrix.  They are meant for small loops.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +55,7 @@ from mcexact.exact.roots import (
 from mcexact.model.entries import as_matrix
 from mcexact.model.system import MultiChannelSystem
 
-# Whether a closed loop is stable or fast enough, decided exactly, both answers certified.
+# Stability and rates, both answers certified.
 
 Method = Literal["polynomial", "lyapunov"]
 
@@ -321,7 +336,7 @@ def fastest_region(
     return StabilityRegion(loop.time, holds) if holds else None
 
 
-# The best decay rate that some modes allow, enclosed to ten significant digits.
+# Enclosures of roots, and the best rate that they allow.
 
 # The width of an enclosure relative to its ends is at most this.
 _RELATIVE_WIDTH = Fraction(1, 10**10)
@@ -450,7 +465,7 @@ def _root(re: Fraction, im: Fraction, digits: int) -> tuple[Fraction, Fraction]:
     return Fraction(below, scale), Fraction(above, scale)
 
 
-# The spectrum of a matrix, with every eigenvalue enclosed, and the resulting rate.
+# Spectra of matrices.
 
 _MODULUS_BITS = 61
 _AT_ONCE = 16

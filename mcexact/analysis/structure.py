@@ -1,4 +1,19 @@
-"""Transfer graph, complementary subsystems, and set-points."""
+"""Transfer graph, complementary subsystems, and set-points.
+
+`transfer_graph` decides for each pair of channels whether u_j affects y_i.  An edge is proved by a
+Markov parameter C_i A^k B_j that is not 0 modulo a prime; the absence of one by an invariant
+subspace that contains im B_j and lies in ker C_i.  Large sparse systems are first searched for
+paths in the structure of their matrices (`sparse`): if every path carries an edge, no subspace is
+needed.  One value of the transfer matrix modulo a prime shows which edges to look for, so the graph
+takes O(n³) word operations, and O(n² p) for each power.
+
+`complementary_subsystem` brings the pencil of a set of channels to a block form, from which its
+normal rank, its invariant zeros and the remnant polynomial follow.
+
+`setpoint_solvability` decides whether all outputs can be held at any set-points (section III of
+the paper): the rank of [A, B; C, 0], in discrete time with A − I.  A rank modulo a prime proves
+yes, an annihilating matrix no.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +61,7 @@ from mcexact.exact.roots import steady_point
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
-# The transfer graph modulo a prime, and subspaces that prove the absence of edges.
+# Edges of the transfer graph modulo a prime.
 
 Edge = tuple[int, int]
 
@@ -145,7 +160,7 @@ def strong_components(m: int, edges: Sequence[Edge]) -> tuple[tuple[int, ...], .
     return tuple(sorted(tuple(sorted(c)) for c in networkx.strongly_connected_components(graph)))
 
 
-# The transfer graph, in which an edge j → i means that u_j affects y_i.
+# The transfer graph.
 
 
 @overload
@@ -254,7 +269,7 @@ def _graph_answer(
     )
 
 
-# Complementary subsystems: normal rank, invariant zeros, remnant polynomial.
+# Complementary subsystems.
 
 
 @dataclass(frozen=True)
@@ -449,7 +464,7 @@ def _result(
     )
 
 
-# Whether every output can be held at any set-point; section III of the paper.
+# Set-points.
 
 _POINTS = 8
 _MINORS = 3

@@ -1,12 +1,20 @@
 """Shrunk subspaces, which prove that a mode is fixed, and the search for them.
 
-Shrunk subspaces, which prove that a mode is fixed, from Wong sequences modulo a prime.
-
 A set T of channels and U, V over K = Q[x]/(p) with
 
     (xI − A) U = B_T V,   C_i U = 0 for every i outside T,   U has more columns than rank B_T
 
 prove that every root of p is fixed: for every F, λI − A_F maps im U into the smaller im B_T.
+
+- `obstruction_modulo` decides one point μ modulo a prime: gains are repaired until μI − A_F has the
+  greatest rank.  It then is nonsingular, so μ is not fixed, or the limit of a Wong sequence, one
+  reduction of [N, B] with N = μI − A_F, is the least T.  No subset of channels is enumerated.
+- `shrunk_subspace` takes T from a root of p modulo a prime, and computes the subspace over K, which
+  is itself the proof.
+- `decide` finds all fixed factors: for drawn gains the common divisor of χ_A and χ_{A_F} modulo
+  primes is lifted to Q and factored, and each factor has a shrunk subspace or is dropped.  It ends
+  when the remaining factor of χ_A is coprime to χ_{A_F}, which proves that nothing else is fixed.
+  Without fixed modes that takes two characteristic polynomials modulo one prime.
 """
 
 from __future__ import annotations
@@ -45,7 +53,7 @@ from mcexact.exact.modular import (
 from mcexact.exact.polynomial import Polynomial, from_integer_coefficients, product
 from mcexact.model.system import MultiChannelSystem
 
-# Shrunk subspaces, which prove that a mode is fixed, from Wong sequences modulo a prime.
+# Shrunk subspaces for one factor, from Wong sequences modulo a prime.
 
 
 @dataclass(frozen=True)
@@ -322,7 +330,7 @@ def evidence(system: MultiChannelSystem, subspace: ExactSubspace) -> ShrunkSubsp
     )
 
 
-# The search for the fixed spectrum: gains that move as many modes as possible, and subspaces.
+# The search for all fixed factors.
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,12 @@
 """Decisions about every plant in a box, by discs on which a pencil is regular for every member.
 
-========================  =============================================================
-`radii`                   the radii of plants, and of systems derived from them
-`regular_discs`           the exact test of a disc, in integers
-`float_pencils`           pencils in floating point, which propose the evidence of a disc
-`gain_search`             gains with which a mode is far from being fixed
-`exterior`                discs that contain the eigenvalues of all members
-`cover`                   the tree of squares that covers these discs
-`box_fixed`               whether a member has a fixed mode
-`parameter_cells`         boxes around the plants at all values of parameters in a cell
-`cut_ranges`              the ranges of parameters, cut until each cell is proved
-`parametric_box`          the questions about fixed modes and control for all values in ranges
-`parametric_box_stable`   one loop for all values in ranges
-========================  =============================================================
+===========  ==================================================================================
+`pencils`    radii of plants and derived systems, pencils, and the exact test of a disc
+`cover`      discs that contain the eigenvalues of all members, and trees of squares over them
+`cells`      ranges of parameters, cut into cells, and the box around each
+`members`    fixed modes, controllability and set-points of every member
+`loops`      closed loops of every member
+`failure`    nearby members that fail, by small changes with which a pencil loses rank
+`largest`    the largest box or ranges with a proof, and the nearest member that fails
+===========  ==================================================================================
 """

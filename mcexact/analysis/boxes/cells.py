@@ -1,10 +1,16 @@
 """Ranges of parameters, cut into cells, and the box around each.
 
-Boxes of parameters, cut into cells, and boxes around the plants of a cell.
+A cell has an interval for each parameter.  `proofs_of_cells` tries to prove a property for the box
+around the plants of the whole ranges, and cuts a cell in half, in the parameter that changes the
+entries most, until each cell is proved.  Where a cell is not proved, the plant at its middle is
+decided exactly: if it fails, the search ends with these values.  It also ends after a number of
+cells or cuts; then nothing is proved.
 
-On a cell with the middle p0 and the half widths r an entry is f(p0 + h) = f_0 + Σ f_k h_k + rest.
-The slopes f_k r_k of all entries with respect to one parameter are added with the same factor from
-−1 to 1; the rest, of second order in r, is within a radius of its own for each entry.
+The box of a cell is tighter than independent radii would be, since all entries depend on the same
+parameters.  On a cell with the middle p0 and the half widths r an entry is f(p0 + h) = f_0 +
+Σ f_k h_k + rest.  The slopes f_k r_k of all entries with respect to one parameter form a matrix,
+which is added with one factor from −1 to 1 (the field ``tied``); the rest, of second order in r, is
+within a radius of its own for each entry.
 """
 
 from __future__ import annotations
@@ -28,7 +34,7 @@ from mcexact.model.parametric import ParametricSystem
 from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
 
-# Boxes of parameters, cut into cells, and boxes around the plants of a cell.
+# Cells of the ranges, and boxes around the plants of a cell.
 
 Cell = tuple[tuple[Fraction, Fraction], ...]
 """The least and the largest value of each parameter."""
@@ -44,9 +50,10 @@ class CellBox:
     system : MultiChannelSystem
         The plant at the middle.
     radii : Radii
-        Of what is left of each entry.
+        The radii of the rest of each entry.
     tied : tuple of MultiChannelSystem
-        For each parameter the slopes of all entries times the half width.
+        For each parameter the slopes of all entries times the half width, which may be added to
+        ``system`` with one factor from −1 to 1.
     """
 
     system: MultiChannelSystem
@@ -107,7 +114,7 @@ def box_of_cell(plant: ParametricSystem, cell: Cell) -> CellBox:
 
 
 def _layers(M: FunctionMatrix, cell: Cell) -> list[Matrix]:
-    """The values, the radii of what is left, and the slopes times half widths."""
+    """The values at the middle, the radii of the rests, and the slopes times half widths."""
     forms = [[_form(entry, cell) for entry in row] for row in M.rows]
     return [
         Matrix.from_rows([[form[k] for form in row] for row in forms], ncols=M.ncols)
@@ -161,7 +168,7 @@ def _shifted(p: Terms, center: Sequence[Fraction]) -> Terms:
     return reduce(shifted, range(len(center)), p)
 
 
-# Ranges of parameters, cut in half until each cell is proved.
+# The bisection of the ranges.
 
 P = TypeVar("P")
 _CELLS, _DEEPEST = 64, 5
@@ -184,14 +191,15 @@ def proofs_of_cells(
     proved : callable
         The proof for a box around the plants of a cell, or None.
     failing : callable
-        Whether a plant certainly fails.
+        Whether a plant certainly lacks the property.
     said : str
-        What fails then, in words.
+        The failure in words, for the message.
 
     Returns
     -------
     cuts, parts : tuples
-        How they are cut, and the proofs.
+        For each node of the tree of cells, in preorder, the position of the parameter that is cut,
+        or None for a proved cell; and the proofs of the cells, in the same order.
 
     Raises
     ------
@@ -228,7 +236,7 @@ def _require_holds(
     failing: Callable[[MultiChannelSystem], bool],
     said: str,
 ) -> None:
-    """Refuse values at which the plant fails, which is decided exactly."""
+    """Raise `LimitReached` if the plant fails at some values, which is decided exactly."""
     where = values_in_words(plant.parameters, values)
     try:
         member = plant.at(dict(zip(plant.parameters, values, strict=True)))
@@ -263,7 +271,7 @@ def _middle(ends: tuple[Fraction, Fraction]) -> Fraction:
 
 
 def _widest(plant: ParametricSystem, cell: Cell) -> int:
-    """The parameter that moves the entries most, if it is anywhere in the cell and no other is."""
+    """The parameter that changes the entries most while the others stay at their middles."""
 
     def moves(k: int) -> tuple[float, Fraction]:
         alone = tuple(ends if i == k else (_middle(ends),) * 2 for i, ends in enumerate(cell))

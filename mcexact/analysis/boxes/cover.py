@@ -1,14 +1,23 @@
 """Covers by discs, and exterior discs of all members.
 
-Discs that contain all eigenvalues of all members: Gershgorin's, in coordinates T.
+To prove something for all eigenvalues of all members of a box, first discs are computed that
+contain these eigenvalues, then the discs are covered by smaller ones, each of which passes an exact
+test (`boxes.pencils`).
 
-For G = YT, H = Y A0 T and e = |Y| D_A |T| 1, no member has an eigenvalue λ with |λ − a_i| > rad_i
-for every i if s_i = |G_ii| − Σ_{j≠i} |G_ij| > 0 and rad_i s_i > Σ_j |a_i G_ij − H_ij| + e_i.
+Exterior discs are Gershgorin's in coordinates T in which A is nearly diagonal or triangular, with
+Y near T⁻¹.  For G = YT, H = Y A0 T and e = |Y| D_A |T| 1, no member has an eigenvalue λ with
+|λ − a_i| > rad_i for every i if s_i = |G_ii| − Σ_{j≠i} |G_ij| > 0 and rad_i s_i >
+Σ_j |a_i G_ij − H_ij| + e_i.  Floating point proposes Y, T and a_i from several bases and weights;
+the radii are computed exactly from the rounded matrices, so Y need not be the exact inverse.
 
-Exterior discs of A and of A_F for some gains F: what is fixed is in a disc of each list.
+A fixed mode is an eigenvalue of A_F for every F, so it lies in an exterior disc of A, and in one of
+A_F for each of some drawn gains F.  `disc_lists` chooses gains that leave little in common: that
+pays for large plants, because each leaf of a cover costs the inverse of a pencil.  Without gains
+there is one list, that of A.
 
-Where the lists have few points in common, little is left for a cover, each leaf of which costs the
-inverse of a pencil.  Without gains a list is that of A.
+`Cover` cuts a square around each disc of the first list into four, again and again, until each part
+passes the test, meets no disc of another list, or lies outside of the claim.  It gives up after a
+number of tests; then nothing is proved.
 """
 
 from __future__ import annotations
@@ -36,7 +45,7 @@ from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, vstack
 from mcexact.exact.roots import decimal, exact_decimal, is_discrete
 from mcexact.model.radii import Radii, moduli
 
-# The cover of discs by a tree of squares, each of which passes a test of its own.
+# Trees of squares that cover discs.
 
 SQUARE = Fraction(1414214, 1000000)
 """A number above √2: a square of half side h is inside of the disc of radius √2 h."""
@@ -50,7 +59,7 @@ Test = Callable[[Point, Fraction, int], int | None]
 
 @dataclass(frozen=True)
 class Outside:
-    """What a claim does not speak of: the lower half-plane, and what lies inside of a region.
+    """The part of the plane that a proof may skip: Im λ < 0, by symmetry, and the allowed region.
 
     Attributes
     ----------
@@ -63,12 +72,12 @@ class Outside:
     bound: Fraction | None
 
     def covers(self, mode: complex) -> bool:
-        """Whether a number and what is near it is outside."""
+        """Whether a number lies in that part, with some distance from its border."""
         c = Fraction(mode.real), Fraction(mode.imag)
         return self.bound is not None and self.disc(c, Fraction(abs(mode) / 1000))
 
     def disc(self, c: Point, r: Fraction) -> bool:
-        """Whether a disc is outside."""
+        """Whether a disc lies in that part."""
         re, im = c
         if im + r < 0:
             return True
@@ -79,7 +88,7 @@ class Outside:
         return self.bound > r and re**2 + im**2 < (self.bound - r) ** 2
 
     def square(self, c: Point, h: Fraction) -> bool:
-        """Whether a square of half side h is outside."""
+        """Whether a square of half side h lies in that part."""
         re, im = c
         if im + h < 0:
             return True
@@ -110,7 +119,7 @@ class Cover:
     def of(self, *lists: Sequence[RootDisc]) -> tuple[tuple[int | None, ...], ...] | None:
         """The tree over each disc of the first list, in preorder; None without a cover.
 
-        Squares that meet no disc of another list are left out.
+        Squares that meet no disc of one of the other lists are skipped.
         """
         first, *others = ([_exact(disc) for disc in discs] for discs in lists)
         found = []
@@ -179,7 +188,7 @@ def _exact(disc: RootDisc) -> Disc:
     return (exact_decimal(disc.re), exact_decimal(disc.im)), exact_decimal(disc.radius)
 
 
-# Discs that contain all eigenvalues of all members: Gershgorin's, in coordinates T.
+# Exterior discs of one matrix with radii.
 
 _PERTURBATIONS = (0.0, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2)
 """Eigenvectors of a matrix that is not diagonalizable are taken of one so close to it."""
@@ -207,18 +216,19 @@ def exterior(
     growth: Fraction = Fraction(1),
     tied: Sequence[Matrix] = (),
 ) -> Exterior | None:
-    """Compute the discs for radii that are multiplied by a factor; None if there are none.
+    """Compute the discs for radii that are multiplied by a factor; None if no proposal holds.
 
     Parameters
     ----------
     box : FloatBox
-        In whose coordinates eigenvectors are computed.
+        Its balanced coordinates are those in which eigenvectors are computed.
     A, D : Matrix, n × n
         The nominal matrix and its radii.
     rng : numpy.random.Generator
     growth : Fraction
+        The factor of all radii.
     tied : sequence of Matrix
-        What may be added to A, each with a factor from −1 to 1.
+        Matrices that may be added to A, each with a factor from −1 to 1.
     """
     if not box.n:
         none = ComplexRows.of(Matrix.zeros(0, 0))
@@ -253,7 +263,7 @@ class Coordinates:
     ) -> Exterior | None:
         """Round Y and T, and compute the discs of a matrix exactly; None if there are none.
 
-        No entry of Y or T is finer than what a small part of the radii asks for.
+        Entries of Y and T are rounded as coarsely as enlarges the radii by a small part only.
         """
         n, Y, T = len(scale), np.abs(self.Y), np.abs(self.T)
         far, most = np.abs(self.centers)[:, None], np.maximum(self.radii, 1e-290)[:, None]
@@ -314,8 +324,8 @@ def _weights(spread: Floats, sizes: Floats) -> Iterator[Floats]:
 def _candidates(A: Floats, D: Floats, rng: np.random.Generator) -> Iterator[Any]:
     """Bases in which A is nearly diagonal, or in which it is triangular.
 
-    Those of single blocks leave zeros of a block triangular matrix where they are: weights then
-    make what couples the blocks as small as one likes.
+    The bases of the single diagonal blocks keep a block triangular matrix block triangular: then
+    weights can make the coupling of the blocks arbitrarily small.
     """
     from scipy.linalg import schur
     from scipy.sparse.csgraph import connected_components
@@ -403,7 +413,7 @@ def _digits(radius: Fraction) -> int:
     return min(max(3 - math.floor(size), 0), _MOST_DIGITS)
 
 
-# Exterior discs of A and of A_F for some gains F: what is fixed is in a disc of each list.
+# Lists of exterior discs of A and of A_F for some gains F.
 
 MANY = 30
 """From so many states on, gains are drawn; frames are cheap below, and allow for larger radii."""
@@ -426,9 +436,9 @@ class GainBox:
         Those of A, B_i and C_i.
     near : FloatBox
     moved : tuple of Matrix
-        The radii of entries of A that are independent, and what may be added to A with a factor
-        from −1 to 1, if entries are not independent; the radii above are those of a box of
-        independent entries that contains all.
+        The radii of the independent changes of A, then the matrices that may be added to A, each
+        with a factor from −1 to 1.  ``radii`` are those of a box of independent entries that
+        contains all members.
     """
 
     A: Matrix
@@ -439,7 +449,7 @@ class GainBox:
     moved: tuple[Matrix, ...] = ()
 
     def of_gains(self, F: Sequence[Matrix], growth: Fraction) -> tuple[Matrix, Matrix]:
-        """A_F = A + Σ B_i F_i C_i, and its radii where those of the box grow."""
+        """A_F = A + Σ B_i F_i C_i, and its radii if those of the box are multiplied by a factor."""
         n, radii = self.A.nrows, self.radii
         B, D_B = hstack(self.B, nrows=n), hstack([M * growth for M in radii.B], nrows=n)
         FC = vstack([F_i @ C for F_i, C in zip(F, self.C, strict=True)], ncols=n)
@@ -467,13 +477,13 @@ class _Proposal:
     coordinates: Coordinates
 
     def around(self, points: Complex) -> Complex:
-        """Those points that are in a disc, or near one."""
+        """The points that are in a disc, or near one."""
         far = np.abs(points[:, None] - self.coordinates.centers[None, :])
         found: Complex = points[np.any(far <= 1.001 * self.coordinates.radii[None, :], axis=1)]
         return found
 
     def points(self, outside: Outside) -> Complex:
-        """Points in all discs of the upper half-plane that are not outside."""
+        """Points of the discs in the upper half-plane that the claim is about."""
         found = []
         for c, r in zip(self.coordinates.centers, self.coordinates.radii, strict=True):
             disc = (Fraction(float(c.real)), Fraction(float(c.imag))), Fraction(float(r))
@@ -499,14 +509,14 @@ def disc_lists(
     growth : Fraction
         The factor of all radii.
     outside : Outside
-        What need not be covered.
+        The part of the plane that need not be covered.
     several : bool
         Whether to draw gains; otherwise there is one list, that of A.
 
     Notes
     -----
-    Gains are drawn.  Of those whose discs are small, more are taken as long as they leave fewer of
-    some points that are in discs of all lists so far.
+    Gains are drawn at random.  A list is added as long as fewer of some sample points lie in discs
+    of every list.
     """
     found: list[ExteriorDiscs] = []
     if several:
@@ -527,7 +537,7 @@ def _evidence(F: tuple[Matrix, ...] | None, found: Exterior) -> ExteriorDiscs:
 def _drawn_and_chosen(
     box: GainBox, rng: np.random.Generator, growth: Fraction, outside: Outside
 ) -> list[_Proposal]:
-    """The discs of A and of A_F for drawn gains, as many as leave few points in all of them."""
+    """The discs of A and of A_F for drawn gains, chosen so that few points are in all lists."""
     proposals: list[_Proposal] = []
     chosen: list[_Proposal] = []
     for k in range(_DRAWS + 1):
@@ -544,7 +554,7 @@ def _drawn_and_chosen(
 
 
 def _chosen(proposals: list[_Proposal], outside: Outside) -> tuple[list[_Proposal], Complex]:
-    """The proposal with the smallest discs, others that leave few of its points, and these."""
+    """The proposal with the smallest discs, those that exclude most points, and what is left."""
     ranked = sorted(proposals, key=lambda each: _area(each.coordinates))
     chosen, left = ranked[:1], ranked[0].points(outside)
     while len(left) and len(chosen) < _MOST_LISTS:
@@ -558,12 +568,12 @@ def _chosen(proposals: list[_Proposal], outside: Outside) -> tuple[list[_Proposa
 
 
 def _area(discs: Coordinates) -> float:
-    """The squares of the radii."""
+    """The sum of the squares of the radii."""
     return float((discs.radii**2).sum())
 
 
 def _drawn(box: FloatBox, rng: np.random.Generator) -> tuple[Matrix, ...]:
-    """Draw gains of a drawn size, with a few bits each."""
+    """Draw gains, and their common size, with a few bits each."""
     size = 10 ** rng.uniform(-1, 0.5) * max(float(np.linalg.norm(box.A)), 1e-12)
     found = []
     for B, C in zip(box.B, box.C, strict=True):

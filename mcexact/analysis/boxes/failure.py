@@ -1,10 +1,18 @@
 """The nearest members that fail: small changes by which a pencil loses rank.
 
-Small changes of a matrix pencil λE − Z that let its rank drop, first in floating point.
+A mode is fixed, or not controlled, or on the border of a region, exactly if a pencil λE − Z has too
+small a rank.  `Uncertain` looks for the smallest change Δ of Z that makes it so, measured as the
+largest |Δ_ij| / D_ij with radii D, in two steps:
 
-Sequential linear programs find them: with L and R about the left and right vectors of the smallest
-singular values, Lᴴ (λE − Z − Δ) R = 0 is linear in Δ and the change of λ, and the largest |Δ_ij| /
-D_ij is minimized.  An exact change near that is found by linear algebra over Q.
+1. Sequential linear programs in floating point (`Uncertain.drop`).  With L and R about the left and
+   right vectors of the smallest singular values, Lᴴ (λE − Z − Δ) R = 0 is linear in Δ and the
+   change of λ, and the largest |Δ_ij| / D_ij is minimized.
+2. An exact change near that one, by linear algebra over Q (`Uncertain.exact`).
+
+This is a local search: a nearer plant that fails may exist, and finding none proves nothing.
+`failing_plant` tries the pencils of several sets of channels, those that seem nearest first;
+`severed_plants` has the plants whose channels have no effect, at a distance that is known without a
+search.  Callers decide by an exact analysis that a plant really fails.
 """
 
 from __future__ import annotations
@@ -26,7 +34,7 @@ from mcexact.model.box import Box
 from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
 
-# Small changes of a matrix pencil λE − Z that let its rank drop, first in floating point.
+# Small changes of a pencil λE − Z that let its rank drop.
 
 Freedom = Literal["plane", "line", "circle"]
 """Where λ may move: anywhere, parallel to the imaginary axis, or on a circle around 0."""
@@ -66,7 +74,7 @@ class Uncertain:
     Z, D : Matrix
     states : int
     rank : int
-        The rank that is one too small.
+        The rank to which the pencil shall drop.
     """
 
     Z: Matrix
@@ -82,14 +90,14 @@ class Uncertain:
         object.__setattr__(self, "_E", E)
 
     def smallest(self, point: complex) -> float:
-        """The singular value that decides the rank, after scaling of rows and columns."""
+        """The singular value that is 0 when the rank drops, after scaling of rows and columns."""
         own: Any = self
         P, _, _ = _scaled(point * own._E - own._Z, own._D)
         values = np.linalg.svd(P, compute_uv=False)
         return float(values[self.rank]) if self.rank < len(values) else 0.0
 
     def drop(self, point: complex, freedom: Freedom = "plane") -> Drop | None:
-        """Search a small change near a point; None if there is none."""
+        """Search a small change that lets the rank drop near a point; None if the search fails."""
         own: Any = self
         Z, D, E = own._Z, own._D, own._E
         I, J = np.nonzero(D)
@@ -129,11 +137,11 @@ class Uncertain:
         return best
 
     def exact(self, near: Drop, freedom: Freedom = "plane") -> tuple[Matrix, Fraction] | None:
-        """An exact change near one in floating point, and its size; None if none was found.
+        """An exact change near one in floating point, and its size; None if the search fails.
 
-        Of the rows all but a few are fixed at rounded values, and so is λ.  The kernel of these
-        is computed exactly, and the entries of the few other rows are changed as little as possible
-        so that they vanish on it.  The same is tried for columns.
+        λ is rounded, and so are all rows but a few, which then stay as they are.  Their kernel is
+        computed exactly, and the entries of the few other rows are changed as little as possible so
+        that they vanish on it.  The same is tried for columns.
         """
         point = rational_point(near.point, freedom)
         change = _rounded(near.change)
@@ -166,7 +174,7 @@ class Uncertain:
 
 
 def _choices(P: Matrix, turn: Matrix, known: list[list[int]], few: int) -> Iterator[list[int]]:
-    """So many rows that may be changed: those that depend most on the others, or are uncertain."""
+    """Sets of ``few`` rows to correct: those nearest to the span of others, or uncertain ones."""
     from scipy.linalg import qr
 
     size = len(known)
@@ -213,14 +221,14 @@ def _correction(
 
 
 def _independent(G: Matrix, right: Matrix) -> tuple[list[int], Matrix] | None:
-    """A solution of G y = right that uses independent columns alone, and these; G is symmetric."""
+    """A solution of G y = right with support in independent columns, and these; G is symmetric."""
     pivots = list(row_echelon(G)[1])
     y = solve_nonsingular(G.take(rows=pivots, cols=pivots), right.take(rows=pivots))
     return None if y is None else (pivots, y)
 
 
 def _scaled(P: Any, D: Floats) -> tuple[Any, Floats, Floats]:
-    """Rows and columns divided by their sizes, and these."""
+    """The matrix with rows and columns divided by their sizes, and these sizes."""
     size = np.abs(P) + D
     rows = np.maximum(size.sum(axis=1), 1e-300)
     cols = np.maximum((size / rows[:, None]).sum(axis=0), 1e-300)
@@ -322,9 +330,9 @@ class FailingPlant:
     distance : Fraction
         The largest change of an entry, as a multiple of its radius.
     mode : complex
-        About the mode that is fixed, or not controlled, or on the border.
+        The approximate mode that is fixed, or not controlled, or on the border.
     channels : tuple of str
-        The channels s whose outputs do not show the mode.
+        The channels s, from whose outputs the mode cannot be observed.
     refutation : Answer or None
         The exact answer that the plant, or its loop, fails, where it was decided.
     """
@@ -336,10 +344,10 @@ class FailingPlant:
     refutation: Answer | None = None
 
     def facts(self, system: MultiChannelSystem) -> dict[str, Any]:
-        """What a sentence says of it: its distance from a plant, and in which unit.
+        """The values for a sentence about it: its distance from a plant, and the unit of that.
 
-        Radii are the unit if the plant has some that are no part of the moduli of its entries, and
-        else these moduli.
+        The unit is the radii of the plant, or the moduli of its entries if the plant has no radii
+        or if the radii are a common part of these moduli.
         """
         if system.uncertainty is None:
             return {"fails_within": self.distance, "of_radii": False}
@@ -349,9 +357,9 @@ class FailingPlant:
 
 
 def tried_sets(m: int) -> list[tuple[int, ...]]:
-    """The sets of channels that are tried: none, one or two, and all but so many.
+    """The sets of channels that are tried: those of at most two channels, and their complements.
 
-    Of up to five channels these are all sets; of many channels pairs are left out.
+    With up to five channels these are all sets; with many channels pairs are left out.
     """
     small: list[tuple[int, ...]] = [(), *((i,) for i in range(m))]
     if m <= _PAIRS:
@@ -409,7 +417,7 @@ def _is_inside(point: complex, region: StabilityRegion | None) -> bool:
 def _points(
     modes: list[complex], region: StabilityRegion | None
 ) -> Iterator[tuple[complex, Freedom]]:
-    """Where a search begins: at modes that are not in the region, and at its border near all."""
+    """Starting points: the modes outside of the region, and the points of its border near all."""
     for mode in modes:
         if not _is_inside(mode, region):
             yield mode, "plane"
@@ -425,7 +433,7 @@ def _starts(
     sets: Iterable[tuple[int, ...]],
     region: StabilityRegion | None,
 ) -> Iterator[tuple[float, tuple[int, ...], Uncertain, complex, Freedom]]:
-    """The singular values of the pencils of sets at numbers near eigenvalues, and what of."""
+    """For each set and starting point the singular value, and the pencil to search with."""
     values = np.linalg.eigvals(matrix_to_float(system.A)) if system.n else np.zeros(0)
     points = [*_points([complex(value) for value in values if value.imag >= 0], region)]
     for s in sets:
@@ -441,7 +449,7 @@ def _starts(
 
 
 def _pencil(A: Matrix, B: list[Matrix], C: list[Matrix]) -> Matrix:
-    """[A, B_T; C_s, 0]: λE less this has the rank of the pencil of s."""
+    """[A, B_T; C_s, 0], T the complement of s: λE minus this has the rank of P_s(λ)."""
     n = A.nrows
     top, low = hstack([A, *B], nrows=n), vstack(C, ncols=n)
     return vstack([top, hstack([low, Matrix.zeros(low.nrows, top.ncols - n)])])
@@ -471,10 +479,10 @@ def _changed(system: MultiChannelSystem, s: tuple[int, ...], change: Matrix) -> 
 def severed_plants(
     system: MultiChannelSystem, radii: Radii, *, inputs: bool = False
 ) -> Iterator[FailingPlant]:
-    """Plants whose channels have no inputs or no outputs, the nearer of both, and also A = 0.
+    """Plants in which every channel has B_i = 0 or C_i = 0, the nearer of both; then with A = 0.
 
-    Every mode of these is fixed.  Where radii are parts of the entries, a plant within the whole
-    entries always fails so, if not before.
+    Every mode of these is fixed.  If each radius is the same part of its entry, such a plant
+    exists where the radii grow to whole entries.
 
     Parameters
     ----------
@@ -512,7 +520,7 @@ def severed_plants(
 
 
 def _whole(M: Matrix, D: Matrix) -> Fraction | None:
-    """The multiple of the radii with which all entries can vanish; None if one is certain."""
+    """The least multiple of the radii within which all entries can be 0; None without one."""
     found = Fraction(0)
     for i, j, x in M.nonzero():
         if not D[i, j]:

@@ -1,8 +1,25 @@
 """The largest family that is certified, from both sides.
 
-Both ends of what is known about a property near a plant: proved up to one, failing at another.
+Each function grows the uncertainty of a plant about its nominal values, and returns two factors of
+the radii, or two parts of the ranges of parameters.  Up to the lower one the property is proved for
+every member; within the upper one an explicit member fails, which is decided exactly.  Nothing is
+claimed between the two.
 
-Every search for a largest box is an instance of `Search`, which `two_sided` carries out.
+- `largest_uncertainty`: no fixed mode, stabilizability, controllability or observability of the
+  plant (`boxes.members`);
+- `largest_loop_uncertainty`: one controller keeps all loops in a region (`boxes.loops`);
+- `largest_loop_ranges`: the same for the ranges of parameters, around their middles.
+
+The first two are instances of `Search`, which `two_sided` carries out.  First it looks for a member
+that fails: those proposed by sequential linear programs (`boxes.failure`) and those whose channels
+do nothing are decided exactly, the nearest first.  Then `largest_factor` bisects below the distance
+of that member, and below what floating point considers possible, for the largest factor with a
+proof.  `largest_loop_ranges` bisects in the same way, but looks for failing values along rays from
+the middle of the ranges.
+
+`nearest_fixed` and `failing_member` run the search for a failing plant alone.  The effort counts
+tested squares or parts of the border in place of seconds, so that the load of a machine does not
+change the result; another processor or another effort may.
 """
 
 from __future__ import annotations
@@ -52,7 +69,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.parameters import uncertainty
 from mcexact.shown import Shown
 
-# Both ends of what is known about a property near a plant: proved up to one, failing at another.
+# The bisection for a proof, and its result: proved up to one factor, failing within another.
 
 _STEPS = 14
 _CLOSE = 1.03
@@ -99,7 +116,7 @@ class LargestUncertainty(Shown):
     channels: tuple[str, ...] | None
 
     def explain(self) -> str:
-        """Say in plain words up to where the property is proved, and where it fails."""
+        """Say in plain words up to which factor the property is proved, and where it fails."""
         proved = f"{self.wanted}: for every plant within {self.proved_part}"
         if not self.lower:
             proved = f"{self.wanted}: not proved for any box"
@@ -110,7 +127,7 @@ class LargestUncertainty(Shown):
 
     @property
     def proved_part(self) -> str:
-        """The largest radii with a proof in words: a percentage of the entries, or a multiple."""
+        """The largest factor with a proof, in words: a percentage, or a multiple of the radii."""
         return f"{_number(self.lower, self.relative)}{self._unit}"
 
     @property
@@ -119,7 +136,7 @@ class LargestUncertainty(Shown):
 
     @property
     def nearby(self) -> FailingPlant | None:
-        """The plant that fails, its distance in the radii with a proof, or in the given unit."""
+        """The plant that fails, its distance in the radii of the proof, or else of the plant."""
         if self.failing is None or self.upper is None:
             return None
         distance, channels = self.upper / (self.lower or 1), self.channels or ()
@@ -190,7 +207,7 @@ def _above(factor: Fraction) -> str:
 
 @dataclass
 class Search:
-    """What is proved for one factor of the radii, and a plant that fails.
+    """The functions by which `two_sided` proves a property, and looks for plants that lack it.
 
     Attributes
     ----------
@@ -201,15 +218,16 @@ class Search:
     refuted : callable
         The exact answer about a plant that fails, or None.
     failing : callable
-        A plant that is thought to fail, found with so many tries.
+        A plant that probably fails, searched with so many tries.
     severed : callable
-        Plants that may fail as their channels do nothing.
+        Plants that may fail because their channels have no effect.
     work : callable
         The work done so far.
     likely : callable
         A factor of the radii for which a proof is likely; it is tried first.
     rounds : int
-        How often factors that failed are tried again: a search that learns may prove them then.
+        How often the bisection is repeated: gains learned in one round may prove in the next what
+        failed before.
     """
 
     capacity: Callable[[], float]
@@ -223,7 +241,7 @@ class Search:
 
 
 def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> LargestUncertainty:
-    """Search both ends; see `largest_uncertainty`."""
+    """Search a failing plant, then the largest factor with a proof; see `largest_uncertainty`."""
     require_seconds(effort, "effort")
     near, refutation = nearest(search, min(1 + int(_TRIES * effort), _MOST_TRIES))
     beyond = 1e6 if near is None else to_float(near.distance)
@@ -241,7 +259,7 @@ def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> Lar
 
 
 def nearest(search: Search, tries: int) -> tuple[FailingPlant | None, Answer | None]:
-    """The nearest plant found that fails, and the exact answer about it."""
+    """Return the nearest of the proposed plants that fails, and the exact answer about it."""
     found = search.failing(tries)
     known = [*([] if found is None else [found]), *search.severed()]
     for near in sorted(known, key=lambda each: each.distance):
@@ -252,7 +270,7 @@ def nearest(search: Search, tries: int) -> tuple[FailingPlant | None, Answer | N
 
 
 def largest_factor(search: Search, work: float, beyond: float) -> tuple[Fraction, Answer | None]:
-    """Bisect for the largest factor of the radii with a proof; beyond some factor there is none."""
+    """Bisect for the largest factor of the radii with a proof, below the factor ``beyond``."""
     most = min(search.capacity(), beyond) if beyond > 0 else 0.0
     low, best = Fraction(0), None
     if not most > _LEAST:
@@ -298,7 +316,7 @@ def short(x: float) -> Fraction:
     return Fraction(int(x * 10.0**exponent)) / Fraction(10) ** exponent
 
 
-# How far data may be from their values: a largest certified box, and a plant that fails.
+# Boxes of plants: fixed modes, stabilizability, controllability and observability.
 
 _ROUNDS = 2
 _GAINS = 50
@@ -319,7 +337,7 @@ def largest_uncertainty(
     ----------
     system : MultiChannelSystem
         A plant.  If it has radii, boxes are multiples of these; otherwise each radius is a part of
-        the modulus of its entry, and zeros are certain.
+        the modulus of its entry, so that entries that are 0 stay 0.
     wanted : {"no fixed mode", "stabilizable", "controllable", "observable"}
         By decentralized linear time-invariant control, each member by a controller of its own.
     effort : float
@@ -328,8 +346,8 @@ def largest_uncertainty(
     Returns
     -------
     LargestUncertainty
-        Both ends are proved: the lower one for every member of the box, the upper one by a plant
-        that fails.  Which ends are found depends on the processor and on the effort.
+        Both factors are proved: the lower one for every member of the box, the upper one by a
+        plant that fails.  How near they are depends on the processor and on the effort.
 
     Raises
     ------
@@ -338,8 +356,8 @@ def largest_uncertainty(
 
     Notes
     -----
-    Plants that fail are found by sequential linear programs, and plants whose channels do nothing
-    fail, too: where radii are parts of the entries, these are within the whole entries.
+    Sequential linear programs propose plants that fail.  Plants whose channels do nothing are tried
+    as well; without radii of the plant, one of them is within the factor 1.
 
     Examples
     --------
@@ -361,7 +379,7 @@ def largest_uncertainty(
 
 
 def nearest_fixed(system: MultiChannelSystem, tries: int) -> FailingPlant | None:
-    """Search a plant near a system that has a fixed mode, which is decided exactly.
+    """Search a plant with a fixed mode near a system; that the mode is fixed is decided exactly.
 
     Parameters
     ----------
@@ -454,8 +472,8 @@ def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
         failing,
         lambda: severed_plants(unit, search.radii),
         lambda: search.tested + _GAINS * len(search.known),
-        # What leaves no fixed mode anywhere leaves none outside of a region: where the plant has no
-        # mode outside, nothing else tells how far the radii can grow.
+        # Where the plant has no mode outside of the region, only the factor up to which no mode at
+        # all is fixed indicates how far the radii can grow.
         lambda: search.prepare(_NEVER_ENOUGH, Outside(unit.time, None)),
         _ROUNDS,
     )
@@ -471,7 +489,7 @@ def _controllability(unit: MultiChannelSystem, wanted: str) -> Search:
         return None if found is None else turned(found)
 
     def turned(found: FailingPlant) -> FailingPlant:
-        """The same for the plant of which the system is the dual."""
+        """Turn a plant near the dual system into one near the plant."""
         if system is unit:
             return found
         back = dual(found.plant)
@@ -495,14 +513,14 @@ def _controllability(unit: MultiChannelSystem, wanted: str) -> Search:
 
 
 def _about(found: Answer | None, growth: Fraction) -> Answer | None:
-    """The same answer, about the box whose radii are multiplied by the factor."""
+    """The answer, rewritten to be about the box whose radii are multiplied by the factor."""
     if found is None:
         return None
     plant = Box(found.about.plant).scaled(growth).system
     return replace(found, about=constructed(plant, found.about.subject))
 
 
-# How far data may be from their values before a controller fails, from both sides.
+# Boxes of plants with one controller.
 
 
 def largest_loop_uncertainty(
@@ -515,13 +533,13 @@ def largest_loop_uncertainty(
     gains: bool = False,
     effort: float = 10.0,
 ) -> LargestUncertainty:
-    """Search the largest box in which a controller keeps all loops in a region, and one it fails.
+    """Search the largest box in which a controller keeps all loops in a region, and a failure.
 
     Parameters
     ----------
     system : MultiChannelSystem
         A plant.  If it has radii, boxes are multiples of these; otherwise each radius is a part of
-        the modulus of its entry, and zeros are certain.
+        the modulus of its entry, so that entries that are 0 stay 0.
     controller : Controller
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
@@ -535,8 +553,8 @@ def largest_loop_uncertainty(
     Returns
     -------
     LargestUncertainty
-        The loop of the plant that fails, with the gains as they are, has an eigenvalue on the
-        border of the region; or outside, if the plant itself fails.
+        The loop of the failing plant, with unchanged gains, has an eigenvalue on the border of the
+        region, or outside of it.
 
     Examples
     --------
@@ -573,7 +591,7 @@ def largest_loop_uncertainty(
 
 
 def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> StabilityVerdict | None:
-    """The exact answer that the loop of a plant has an eigenvalue outside; None if it has none."""
+    """The exact answer that the loop of a plant leaves the region; None if it does not."""
     loop = replace(search.loop, given=plant).system
     # With an eigenvalue on the border only the polynomial decides.
     found = certify_stability(loop, search.region, method="polynomial")
@@ -625,7 +643,7 @@ def _changed(plant: MultiChannelSystem, signals: LoopPencil, change: Matrix) -> 
     )
 
 
-# How much of the ranges of parameters a controller is stable for, from both sides.
+# Ranges of parameters with one controller.
 
 _SEGMENTS, _DIRECTIONS, _MOST = 200, 6, 200
 """For a second of effort: how many parts of the border are tested, and how many directions are
@@ -646,7 +664,7 @@ class LargestRanges(Shown):
     proof : ParametricBoxStability or None
         The answer that proves it, about the plant with these smaller ranges.
     upper : Fraction or None
-        The part within which the loop fails at some values; None if no such values were found.
+        The part within which the loop fails at some values; None if no such values are known.
     failing : mapping or None
         These values, by the names of the parameters.
     refutation : StabilityVerdict or None
@@ -677,7 +695,7 @@ class LargestRanges(Shown):
             yield "fails", f"at {at}, {near if self.upper else 'the middle of the ranges'}"
 
     def explain(self) -> str:
-        """Say in plain words where the property is proved, and where it fails."""
+        """Say in plain words for which part the property is proved, and where it fails."""
         (_, wanted), *told = self.rows()
         return f"{wanted}: {'; '.join(f'{label} {text}' for label, text in told)}"
 
@@ -727,9 +745,8 @@ def largest_loop_ranges(
     Returns
     -------
     LargestRanges
-        The part is proved for all values, and the values at which the loop fails are decided
-        exactly, with the gains as they are.  Which are found depends on the effort and the
-        processor.
+        The lower part is proved for all values in it; the loop fails at the stated values, which is
+        decided exactly, with unchanged gains.  Both depend on the effort and the processor.
 
     Examples
     --------
@@ -774,7 +791,7 @@ def _largest_part(
     if whole is not None:
         return Fraction(1), whole
     beyond = 1.0 if failing is None else to_float(failing[0])
-    # severed plants and other plants that fail are a matter of boxes: here values are tried
+    # failing values are searched by `_Directions`, so this search has no failing plants of its own
     wanted = Search(
         lambda: 1.0, proof, lambda _: None, lambda _: None, lambda: (), lambda: search.tested
     )
@@ -815,7 +832,7 @@ class _Directions:
             return None, values
 
     def seems_to_fail(self, direction: Floats, part: Fraction) -> bool:
-        """Whether floating point sees an eigenvalue outside of the region."""
+        """Whether floating point computes an eigenvalue outside of the region."""
         plant, _ = self.plant(direction, part)
         if plant is None:
             return False
@@ -828,7 +845,7 @@ class _Directions:
         return bool(sizes.max(initial=-1.0) >= 0)
 
     def nearest(self, count: int) -> Failing | None:
-        """The values nearest to the middle at which the loop was found to fail."""
+        """The nearest of the tried values at which the loop fails, decided exactly."""
         best: Failing | None = None
         for direction in itertools.islice(self.tried(), count):
             most = Fraction(1) if best is None else best[0]
@@ -859,7 +876,7 @@ class _Directions:
         for _ in range(_HALVINGS):
             middle = (low + high) / 2
             low, high = (low, middle) if self.seems_to_fail(direction, middle) else (middle, high)
-        # A part with few digits is tried first; at the last one floating point saw no border near.
+        # In turn: a part of few digits, the end of the bisection, and a point beyond the border.
         near = Fraction(-(-high.numerator * _DIGITS // high.denominator), _DIGITS)
         for part in (min(near, most), high, grid[last]):
             plant, values = self.plant(direction, part)

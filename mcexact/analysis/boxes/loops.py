@@ -1,9 +1,22 @@
 """Closed loops of every member.
 
-Whether a controller keeps every plant in a box stable: no eigenvalue crosses the border.
+`box_stability` proves that one controller keeps all loops of a box in a region: the stable region,
+a half-plane of a rate, or a disc of a radius.  The gains can have radii, too: parts of their
+moduli, or those of rounding to some digits.  If no proof is found, it raises `LimitReached`, which
+proves nothing.
 
-The nominal loop is stable, the box is connected, and the loop's pencil is regular for every member
-along the whole border of the region.
+The argument is continuity.  The nominal loop is in the region, by `certify_stability`; the box is
+connected; and no member has an eigenvalue on the border.  So no eigenvalue crosses it.
+
+That the border is free of eigenvalues is tested on the pencil of the loop, whose entries are those
+of the plant and of the controller, so that no radius is enlarged by a product.  In continuous time
+the border is the line Re λ = −rate from 0 up to a number R: weights of the states prove that no
+member has an eigenvalue of modulus R or more.  In discrete time it is the upper half circle.  It is
+cut into segments until each, by the disc of which it is a diameter or a chord, passes the exact
+test of `boxes.pencils`, in integers.  The lower half follows by symmetry.
+
+For plants with parameters `parametric_box_stability` cuts the ranges in half until each cell has
+such a proof (`boxes.cells`).
 """
 
 from __future__ import annotations
@@ -45,11 +58,11 @@ from mcexact.model.parametric import ParametricSystem
 from mcexact.model.radii import Radii, moduli
 from mcexact.model.system import MultiChannelSystem
 
-# Controllers with other gains: their radii, and how rounding to digits moves them.
+# Radii of the gains of a controller, held in a controller of the same form.
 
 
 def with_gains(controller: Controller, of: Callable[[Matrix], Matrix]) -> Controller:
-    """The controller with a function of each matrix of gains in its place, without set-points."""
+    """The controller with each matrix of gains replaced by a function of it, without set-points."""
 
     def made(each: LinearMap) -> LinearMap:
         return LinearMap(
@@ -66,7 +79,7 @@ def with_gains(controller: Controller, of: Callable[[Matrix], Matrix]) -> Contro
 
 
 def gain_radii(controller: Controller, part: Any) -> Controller:
-    """The radii of all entries of a controller that are a part of their moduli, as a controller.
+    """A controller whose entries are the given part of the moduli of another's: radii of its gains.
 
     Examples
     --------
@@ -82,7 +95,7 @@ def gain_radii(controller: Controller, part: Any) -> Controller:
 
 
 def radii_of_gains(controller: Controller, gains: Any) -> Controller | None:
-    """The radii of gains, given as a part of their moduli, as a controller, or None.
+    """The radii of gains as a controller, from a part of their moduli or from a controller.
 
     Raises
     ------
@@ -122,7 +135,7 @@ def digit_radii(controller: Controller, digits: int) -> Controller:
 
 
 def rounded_ends(x: Fraction, digits: int) -> tuple[Fraction, Fraction]:
-    """The numbers with so many significant digits next to one that is not 0, below and above.
+    """The nearest numbers with so many significant digits below and above a number other than 0.
 
     Examples
     --------
@@ -145,7 +158,7 @@ def _unit(x: Fraction, digits: int) -> Fraction:
     return Fraction(10) ** (e - digits + 1)
 
 
-# Whether a controller keeps every plant in a box stable: no eigenvalue crosses the border.
+# The border of a region, cut into segments that pass the test of a disc.
 
 _MOST_SEGMENTS = 4000
 _SHORTEST = Fraction(1, 10**12)
@@ -154,23 +167,23 @@ _SHORTEST = Fraction(1, 10**12)
 
 @dataclass
 class StabilitySearch:
-    """The search for evidence about one loop, for several factors of all radii.
+    """The search for a proof about one loop, for several factors of all radii.
 
     Attributes
     ----------
     loop : ClosedLoop
-        Of a plant, whose radii are those of the box.
+        The loop of a plant whose radii are those of the box.
     region : StabilityRegion
     radii : Controller or None
         The radii of the gains, as a controller; None if they are certain.
     most : int
-        The parts of the border that are tried at most for one factor.
+        The largest number of segments of the border that are tested for one factor.
     spread : Radii, optional
         The radii of the plant, by default those of its box.
     tied : tuple of MultiChannelSystem
-        What may be added to the plant, each with a factor from −1 to 1.
+        Systems whose matrices may be added to the plant's, each with a factor from −1 to 1.
     tested : int
-        How many were tried so far.
+        The number of segments tested so far.
     """
 
     loop: ClosedLoop
@@ -227,7 +240,7 @@ class StabilitySearch:
         return BoxStability(self._about(growth), self.region.bound, radii, *parts)
 
     def evidence(self, growth: Fraction) -> StabilityOfCell | None:
-        """Evidence for radii that are multiplied by a factor; None if there is none."""
+        """Search a proof for radii that are multiplied by a factor; None if the search fails."""
         nominal = certify_stability(self.loop.system, self.region)
         if not nominal.stable:
             return None
@@ -438,7 +451,7 @@ def box_stability(
     return found
 
 
-# Every loop of one controller and a plant whose parameters are within ranges.
+# The same for all values of parameters within their ranges.
 
 _MOST_SEGMENTS_OF_CELL = 1000
 """The parts of the border that are tried at most; a cell that needs more is cut."""
@@ -491,7 +504,7 @@ def parametric_box_stability(
 
 @dataclass
 class LoopSearch:
-    """The search for evidence about one controller, for several ranges of the parameters.
+    """The search for a proof about one controller, for several ranges of the parameters.
 
     Attributes
     ----------
@@ -503,11 +516,11 @@ class LoopSearch:
     gains : rational or Controller, optional
         As for `box_stability`.
     most : int
-        The parts of the border that are tried at most in a cell.
+        The largest number of segments of the border that are tested in a cell.
     limit : float
-        How many parts of the border may be tested; then no cell is proved any more.
+        The number of tested segments after which the search gives up.
     tested : int
-        About how many were tested so far.
+        About how many segments were tested so far.
     """
 
     system: ParametricSystem
@@ -530,7 +543,7 @@ class LoopSearch:
         return closed_loop(plant, self.controller)
 
     def refuted(self, plant: MultiChannelSystem) -> StabilityVerdict | None:
-        """The exact answer that a loop has an eigenvalue outside; None if it has none."""
+        """The exact answer that a loop leaves the region; None if it does not."""
         found = certify_stability(self.loop(plant).system, self.region)
         return None if found.stable else found
 
@@ -558,7 +571,7 @@ class LoopSearch:
             return None
         loop = self.loop(box.system)
         search = StabilitySearch(loop, self.region, self.radii, self.most, box.radii, box.tied)
-        # Where floating point sees that the radii are too large, nothing is tested.
+        # If floating point already shows that the radii are too large, no segment is tested.
         least = min((each for each, _ in search.margins()), default=0.0)
         found = search.evidence(Fraction(1)) if least > 1 else None
         self.tested += 1 if least <= 1 else self.most if found is None else len(found.segments)

@@ -1,9 +1,30 @@
 """Fixed modes, controllability and set-points of every member.
 
-Gains with which the pencil of a box stays regular at a point for large radii.
+A member is a plant in a box, where each entry has a radius, or the plant at one point of the ranges
+of its parameters.  Each function proves its property for all members, or raises `LimitReached`,
+which proves nothing.  A proof has three parts:
 
-Proposed in floating point: the logarithm of the spectral radius of |Z⁻¹| D is minimized over the
-block-diagonal X and W by L-BFGS, from several starts.
+1. discs that contain all eigenvalues of all members (`boxes.cover`);
+2. a tree of squares over these discs, without what lies inside of an allowed region;
+3. for each leaf of the tree a matrix pencil that is regular on its disc for every member, by the
+   exact test of `boxes.pencils`.
+
+Floating point proposes all of these, and the tests are done in integers.  Each leaf costs the
+inverse of a pencil.  The questions differ in the pencil:
+
+- No mode is fixed (`box_fixed_modes`): λ is not fixed where [[λI − A, −B], [XC, W]] is nonsingular
+  for some X and W that are block diagonal by channel.  One choice of gains X and W serves only a
+  part of the plane, so a leaf tries gains known nearby, then λI − A alone, then its own.
+  `best_gains` searches for those with which the radii can grow most: L-BFGS, from several starts,
+  minimizes the logarithm of the spectral radius of |Z⁻¹| D, Z the pencil and D its radii.
+- Each member has a stabilizing decentralized controller (`box_stabilizability`), or one that holds
+  set-points (`box_setpoints`): the same outside of the region of stability, for set-points of the
+  plant with an integrator of every output.
+- Channels T control every mode (`box_controllability`): [λI − A, −B_T] has a right inverse, which
+  needs no search for gains.  `box_observability` decides it of the dual system.
+
+For plants with parameters the ranges are cut in half until each cell has such a proof
+(`boxes.cells`).
 """
 
 from __future__ import annotations
@@ -61,7 +82,7 @@ from mcexact.model.parametric import ParametricSystem
 from mcexact.model.radii import Radii
 from mcexact.model.system import MultiChannelSystem
 
-# Gains with which the pencil of a box stays regular at a point for large radii.
+# Gains with which the pencil of a box stays regular at a point, proposed in floating point.
 
 Gains = tuple[tuple[Floats, ...], tuple[Floats, ...]]
 
@@ -235,7 +256,7 @@ def _pencil(
     return Z, D
 
 
-# Whether a plant in a box has a fixed mode, by gains of its own for each part of the plane.
+# Fixed modes of the members, with other gains for each part of the plane.
 
 _MOST_SQUARES = 3000
 _NEAREST = 10
@@ -249,7 +270,7 @@ _REUSED = 8.0
 
 @dataclass(frozen=True, eq=False)
 class _Known:
-    """Gains that were found at a point, with their pencil; None stands for λI − A."""
+    """Gains for a point, with their pencil; without gains (None) the pencil is λI − A."""
 
     point: complex
     gains: PencilGains | None
@@ -258,7 +279,7 @@ class _Known:
 
 @dataclass
 class FixedModeSearch:
-    """The search for evidence about one system, which keeps its gains for other radii.
+    """The search for a proof about one system, which keeps its gains for further radii.
 
     Attributes
     ----------
@@ -269,13 +290,14 @@ class FixedModeSearch:
     most_squares : int
         The most discs and squares of a cover; there are fewer of a large plant.
     several : bool, optional
-        Whether exterior discs are those of several matrices; by default those of large plants are.
+        Whether to intersect the exterior discs of several matrices A_F; by default for large
+        plants only.
     tied : tuple of MultiChannelSystem
         What may be added to the system, each with a factor from −1 to 1.
     most_own : int
-        For how many squares gains of their own are searched.
+        For at most so many squares gains are searched that no other square has used before.
     tested : int
-        How many were tested so far.
+        The number of discs and squares tested so far.
     """
 
     system: MultiChannelSystem
@@ -300,15 +322,15 @@ class FixedModeSearch:
         return gain_pencil(self.system, self.radii, self.box.scale, X, W, self.tied)
 
     def reuse(self, other: FixedModeSearch) -> None:
-        """Try the gains that were found for another system of the same shapes."""
+        """Adopt the gains of another search, about a system of the same shapes."""
         for each in other.known:
             self.known.append(_Known(each.point, each.gains, self._pencil(each.gains)))
 
     def learn(self, point: complex, growth: float, size: float = 0.0) -> float:
         """Search gains for a point, and return how far the radii can grow there with them.
 
-        The gains are to suffice for the disc of a size, too: those that are best for the point
-        alone can make the pencil nearly singular beside it.
+        The gains have to suffice on the disc of radius ``size`` around the point: those that are
+        best at the point alone can make the pencil nearly singular beside it.
         """
         box = self.box.wider(size / growth)
         known = [_floats(each.gains) for each in self.known if size and each.gains is not None]
@@ -324,7 +346,7 @@ class FixedModeSearch:
     ) -> float:
         """Learn gains for all modes, and return how far the radii can grow at each of them.
 
-        Modes that are in no disc of one of some lists are left out.
+        A mode is left out if, for one of the lists, no disc contains it.
         """
         least = np.inf
         for mode in self.box.modes():
@@ -338,7 +360,7 @@ class FixedModeSearch:
         return float(least)
 
     def improve(self, outside: Outside, rounds: int) -> float:
-        """Search more gains where the radii can grow least, and return how far they can grow."""
+        """Search gains at the mode that limits the radii, and return how far these can grow."""
         least = 0.0
         for k in range(rounds + 1):
             modes = [mode for mode in self.box.modes() if not outside.covers(mode)]
@@ -351,9 +373,10 @@ class FixedModeSearch:
         return float(least)
 
     def cover(self, growth: Fraction, bound: Fraction | None) -> BoxFixedModes | None:
-        """Evidence for radii that are multiplied by a factor; None if there is none.
+        """Search a proof for radii that are multiplied by a factor; None if the search fails.
 
-        The answer is about the radii of the system: with another factor it is a witness only.
+        The answer names the box of the system itself: with a factor other than 1 it has to be
+        rewritten for the larger or smaller box before it is a certificate.
         """
         system, outside = self.system, Outside(self.system.time, bound)
         free, along = independent(self.radii, self.tied), [each.A for each in self.tied]
@@ -389,7 +412,7 @@ class _Leaves:
     own: int = 0
 
     def test(self, c: Point, rho: Fraction, depth: int) -> int | None:
-        """The position of a frame that shows a disc to be free of fixed modes."""
+        """The position of a frame that proves that a disc has no fixed mode; None without one."""
         k = self.frames.one_for(c, rho)
         if k is not None:
             return k
@@ -464,8 +487,8 @@ def box_fixed_modes(
     starts : int
         How many local searches for gains there are at most at a point.
     spectrum : FixedSpectrum, optional
-        The fixed modes of the nominal plant, which has no parameters, if they are known: with one
-        of them no proof is searched.
+        The fixed spectrum of the nominal plant, which has no parameters, if it is known: if a
+        fixed mode already violates the claim, no proof is searched.
 
     Raises
     ------
@@ -474,11 +497,11 @@ def box_fixed_modes(
 
     Notes
     -----
-    Proposed in floating point, and tested exactly: one square after the other, in integers.  The
-    gains with which a mode is moved are searched for each part of the plane.
+    Floating point proposes the proof; every square is tested exactly, in integers.  Gains that move
+    the modes are searched for each part of the plane.
 
-    Entries that depend on the same parameter are moved together, which proves more than a radius
-    for each of them.  Ranges are cut in half until each cell is proved.
+    Entries that depend on the same parameter change together, which proves more than independent
+    radii would.  Ranges are cut in half until each cell is proved.
 
     Examples
     --------
@@ -511,7 +534,7 @@ def box_fixed_modes(
 
 
 def _require_moved(spectrum: FixedSpectrum, limit: Fraction | None) -> None:
-    """End the search if the nominal plant itself fails."""
+    """Raise `LimitReached` if the nominal plant itself fails."""
     if limit is None and not spectrum.empty:
         raise LimitReached("the plant itself has a fixed mode, at its nominal values")
     if limit is not None and not spectrum.stabilizable:
@@ -543,8 +566,8 @@ def box_stabilizability(
 
     Notes
     -----
-    No member has a fixed mode in the closed right half-plane, or of modulus 1 or more.  One
-    controller for all members is a matter of `box_stability`.
+    No member has a fixed mode in the closed right half-plane, or, in discrete time, of modulus 1 or
+    more.  `box_stability` proves that a single controller serves all members.
 
     Examples
     --------
@@ -561,7 +584,7 @@ def box_stabilizability(
     return box_fixed_modes(system, bound=edge, spectrum=spectrum)
 
 
-# Whether channels control every plant in a box, by right inverses of [λI − A, −B_T].
+# Controllability of the members, by right inverses of [λI − A, −B_T].
 
 _MOST_SQUARES_CONTROLLABLE = 3000
 _REWEIGHTINGS, _FEW = 40, 10
@@ -578,12 +601,12 @@ class WidePencil:
     Z0, D : Matrix, n × (n + p)
         [A, B] and the radii.
     near, near_D : ndarray
-        The same in balanced coordinates; the radii with the moduli of what is tied.
+        Z0 and D in balanced coordinates; here the moduli of the tied matrices are added to D.
     scale : ndarray, n
     tied : tuple of Matrix
-        What may be added to Z0, each with a factor from −1 to 1.
+        Matrices that may be added to Z0, each with a factor from −1 to 1.
     near_rest, near_tied : ndarray, tuple of ndarray
-        The radii without what is tied, and this itself, in balanced coordinates.
+        The radii alone, and the tied matrices, in balanced coordinates.
     """
 
     Z0: Matrix
@@ -604,7 +627,7 @@ class WidePencil:
         channels: Iterable[int],
         tied: Sequence[MultiChannelSystem] = (),
     ) -> WidePencil:
-        """Make it of a box with some channels."""
+        """Make the pencil of some channels of a box."""
         chosen, n = sorted(channels), system.n
 
         def wide(A: Matrix, B: Sequence[Matrix]) -> Matrix:
@@ -632,7 +655,7 @@ class WidePencil:
         return np.asarray(self.near_rest @ np.abs(R) + sum(np.abs(M @ R) for M in self.near_tied))
 
     def proposal(self, c: complex, rho: float, growth: Fraction) -> RegularDiscs | None:
-        """Evidence that the pencil has full rank on a disc, if floating point finds some."""
+        """Propose a proof that the pencil has full rank on a disc; None without a proposal."""
         n, width = self.near.shape
         E = np.hstack([np.eye(n), np.zeros((n, width - n))])
         Z, D = c * E - self.near, float(growth) * self.near_D + rho * E
@@ -702,7 +725,7 @@ def _right_inverse(Z: Any, D: Floats, rounds: int) -> Any:
 
 @dataclass
 class ControllabilitySearch:
-    """The search for evidence about some channels of one system, for several factors of the radii.
+    """The search for a proof that channels control all members, for several factors of the radii.
 
     Attributes
     ----------
@@ -714,7 +737,7 @@ class ControllabilitySearch:
     tied : tuple of MultiChannelSystem
         What may be added to the system, each with a factor from −1 to 1.
     tested : int
-        How many were tested so far.
+        The number of discs and squares tested so far.
     """
 
     system: MultiChannelSystem
@@ -730,12 +753,12 @@ class ControllabilitySearch:
         self.pencil = WidePencil.of(self.system, self.radii, self.box, self.channels, self.tied)
 
     def capacity(self, outside: Outside) -> float:
-        """How far the radii can grow at each eigenvalue of A of which something is claimed."""
+        """How far the radii can grow at the eigenvalues of A that the claim is about."""
         left = (mode for mode in self.box.modes() if not outside.covers(mode))
         return min((self.pencil.margin(mode) for mode in left), default=np.inf)
 
     def state_gains(self) -> GainBox:
-        """The box of gains from the state, which is measured exactly, to the channels."""
+        """The box of the plant whose channels measure the whole state without uncertainty."""
         near, n, chosen = self.box, self.system.n, self.channels
         B = hstack([self.system.B(i) for i in chosen], nrows=n)
         free = independent(self.radii, self.tied)
@@ -751,7 +774,7 @@ class ControllabilitySearch:
         return GainBox(self.system.A, (B,), (C,), radii, floats, moved)
 
     def cover(self, growth: Fraction, bound: Fraction | None) -> BoxControllability | None:
-        """Evidence for radii that are multiplied by a factor; None if there is none."""
+        """Search a proof for radii that are multiplied by a factor; None if the search fails."""
         outside = Outside(self.system.time, bound)
         lists = disc_lists(
             self.state_gains(), self.rng, growth, outside, several=self.system.n >= MANY
@@ -817,7 +840,7 @@ def box_controllability(
 
     Notes
     -----
-    Proposed in floating point, and tested exactly: one square after the other, in integers.
+    Floating point proposes the proof; every square is tested exactly, in integers.
 
     Examples
     --------
@@ -895,7 +918,7 @@ def box_observability(
         raise LimitReached(told.replace("is not controlled", "is not observed")) from None
 
 
-# Whether every plant in a box can hold its outputs at set-points by decentralized control.
+# Set-points of the members.
 
 
 def box_setpoints(
@@ -908,14 +931,14 @@ def box_setpoints(
     system : MultiChannelSystem
         A plant with radii, such as ``Box.relative(plant, "1/1000").system``.
     solvability : SetpointSolvability, optional
-        Whether set-points of the nominal plant have equilibria, if it is known: where some have
-        none no proof is searched.
+        Whether all set-points of the nominal plant have equilibria, if it is known: if some have
+        none, no proof is searched.
 
     Returns
     -------
     BoxFixedModes
         About the plant with an integrator of every output: no member has a fixed mode in the
-        closed right half-plane, or of modulus 1 or more.
+        closed right half-plane, or, in discrete time, of modulus 1 or more.
 
     Raises
     ------
@@ -925,8 +948,8 @@ def box_setpoints(
     Notes
     -----
     A decentralized linear time-invariant controller that stabilizes the plant with its integrators
-    holds every output at its set-point: at rest each integrator has a constant value, so that what
-    it integrates is 0.  One controller for all members is a matter of `box_stability`.
+    holds every output at its set-point: at rest each integrator has a constant value, so that its
+    input, the deviation, is 0.  `box_stability` proves that one controller serves all members.
 
     Examples
     --------
@@ -951,7 +974,7 @@ outside of the region
     return box_stabilizability(setpoint_system(system))
 
 
-# Every plant within the ranges of its parameters, whose entries depend on the same parameters.
+# The same questions for all values of parameters within their ranges.
 
 _MOST_SQUARES_OF_CELL, _MOST_OWN_OF_CELL = 200, 1
 """A cell that needs more squares, or gains for more of them, is cut."""
@@ -978,9 +1001,9 @@ def parametric_box_fixed_modes(
 
     Notes
     -----
-    Proposed in floating point, and tested exactly.  The ranges are cut in half, one parameter after
-    the other, until the plants of each cell are proved as those of a box are, in which the slopes
-    of all entries with respect to one parameter are added with the same factor.
+    Floating point proposes the proof, which is tested exactly.  The ranges are cut in half, one
+    parameter at a time, until each cell is proved like a box.  In the box of a cell, all entries
+    change with one parameter by the same factor times their slopes.
 
     Examples
     --------

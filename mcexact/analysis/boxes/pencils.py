@@ -1,13 +1,24 @@
 """Radii, pencils in floating point, and the exact test of a disc.
 
-The exact test that a matrix function is nonsingular on a disc, for every member of a box.
-
-For a square V with I − V Z(λ) = K − λ L, a member's Z(λ) is nonsingular on |λ − c| ≤ ρ if
+All proofs about boxes rest on one test (`RegularDiscs`): that a matrix function Z(λ) is nonsingular
+on a disc, for every member of a box.  For a square V with I − V Z(λ) = K − λ L, a member's Z(λ) is
+nonsingular on |λ − c| ≤ ρ if, for some w > 0,
 
     Σ_j |K − c L|_ij w_j + p_i + ρ r_i < w_i    for every row i,
 
-w > 0, where p_i and r_i bound what the radii and the distance from c contribute: the matrix
-I − V Z(λ) then has a norm below 1.  With R on the other side, I − Z(λ) R is of the same form.
+where p_i and r_i bound what the radii and the distance from c contribute: the matrix I − V Z(λ)
+then has a norm below 1.  With R on the other side, I − Z(λ) R is of the same form, and proves that
+a wide pencil has full row rank.
+
+Floating point proposes V, the inverse of the pencil at c, and the weights w, a positive vector of
+Perron's kind; both are rounded to short dyadic numbers and integers, and the test is done in
+integers.  `Pencil` has the exact matrices and makes the proposals; `FloatBox` has those of a box in
+coordinates that are balanced by powers of 2.  A frame, V and w, often passes on neighboring discs
+as well, so `Frames` tries recent ones first.
+
+`radii_of` gives the radii of a plant, or of a system that constructions made from one.  Some
+changes are not independent: a tied matrix may be added with a factor from −1 to 1, as in the box of
+a cell (`boxes.cells`).
 """
 
 from __future__ import annotations
@@ -33,7 +44,7 @@ from mcexact.model.box import Box
 from mcexact.model.radii import Radii, moduli
 from mcexact.model.system import MultiChannelSystem
 
-# The exact test that a matrix function is nonsingular on a disc, for every member of a box.
+# The exact test of a disc.
 
 Complex = npt.NDArray[np.complexfloating[Any, Any]]
 Floats = npt.NDArray[np.floating[Any]]
@@ -57,7 +68,7 @@ class ComplexRows:
 
     @classmethod
     def of(cls, re: Matrix, im: Matrix | None = None) -> ComplexRows:
-        """Make it of its real and imaginary parts."""
+        """Make the matrix from its real and imaginary parts."""
         return cls(re, re * 0 if im is None else im)
 
     @property
@@ -123,12 +134,12 @@ def modulus_above(a: int, b: int) -> int:
 
 @dataclass(frozen=True, eq=False)
 class RegularDiscs:
-    """The test of discs with one V and w.
+    """The test of discs with one V and w, by the inequality at the top of this module.
 
     Attributes
     ----------
     V : ComplexRows
-        The evidence from which K and L are made.
+        The approximate inverse from which K and L are made.
     K, L : ComplexRows
         N × N: I − V Z(λ) = K − λ L.
     w : tuple of int
@@ -165,7 +176,7 @@ class RegularDiscs:
             object.__setattr__(self, key, found)
 
     def seem(self, c: complex, rho: float) -> bool:
-        """Whether a disc passes in floating point."""
+        """Whether a disc passes the test in floating point, which proves nothing."""
         import numpy as np
 
         own: Any = self
@@ -174,7 +185,7 @@ class RegularDiscs:
         return bool(np.all(sums < 0.9999))
 
     def hold(self, c: Point, rho: Fraction) -> bool:
-        """Whether a disc passes, in integers, with a margin."""
+        """Whether a disc passes the test, done in integers and with a small margin."""
         own: Any = self
         dc = lcm(c[0].denominator, c[1].denominator)
         a, b = int(c[0] * dc), int(c[1] * dc)
@@ -194,7 +205,7 @@ class RegularDiscs:
 
 @dataclass
 class Frames:
-    """The evidence that passed tests, for use on other discs as well.
+    """The frames, V and w, that passed on some disc; they are tried on further discs.
 
     Attributes
     ----------
@@ -206,7 +217,7 @@ class Frames:
     tests: list[RegularDiscs] = field(default_factory=list)
 
     def one_for(self, c: Point, rho: Fraction) -> int | None:
-        """The position of a recent frame that passes on a disc."""
+        """The position of a recent frame that passes on a disc; None if none does."""
         near, size = complex(to_float(c[0]), to_float(c[1])), to_float(rho)
         for k in range(len(self.tests) - 1, max(len(self.tests) - 1 - _RECENT, -1), -1):
             if self.tests[k].seem(near, size) and self.tests[k].hold(c, rho):
@@ -214,7 +225,7 @@ class Frames:
         return None
 
     def added(self, proposed: RegularDiscs, c: Point, rho: Fraction) -> int | None:
-        """The position of a new frame, if it passes."""
+        """Add a frame if it passes on a disc, and return its position; None if it fails."""
         if not proposed.hold(c, rho):
             return None
         self.tests.append(proposed)
@@ -225,7 +236,7 @@ class Frames:
 def whole_weights(w: Floats) -> tuple[int, ...]:
     """Round weights above 0 to integers, to 16 bits each, the largest ones down.
 
-    Weights are only proposed; sums of them are to remain within the range of floats.
+    Any positive weights are valid proposals.  16 bits keep their sums within the range of floats.
     """
     import numpy as np
 
@@ -272,7 +283,7 @@ def entries(M: Matrix) -> tuple[Fraction, ...]:
     return tuple(Fraction(row[0], M.denominator) for row in M.numerators)
 
 
-# Pencils λE − Z0 of boxes in floating point, and the evidence that they propose for a disc.
+# Pencils λE − Z0 of boxes, and the frames that they propose for a disc.
 
 _ROOM = 0.998
 """The part of 1 below which the norm is to be in floating point."""
@@ -287,11 +298,11 @@ class FloatBox:
     ----------
     A, DA : ndarray, n × n
     B, C, DB, DC : tuples of ndarray
-        Radii are those of entries that are independent, with the moduli of those that are tied.
+        DA, DB and DC are radii plus the moduli of the tied matrices.
     rest_A : ndarray, n × n
-        The radii of A without those of entries that are tied.
+        The radii of A alone.
     tied_A : tuple of ndarray
-        What may be added to A with a factor from −1 to 1.
+        Matrices that may be added to A, each with a factor from −1 to 1.
     scale : ndarray, n
         x = scale · z, where z are the balanced states.
     """
@@ -310,7 +321,7 @@ class FloatBox:
     def of(
         cls, system: MultiChannelSystem, radii: Radii, tied: Sequence[MultiChannelSystem] = ()
     ) -> FloatBox:
-        """Make it of a system, the radii of its entries, and what may be added to it."""
+        """Make the box of a system, the radii of its entries, and the tied systems."""
         from scipy.linalg import matrix_balance
 
         free = independent(radii, tied)
@@ -338,10 +349,10 @@ class FloatBox:
         return np.asarray(rest + sum(np.abs(Y @ M @ T) for M in self.tied_A))
 
     def wider(self, size: float) -> FloatBox:
-        """The box in which the diagonal of A may change by so much more.
+        """The box in which the diagonal of A may also change by ``size``.
 
-        What is regular at a point for all its members is regular for those of this box on the disc
-        around the point with that radius.
+        A pencil that is regular at a point for all members of the wider box is regular for those of
+        this box on the whole disc of radius ``size`` around the point.
         """
         return replace(self, DA=self.DA + size * np.eye(self.n))
 
@@ -372,7 +383,7 @@ class Pencil:
     scale : ndarray, N
         Powers of 2, by which the coordinates are balanced.
     tied : tuple of Matrix
-        What may be added to Z0, each with a factor from −1 to 1.
+        Matrices that may be added to Z0, each with a factor from −1 to 1.
     """
 
     Z0: Matrix
@@ -391,7 +402,7 @@ class Pencil:
 
     @cached_property
     def balanced_ties(self) -> tuple[Floats, ...]:
-        """What may be added to Z0, in balanced coordinates."""
+        """The tied matrices, in balanced coordinates."""
         rows, cols = (1 / self.scale)[:, None], self.scale[None, :]
         return tuple(matrix_to_float(M) * rows * cols for M in self.tied)
 
@@ -419,7 +430,7 @@ class Pencil:
         return 1 / size if size > 0 else np.inf
 
     def proposal(self, c: complex, rho: float, growth: Fraction) -> RegularDiscs | None:
-        """Evidence that the pencil is regular on a disc, if floating point finds some.
+        """Propose V and w for a disc, as a test in which they are rounded; None without a proposal.
 
         Parameters
         ----------
@@ -443,7 +454,7 @@ class Pencil:
         return self.tested(exact, whole_weights(w * self.scale), growth)
 
     def tested(self, V: ComplexRows, w: tuple[int, ...], growth: Fraction) -> RegularDiscs:
-        """The exact test with V and w, of radii that are multiplied by a factor."""
+        """Make the exact test with V and w, for radii that are multiplied by a factor."""
         N = len(w)
         one, heavy = ComplexRows.of(Matrix.identity(N)), column(w)
         K = one + V.before(self.Z0)
@@ -463,7 +474,7 @@ class Pencil:
 
 
 def independent(radii: Radii, tied: Sequence[MultiChannelSystem]) -> Radii:
-    """The radii of a box of independent entries that contains all members."""
+    """The radii of a box with independent entries that contains all members."""
     A, B, C = radii.A, list(radii.B), list(radii.C)
     for each in tied:
         A = A + moduli(each.A)
@@ -480,7 +491,7 @@ def gain_pencil(
     W: Sequence[Matrix] | None = None,
     tied: Sequence[MultiChannelSystem] = (),
 ) -> Pencil:
-    """The pencil [[λI − A, −B], [XC, W]], which is regular where λ is not fixed.
+    """The pencil [[λI − A, −B], [XC, W]]; where it is regular for some X and W, λ is not fixed.
 
     Without gains it is λI − A.  X and W are block diagonal by channel:
 
@@ -516,7 +527,7 @@ def gain_pencil(
 
 
 def weights(N: Floats) -> Floats | None:
-    """A vector w > 0 with N w < w, for N ≥ 0; None if floating point finds none."""
+    """Propose a vector w > 0 with N w < w, for N ≥ 0; None if there seems to be none."""
     if not np.all(np.isfinite(N)):
         return None
     try:
@@ -529,7 +540,7 @@ def weights(N: Floats) -> Floats | None:
 
 
 def perron(N: Floats, squarings: int = 8) -> tuple[float, Floats, Floats]:
-    """The spectral radius of a matrix N ≥ 0, and about its right and left positive vectors.
+    """The spectral radius of a matrix N ≥ 0, and approximate right and left positive eigenvectors.
 
     Examples
     --------
@@ -568,24 +579,24 @@ def _root_of_power(N: Floats) -> float:
     return float(np.exp(logarithm / 2**_ROOT))
 
 
-# The entries with which floating point can search.
+# Limits of floating point.
 
 _BITS = 200
 """Products of a few such numbers are still floats."""
 
 
 def require_float_range(values: Iterable[Matrix], radii: Iterable[Matrix]) -> None:
-    """Stop if an entry is so large or so small that its products leave floating point.
+    """Require entries whose products stay within the range of floating point.
 
     Parameters
     ----------
     values, radii : iterable of Matrix
-        Radii may be as small as they like.
+        Radii have no lower limit.
 
     Raises
     ------
     LimitReached
-        If the modulus of an entry that is not 0 is above 2²⁰⁰ or below 2⁻²⁰⁰, or about that.
+        If the modulus of an entry other than 0 is above about 2²⁰⁰ or below about 2⁻²⁰⁰.
 
     Examples
     --------
@@ -627,14 +638,14 @@ def radii_of(system: MultiChannelSystem) -> Radii:
     LimitReached
         If floating point cannot search with the entries.
     UsageError
-        If a construction closes a loop: its stability is a matter of `box_stability`.
+        If a construction closes a loop: use `box_stability` for its stability.
 
     Notes
     -----
-    With |S| the moduli of all entries, D their radii, and T the constructions, which add and
-    multiply entries, with the moduli of their gains: all T(S') are within T(|S| + D) − T(|S|) of
-    T(S).  Where entries are copied this is the radius of each copy.  A sum, such as A + Σ B_i F_i
-    C_i, may be uncertain in a way that no member is, as its terms are taken as independent.
+    Let |S| be the moduli of all entries, D their radii, and T the constructions, which add and
+    multiply entries, with gains replaced by their moduli.  Then every T(S') is within
+    T(|S| + D) − T(|S|) of T(S).  A copied entry keeps its radius.  The radius of a sum, such as
+    A + Σ B_i F_i C_i, may be larger than any member attains, since its terms count as independent.
 
     Examples
     --------
@@ -663,7 +674,7 @@ def radii_of(system: MultiChannelSystem) -> Radii:
 
 
 def _made(construction: Mapping[str, Any], system: MultiChannelSystem) -> MultiChannelSystem:
-    """The moduli of what a construction with the moduli of its gains makes of a system."""
+    """Apply a construction, with its gains replaced by their moduli, and return the moduli."""
     given = dict(construction)
     if "gains" in given:
         sizes = [moduli(F) for F in given["gains"]]
@@ -677,7 +688,7 @@ def _matrices(system: MultiChannelSystem) -> list[Matrix]:
 
 
 def _with_entries(system: MultiChannelSystem, entries: Iterable[Matrix]) -> MultiChannelSystem:
-    """A plant with the channels and the neighbors of a system, and these A, B_i and C_i."""
+    """The plant with these A, B_i and C_i, and with the channels and neighbors of a system."""
     A, *ports = entries
     return MultiChannelSystem(
         A,
@@ -694,6 +705,6 @@ def _with_entries(system: MultiChannelSystem, entries: Iterable[Matrix]) -> Mult
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """Keep floating point in one thread, and its overflows silent: what it proposes is tested."""
+    """Run floating point in one thread without warnings: all its proposals are tested exactly."""
     with threadpool_limits(1, "blas"), np.errstate(all="ignore"):
         yield

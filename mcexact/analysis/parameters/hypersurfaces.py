@@ -1,4 +1,20 @@
-"""Several parameters: generic answers and exceptional hypersurfaces."""
+"""Several parameters: generic answers and exceptional hypersurfaces.
+
+With several parameters a question has an answer that holds for almost all values, and hypersurfaces
+of values on which it differs.  `exceptional_hypersurfaces` decides both for fixed modes, joint
+controllability and observability, set-points, indices, the transfer graph and completeness.
+
+The method has two steps.  Candidates are irreducible polynomials in the parameters: those that the
+resultants for several drawn gains share (modes), or the factors of one minor of full order (ranks,
+`parameters.ranks`).  Then lines are drawn through the space of parameters.  Along a line there is
+one parameter, so the question is decided and proved for all its values (`parameters.modes`), and
+the candidates are kept at whose points on the line the answer differs.  Resultants and minors are
+polynomials in all parameters, which limits this to some ten states.
+
+The transfer graph and completeness are also decided here for one parameter, since both cases have
+the same results: `parametric_transfer_graph` by the ranks of columns C_i A^k B_j, and
+`parametric_completeness` by that graph and the fixed modes.
+"""
 
 from __future__ import annotations
 
@@ -48,14 +64,14 @@ from mcexact.exact.roots import root_discs
 from mcexact.model.entries import as_functions
 from mcexact.model.parametric import ParametricSystem
 
-# Where a mode of a system with several parameters is fixed that is not for almost all values.
+# Fixed, uncontrollable and unobservable modes.
 
 _NUMBER = RationalFunction.constant(0, ())
 """What a function of parameters is when they have values."""
 
 
 def mode_hypersurfaces(system: ParametricSystem) -> ExceptionalHypersurfaces:
-    """Decide what is fixed for almost all values of several parameters, and where more is."""
+    """Decide which modes are fixed for almost all values, and where further modes are."""
     rng = generator(system, "exceptional_hypersurfaces")
     return _Search(system, system, parametric_fixed_spectrum, rng).found()
 
@@ -63,7 +79,7 @@ def mode_hypersurfaces(system: ParametricSystem) -> ExceptionalHypersurfaces:
 def controllability_hypersurfaces(
     system: ParametricSystem, channels: Iterable[str] | None = None, *, observed: bool = False
 ) -> ExceptionalHypersurfaces:
-    """Decide which modes channels do not control for almost all values, and where others.
+    """Decide which modes channels do not control for almost all values, and where further ones.
 
     Parameters
     ----------
@@ -85,7 +101,7 @@ def controllability_hypersurfaces(
 def _with_full_ports(
     system: ParametricSystem, chosen: tuple[str, ...], observed: bool
 ) -> ParametricSystem:
-    """The system of one channel with some inputs and x as output, or some outputs and input x."""
+    """The one-channel system with the chosen inputs and C = I, or the chosen outputs and B = I."""
     one = [[int(i == j) for j in range(system.n)] for i in range(system.n)]
     identity = as_functions(one, "identity", system.parameters, system.n).matrix()
     named = [channel for channel in system.channels if channel.name in chosen]
@@ -99,14 +115,14 @@ def _with_full_ports(
 
 
 class _Search:
-    """Draws gains, then lines, until what gains leave is what is fixed along the lines.
+    """Draws gains, then lines, until the candidates from gains agree with the answers along lines.
 
     Parameters
     ----------
     about : ParametricSystem
         The system of the answer.
     system : ParametricSystem
-        That whose fixed modes are looked for.
+        The system whose fixed modes are the modes in question.
     decide : callable
         Answers the question about ``about`` along a line.
     rng : random.Random
@@ -146,7 +162,7 @@ class _Search:
         else:
             raise LimitReached("no drawn gains leave the fixed modes alone")
         lines, confirmed = made
-        # Where a line meets two hypersurfaces at once, modes are fixed because of either.
+        # Where a line meets two hypersurfaces at once, either may be why a mode is fixed.
         met = Counter(id(value) for values in confirmed.values() for value in values)
         alone = {
             h: [value for value in values if met[id(value)] == 1] or values
@@ -188,10 +204,10 @@ class _Search:
         return rational_functions.characteristic(closed, self.names)
 
     def _candidates(self, size: int) -> tuple[list[Any], list[RationalFunction]] | None:
-        """What drawn gains leave, and where more is common to what they move.
+        """The factors that drawn gains do not move, and the candidates for hypersurfaces.
 
-        None if one of both loops keeps more than the other: its resultants are 0, and their factors
-        say nothing.
+        None if one of the two loops keeps more factors than the other: then resultants are 0, and
+        there are no candidates.
         """
         psi = [self.chi, self._loop(size), self._loop(size)]
         common = rational_functions.common_divisor(psi)
@@ -209,7 +225,7 @@ class _Search:
 def _example(
     values: Iterable[Any], lines: Iterable[Line[ParametricFixedSpectrum]]
 ) -> tuple[dict[str, Fraction], tuple[Polynomial, ...]] | None:
-    """One of the values at which lines meet a hypersurface, and what is fixed only there."""
+    """A value at which a line meets a hypersurface, and the modes that are fixed only there."""
     known = {id(value) for value in values}
     for line in lines:
         for each in line.answer.exceptional:
@@ -230,7 +246,7 @@ def _example(
     return None
 
 
-# The transfer graph, and completeness, for all values of one parameter or several.
+# The transfer graph and completeness, for one parameter or several.
 
 Pair = tuple[str, str]
 Surface = Polynomial | RationalFunction
@@ -257,7 +273,7 @@ class ParametricTransferGraph:
 
     @property
     def lost(self) -> dict[Pair, tuple[Any, ...]]:
-        """The values at which an edge vanishes, for the edges for which there are some."""
+        """The values at which an edge vanishes, for each edge that vanishes somewhere."""
         return {pair: each.exceptional for pair, each in self.columns.items() if each.exceptional}
 
     @property
@@ -267,7 +283,7 @@ class ParametricTransferGraph:
 
     @property
     def rows(self) -> tuple[tuple[str, str, str], ...]:
-        """For each pair of channels where it is an edge."""
+        """For each pair of channels, the values for which it is an edge."""
         rows = joined((f"{start} -> {end}", each) for (start, end), each in self.columns.items())
         return tuple((at, _as_edge(what), why) for at, what, why in rows)
 
@@ -330,7 +346,7 @@ class ParametricCompleteness:
 
     @cached_property
     def exceptional(self) -> tuple[Surface, ...]:
-        """The polynomials at whose roots it is not, if it is for almost every value."""
+        """The polynomials at whose roots a generically complete plant is not complete."""
         if not self.generic:
             return ()
         cut = [q for q in self.graph.lost_at if not self.graph.strongly_connected(q)]
@@ -341,7 +357,7 @@ class ParametricCompleteness:
 
     @property
     def rows(self) -> tuple[tuple[str, str, str], ...]:
-        """Where it is complete, in words of the parameters."""
+        """The values for which the plant is complete, in words."""
         about = self.spectrum.about
         beyond = any(
             each.left_out.outside for each in (self.spectrum, *self.graph.columns.values())
@@ -356,7 +372,7 @@ class ParametricCompleteness:
         return *found, *rows_left_out(each.left_out for each in parts)
 
     def _at(self, q: Surface) -> str:
-        """Where a polynomial in the parameters is 0."""
+        """The words for the roots of a polynomial in the parameters."""
         about = self.spectrum.about
         if isinstance(q, RationalFunction):
             return Hypersurface(q).inside(about)
@@ -401,7 +417,7 @@ def parametric_completeness(
     ----------
     system : ParametricSystem
     spectrum, graph : optional
-        What is fixed, and the transfer graph, if they are known already.
+        The fixed modes and the transfer graph, if they are known already.
     """
     if spectrum is None:
         one = len(system.parameters) == 1
@@ -409,7 +425,7 @@ def parametric_completeness(
     return ParametricCompleteness(spectrum, graph or parametric_transfer_graph(system))
 
 
-# What holds for almost all values of several parameters, and on which hypersurfaces more.
+# All questions that are decided for several parameters.
 
 Modes = Literal[
     "fixed_spectrum",
@@ -481,9 +497,10 @@ def exceptional_hypersurfaces(
     system : ParametricSystem
     question : str
         By default which modes are fixed.  "joint_controllability" and "joint_observability" are
-        about modes, too; "setpoint" is about the rank of [A, B; C, 0], and
-        "controllability_indices" and "observability_indices" about those of the first k blocks
-        [B, A B, …]; "transfer_graph" and "completeness" have the results of one parameter.
+        about modes, too.  "setpoint" is about the rank of [A, B; C, 0], and
+        "controllability_indices" and "observability_indices" about the ranks of the first k blocks
+        [B, A B, …].  "transfer_graph" and "completeness" have results of the same form as with one
+        parameter.
     channels : iterable of str, optional
         For controllability, observability and indices the channels in question, by default all.
 
@@ -497,10 +514,9 @@ def exceptional_hypersurfaces(
     Notes
     -----
     Exact.  The irreducible factors that resultants for several drawn gains have in common, or those
-    of one minor of full order, are the candidates; of these, the ones are kept at whose points the
-    answer differs on drawn lines.  There everything is decided for every value and proved by a
-    certificate.  Resultants and minors are polynomials in all parameters, which limits this to some
-    ten states.
+    of one minor of full order, are the candidates; those are kept at whose points the answer
+    differs on drawn lines.  Along each line a certificate proves the answer for every value.
+    Resultants and minors are polynomials in all parameters, which limits this to some ten states.
 
     Examples
     --------

@@ -1,13 +1,25 @@
 """Fixed modes for all values of one parameter, and what follows from them.
 
-Zero blocks, which prove that a mode of a system with a parameter is fixed.
+For a plant whose entries are rational functions of t, the answer has the modes that are fixed for
+almost every value, as factors of polynomials in x and t, and the exceptional values at which
+further modes are fixed.  It is exact, for every complex value at which all entries are defined.
 
-A set T of channels and matrices W, U over R = Q[t]/(q)[x]/(p), or Q[t][x]/(p), with
+- `parametric_fixed_spectrum` decides it.  Drawn gains F move all modes that are not fixed, so the
+  greatest common divisor of several det(xI − A_F) has the generic fixed modes as roots.  Other
+  modes can be fixed only at common roots of resultants of what is left; each irreducible candidate
+  q(t) is decided over its number field.
+- `parametric_controllability` decides it of the system that measures its whole state, whose fixed
+  modes are the uncontrollable ones; observability is that of the dual system.
+- `shared_dimensions_for_every_value` tries all dimensions of shared sub-states, sum after sum.
+
+Two kinds of evidence prove an answer.  That a mode is fixed is proved by a zero block: a set T of
+channels and matrices W, U over R = Q[t]/(q)[x]/(p), or Q[t][x]/(p), with
 
     W (xI − A) U = 0,   W B_T = 0,   C_i U = 0 for every i outside T
 
 and more than n rows of W and columns of U together, independent, prove that p divides det(xI − A_F)
-over R for every F: λI − A_F has a zero block that is too large.
+over R for every F: λI − A_F has a zero block that is too large.  That nothing else is fixed is
+proved by gains modulo a prime that move all the rest (`MovingGains`).
 """
 
 from __future__ import annotations
@@ -72,7 +84,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
-# Gains that move, modulo a prime, all that is not fixed for all values of a parameter.
+# Gains modulo a prime, which prove that no other mode is fixed and no other value exceptional.
 
 _SHORT = 8
 """The degree of values outside the range up to which a common divisor there is computed."""
@@ -81,7 +93,7 @@ _SHORT = 8
 class MovingGains:
     """det(xI − A_G) for drawn G, and resultants of it and of ψ_1 with ψ_0, all modulo ℓ.
 
-    ψ_0 and ψ_1 are what generic polynomials leave of det(xI − A_E) and det(xI − A_F).
+    ψ_0 and ψ_1 are det(xI − A_E) and det(xI − A_F) without the factors that are generically fixed.
     """
 
     def __init__(
@@ -100,7 +112,7 @@ class MovingGains:
         self.other = bivariate.resultant_modulo(left, self.loop, ell)
 
     def is_complete(self, q: Any, known: Sequence[Bivariate]) -> bool:
-        """Whether G moves what factors that are known leave of det(xI − A_E) at the roots of q."""
+        """Whether, at the roots of q, G moves all roots of ψ_0 but those of known factors."""
         left, bottom = bivariate.reduced(self.psi, q), residues(q, self.ell)
         for p in known:
             left = without(left, p, q)
@@ -112,7 +124,7 @@ class MovingGains:
         return is_coprime_modulo(q, common, self.ell)
 
     def is_nothing_else(self, values: Sequence[Any]) -> bool:
-        """Whether all common roots of both resultants are among these values, modulo ℓ."""
+        """Whether modulo ℓ both resultants have common roots only among these values."""
         rest = self.first
         if rest.is_zero():
             return False
@@ -152,7 +164,7 @@ class MovingGains:
         return found if rest.gcd(self.other).degree() == 0 else None
 
 
-# Zero blocks, which prove that a mode of a system with a parameter is fixed.
+# Zero blocks, which prove that a mode is fixed.
 
 _BLOCK_BITS = 60
 _BLOCK_TRIES = 2000
@@ -163,7 +175,7 @@ def responsible_channels(
 ) -> tuple[int, ...] | None:
     """T for the roots of p at the roots of q, or None if these are not fixed.
 
-    Gains that move a root modulo a prime move it; so None is proved.
+    None is proved, since gains that move a root modulo a prime also move it over the numbers.
     """
     stream = primes(rng.getrandbits(64), _BLOCK_BITS)
     for _ in range(_BLOCK_TRIES):
@@ -260,7 +272,7 @@ class _Entries:
         return rows + [[[c] for c in row] for row in self.C]
 
 
-# The fixed modes of a system with a parameter, for all values of the parameter.
+# The fixed spectrum for all values of a parameter.
 
 _DRAWS = 60
 _TRIES = 2
@@ -288,8 +300,8 @@ def parametric_fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectr
     Exact, for every complex value at which all entries of the plant are defined.  The greatest
     common divisor of det(xI − A_F) for some gains F, as polynomials in x and t, has the generic
     fixed modes as roots; the values at which others can be fixed are common roots of resultants,
-    and each of them is decided over its number field.  Values without a real one in the range that
-    is assumed are left out.
+    and each of them is decided over its number field.  If a range of the parameter is assumed, only
+    polynomials with a real root in it count.
 
     Examples
     --------
@@ -312,7 +324,7 @@ _Mode = tuple[Bivariate, tuple[int, ...], ZeroBlock]
 
 @dataclass
 class _Candidate:
-    """A value q, what is fixed there besides generic modes, and divisors of generic ones."""
+    """A value q, the further modes that are fixed there, and divisors of generic factors there."""
 
     q: Any
     modes: list[_Mode]
@@ -320,7 +332,7 @@ class _Candidate:
 
 
 class _Search:
-    """Draws gains until what they leave is what is fixed."""
+    """Draws gains until the modes that they do not move are the fixed ones."""
 
     def __init__(self, system: PolynomialSystem, rng: random.Random) -> None:
         self.system, self.rng = system, rng
@@ -381,7 +393,7 @@ class _Search:
         )
 
     def _draw(self, size: int) -> bool:
-        """Draw gains of this size, and whether what they leave in common is generically fixed."""
+        """Draw gains of this size; whether all modes that they leave are generically fixed."""
         self.gains = [
             self.system.drawn_gains(lambda: self.rng.randint(-size, size)) for _ in range(3)
         ]
@@ -456,7 +468,7 @@ class _Search:
         return self.system.is_defined_modulo(ell) and all(d % ell for d in denominators)
 
     def _shared(self, q: Any, known: list[Bivariate]) -> list[Bivariate]:
-        """Divisors of generic polynomials that divide what is left of det(xI − A_E)."""
+        """Divisors of generic factors that also divide ψ_0 at the roots of q."""
         left, found = bivariate.reduced(self.psi[0], q), []
         for p in known:
             while len(g := bivariate.gcd(left, p, q)) > 1:
@@ -465,7 +477,7 @@ class _Search:
         return found
 
     def _moved(self, decided: list[_Candidate], others: list[Polynomial]) -> MovingGains:
-        """A prime ℓ, and gains that move all that is not fixed, modulo it."""
+        """A prime ℓ, and gains that move, modulo ℓ, all modes that are not fixed."""
         stream = primes(self.rng.getrandbits(64), _BITS)
         values = [*(each.q for each in decided), *(q._rational for q in others)]
         known = [c for psi in self.psi for c in psi] + values
@@ -514,7 +526,7 @@ def _discs(q: Polynomial) -> tuple[RootDisc, ...]:
     return tuple(RootDisc(disc.re, disc.im, disc.radius) for disc in root_discs(q))
 
 
-# For which values of a parameter channels control or observe every mode.
+# Controllability and observability for all values of a parameter.
 
 
 def parametric_controllability(
@@ -533,8 +545,8 @@ def parametric_controllability(
     Returns
     -------
     ParametricFixedSpectrum
-        The answer about the system of one channel with the inputs of T that measures the whole
-        state: what is fixed there is what T does not control.
+        The answer about the system whose one channel has the inputs of T and measures the whole
+        state: its fixed modes are the modes that T does not control.
 
     Examples
     --------
@@ -555,7 +567,7 @@ def parametric_controllability(
     return parametric_fixed_spectrum(moved(system, alone))
 
 
-# The least dimensions that agents must share for every value of a parameter.
+# Dimensions of shared sub-states for every value of a parameter.
 
 _MOST = 10_000
 """The most dimensions that are tried with one sum."""
@@ -574,7 +586,7 @@ class ParametricSharing:
         each agent.
     refused : tuple of ParametricFixedSpectrum
         The answers for all dimensions whose sum is one less, with each of which a mode is fixed for
-        almost every value or at some; fewer dimensions leave no less.
+        almost every value or at some.  With fewer dimensions the same modes stay fixed.
     """
 
     dimensions: tuple[int, ...] | None
@@ -597,7 +609,7 @@ def shared_dimensions_for_every_value(
     system : ParametricSystem
         With one parameter.
     graph : NeighborGraph
-        Who receives whose messages, without delay.
+        The directed graph of who receives whose messages, without delays.
     share : {"outputs+states", "states"}
 
     Raises
@@ -607,8 +619,9 @@ def shared_dimensions_for_every_value(
 
     Notes
     -----
-    Exact.  All dimensions are tried, sum after sum, and one sum is excluded by what is fixed with
-    each; of these the last are kept.  A range that is assumed counts: values beyond it do not.
+    Exact.  All dimensions are tried, sum after sum.  A sum is excluded if a mode is fixed with each
+    of its dimensions; the answers for the last excluded sum are kept.  If a range of the parameter
+    is assumed, values outside of it do not count.
 
     Examples
     --------

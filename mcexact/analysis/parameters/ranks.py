@@ -1,4 +1,21 @@
-"""Ranks of matrices of polynomials for all values of parameters."""
+"""Ranks of matrices of polynomials for all values of parameters.
+
+The matrices are made by name from those of a plant: [A, B; C, 0] for set-points and its extension
+for signals, [B, AB, …] for controllability, and the columns C_i A^k B_j of a transfer matrix.  The
+denominators of the entries are cleared first (`Entries`), which keeps the rank.
+
+- One parameter (`parametric_rank`): the roots of one minor of full order are the candidates for a
+  lower rank.  Each irreducible factor is decided modulo a prime, and proved by a kernel over its
+  number field; a second, drawn minor modulo a prime proves that no other value counts.  The answer
+  holds for every complex value at which all entries of the plant are defined.
+- Several parameters (`rank_hypersurfaces`): the rank for almost all values, and the hypersurfaces
+  on which it is less.  The irreducible factors of one minor are the candidates.  Drawn lines
+  through the space of parameters decide which of them count (`confirming_lines`): along a line
+  there is one parameter, so everything is proved for all its values.
+
+`setpoint_rank`, `signal_solvability` and `indices_for_all_values` apply these to the questions of
+analysis.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +63,7 @@ from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
 from mcexact.exact.roots import root_discs, steady_point
 from mcexact.model.parametric import ParametricSystem
 
-# Matrices made from those of a system, by name, over the polynomials in one or more parameters.
+# Matrices made by name from those of a system, over the polynomials in its parameters.
 
 Named = SetpointMatrix | SignalMatrix | ControllabilityMatrix | TransferColumn
 Rows = list[list[Any]]
@@ -54,7 +71,7 @@ Rows = list[list[Any]]
 
 @dataclass(frozen=True)
 class Entries:
-    """A', B_i' and C_i' by their entries, polynomials of one ring, and how these are multiplied.
+    """The entries of A', B_i' and C_i', polynomials of one ring, and the product of two matrices.
 
     Attributes
     ----------
@@ -144,7 +161,7 @@ class Entries:
         return found
 
 
-# Ranks of matrices of polynomials in a parameter, for all its values.
+# One parameter: a minor of full order, kernels, and a second minor.
 
 _BITS = 61
 _DRAWS = 60
@@ -163,14 +180,14 @@ def parametric_rank(system: ParametricSystem, matrix: Named) -> ParametricRank:
     -----
     Exact, for every complex value at which all entries of the plant are defined.  The roots of one
     minor of full order are the candidates; each irreducible factor is decided modulo a prime in
-    which it has a root, and what is lost there is proved by a kernel over its number field.  That
-    no other value counts is proved by a second, drawn minor modulo a prime.
+    which it has a root, and a lower rank is proved by a kernel over its number field.  A second,
+    drawn minor modulo a prime proves that the rank is lower at no other value.
     """
     return _Search(PolynomialSystem(system), matrix).found()
 
 
 class _Search:
-    """One minor, what is lost at its roots, and another minor that has no other root in common."""
+    """One minor, the loss of rank at its roots, and a second minor with no other common root."""
 
     def __init__(self, system: PolynomialSystem, matrix: Named) -> None:
         self.system, self.matrix = system, matrix
@@ -287,7 +304,7 @@ def _entries(system: PolynomialSystem) -> Entries:
     )
 
 
-# Lines through the space of several parameters, along which candidates are confirmed by proofs.
+# Several parameters: lines along which candidates are proved to be exceptional.
 
 DRAWS = 60
 """How often gains or minors are drawn."""
@@ -313,7 +330,7 @@ def confirming_lines(
     decide : callable
         Answers the question about the system along a line, with a proof.
     is_generic : callable
-        Whether an answer says for almost all values of a line what holds for almost all values.
+        Whether the generic answer along a line is the generic answer for all parameters.
     candidates : sequence of RationalFunction
     rng : random.Random
 
@@ -332,7 +349,7 @@ def confirming_lines(
         at = points_of(line)
         met = {h: _values(h, at) for h in candidates}
         if any(values & {*line.poles} for values in met.values()):
-            continue  # nothing is said where an entry is undefined
+            continue  # nothing is claimed where an entry is undefined
         answer = decide(line)
         found = _confirmed(answer, met)
         if found is None or not is_generic(answer):
@@ -384,7 +401,7 @@ def _letter(parameters: Collection[str]) -> str:
 def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Polynomial]:
     """The values at which a line meets a hypersurface, as monic irreducible polynomials.
 
-    None of them says that all do, or none: along such a line nothing is confirmed.
+    The set is empty if all values do, or none: along such a line nothing is confirmed.
     """
     values = [at[name] for name in h.parameters]
     met = h.substituted(values, values[0] * 0).polynomials()[0]
@@ -392,7 +409,7 @@ def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Poly
 
 
 def _confirmed(answer: Along, met: Mapping[RationalFunction, set[Polynomial]]) -> Confirmed | None:
-    """The candidates that are exceptional; None if they are not all that is."""
+    """The candidates that are exceptional; None if other values are exceptional as well."""
     found = {each.value: each for each in answer.exceptional}
     if found.keys() - set().union(*met.values()):
         return None
@@ -405,7 +422,7 @@ def _confirmed(answer: Along, met: Mapping[RationalFunction, set[Polynomial]]) -
     return confirmed
 
 
-# Where a matrix of polynomials in several parameters has less than its generic rank.
+# Several parameters: the generic rank, and the hypersurfaces on which the rank is less.
 
 _LINE_BITS = 61
 
@@ -429,7 +446,7 @@ def rank_hypersurfaces(
     system : ParametricSystem
     matrix : SetpointMatrix, SignalMatrix, ControllabilityMatrix or TransferColumn
     observed : bool
-        Whether it is made from the dual system.
+        Whether the matrix is made from the dual system.
 
     Notes
     -----
@@ -529,7 +546,7 @@ def parametric_setpoints(system: ParametricSystem) -> ParametricRank:
 
 
 def setpoint_rank(system: ParametricSystem) -> ParametricRank | RankHypersurfaces:
-    """The same for one parameter or several."""
+    """The rank of `parametric_setpoints`, for one parameter or several."""
     return rank_for_all_values(system, SetpointMatrix())
 
 
@@ -584,7 +601,7 @@ def parametric_indices(
     channels : iterable of str, optional
         T, by default all.
     observed : bool
-        Whether they are those of the dual system.
+        Whether to use the dual system: then these are ranks of observability.
 
     Returns
     -------
@@ -599,7 +616,7 @@ def parametric_indices(
 def indices_for_all_values(
     system: ParametricSystem, channels: Iterable[str] | None = None, *, observed: bool = False
 ) -> tuple[ParametricRank | RankHypersurfaces, ...]:
-    """The same for one parameter or several."""
+    """The ranks of `parametric_indices`, for one parameter or several."""
     if len(system.parameters) == 1:
         return parametric_indices(system, channels, observed=observed)
     return _growing(
@@ -612,7 +629,7 @@ def _growing(
     channels: Iterable[str] | None,
     decide: Callable[[ControllabilityMatrix], R],
 ) -> tuple[R, ...]:
-    """The answers for more and more blocks, until two say the same."""
+    """The answers for 1, 2, … blocks, until two agree or there are n blocks."""
     chosen = system.names if channels is None else system.named(system.indices(channels))
     found: list[R] = []
     for k in range(1, max(system.n, 1) + 1):
