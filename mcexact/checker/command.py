@@ -1,6 +1,4 @@
-"""Manifests, and the command line of the checker.
-
-Verify certificates, and print one line for each.
+"""Verify certificates, and print one line for each.
 
 The line is VALID, the SHA-256 of the statement that the certificate proves, and this statement; or
 INVALID, MALFORMED or INCOMPLETE, a code and a place.  With several files it names its file.  A file
