@@ -278,7 +278,7 @@ def _draw_bars(
     axis.margins(y=0.35)
 
 
-# Pictures of neighbor and transfer graphs with a colored obstruction, and of links to add.
+# Pictures of the neighbor graph and the transfer graph, and of links to add.
 
 _NEIGHBORS, _TRANSFER = "picture-neighbor-graph", "picture-transfer-graph"
 

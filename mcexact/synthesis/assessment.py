@@ -34,8 +34,6 @@ from mcexact.synthesis.optimum.figures import MARGIN, NO_LIMITS, Aims, Figures, 
 from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights, quiet_floats
 from mcexact.synthesis.robustness import EveryLoop, WithinRadii
 
-# Whether a person would install a controller: figures of its loop, and what to beware of.
-
 Install = Literal["yes", "with care", "no"]
 
 BASIS = "computed in floating point, not certified"
@@ -458,7 +456,7 @@ def assessed_loop(
 
 
 def _kept(margin: float) -> float:
-    """What rounding has to leave of a margin: enough not to be fragile, or else nearly all."""
+    """The margin that must remain after rounding: `MARGIN`, or nearly all of a smaller one."""
     if np.isnan(margin):
         return 0.0
     return MARGIN if margin >= MARGIN else _NEARLY * margin
@@ -472,7 +470,7 @@ def _uncontrolled(system: MultiChannelSystem, weights: Weights) -> Figures:
 
 
 def _hardly(alone: Figures, figures: Figures, region: StabilityRegion) -> str:
-    """That a controller hardly improves on none."""
+    """A warning that the loop is hardly better than the plant without a controller."""
     inside = alone.bound < to_float(region.limit)
     told = f"it satisfies {region}, too" if inside else f"it does not satisfy {region}"
     return (

@@ -23,8 +23,6 @@ from mcexact.synthesis.optimum.figures import MARGIN, Aims
 from mcexact.synthesis.optimum.search import Family, searched_proposals
 from mcexact.synthesis.rate import at_a_robust_rate, request_for
 
-# Decentralized control, without communication.
-
 
 def design_decentralized(
     system: MultiChannelSystem,
@@ -106,8 +104,6 @@ which channel 2 does not control and channel 1 does not observe, and it is not f
 
     return at_a_robust_rate(request, attempt)
 
-
-# Distributed control with shared sub-states, by decentralized control of the extended system.
 
 SharedNetwork = Literal["extended", "lifted", "held"]
 _WITH_DELAYS: tuple[SharedNetwork, ...] = ("lifted", "held")
