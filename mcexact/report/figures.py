@@ -58,7 +58,7 @@ def gains_pictures(controller: Controller) -> list[Picture]:
 
 
 def simulation_png(done: SimulatedLoop) -> bytes:
-    """Draw the same in one PNG image, always with the same bytes."""
+    """Draw the pictures of a simulation in one PNG image, always with the same bytes."""
     spectrum = drawable(done.spectrum)
     errors = bool(done.run.error_norms())
     panels = 3 + errors + (spectrum is not None)

@@ -2,8 +2,9 @@
 
 `sweep` asks the same questions about many systems.  Each system becomes a job, which any process
 can decide from plain data; the certificates come back as texts, and the independent checker
-verifies them in this process before an answer becomes a `Record`.  So a wrong or hostile worker can
-lose answers, but cannot make a wrong one.
+verifies them in this process before an answer becomes a `Record`.  So no answer rests on the
+process that computed it.  A certificate has to be about the system of the job, which this process
+reads again; for draws alone this is not compared.
 
 A `RecordFile` keeps one line for each record, appended when the system is finished.  Run the same
 sweep again to resume it: finished systems are skipped, unless a limit or a failure ended their

@@ -1,4 +1,14 @@
-"""Control without communication, and with shared sub-states."""
+"""Control without communication, and with shared sub-states.
+
+For a rate or a radius, `design_decentralized` and `design_extended` search controllers of low order
+in floating point, and fall back to the controller of the theorem if the search finds none: its
+dynamics are all in one agent of each strong component, and it is often fragile.  For a prescribed
+spectrum, or a named agent, the controller of the theorem is made at once.  A fixed mode that is too
+slow is a refusal with a certificate.
+
+Over links with delays, `design_extended` designs for the lifted and for the held network if a
+search can use both and none was named, and keeps the cheaper one with a sufficient margin.
+"""
 
 from __future__ import annotations
 
