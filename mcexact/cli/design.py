@@ -1,4 +1,9 @@
-"""mcexact design and its kinds."""
+"""`mcexact design` and its kinds: decentralized, extended, observer, setpoint.
+
+The four commands share their options (`design_options`) and their work (`answer`): design in a
+child process, show the result, have the certificates verified, write the files.  `read_spectrum`
+reads what ``--spectrum`` takes.
+"""
 
 from __future__ import annotations
 
@@ -165,9 +170,10 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
 def _advice(
     name: str, file: str, proof: Answer, system: MultiChannelSystem, region: StabilityRegion
 ) -> str:
-    """What to ask where agents that share nothing have no controller, and all together may.
+    """Which command to try if no controller without communication exists, but others may.
 
-    Over the links that the plant has a controller may exist, which then is what is named.
+    This is a design over the links of the plant, if sharing outputs over these leaves no fixed mode
+    outside the region; otherwise a search of links to add.
     """
     from mcexact.analysis.fixed_modes import fixed_spectrum
     from mcexact.answer.modes import FixedSpectrum
@@ -570,7 +576,7 @@ def design_setpoint_command(file: str, method: str | None, **given: Any) -> None
     answer("setpoint", file, given, {"method": method})
 
 
-# What the commands that assess a controller show besides certified sentences.
+# The verdict, the tables and the page of an assessed controller.
 
 
 def assessed(

@@ -1,4 +1,11 @@
-"""Input files within a deadline, results written completely or not at all, standard output."""
+"""Input files within a deadline, results written completely or not at all, standard output.
+
+The parent process reads all inputs, with one `Deadline` for the whole command.  Before any work,
+the ``require_…`` functions check that results can be written where they are wanted, without
+creating or changing anything: that the place is writable, is not also an input, and is not named
+twice.  `write_result` and `write_folder` write completely or not at all.  `emit` writes to standard
+output and stops without an error if the reader has closed the pipe.
+"""
 
 from __future__ import annotations
 
@@ -72,7 +79,7 @@ def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChanne
 def plant_in(
     place: str, data: bytes, limits: Mapping[str, int], at: Mapping[str, Fraction]
 ) -> MultiChannelSystem | ParametricSystem:
-    """Read a system, with parameters as far as these are given no values.
+    """Read a system; parameters without values remain parameters.
 
     Raises
     ------
@@ -122,7 +129,7 @@ def require_other(output: Path | None, *inputs: str | None) -> None:
 
 
 def require_apart(*outputs: Path | None) -> None:
-    """Refuse one file for two results, of which only one would be left.
+    """Refuse one name for two results, the second of which would overwrite the first.
 
     Raises
     ------

@@ -1,9 +1,16 @@
 """One run: limits of time and memory, child processes, rechecking.
 
-Work in a child process, which can be limited and interrupted at any moment.
+Compiled arithmetic does not respond to signals.  Therefore a child process computes (`supervised`),
+and the parent waits, shows progress and writes the results; it can end the child at any moment, and
+a child that is ended leaves no files behind.  What the child decided before a limit ended it is
+kept, and a `Run` starts another child, for other questions or to show what was decided.
 
-Compiled arithmetic does not respond to signals.  Therefore the child computes, and the parent
-waits, shows progress and writes the results.  A child that is ended leaves no files behind.
+`MemoryLimit` limits the memory of the child, and recognizes the errors, signals and exit statuses
+by which compiled libraries fail without memory, so that they are reported as a limit and not as a
+bug.
+
+`rechecked` has the independent checker verify every certificate and every sentence of an answer
+before files are written; `Run.conclude` is the common end of the commands that answer.
 """
 
 from __future__ import annotations
@@ -36,9 +43,6 @@ if TYPE_CHECKING:
     from mcexact.analysis.analyze import Asking
     from mcexact.answer.account import Account
     from mcexact.checker.kinds import Verdict
-
-
-# Verification of every answer's certificate by the independent checker.
 
 
 @dataclass(frozen=True)
@@ -191,7 +195,7 @@ def told(account: Account, system_by_digest: bool) -> dict[str, Any]:
 
 @dataclass
 class Known:
-    """What is known of the parts of an answer when the work on it begins, or begins again.
+    """The parts of an answer that are already decided when work on it starts or resumes.
 
     Attributes
     ----------
@@ -200,7 +204,7 @@ class Known:
     lost : dict
         Why other parts were not decided: the memory that each needs.
     ended : str
-        Why nothing more is to be decided; empty if it is.
+        Why no further part is to be decided; empty if the work goes on.
     """
 
     parts: dict[str, bytes] = field(default_factory=dict)
@@ -208,7 +212,7 @@ class Known:
     ended: str = ""
 
     def resume(self, found: Asking, report: Reporting) -> None:
-        """Give an analysis what is known, and have it hand over what it decides besides."""
+        """Enter the decided parts into an analysis, and have it report what else it decides."""
         for name, data in self.parts.items():
             if name in found.questions:
                 found.know(name, *pickle.loads(data))
@@ -262,7 +266,7 @@ class Run:
     def result_in_parts(
         self, work: Callable[..., Any], *arguments: Any, doing: str
     ) -> tuple[Any, BaseException | None]:
-        """Call a function in a child process, and once more for what a limit did not discard.
+        """Call a function in a child process, and again with what was decided before a limit.
 
         Parameters
         ----------
@@ -540,7 +544,7 @@ def _kibibytes(name: str) -> int:
     return 0
 
 
-# Work in a child process, which can be limited and interrupted at any moment.
+# Work in a child process.
 
 T = TypeVar("T")
 
@@ -559,7 +563,7 @@ class _Step(str):
 
 @dataclass
 class Kept:
-    """What a child sent before it ended: parts of its result, which a limit does not discard.
+    """Parts of a result that a child sent before it ended, which a limit does not discard.
 
     Attributes
     ----------
@@ -583,7 +587,7 @@ class _Part:
 
 
 class Reporting:
-    """What a child says before it has the result; the work takes it as the keyword ``report``."""
+    """Messages of a child before its result; the work takes it as the keyword ``report``."""
 
     def __init__(self, send: Callable[[Any], None]) -> None:
         self._send = send
@@ -641,8 +645,8 @@ def supervised(
         Whether the function takes a keyword ``tell``, a function that shows a line on standard
         error at once.
     kept : Kept, optional
-        What the parts of the result are added to.  The function then takes a keyword ``report``, a
-        `Reporting` that hands them over.
+        Collects the parts of the result.  The function then takes a keyword ``report``, a
+        `Reporting` by which it sends them.
 
     Returns
     -------
@@ -768,7 +772,7 @@ def _terminable() -> Iterator[None]:
 
 
 class _Progress:
-    """What is being done, on standard error, once it has taken a second.
+    """Show on standard error what is being done, once it has taken a second.
 
     On a terminal one line says what the child works on and for how long, and is cleared again;
     elsewhere a line is printed once.
@@ -801,7 +805,7 @@ class _Progress:
 
 
 def _within(line: str, columns: int) -> str:
-    """A line of so many columns at most; its middle is left out, as its end changes."""
+    """Shorten a line to some columns; the middle is left out, because the end changes."""
     if len(line) <= columns:
         return line
     kept = max(columns - 2, 2)

@@ -1,4 +1,8 @@
-"""mcexact sweep."""
+"""`mcexact sweep`: the same questions about many systems.
+
+`Families` makes many systems of each file (grids of parameters, tolerances, all graphs, all
+sensors); `command` runs the sweep over them, in processes of this machine or on a dask cluster.
+"""
 
 from __future__ import annotations
 
@@ -114,7 +118,7 @@ def families(function: F) -> F:
 
 
 class Families:
-    """What is asked of each file: the systems that are made of it.
+    """The systems that are made of each file, and the questions about them.
 
     Parameters
     ----------
@@ -151,7 +155,7 @@ class Families:
     def of(self, paths: Sequence[str], limits: Limits) -> Iterator[tuple[int, Source]]:
         """Yield the systems to ask about, each with the position of its file.
 
-        A file that cannot be read stays itself, so that its error is told like that of any other.
+        A file that cannot be read is yielded as it is, so that its error is in its record.
         """
         from mcexact.errors import InputError, LimitReached
 
@@ -194,7 +198,7 @@ class Families:
 
 
 def _failing(path: str, error: Exception) -> Variant:
-    """A member of a family that has none, whose error is told when it is asked for."""
+    """Stands for a family without members; reading it raises the error."""
     from mcexact.derived.variants import Variant
 
     def fail() -> Any:

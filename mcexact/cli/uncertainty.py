@@ -1,4 +1,16 @@
-"""What commands say about parameters, ranges and radii."""
+"""What commands say about parameters, ranges and radii.
+
+A plant can be uncertain in two ways, and the commands ask about both:
+
+- its entries have radii: `of` and `of_loop` search the largest ones for which the answers are
+  proved, and `loops` proves all loops within the radii of plant and gains, or finds a plant nearby
+  whose loop fails;
+- its entries are functions of parameters: these are given values (`at_values`), or the answers are
+  decided for all values (`for_all_values`), and a loop for all values in their ranges
+  (`certified`).
+
+`effort_tables` lists the questions that took long or were not decided.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +43,7 @@ if TYPE_CHECKING:
     from mcexact.synthesis.robustness import WithinRadii
 
 
-# What commands say about every plant whose entries are within their radii.
+# Radii: every plant whose entries are within them.
 
 
 def of(
@@ -46,11 +58,11 @@ def of(
     ----------
     system : MultiChannelSystem
     part : Fraction or None
-        The part of the moduli of entries that the radii are.
+        The radii, as a part of the moduli of the entries.
     effort : float or None
         The seconds for the search; None if it is not asked for.
     wanted : str
-        What every plant is to have, or to be.
+        The property that every plant is to have, in words.
     """
     from mcexact.model.box import Box
 
@@ -79,7 +91,7 @@ def _within(system: MultiChannelSystem, found: LargestUncertainty) -> MultiChann
 
 
 def leading(account: Account, found: LargestUncertainty | None) -> tuple[str, ...]:
-    """What is said first of every plant within the radii, and that these are the ones found."""
+    """The first lines of an answer, with the radii that were found or how to search them."""
     own = account.given.asked.get("information", "own") == "own"
     if found is None and own and {*account.open} & PROPERTIES.keys():
         *said, last = account.leading
@@ -236,7 +248,7 @@ def _proof(
 ) -> tuple[BoxStability | None, StabilityRegion, list[StabilityRegion]]:
     """A proof for the region that is asked for, or else for stability, and what is not proved.
 
-    What is ``known`` is not proved again.
+    A proof in ``known`` is used and not made again.
     """
     from mcexact.analysis.boxes.loops import box_stability
     from mcexact.answer.boxes import BoxStability
@@ -263,7 +275,7 @@ def _of_boxes(found: StabilityVerdict) -> StabilityRegion:
 def digits_of(
     system: MultiChannelSystem, controller: Controller, found: StabilityVerdict, most: int
 ) -> Loops:
-    """How many digits of the gains are safe, and how many are too few."""
+    """Rows about the digits of the gains: how many are safe, and how many are too few."""
     from mcexact.answer.templates import count
     from mcexact.synthesis.certify import safe_digits
 
@@ -376,7 +388,7 @@ def for_all_values(
     }
 
 
-# What `mcexact certify` says about a loop at all values of parameters within their ranges.
+# `mcexact certify` for a loop at all values of parameters within their ranges.
 
 _EFFORT = 5.0
 _ASKED = ("rate", "radius")
@@ -500,8 +512,6 @@ def _page(account: Account, said: str, found: LargestRanges, proved: bool) -> An
         plant=shown_plant(system),
     )
 
-
-# What became of questions: which took long, and which were not decided.
 
 _LONG = 10.0
 """The seconds from which on a question is listed with its time."""

@@ -14,8 +14,6 @@ from mcexact.floating.verdicts import controllability_rank, rounded_fixed_modes
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 
-# Two questions that floating point answers wrongly: recorded, local and exact answers.
-
 STATES = 20
 SEEDS = 200
 _DIGITS = (6, 8, 10)
@@ -136,7 +134,7 @@ def _arrays(system: MultiChannelSystem) -> tuple[Any, Sequence[Any], Sequence[An
     )
 
 
-# The demonstration as text, the recorded part the same on every machine, and as plain data.
+# Its display; the recorded part of the text is the same on every machine.
 
 
 def demonstration_text(shown: Demonstration) -> str:

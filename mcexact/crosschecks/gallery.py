@@ -1,9 +1,10 @@
 """Systems with a recorded wrong verdict, and their display.
 
-Systems for which a wrong floating-point verdict was recorded, each with the cause of the error.
-
-Some verdicts depend on the sign of a rounding error, which differs between processors.  Therefore
-an exhibit is shown with the recorded answer beside the answer of this machine.
+An `Exhibit` is a system, a question that floating point was recorded to answer wrongly, and the
+cause of the error.  Some verdicts depend on the sign of a rounding error, which differs between
+processors, so an exhibit is shown with the recorded answer beside the answer of this machine.
+`exhibit_tables` and `exhibits_page` display exhibits; `crosscheck_tables` displays the cross-checks
+of any system.
 """
 
 from __future__ import annotations
@@ -33,8 +34,6 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import nearest, quoted
 from mcexact.report.html import page, shown_plant
 from mcexact.report.text import Table
-
-# Systems for which a wrong floating-point verdict was recorded, each with the cause of the error.
 
 
 @dataclass(frozen=True)
@@ -294,7 +293,7 @@ _MADE = (
 )
 
 
-# Floating-point verdicts beside exact ones, and where floating point was recorded to be wrong.
+# The display of cross-checks and of exhibits.
 
 _WORDS = {True: "agree", False: "DISAGREE", None: "no answer"}
 
@@ -356,7 +355,7 @@ def crosscheck_tables(found: CrossChecks) -> tuple[Table, ...]:
 
 
 def _part(distance: Fraction) -> str:
-    """How far entries change, beside the largest ones."""
+    """The change of the entries, relative to the largest of them."""
     return f"{rounded(distance)} times the largest entries of A, of all B_i and of all C_i"
 
 

@@ -1,9 +1,12 @@
 """Floating-point verdicts beside exact ones, and recorded ones.
 
-Recorded floating-point answers, with the libraries and the BLAS kernel that computed them.
+`crosscheck` asks a system the same structural questions twice: exactly, and by functions of numpy,
+scipy and python-control at their default tolerances, on the floats nearest to the entries.  Each
+row quotes the call.  Where a library raises an error, the row says that it gives no answer.
 
-A wrong answer often depends on the sign of a rounding error, which differs between processors.  The
-records ship with the package; `recording` writes them.
+A wrong answer often depends on the sign of a rounding error, which differs between processors.
+Therefore wrong answers are recorded with the libraries and the BLAS kernel that computed them
+(`Record`); the records ship with the package, and `recording` writes them.
 """
 
 from __future__ import annotations

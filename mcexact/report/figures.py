@@ -58,7 +58,7 @@ def gains_pictures(controller: Controller) -> list[Picture]:
 
 
 def simulation_png(done: SimulatedLoop) -> bytes:
-    """Draw the same in one PNG image, always with the same bytes."""
+    """Draw the pictures of a simulation in one PNG image, always with the same bytes."""
     spectrum = drawable(done.spectrum)
     errors = bool(done.run.error_norms())
     panels = 3 + errors + (spectrum is not None)
@@ -278,7 +278,7 @@ def _draw_bars(
     axis.margins(y=0.35)
 
 
-# Pictures of neighbor and transfer graphs with a colored obstruction, and of links to add.
+# Pictures of the neighbor graph and the transfer graph, and of links to add.
 
 _NEIGHBORS, _TRANSFER = "picture-neighbor-graph", "picture-transfer-graph"
 

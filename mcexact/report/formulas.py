@@ -1,4 +1,10 @@
-"""Formulas in plain text, and their LaTeX and MathML."""
+"""Formulas in plain text, and their LaTeX and MathML.
+
+Sentences are written once, as plain text with formulas such as ``A + Σ B_i F_i`` and ``[λI − A,
+B_i; C_s, 0]``.  `formulas` finds these formulas by a small grammar and reads them into trees of
+`Node`; `typeset_latex` and `typeset` write the trees as LaTeX and as MathML, and escape the rest of
+the text.  Whatever the grammar does not read as a formula stays text.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +16,7 @@ from html import escape
 
 from mcexact.shown import escaped
 
-# Find the formulas in plain text, such as ``A + Σ B_i F_i`` and ``[λI − A, B_i; C_s, 0]``.
+# Reading: formulas are found in plain text, and read into trees.
 
 RELATIONS = ["=", "≠", "≥", "≤", "<", ">", "∈", "⊂", "→"]
 OPERATORS = ["+", "−", "∖", "∪", "∩", "·", "×", "⊗", "/"]
@@ -308,7 +314,7 @@ def formulas(text: str) -> Iterator[str | Node]:
         yield unicodedata.normalize("NFC", plain[words:])
 
 
-# Plain text with its formulas in LaTeX.
+# Writing in LaTeX.
 
 _ACCENTS = {"\u0302": "hat", "\u0303": "tilde", "\u0304": "bar", "\u0307": "dot"}
 _NAMES = {
@@ -395,7 +401,7 @@ def _letter(text: str) -> str:
     return rf"\{_ACCENTS[text[1]]}{{{base}}}" if text[1:] else base
 
 
-# Plain text with its formulas, and matrices, in MathML.
+# Writing in MathML.
 
 _MATHML_ACCENTS = {"\u0302": "^", "\u0303": "~", "\u0304": "¯", "\u0307": "˙"}
 

@@ -141,7 +141,7 @@ class EmbeddedPicture:
     width: float
 
 
-# The one page in which commands show answers: words, pictures, tables, the system, evidence.
+# The page of an answer: words, pictures, tables, the system, certificates.
 
 
 @dataclass(frozen=True)
@@ -201,7 +201,7 @@ class AnswerPage:
         return page("answer", **vars(self), evidence=evidence)
 
 
-# The matrices of a system on a page, large ones cut, and what else is known of it.
+# The display of a system: its matrices, of large ones a corner, and its properties.
 
 LARGEST, CUT = 12, 8
 """Up to how many rows and columns a matrix is shown whole, and how many are shown of a larger one;
@@ -292,7 +292,7 @@ def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, st
 
 
 def _first(number: int) -> int:
-    """How many of a number of things are shown."""
+    """How many of a number of channels a page shows."""
     return number if number <= LARGEST else CUT
 
 

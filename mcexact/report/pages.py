@@ -140,7 +140,7 @@ def loop_pictures(curves: LoopCurves) -> list[Picture]:
 def _picture(
     draw: Callable[[LoopCurves, Any], Any], curves: LoopCurves, title: str, told: str
 ) -> Picture:
-    """A picture that two of fit beside each other."""
+    """A picture of half the width of a page."""
     figure = draw(curves, one_axis(None, *PANEL))
     return Picture(figure, title, f"{told} Computed, not certified.")
 
@@ -154,7 +154,7 @@ def _eigenvalues(curves: LoopCurves) -> Picture:
 
 
 def _edges(curves: LoopCurves) -> list[str]:
-    """What bounds the region that was asked for, as it is drawn."""
+    """The lines that bound the region that was asked for, as they are drawn."""
     region = curves.region
     limits = region.limits
     if region.discrete:
@@ -207,11 +207,11 @@ def _steps(curves: LoopCurves) -> Picture:
     return _picture(steps, curves, "Step responses", told)
 
 
-# What is decided about a system with parameters: tables, a page, and LaTeX.
+# The answers about a system with parameters: tables, a page, and LaTeX.
 
 
 def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tuple[Table, ...]:
-    """Return the table of all answers, then one for each question of which it says too little.
+    """Return the table of all answers, then tables with the details of some questions.
 
     Parameters
     ----------

@@ -1,18 +1,12 @@
 """JSON Schemas of files and of what commands print.
 
-The schemas of files: systems, controllers, certificates, manifests and records of sweeps.
+Every file format and every ``--json`` output has a JSON Schema (2020-12), made by one function each
+(`DOCUMENTS`), so that the schemas share their terms.  `main` writes them into the folder from which
+they ship.
 
-They have exactly the keys that are named.
-
-The schemas of what commands print with ``--json``.
-
-Documents can get further keys within a version, and programs that read them ignore those that they
-do not know.
-
-JSON Schemas (2020-12) of every file and of the JSON of every command.
-
-What users write, and certificates, have exactly the keys that are named.  What commands print can
-get further keys within a version, and programs that read it ignore those that they do not know.
+Files (systems, controllers, certificates, manifests, records of sweeps) have exactly the keys that
+are named.  What commands print can get further keys within a version, and programs that read it
+ignore the keys that they do not know.
 """
 
 from __future__ import annotations
@@ -36,7 +30,7 @@ from mcexact.answer.schema import (
 from mcexact.errors import UsageError
 from mcexact.model.text import nearest, quoted
 
-# The terms of which schemas are made: texts, numbers, matrices, tables and records.
+# Terms that the schemas share.
 
 TEXT: Schema = {"type": "string"}
 WHOLE: Schema = {"type": "integer", "minimum": 0}
@@ -596,7 +590,7 @@ def reproduce() -> Schema:
     )
 
 
-# JSON Schemas (2020-12) of every file and of the JSON of every command.
+# The table of all documents, and the files into which their schemas are written.
 
 FOLDER = Path(__file__).with_name("schemas")
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"

@@ -17,7 +17,7 @@ from mcexact.plot.parameters import uncertainty_shares
 from mcexact.report.html import AnswerPage, Picture
 from mcexact.report.text import Table, shorten
 
-# What a sweep over tolerances found: of how many plants each is proved, and where plants fail.
+# Sweeps over tolerances: up to which part of the entries properties are proved, or fail.
 
 _WITHIN = re.compile(r"within ([0-9]+(?:/[0-9]+)?)")
 

@@ -277,7 +277,7 @@ def to_pandas(results: Any) -> Any:
     Raises
     ------
     InputError
-        If there is something else among them.
+        If the results are of another kind.
     MissingExtra
         If pandas is not installed.
 

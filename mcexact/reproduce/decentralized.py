@@ -1,4 +1,8 @@
-"""Sections I, IV-A and IV-B."""
+"""Examination of sections I, IV-A and IV-B: fixed spectra, transfer graphs, the example.
+
+Each function examines one statement: on the example of three channels, on drawn plants, and on
+plants next to the statement for which it is false.
+"""
 
 from __future__ import annotations
 

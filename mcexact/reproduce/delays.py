@@ -1,4 +1,8 @@
-"""Section V."""
+"""Examination of section V: transmission delays, and holding.
+
+The lifted system for links with delays (Theorem 3, in which only the mode 0 can be fixed), and the
+held system, which makes the whole spectrum assignable again (Theorem 4).
+"""
 
 from __future__ import annotations
 

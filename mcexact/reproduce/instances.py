@@ -1,4 +1,13 @@
-"""The plants and equations on which statements are checked."""
+"""The plants and equations on which statements are checked.
+
+There are three sources of plants: the example of section IV-B (`three_channels`), small named
+plants that refute a false statement or show what drawn plants do not, and drawn plants with their
+seed in the name, so that every instance can be made again.
+
+The equations of the paper's constructions are evaluated at vectors of small integers, from the
+plant alone: `messages_agree`, `errors_agree` and `integrators_agree` do not use the code that
+constructs the systems, and so check it independently.
+"""
 
 from __future__ import annotations
 
@@ -580,7 +589,7 @@ def _properties(plants: Sequence[MultiChannelSystem]) -> list[str]:
 
 
 def _told(found: Sequence[bool], property_: str) -> list[str]:
-    """Of how many it is true."""
+    """A property, with the number of instances that have it."""
     if not found:
         return []
     if all(found):

@@ -1,4 +1,8 @@
-"""Section II-A, II-D and IV-E, almost all gains."""
+"""Examination of sections II-A, II-D and IV-E: graphs, lemmas, and almost all gains.
+
+The lemmas behind Proposition 1 and its construction; along lines of gains, that only finitely many
+fail; and certainty equivalence with the graphs that respect it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,14 @@
-"""Statements, the ledger of examinations, and the record of one."""
+"""Statements, the ledger of examinations, and the record of one.
+
+Three things are kept apart.  A `Statement` is one statement of the paper, with what is known of it
+(``statements.toml``).  An `Examination` says how one or several statements are examined: with which
+code, certificates and machine-checked proofs, and which nearest false statements its instances have
+to refute (``ledger.toml``).  A `Notebook` is the evidence of one examination that was carried out.
+
+An examination holds if all its checks hold, all its certificates are VALID and every false
+statement of the ledger is refuted.  Checks on instances prove no general statement; that is what
+the machine-checked theorems are for, and `Examination.status` tells the two apart.
+"""
 
 from __future__ import annotations
 
@@ -366,7 +376,7 @@ class Notebook:
     key : str
         The key of the examination in the ledger.
     here : str
-        What the next entries are about.
+        The name of the instance that the next entries are about.
     instances : list of str
     plants : dict of str to MultiChannelSystem
         Those instances that are plants.

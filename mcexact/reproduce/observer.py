@@ -1,4 +1,8 @@
-"""Section II-B and II-C."""
+"""Examination of sections II-B and II-C: the distributed observer.
+
+The equations (3) to (16) are evaluated at drawn vectors as the paper prints them; Proposition 1,
+Theorem 1 and Remark 1 are checked on designs for small plants and on the example of IV-B.
+"""
 
 from __future__ import annotations
 
@@ -157,7 +161,7 @@ def _places(made: Observer) -> list[tuple[str, tuple[int, int]]]:
     return places + [(f"x_{i}", blocks["x_", i, 0]) for i in range(made.plant.m)]
 
 
-# Section II-B and II-C: the distributed observer and certainty equivalence.
+# The statements about the distributed observer and certainty equivalence.
 
 
 def zeros(plant: MultiChannelSystem) -> list[Matrix]:

@@ -1,4 +1,11 @@
-"""reproduce, and its report."""
+"""`reproduce` carries out the examinations of the paper; pages and tables of their findings.
+
+`chosen` finds examinations by key, title, equation, label or section; `examine` carries out those
+of one section, which may run in another process, and `assembled` joins the findings in the order of
+the ledger.  The display is a page (`reproduction_page`), tables for a terminal, plain data, or a
+table in LaTeX.  It says of each statement what is proved in general and what was checked on
+instances.
+"""
 
 from __future__ import annotations
 
@@ -26,8 +33,6 @@ from mcexact.reproduce.notebook import (
     examined,
     statements,
 )
-
-# `reproduce` carries out the examinations of the paper, section by section.
 
 SECTIONS: tuple[tuple[str, dict[str, Procedure]], ...] = (
     ("I, the problem", decentralized.PROBLEM),

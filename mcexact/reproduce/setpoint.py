@@ -1,4 +1,8 @@
-"""Section III."""
+"""Examination of section III: distributed set-point control.
+
+The plant with integrators and the conditions under which it is controllable; designs by both
+methods run on the network; and what the section says about further signals and added references.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +45,7 @@ from mcexact.synthesis.optimum.figures import THEOREM
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
 from mcexact.synthesis.state_feedback import default_polynomial, state_feedback
 
-# Section III: distributed set-point control.
+# The plant with integrators, its controllability, and designs.
 
 METHODS: tuple[SetpointMethod, ...] = ("observer", "extended")
 

@@ -1,4 +1,9 @@
-"""Sections IV-C to IV-E and VI."""
+"""Examination of sections IV-C to IV-E and VI: extended systems and shared sub-states.
+
+The construction of extended systems and its equivalence with distributed control; Theorem 2 and the
+bound on the dimensions of shared sub-states, with plants for which it is tight and for which it is
+not; and free assignment with the dimensions that a controller must have.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,11 @@
-"""A trajectory with what is proved about its loop."""
+"""A trajectory with what is proved about its loop.
+
+A simulation shows one trajectory and proves nothing beyond it.  `proved_envelope` adds bounds
+|y_k(t) − ȳ_k| ≤ c_k d(t) for all times, from a Lyapunov matrix of the loop that is certified
+exactly; the initial state and the point of rest are exact, and roundings go upwards.  There are no
+bounds where a signal changes during the run, or where no Lyapunov matrix is found.
+`simulated_loop` joins a run with the spectrum of its loop, these bounds and warnings.
+"""
 
 from __future__ import annotations
 
@@ -18,8 +25,6 @@ from mcexact.exact.roots import StabilityRegion, is_discrete, root_above, steady
 from mcexact.model.controller import Controller
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import Trajectory, simulate
-
-# Proved bounds on a trajectory, which follow from a certificate of its loop.
 
 LARGEST = 80
 """The most states of a loop whose spectrum and envelope are computed: seconds at this size."""
@@ -170,9 +175,6 @@ def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Mat
 def _first(run: Trajectory, rows: Matrix, k: int) -> Fraction:
     """The value of a row of the state at the start; all rows are about x alone."""
     return sum((rows[k, j] * entry for j, entry in enumerate(run.start.plant)), Fraction(0))
-
-
-# A simulation together with what is proved about its loop, which the simulation does not use.
 
 
 @dataclass(frozen=True)

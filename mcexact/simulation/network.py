@@ -1,9 +1,16 @@
 """Agents on a network: arithmetic, signals, messages and initial states.
 
-The arithmetics of a simulation: rational numbers, multiple precision, or double precision.
+A simulation runs the agents as programs that exchange messages, and never uses the matrix of the
+closed loop.  An `Agent` knows its own program, its own output and its inbox; a `Link` delivers
+messages after its delay; a `Network` runs rounds of measuring, sending, receiving and computing.  A
+program that uses a signal that its agent does not receive raises `SignalNotReceived`.
 
-Vectors are columns that can be added, scaled and multiplied by matrices from the left.  The code of
-the agents and of the plant uses these operations alone, so it is the same for all arithmetics.
+The same code serves three arithmetics: rational numbers (exact), multiple precision (mpmath) and
+double precision (numpy).  This is possible because vectors are columns that are only added, scaled
+and multiplied by matrices from the left.
+
+Set-points and disturbances enter as `Signal`: sums of steps and ramps, so that they are exact in
+every arithmetic, and linear between their changes.
 """
 
 from __future__ import annotations
@@ -23,7 +30,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import quoted
 
-# The arithmetics of a simulation: rational numbers, multiple precision, or double precision.
+# The three arithmetics.
 
 Native = Any
 """A matrix or column of an arithmetic: `Matrix`, ``mpmath.matrix`` or ``numpy.ndarray``."""
@@ -184,7 +191,7 @@ def arithmetic_named(name: str, digits: int = 60) -> Arithmetic:
     )
 
 
-# Agents on a network: each knows its own program, its own output, and the messages it receives.
+# Agents, links and the network.
 
 
 class SignalNotReceived(InputError):
@@ -451,7 +458,7 @@ class Network:
         return inputs, state, [agent.update() for agent in self.agents]
 
 
-# Signals that enter a simulation from outside: set-points and disturbances, in steps and ramps.
+# Set-points and disturbances: sums of steps and ramps.
 
 Columns = list[Matrix]
 """One column for each channel."""
@@ -670,7 +677,7 @@ def signal_of(
     level : sequence, optional
         The values from the start on; 0 by default.
     steps, ramps : sequences of (time, numbers)
-        What is added from a time on, and with which slopes.
+        The numbers that are added from a time on; in a ramp the slopes.
     rounding : {"decimal", "dyadic"} or None
     where : tuple of str
         The names of the three arguments in errors.
@@ -691,9 +698,6 @@ def signal_of(
                 raise InputError(f"expected a time of at least 0, found {start}", where=place)
             changes.append(Change(start, by_channel(values, sizes, rounding, place), ramp))
     return Signal([Matrix.zeros(size, 1) for size in sizes], tuple(changes))
-
-
-# The state in which a simulation starts.
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,17 @@
-"""simulate: trajectories in discrete and continuous time."""
+"""`simulate`: trajectories in discrete and continuous time.
+
+Discrete time is stepped, by default in rational numbers, and then exact.  Continuous time is
+integrated from the derivatives that the plant and the agents compute:
+
+- `integrated`, the default: double precision with scipy's Runge–Kutta method of order 8, or where
+  the fastest mode makes the equations stiff with an implicit method of order 5;
+- `taylor`: sums of Taylor series in multiple precision, for loops whose entries are too large for
+  double precision (`double_precision_warning`).  The equations are linear, so one round of the
+  network at the k-th derivative gives the next one.
+
+Neither encloses its numbers, so neither proves anything; for proved bounds see `envelope`.
+`chosen_grid` chooses the times from the slowest and the fastest mode of the loop.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +49,7 @@ from mcexact.simulation.network import (
     signal_of,
 )
 
-# Trajectories in continuous time, integrated from the equations of the plant and of each agent.
+# Integration in continuous time.
 
 STIFF = 20_000.0
 """The largest product of the horizon and the fastest mode for an explicit method."""
@@ -307,7 +320,7 @@ def _duration(modes: list[complex]) -> Fraction:
 
 
 def _steps(loop: ClosedLoop, modes: list[complex]) -> int:
-    """The same in discrete time, as a number of steps."""
+    """The duration in discrete time, as a number of steps."""
     states = loop.dimension
     if states <= STEPS // 5:
         # A mode 0 is gone after as many steps as it has states.
@@ -337,8 +350,6 @@ def _nice(value: Fraction) -> Fraction:
     return digits * unit
 
 
-# A warning where double precision cannot represent a closed loop well enough to simulate it.
-
 LARGEST_FOR_DOUBLES = 10**5
 
 
@@ -366,7 +377,7 @@ def _power(value: Fraction) -> str:
     return f"{digits[0]}e+{len(digits) - 1:02d}"
 
 
-# `simulate` runs a controller as a network of agents and returns the trajectory.
+# `simulate`, and the trajectory that it returns.
 
 SIGNALS = {"outputs": "y", "inputs": "u", "reference": "r"}
 """The letters of the signals of all agents, keyed by their names in a `Snapshot`."""

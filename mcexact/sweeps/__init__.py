@@ -6,9 +6,8 @@ receiving process verifies every certificate before it uses the claim.
 
 =============  ====================================================================
 `questions`    the questions of a sweep
+`workers`      worker processes, which may die
 `jobs`         one system with its questions, decided in any process
-`records`      the answers about a system, and the file of records
-`workers`      processes, which may die
-`run`          `sweep` itself
+`run`          `sweep` itself, the records of its answers, and the file of records
 =============  ====================================================================
 """

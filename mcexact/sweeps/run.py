@@ -1,4 +1,16 @@
-"""sweep: records, resuming, distribution of jobs."""
+"""`sweep`: records, resuming, distribution of jobs.
+
+`sweep` asks the same questions about many systems.  Each system becomes a job, which any process
+can decide from plain data; the certificates come back as texts, and the independent checker
+verifies them in this process before an answer becomes a `Record`.  So no answer rests on the
+process that computed it.  A certificate has to be about the system of the job, which this process
+reads again; for draws alone this is not compared.
+
+A `RecordFile` keeps one line for each record, appended when the system is finished.  Run the same
+sweep again to resume it: finished systems are skipped, unless a limit or a failure ended their
+work, and an incomplete last line is removed.  A lock refuses a second sweep that writes the same
+file.  A job whose process dies is repeated once in a new process.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +81,7 @@ class Record(Shown):
 
     @property
     def final(self) -> bool:
-        """Whether another run would find the same: no limit was reached and nothing failed."""
+        """Whether another run would give the same answers: no limit was reached, nothing failed."""
         return self.error is None or self.error["status"] not in _AGAIN
 
     def __repr__(self) -> str:
@@ -98,7 +110,7 @@ class Record(Shown):
         """Return one flat row for a table: sizes, and the claims that fit into a cell.
 
         The columns of a claim are ``question.claim``.  A polynomial is written as text; of another
-        list the number of its items is told, as of ``fixed_spectrum.factors``.
+        list the row has the number of its items, as of ``fixed_spectrum.factors``.
 
         Examples
         --------
@@ -245,7 +257,7 @@ def _lock(stream: FileIO, path: str) -> None:
             raise UsageError("another sweep is writing to this file", where=path) from None
 
 
-# `sweep` distributes jobs, verifies the certificates that come back, and keeps the records.
+# `sweep`: distribution of jobs, verification of their certificates.
 
 _AHEAD = 2  # jobs queued for each process, so that no process is idle
 
@@ -398,7 +410,7 @@ def _once_more(job: Job, work: Callable[[Job], Outcome]) -> Outcome:
 
 
 def _believed(number: int, job: Job, outcome: Outcome) -> Record:
-    """Make the record of a job after verifying every certificate."""
+    """Make the record of a job, after the checker has verified every certificate."""
     key = job.key()
     left = outcome.get("error")
     if not outcome.get("certificates"):

@@ -2,22 +2,23 @@
 
 This stage takes systems and neighbor graphs, and gives linear time-invariant controllers with
 certified closed loops.  If no such controller exists, it raises an error with a certificate that
-proves this.
+proves this.  The modules stand here from the gate and the methods to the designers:
 
 ======================  ===================================================================
-`request`               what is asked of a design
-`gate`                  proposals, and the certification of the first loop that holds
+`gate`                  requests, proposals, and the certification of closed loops
+`state_feedback`        prescribed spectra, and state feedback that assigns them
+`channel_controller`    controllers of a single channel
+`networks`              extended, lifted and held systems, as networks of agents
+`network_design`        decentralized control of a network, as the theorems construct it
+`optimum`               controllers of low order for the same networks, by local search
+`observer`              distributed observers with a channel controller (Theorem 1)
+`robustness`            how far a plant may differ from its values before a loop fails
 `design`                what every designer returns
-`methods`               how gains and single controllers are found
-`observer`              the distributed observer of Theorem 1
-`network`               decentralized control, and control of extended systems
-`optimum`               controllers of low order for the same systems, by local search
-`asking`                requests without a rate
-`decentralized`         control without communication
-`extended`              control with shared sub-states
-`distributed_observer`  control by a distributed observer
-`setpoint`              control to set-points, for the plant with integrators
-`certify`               the certification of a controller from anywhere
+`rate`                  requests without a rate
+`decentralized`         the designers without communication, and with shared sub-states
+`distributed_observer`  the designer of distributed observers
+`setpoint`              the designer of set-point controllers, with integrators
+`certify`               the certification of any controller, and of its rounded entries
 `assessment`            whether a person would install a controller
 ======================  ===================================================================
 """

@@ -1,4 +1,18 @@
-"""Whether a person would install a controller."""
+"""Whether a person would install a controller.
+
+A controller that is certified can still be useless: fragile, costly, or with gains that no device
+has.  `assess` computes the figures that say so for a design, `assessed_loop` those of any loop, and
+the verdict of an `Assessment` follows from them:
+
+- "Do not install": the region is not certified, a plant or gains within the radii are refuted, or
+  the margin is next to nothing;
+- "Install with care": the loop is fragile, needs many digits, lets the state grow, costs or acts
+  much more than the one controller that all agents together would have, or the region is beyond
+  what is sensible;
+- "Worth installing": none of these.
+
+The figures are floating point; what is proved, or open, is said to be so.
+"""
 
 from __future__ import annotations
 
@@ -33,8 +47,6 @@ from mcexact.synthesis.optimum.diagnosis import (
 from mcexact.synthesis.optimum.figures import MARGIN, NO_LIMITS, Aims, Figures, Shape, figures_of
 from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights, quiet_floats
 from mcexact.synthesis.robustness import EveryLoop, WithinRadii
-
-# Whether a person would install a controller: figures of its loop, and what to beware of.
 
 Install = Literal["yes", "with care", "no"]
 
@@ -82,7 +94,7 @@ class Assessment(Shown):
     step_peak : float or None
         The largest output while one set-point steps from 0 to 1; None without integrators.
     notes : tuple of str
-        What was chosen for the user, and what is to be known of the method.
+        What was chosen for the user, and remarks about the method.
     uncontrolled : Figures or None
         Of the plant without a controller; None with integrators, which are not stable alone.
     shape : Shape
@@ -129,7 +141,7 @@ class Assessment(Shown):
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
-        """What to beware of, the most important first."""
+        """The warnings, the most important first."""
         return (*self._dangers(), *self._cares())
 
     @property
@@ -289,7 +301,7 @@ class Assessment(Shown):
         return f"{told} (that one is not the cheapest with this {self.region.word})"
 
     def _digits(self) -> list[tuple[str, str]]:
-        """What rounding leaves of the rate, if there is anything to lose."""
+        """The number of digits that suffice, if the region is certified."""
         if not self.certified:
             return []
         told = f"more than {MOST_DIGITS}" if self.digits is None else str(self.digits)
@@ -352,8 +364,8 @@ def assess(
     aims : Aims, optional
         Those of the design, for its weights.
     every_loop : EveryLoop, optional
-        What is known of all loops within the radii of the plant, if it has some: nobody who knows
-        the data to these should install a controller that fails within them.
+        What is proved about all loops within the radii of the plant, if it has some.  A controller
+        that fails for a plant within them should not be installed.
 
     Returns
     -------
@@ -458,7 +470,7 @@ def assessed_loop(
 
 
 def _kept(margin: float) -> float:
-    """What rounding has to leave of a margin: enough not to be fragile, or else nearly all."""
+    """The margin that must remain after rounding: `MARGIN`, or nearly all of a smaller one."""
     if np.isnan(margin):
         return 0.0
     return MARGIN if margin >= MARGIN else _NEARLY * margin
@@ -472,7 +484,7 @@ def _uncontrolled(system: MultiChannelSystem, weights: Weights) -> Figures:
 
 
 def _hardly(alone: Figures, figures: Figures, region: StabilityRegion) -> str:
-    """That a controller hardly improves on none."""
+    """A warning that the loop is hardly better than the plant without a controller."""
     inside = alone.bound < to_float(region.limit)
     told = f"it satisfies {region}, too" if inside else f"it does not satisfy {region}"
     return (

@@ -1,4 +1,16 @@
-"""Certification of any controller, and how its entries may be rounded."""
+"""Certification of any controller, and how its entries may be rounded.
+
+`certify_controller` decides whether the loop of a controller, designed by any method, has all its
+eigenvalues in a region.  Small loops are decided by their characteristic polynomial, which always
+answers.  Large loops are decided by Lyapunov matrices, which take less time but can be
+inconclusive; then the polynomial is tried up to a limit, beyond which the work ends with
+`LimitReached`.  The large loop of a distributed observer is decided block by block.
+
+A controller that is stored with few digits is another controller.  `unsafe_rounding` searches a
+rounding with which the loop fails, along the slopes of the slowest eigenvalues; what it returns is
+decided exactly, and finding none proves nothing.  `safe_digits` looks for the fewest digits with
+which every rounding keeps the loop in the region, proved for the box of all roundings.
+"""
 
 from __future__ import annotations
 
@@ -41,8 +53,6 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.observer import observer_coordinates
 from mcexact.synthesis.optimum.diagnosis import rounded_controller
-
-# `certify_controller` decides whether a given controller makes a loop stable or fast enough.
 
 _PARTS_TRIED = 32
 _MOST_ROUNDED = 1000
@@ -241,7 +251,7 @@ def account_of_verdict(
     every_loop : BoxStability, optional
         About all loops of a box around the plant.
     gains : Fraction, optional
-        The part of their moduli that the radii of the gains are there.
+        The radii of the gains in this box, as a part of their moduli.
     failing : FailingPlant, optional
         A plant nearby whose loop is not stable.
     """
@@ -258,7 +268,7 @@ def account_of_verdict(
     return Account(answers, given, sentences, found.about.subject[:-1], nearby=(FAILING,))
 
 
-# A way of rounding a controller's entries with which the loop fails, decided exactly.
+# Roundings of a controller's entries with which the loop fails, decided exactly.
 
 _MODES, _ROUNDS = 8, 4
 
@@ -386,7 +396,7 @@ def _places(signals: LoopPencil, count: int) -> tuple[list[int], list[int]]:
     return [i for _, i, _ in found], [j for _, _, j in found]
 
 
-# How many digits of a controller's entries are enough, whichever way they are rounded.
+# The number of digits that is enough, whichever way the entries are rounded.
 
 
 @dataclass(frozen=True)
@@ -402,7 +412,7 @@ class SafeDigits:
     unsafe : int or None
         The largest number of digits for which a rounding was found that fails; None if none was.
     rounded : Controller or None
-        The controller that is rounded so.
+        The controller with this rounding.
     refutation : StabilityVerdict or None
         The exact verdict on its loop.
     """

@@ -1,4 +1,20 @@
-"""Channel controllers: Brasch and Pearson's, and from Riccati equations."""
+"""Channel controllers: Brasch and Pearson's, and from Riccati equations.
+
+A channel controller is the dynamic controller of a single channel, which moves every mode that this
+channel controls and observes.  There are two kinds:
+
+- `channel_controller` (Brasch and Pearson 1970) is exact and assigns the whole spectrum.  Its order
+  is one less than the controllability or the observability index, so it is small; but its numbers
+  grow with the dimension.  O((n + ν)³) operations on integers whose length grows with n + ν.
+- `riccati_channel_controller` is an observer with state feedback, from two Riccati equations in
+  floating point.  Its order is that of the controlled and observed part, and it is designed for a
+  rate or a radius; that its spectrum lies there is decided exactly.
+
+Both need gains of the other channels with which the channel reaches many modes.  `drawn_gains`
+draws small ones, and sorts them by the number of modes that channels move.  It computes ranks
+modulo one prime, which bound the ranks over Q from below: what is drawn is a proposal, which the
+caller verifies.  `channel_part` is the controllable and observable part of a channel, exactly.
+"""
 
 from __future__ import annotations
 

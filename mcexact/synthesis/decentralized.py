@@ -1,4 +1,14 @@
-"""Control without communication, and with shared sub-states."""
+"""Control without communication, and with shared sub-states.
+
+For a rate or a radius, `design_decentralized` and `design_extended` search controllers of low order
+in floating point, and fall back to the controller of the theorem if the search finds none: its
+dynamics are all in one agent of each strong component, and it is often fragile.  For a prescribed
+spectrum, or a named agent, the controller of the theorem is made at once.  A fixed mode that is too
+slow is a refusal with a certificate.
+
+Over links with delays, `design_extended` designs for the lifted and for the held network if a
+search can use both and none was named, and keeps the cheaper one with a sufficient margin.
+"""
 
 from __future__ import annotations
 
@@ -22,8 +32,6 @@ from mcexact.synthesis.networks import (
 from mcexact.synthesis.optimum.figures import MARGIN, Aims
 from mcexact.synthesis.optimum.search import Family, searched_proposals
 from mcexact.synthesis.rate import at_a_robust_rate, request_for
-
-# Decentralized control, without communication.
 
 
 def design_decentralized(
@@ -106,8 +114,6 @@ which channel 2 does not control and channel 1 does not observe, and it is not f
 
     return at_a_robust_rate(request, attempt)
 
-
-# Distributed control with shared sub-states, by decentralized control of the extended system.
 
 SharedNetwork = Literal["extended", "lifted", "held"]
 _WITH_DELAYS: tuple[SharedNetwork, ...] = ("lifted", "held")

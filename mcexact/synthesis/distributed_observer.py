@@ -1,9 +1,19 @@
 """Control by a distributed observer.
 
-Distributed observers without a channel controller, whose agents are drawn to agree.
+`design_observer` designs agents that each estimate the whole state of the plant.  There are two
+kinds of observers, and `observers` yields proposals of both:
 
-The agents use the optimal gains of all outputs together, and estimates that differ are drawn to
-each other strongly (Kim, Shim and Cho 2016; Kim, Lee and Shim 2020).
+- with a channel controller at one agent (Theorem 1; see `observer`): exact arithmetic assigns any
+  prescribed spectrum, floating point is for a rate or a radius;
+- without one (`best_agreeing`; Kim, Shim and Cho 2016; Kim, Lee and Shim 2020): the agents use the
+  optimal gains of all outputs together, and a strong coupling makes their estimates agree.  It has
+  nm states, half as many as with a channel controller of full order, and all agents have programs
+  of the same form; but it needs a strongly connected graph, and only floating point makes it.
+
+The second kind comes first in floating point, unless an agent was named for the channel controller;
+where its loop is fragile, or in discrete time much faster than asked, it is compared with some of
+the first kind.  The gate certifies the loop of either kind.  With ``order="low"`` a controller of
+low order that estimates nothing is designed as well, and the better one is kept.
 """
 
 from __future__ import annotations
@@ -48,7 +58,7 @@ from mcexact.synthesis.optimum.starts import estimator, regulator, whole_model
 from mcexact.synthesis.rate import request_for
 from mcexact.synthesis.state_feedback import loop_matrix, split_by_channel
 
-# Distributed observers without a channel controller, whose agents are drawn to agree.
+# Observers without a channel controller, whose estimates a coupling makes agree.
 
 _STRENGTHS = (10.0, 30.0, 100.0, 3.0, 1.0)
 _SHARES, _NOISES = (1.0, 0.5), (1.0, 1e1, 1e2, 1e3, 1e4, 1e5)
@@ -65,7 +75,7 @@ def observers(
     gains: Sequence[Matrix] | None = None,
     order: Literal["least"] | None = None,
 ) -> Iterator[Proposal]:
-    """Yield distributed observers, where `best_agreeing` has one first that one.
+    """Yield proposals of distributed observers; that of `best_agreeing` comes first, if it has one.
 
     Parameters
     ----------
@@ -126,7 +136,7 @@ def best_agreeing(
     region: StabilityRegion,
     gains: Sequence[Matrix] | None = None,
 ) -> Agreeing | None:
-    """Find the observer of least cost whose agents are drawn to agree.
+    """Find the observer of least cost in which a coupling makes all estimates agree.
 
     Parameters
     ----------
@@ -180,7 +190,7 @@ def best_agreeing(
 
 
 def _rank(each: Agreeing) -> tuple[bool, bool, float]:
-    """Robust ones first, of these the ones as slow as asked, the cheapest first; else by margin."""
+    """The order: robust loops first, among them those as slow as asked, then by cost or margin."""
     if each.is_fragile:
         return True, True, -each.figures.margin
     return False, each.is_hasty, each.figures.cost
@@ -211,7 +221,7 @@ def agreed_weights(graph: NeighborGraph) -> Floats | None:
 def _optimal(
     system: MultiChannelSystem, region: StabilityRegion, gains: Sequence[Matrix] | None
 ) -> tuple[tuple[Matrix, ...], list[Floats]] | None:
-    """The gains F_i, of few digits, and gains L for several noises, of one optimal controller."""
+    """Gains of one optimal controller: F_i, of few digits, and L for several noises of outputs."""
     stable = region.discrete and region.edge == 1
     shift = shift_of(region, _FASTER_THAN_STABLE if stable else _FASTER)
     weights = Weights.unit(system)
@@ -281,7 +291,7 @@ def _gains(
     drawn: Floats,
     digits: int,
 ) -> tuple[Matrix, ...]:
-    """The gains [K_i, H_ij …] = [−L_i/w_i, −D …] that draw by D, rounded to some digits."""
+    """The gains [K_i, H_ij …] = [−L_i/w_i, −D …] with the coupling D, rounded to some digits."""
     found, start = [], 0
     for i in range(system.m):
         stop = start + system.q(i)
@@ -313,7 +323,7 @@ def _proposal(
     return Proposal(controller, (), observer_coordinates(n, controller)[-1:], parts)
 
 
-# `design_observer` designs the distributed observer of Theorem 1 as m certified agent programs.
+# `design_observer`, with and without a channel controller.
 
 _PRICE_OF_ORDER = 1.02
 

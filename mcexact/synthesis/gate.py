@@ -1,4 +1,16 @@
-"""Requests, and the gate, which alone makes certified loops."""
+"""Requests, and the gate, which alone makes certified loops.
+
+A `Request` is what all methods of design share: region, spectrum, agent and arithmetic, checked
+before any work.  A `Proposal` is a designer's result: agent programs, and perhaps claims about the
+characteristic polynomials of their loop, from exact or floating-point computation.
+
+`certify` assembles the closed loop from the programs alone and decides it exactly.  If polynomials
+are claimed, they are compared with those of the loop modulo primes whose product exceeds twice a
+bound on the coefficients, and stability follows from the polynomials.  Otherwise stability is
+decided, by Lyapunov matrices block by block where the proposal offers coordinates in which the loop
+may be block triangular.  A `CertifiedLoop` has no other constructor, so that having one is the
+proof.  `first_certified` takes the first proposal of a designer that passes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,17 @@
-"""Decentralized control of a network, component by component."""
+"""Decentralized control of a network, component by component.
+
+This is the construction of the theorems (Corfmat and Morse 1976), for any network that `networks`
+derives from a plant.  Small decentralized gains are drawn; in each strong component of the transfer
+graph one channel then controls and observes a part of the loop, and its channel controller moves
+this part without touching the others.  Every mode in no part must be fixed, which is decided
+exactly from characteristic polynomials; a fixed mode outside the region is a refusal with a
+certificate.
+
+In exact arithmetic the channel controllers are Brasch and Pearson's, which have low order and any
+prescribed spectrum, and of several draws the one with the shortest numbers is taken.  In floating
+point they come from Riccati equations, for a rate or a radius, and the smallest gains win.
+`network_design` adds certificates about the network to the certified loop.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +48,7 @@ from mcexact.synthesis.gate import Proposal, Request
 from mcexact.synthesis.networks import DerivedNetwork, network_programs
 from mcexact.synthesis.state_feedback import scaled_polynomial, spectrum_polynomial
 
-# Channel controllers for drawn gains in each strong component, and the choice of the best.
+# Candidates: channel controllers for drawn gains in each strong component.
 
 _KEPT = 8
 _KEPT_FLOAT = 6
@@ -184,7 +197,7 @@ def _only(p: Polynomial, allowed: Polynomial) -> bool:
     return True
 
 
-# Decentralized control of a derived network, with a controller for each strong component.
+# The proposal of the best candidate, and its design.
 
 _ATTEMPTS = 96
 _MORE_ATTEMPTS = 600

@@ -1,4 +1,14 @@
-"""Networks derived from a plant, with shared sub-states and integrators."""
+"""Networks derived from a plant, with shared sub-states and integrators.
+
+A distributed controller with shared sub-states is a decentralized controller of a larger system:
+the extended system without delays, the lifted system over links with delays, the held system if
+agents also hold what they send (sections IV-C to V of the paper).  `shared_network` makes it,
+`sharing_network` also chooses the dimensions of the sub-states, and `network_programs` translates
+gains of the larger system back to agent programs.  Delays belong to the links and holding to the
+agents, so the programs contain no matrix of the lifted system.
+
+`integrated_plant` adds integrators of the outputs, for a search of set-point controllers.
+"""
 
 from __future__ import annotations
 
@@ -288,9 +298,6 @@ def _region_of_stable_modes(system: MultiChannelSystem) -> StabilityRegion:
     return region
 
 
-# The plant with integrators of its outputs, as a search for set-point controllers sees it.
-
-
 def integrated_plant(system: MultiChannelSystem) -> MultiChannelSystem:
     """Return the plant with its integrators, of which agent i measures w_i, and y_i, too.
 
@@ -309,9 +316,9 @@ def integrated_plant(system: MultiChannelSystem) -> MultiChannelSystem:
 
     Notes
     -----
-    With w_i alone an agent has to differentiate to act on y_i in proportion.  No other modes are
-    fixed: the rows of the integrators in the pencils of complementary subsystems are C_i, beside
-    −λ w_i.
+    Agents measure y_i as well, since with w_i alone an agent would have to differentiate to act on
+    y_i in proportion.  This changes no fixed mode: the rows of the integrators in the pencils of
+    complementary subsystems are C_i, beside −λ w_i.
 
     Examples
     --------

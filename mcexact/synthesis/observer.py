@@ -1,4 +1,23 @@
-"""Observer-based control (Theorem 1), exactly and in floating point."""
+"""Observer-based control (Theorem 1), exactly and in floating point.
+
+Every agent estimates the whole state.  The estimation errors form a multi-channel system of nm
+states, the error system, and one agent q has a channel controller that moves its spectrum
+(equations (10) and (11) of the paper).  In the coordinates of `observer_coordinates` the loop is
+block upper triangular: state feedback first, then the errors.
+
+- `best_channel_controller`, exact: gains K_i, H_ij are drawn with which agent q controls and
+  observes all errors, and the Brasch–Pearson controller of agent q, of order m − 1 as a rule,
+  assigns the whole spectrum.  Of several draws the one with the shortest and smallest numbers is
+  kept.  If no draw succeeds, joint observability and completeness are decided, and a refusal
+  carries the certificate.  For prescribed spectra and small systems.
+- `float_proposals`, in floating point: F_i, G and L come from Riccati equations, and the channel
+  controller is an observer of the errors, of order nm, or by `reduced_order_observer` of order nm −
+  rank C̃.  O((nm)³) operations for each draw.  For a rate or a radius, and larger systems.
+
+Both yield proposals, and nothing is certified here: the gate decides each loop.  `rounds` and
+`most_promising` say in which order the proposals of floating point are tried: in discrete time with
+up to 60 errors by the figures of their loops, otherwise by the sizes of their gains.
+"""
 
 from __future__ import annotations
 
@@ -51,9 +70,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     Floats = npt.NDArray[np.float64]
-
-
-# Coordinates in which the loop of a distributed observer is block upper triangular.
 
 
 def observer_coordinates(
@@ -123,9 +139,6 @@ def _coordinates(n: int, private: list[int], Y: Matrix | None) -> Coordinates:
         hidden += k
     sizes = (n, n * m + order) if Y is None else (n, n * m, order)
     return Coordinates(T.take(rows=places), inverse.take(cols=places), sizes)
-
-
-# Agent programs of distributed observers.
 
 
 def observer_programs(
@@ -304,7 +317,7 @@ def _combination(C: Matrix, pivots: tuple[int, ...]) -> Matrix:
     return X @ Matrix.identity(C.nrows).take(rows=list(independent))
 
 
-# The search for an exact observer: drawn gains, their channel controllers, and the best choice.
+# The exact observer: drawn gains, their channel controllers, and the best of these.
 
 _ROWS_PER_CANDIDATE = 2
 
@@ -410,7 +423,7 @@ def best_channel_controller(
     return best[1], best[2], polynomial
 
 
-# Proposals of the distributed observer of Theorem 1, exactly or in floating point.
+# Proposals to the gate; those in floating point are made further below.
 
 
 def observer_proposals(
@@ -556,7 +569,7 @@ def _feedback(
     return state_feedback(system, spectrum_polynomial(wanted, system.n, where="spectrum.feedback"))
 
 
-# Which distributed observer in floating point is tried first.
+# The order in which observers in floating point are tried.
 
 _MARGINS = (Fraction(1, 4), Fraction(1, 16), Fraction(1, 256))
 _POWERS, _OF_ONE = (17 / 16, 5 / 4), (0.98, 0.9)
@@ -575,7 +588,7 @@ class Round:
     targets : tuple of (StabilityRegion, float)
         Each inside the region asked for, with the price of the inputs for the gains F_i.
     ranked : bool
-        Whether the figures of the loops decide which of all the observers is proposed first.
+        Whether the observers of this round are sorted by the figures of their loops.
     """
 
     targets: tuple[tuple[StabilityRegion, float], ...]
@@ -598,8 +611,9 @@ def rounds(region: StabilityRegion, errors: int) -> Iterator[Round]:
 
     Notes
     -----
-    In discrete time a part of the radius would make a loop much faster than asked, so that the
-    targets are powers of it.  Dear inputs make F_i that leave slow modes as slow as is asked.
+    In discrete time a fraction of the radius would make a loop much faster than asked, so that the
+    targets are powers of the radius.  High prices of the inputs give F_i that make slow modes no
+    faster than asked.
 
     Examples
     --------
@@ -627,7 +641,7 @@ def rounds(region: StabilityRegion, errors: int) -> Iterator[Round]:
 def honors(region: StabilityRegion, bound: float) -> bool:
     """Whether a loop is about as slow as asked: its slowest eigenvalue has a modulus above ρ⁴.
 
-    Every loop is in continuous time, and for a radius of 1, which asks for no rate.
+    Always true in continuous time, and for the radius 1, which asks for no rate.
 
     Examples
     --------
@@ -655,7 +669,7 @@ def most_promising(
     region : StabilityRegion
         In discrete time loops that `honors` accepts come first.
     proposals : iterable of Proposal
-        Of these the first 8 are compared.
+        The first 8 are compared, and sorted.
     by_order : bool
         Whether the order counts.
     """

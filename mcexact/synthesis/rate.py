@@ -1,4 +1,11 @@
-"""Requests without a rate: the sensible one, and slower designs."""
+"""Requests without a rate: the sensible one, and slower designs.
+
+A request without a rate gets half the sensible one as a rule; this is the fastest that one
+controller for all agents can afford (`optimum.diagnosis`).  `request_for` chooses it.  Agents that
+know less can be too slow for it, so `at_a_robust_rate` designs for smaller and smaller parts of a
+chosen rate until the loop has a margin of 0.3, and otherwise keeps the loop with the largest
+margin.  A rate that was given is never changed.
+"""
 
 from __future__ import annotations
 
@@ -18,8 +25,6 @@ from mcexact.synthesis.gate import Arithmetic, Progress, Request, Warned
 from mcexact.synthesis.optimum.diagnosis import chosen_region
 from mcexact.synthesis.optimum.figures import MARGIN, Aims
 from mcexact.synthesis.optimum.problem import Weights
-
-# Requests without a rate, which take half the sensible one.
 
 _NO_OPTIMUM = "a small one, since all agents together have no optimal controller"
 _SMALL = (
@@ -116,13 +121,11 @@ def _beyond(
     return region, told
 
 
-# Designs for which no rate was given become slower where the loop would be fragile.
-
 _HALVINGS, _MORE_HALVINGS = 2, 4
 
 
 def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> Design:
-    """Design for a request, and for half and a quarter of its rate and so on if this was chosen.
+    """Design for a request; if its rate was chosen, also for half of it, a quarter and so on.
 
     Parameters
     ----------
@@ -179,7 +182,7 @@ def _halved(request: Request, times: int) -> Request:
 
 
 def _once_warned(tell: Progress, step: str) -> None:
-    """Tell a step, without the warnings that the first rate led to."""
+    """Report a step, but no warning that was already reported for the first rate."""
     if not isinstance(step, Warned):
         tell(step)
 

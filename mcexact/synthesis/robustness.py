@@ -1,4 +1,12 @@
-"""How far a plant may be from its values before a controller fails, with a small effort."""
+"""How far a plant may be from its values before a controller fails, with a small effort.
+
+`every_loop` looks from both sides: for a box of plants around the given one for which every loop is
+proved stable, and for a plant nearby whose loop is exactly proved not to be.  Where the plant has
+radii, these are the box; otherwise parts of what seems to be the largest box relative to the
+entries are tried, first those for which gains may differ as well.  The effort is counted in parts
+of the border of stability, not in seconds.  Designs show this at once; `largest_loop_uncertainty`
+finds larger boxes and nearer plants with more work.
+"""
 
 from __future__ import annotations
 
@@ -107,7 +115,7 @@ class EveryLoop(Shown):
 
 @dataclass
 class _Work:
-    """How many parts of the border may still be tried, of each box and of all.
+    """The number of parts of the border that may still be tried, for each box and in all.
 
     Attributes
     ----------
@@ -122,7 +130,7 @@ class _Work:
 
     @classmethod
     def of(cls, effort: float, size: int) -> _Work:
-        """So many seconds of work about a loop with so many signals."""
+        """The work of some seconds for a loop with some number of signals."""
         total = int(min(effort * _PER_SECOND * (_USUAL / max(size, 1)) ** 2, 1e6))
         if total < _LITTLE:
             return cls(2 * total // 3, total, _SURE)
@@ -211,7 +219,7 @@ def failing_plant(loop: ClosedLoop) -> FailingPlant | None:
 
 
 def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLoop:
-    """The same for a loop of a plant that is not too large."""
+    """As `every_loop`, for a loop that is not too large."""
     whole, own = StabilityRegion(loop.given.time), loop.given.uncertainty is not None
     unit = loop.given if own else Box.relative(loop.given, 1).system
     with one_thread():

@@ -1,4 +1,14 @@
-"""Set-point control, by integrators in the agents and a distributed controller."""
+"""Set-point control, by integrators in the agents and a distributed controller.
+
+Agent i integrates y_i − r_i, and a controller stabilizes the plant with these integrators; at rest
+every output then is at its set-point.  It exists only if every set-point has an equilibrium and the
+integrators leave all slow modes controllable and observable, which is decided first.
+
+The controller is that of `decentralized` or `distributed_observer` for the plant with integrators,
+taken as a plant, and `with_integrators` makes the integrators a part of the agents' own states.  By
+default a controller of low order is searched, without communication if no fixed mode forbids this;
+a controller of a theorem comes next.
+"""
 
 from __future__ import annotations
 
@@ -90,9 +100,8 @@ def design_setpoint(
     -------
     Design
         Agent i integrates y_i − r_i as the first q_i entries of its private state; in a search it
-        also uses y_i itself.  Its ``parts``
-        are the ``solvability``, and ``designed``, the parts of the design for the plant with its
-        integrators.
+        also uses y_i itself.  Its ``parts`` are the ``solvability``, and ``designed``, the parts of
+        the design for the plant with its integrators.
 
     Raises
     ------
@@ -351,7 +360,7 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
 def _on_own_state(each: LinearMap, i: int, nrows: int, q: int, k: int) -> LinearMap:
     """Convert a map so that it reads w_i from the private state (w_i, z_i), not from the output.
 
-    What an agent measures is w_i, or (w_i, y_i).
+    The output of agent i is w_i, or (w_i, y_i).
     """
     measured = each.outputs.get(i, Matrix.zeros(nrows, q))
     own = measured.take(cols=range(q, measured.ncols))

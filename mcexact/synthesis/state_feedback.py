@@ -1,8 +1,19 @@
 """Prescribed spectra, and state feedback that assigns them.
 
-Spectra for designs that name a rate alone: the eigenvalues that are moved, no faster than asked.
+All feedback here is exact.  A gain F with a prescribed characteristic polynomial of A + B F exists
+for every controllable pair, but its numbers can be very long, and every later proof is about them.
+`assigning_feedback` therefore draws many directions (Heymann's lemma, then Ackermann's formula) and
+keeps the gain with the shortest numbers.  `state_feedback` does this for all channels together, or
+proves that the system is not jointly controllable; `feedback_for_region` leaves uncontrollable
+modes where they are if these lie in the region.
 
-Numbers are decimals of a fixed precision, so that a spectrum is the same on every processor.
+A spectrum comes from one of three places:
+
+- `spectrum_polynomial` reads a prescribed one, as coefficients or as roots and conjugate pairs;
+- `default_polynomial` has small integers as roots, in discrete time 0 alone, for short numbers;
+- `scaled_polynomial` keeps what is fast enough in the plant and moves the rest no farther than the
+  rate asks, since gains grow with the distance by which roots are moved.  Its numbers are decimals
+  of a fixed precision, so that the spectrum is the same on every processor.
 """
 
 from __future__ import annotations
@@ -533,7 +544,7 @@ def default_polynomial(region: StabilityRegion, degree: int) -> Polynomial:
     return result
 
 
-# Spectra for designs that name a rate alone: the eigenvalues that are moved, no faster than asked.
+# Spectra for a rate alone: the plant's own roots, moved no farther than the rate asks.
 
 _FASTER = Decimal("1.25")
 _INSIDE = Decimal("0.9")
@@ -553,7 +564,7 @@ def scaled_polynomial(own: Polynomial, region: StabilityRegion, degree: int) -> 
     region : StabilityRegion
         With a rate or a radius.
     degree : int
-        Further roots are those of the controller.
+        The roots beyond those of ``own`` are those of the controller.
 
     Returns
     -------
@@ -572,9 +583,9 @@ def scaled_polynomial(own: Polynomial, region: StabilityRegion, degree: int) -> 
 
     Notes
     -----
-    What is fast stays where it is, since gains grow with the distances by which roots are moved:
-    for the four tanks of Johansson and the rate 1/100 from 9e24, with the roots −1, −2 and −3, to
-    1.
+    Fast roots stay where they are, since gains grow with the distances by which roots are moved:
+    for the four tanks of Johansson and the rate 1/100, the roots −1, −2 and −3 take gains of 9e24,
+    the roots of this function gains of 1.
 
     Examples
     --------
@@ -636,7 +647,7 @@ def _mean(sizes: Sequence[Decimal], region: StabilityRegion) -> Decimal:
 
 
 def _apart(roots: Sequence[Root], region: StabilityRegion) -> Iterator[Root]:
-    """Make the second and the third of equal roots faster, the fourth not, and so on."""
+    """Make the second of equal roots twice as fast, the third three times, the fourth not, …"""
     seen = Counter[Root]()
     for root in roots:
         times = seen[root] % 3 + 1
@@ -661,7 +672,7 @@ def _factor(root: Root, region: StabilityRegion) -> Polynomial:
     return Polynomial((re * re + im * im, -2 * re, Fraction(1)))
 
 
-# Modes that are fast enough already, which designs for a rate do not move.
+# Feedback that leaves modes where they are if these are fast enough or unobservable.
 
 
 def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> StateFeedback:

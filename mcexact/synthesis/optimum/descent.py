@@ -1,4 +1,24 @@
-"""Descent from a gain matrix to a local optimum."""
+"""Descent from a gain matrix to a local optimum.
+
+The objective of a design is the linear-quadratic cost plus penalties: a barrier at the border of
+the region, the complementary sensitivity at the inputs, large gains, and eigenvalues that are badly
+damped or too fast.  It is infinite outside the region, so every descent has two parts.
+
+1.  `inside` moves a start into the region.  `ratcheted` minimizes the cost for a part of the rate,
+   then for more of it.  If it fails, `spectral_descent` minimizes the largest real part or modulus,
+   which is not smooth where eigenvalues meet, and `ratcheted` goes on from where it ends.
+2.  `drafted` takes a few steps of least objective, to compare starts; `polished` goes on to the
+   local optimum, and then raises the weight of the sensitivity until the margin is enough.
+
+Two more moves serve starts that are far from the region: `calmed` reduces what the agents do to the
+plant where this makes a loop faster, and `settled` lowers the cost of a stable loop outside the
+region, which long networks need.  `found_alone` runs the search for one agent and its own part of
+the plant.
+
+All of them use one method, BFGS with a line search that accepts infinite values, and count their
+work in an `Effort` instead of timing it, so that results do not depend on the load of the machine.
+Everything here is floating point and proves nothing.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +53,7 @@ from mcexact.synthesis.optimum.problem import (
 )
 from mcexact.synthesis.optimum.starts import Locality, Model, Realization, drawn_dynamics
 
-# The objective of a design: cost, barrier of the region, margin and size of the gains.
+# The objective: cost, barrier of the region, sensitivity, size of the gains, eigenvalues.
 
 _SHAPE = 100.0
 SHARE_OF_SHIFTED = 0.0005
@@ -57,9 +77,9 @@ class Objective:
     largest_gain : float
         g; infinite without a limit.
     weight : float
-        μ.
+        μ, the weight of the penalty on the sensitivity T.
     limit : float
-        τ.
+        τ, the largest singular value of T that is not penalized.
     points : ndarray of complex or None
         The frequencies of the sum.
     shape : Shape
@@ -227,7 +247,7 @@ def _line_search(
     return best
 
 
-# From a gain matrix near a region to a local optimum of the objective inside it.
+# From a start into the region, and on to a local optimum of the objective.
 
 SLACK = 1.02
 """The region is tightened by this factor, so that rounding the controller does not leave it."""
@@ -321,15 +341,15 @@ def _well_inside(region: StabilityRegion) -> float:
 
 
 def calmed(problem: FeedbackProblem, x: Floats, effort: Effort) -> tuple[Floats, float]:
-    """Reduce what the agents do to the plant, where this makes a loop faster.
+    """Scale down the gains that act on the plant, where this makes a loop faster.
 
-    Controllers that agents find for themselves can disturb each other: then parts of their inputs
-    may leave a loop stable, from which a search can start.
+    Controllers that agents design for their own parts can disturb each other.  With smaller inputs
+    the loop may be stable, and a search can start from it.
 
     Returns
     -------
     x : ndarray
-        The fastest of some.
+        The free entries of the fastest of the loops that were tried.
     bound : float
         Its largest real part or modulus.
     """
@@ -350,7 +370,7 @@ def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effor
     Returns
     -------
     ndarray or None
-        None if the loop stopped to become faster.
+        None if the loop stopped becoming faster.
     """
     goal = shift_of(target.region, SLACK)
     bound, stalls, share = bound_of(problem, x), 0, _SHARE
@@ -383,13 +403,13 @@ def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effor
 def settled(
     problem: FeedbackProblem, x: Floats, target: Target, effort: Effort, *, rounds: int = 8
 ) -> Floats:
-    """Lower the cost of a stable loop outside the region, until it lies inside or for some rounds.
+    """Lower the cost of a stable loop outside the region, for some rounds or until it is inside.
 
     Notes
     -----
-    The cost of a long network is least inside most regions, and from a loop that disturbs itself
-    less the way is short.  Half the rate of a loop is the barrier.  One that is not stable stays as
-    it is.
+    The cost of a long network is least inside most regions, so that lowering it leads there.  The
+    barrier of each round is half the rate that the loop has.  A loop that is not stable is returned
+    unchanged.
     """
     edge = 1.0 if problem.discrete else 0.0
     for _ in range(rounds):
@@ -501,15 +521,15 @@ def inside(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) 
     return again if target.reached(bound_of(problem, again)) else None
 
 
-# Controllers of low order that each agent finds for its own part of the plant.
-
 _SEEDS = 4
 
 
 def found_alone(
     parts: Sequence[Locality], order: int, target: Target, effort: Effort
 ) -> list[Realization | None]:
-    """Search a controller of each agent's own part, of some order; None where none was found.
+    """Search a controller of some order for each agent's own part of the plant.
+
+    It is None for agents for which none was found.
 
     Notes
     -----

@@ -1,12 +1,22 @@
 """Figures and curves of any loop, and what a request costs.
 
-Figures of the closed loop of a controller from anywhere, and how its programs may be rounded.
+The figures of a loop (cost, margin, peak, damping) are computed in two ways.
 
-Eigenvalues that coincide, as those of loops by the theorems do, are moved by rounding far more than
-other figures: double precision has -0.83 for an eightfold -1.  `figures_of_loop` is quick, and
-compares candidates.  `sure_figures` is what is shown: eigenvalues are roots of the exact
-characteristic polynomial, the state moves by powers in ball arithmetic, and the margin is confirmed
-there, so that all processors show the same.
+- `figures_of_loop` uses double precision; it is quick, and compares candidates.
+- `sure_figures` is for display.  Rounding moves multiple eigenvalues far more than other figures:
+  double precision gives -0.83 for an eightfold eigenvalue -1, as loops by the theorems have them.
+  Therefore the eigenvalues are roots of the exact characteristic polynomial, the peak of the state
+  is computed in ball arithmetic, and the margin is confirmed there, so that all processors show the
+  same digits.  Beyond 40 states it falls back to double precision, and gives NaN where that is not
+  reliable.
+
+`rounded_controller` and `digits_that_suffice` round the entries of a controller, `curves_of`
+computes the curves of its page.
+
+`diagnosed` says before any search what a region costs: the optimal controller that all agents
+together would have, the fastest region for which this controller is affordable (ten times the least
+cost, margin 0.3), and the modes outside the region that are nearest to being fixed.
+`chosen_region` derives the rate of a request that names none from it.  Nothing here is proved.
 """
 
 from __future__ import annotations
@@ -46,7 +56,7 @@ from mcexact.synthesis.optimum.figures import (
 )
 from mcexact.synthesis.optimum.problem import Floats, SchurForm, Weights, quiet_floats
 
-# Figures of the closed loop of a controller from anywhere, and how its programs may be rounded.
+# Figures of any closed loop, in double precision and accurately; rounding of programs.
 
 _FREQUENCIES, _NEAR = 200, 60
 _SAME = 0.005
@@ -398,9 +408,9 @@ def _cost(
 def _with_integrals(
     loop: ClosedLoop, N: Floats, D: Floats, U: Floats, places: npt.NDArray[np.intp]
 ) -> tuple[Floats, Floats]:
-    """The same for the noise of all integrals and outputs; the integrators have no noise of these.
+    """Extend the N and D of `_noise` by noise of the integrals; integrators get no output noise.
 
-    It is in the order of the channels, of each the integrals first.
+    The columns are in the order of the channels, for each channel the integrals first.
     """
     measured = matrix_to_float(loop.matrix)[:, places]
     N, measured = N.copy(), measured.copy()
@@ -483,7 +493,7 @@ def digits_that_suffice(
     Returns
     -------
     int or None
-        Found by bisection, as if more digits always were better; None if 16 do not suffice.
+        By bisection, which assumes that more digits are never worse; None if 16 do not suffice.
     """
 
     def holds(digits: int) -> bool:
@@ -558,7 +568,7 @@ def _each_matrix(controller: Controller, change: Callable[[Matrix], Matrix]) -> 
     return replace(controller, agents=agents)
 
 
-# Curves that show how robust a loop is, and how it returns to rest.
+# Curves of a loop: sensitivity over the frequency, decay and step responses over time.
 
 _POINTS, _CONSTANTS, _STEPS = 300, 6.0, 400
 
@@ -592,7 +602,7 @@ class Curves:
     steps: list[tuple[str, list[float]]]
 
     def keeps(self, eigenvalue: complex) -> bool:
-        """Whether an eigenvalue lies where it should."""
+        """Whether an eigenvalue lies in the region."""
         region, size = self.region, abs(eigenvalue)
         if region.discrete:
             return size < region.edge
@@ -608,7 +618,7 @@ def curves_of(loop: ClosedLoop, region: StabilityRegion) -> Curves | None:
     ----------
     loop : ClosedLoop
     region : StabilityRegion
-        What was asked for.
+        The region that was asked for.
 
     Examples
     --------
@@ -694,7 +704,7 @@ def _steps(
     return list(zip(names, found, strict=True))
 
 
-# What a request costs before any design: the sensible rate, and the modes that resist.
+# The diagnosis of a request: the sensible rate, and the modes that are nearly fixed.
 
 TIMES_THE_COST, MARGIN = 10.0, 0.3
 TIMES_OUT_OF_REACH, OUT_OF_REACH_MARGIN = 1000.0, 0.05
@@ -825,7 +835,7 @@ def diagnosed(
     weights: Weights | None = None,
     controlled: MultiChannelSystem | None = None,
 ) -> Diagnosis:
-    """Compute what a region costs, and which modes resist.
+    """Compute what a region costs, and which modes outside it are nearly fixed.
 
     Parameters
     ----------
@@ -834,7 +844,7 @@ def diagnosed(
     region : StabilityRegion
     weights : Weights, optional
     controlled : MultiChannelSystem, optional
-        The system whose decentralized controllers are sought, if it is not the given one.
+        The system whose decentralized controllers are sought; by default the first one.
 
     Notes
     -----
@@ -870,9 +880,9 @@ def with_diagnosis(
     weights: Weights | None = None,
     controlled: MultiChannelSystem | None = None,
 ) -> LimitReached:
-    """Return a limit that also tells the diagnosis; the other arguments are those of `diagnosed`.
+    """Append the diagnosis to the message of a limit; further arguments as in `diagnosed`.
 
-    Without a diagnosis the limit is the same, for plants whose numbers exceed floats.
+    The limit stays as it is for plants whose numbers exceed floats, which have no diagnosis.
 
     Examples
     --------

@@ -1,4 +1,19 @@
-"""Cost, sensitivity, eigenvalues and aims of a loop, with their gradients."""
+"""Cost, sensitivity, eigenvalues and aims of a loop, with their gradients.
+
+Everything that an objective is made of is here, as a function of the gain matrix K with its
+gradient in K:
+
+- `quadratic_costs`: the linear-quadratic cost, from two Lyapunov equations; one Schur form of the
+  loop serves several shifts.
+- `Sensitivity`: the complementary sensitivity at the inputs of the plant, on a grid of frequencies;
+  with a complex Schur form each frequency costs O(N²) for N states.
+- `Eigenvalues` and `Shape`: eigenvalues with their slopes, and the limits on damping and modulus.
+
+`Aims` is what a user may ask of a search besides a region.  `Figures` are the numbers by which
+controllers are compared, and `central_optimum` gives those of the optimal controller that all
+agents together would have: the reference for the cost of every other.  All numbers are floating
+point and prove nothing.
+"""
 
 from __future__ import annotations
 
@@ -136,7 +151,7 @@ def frequencies(
 
 
 def norm(M: Floats | Complexes) -> float:
-    """The largest singular value; infinite where numbers exceed any sense.
+    """The largest singular value; infinite where entries overflow.
 
     Examples
     --------
@@ -239,7 +254,7 @@ class Sensitivity(Response):
         return total, G
 
 
-# The eigenvalues of a loop, and how gains move them.
+# The eigenvalues of a loop, and their derivatives in the gains.
 
 _CLOSE = 1e-13
 
@@ -287,7 +302,7 @@ class Eigenvalues:
         return found
 
 
-# Where eigenvalues lie besides the rate: how well damped, and how fast at most.
+# Limits on the damping and the modulus of eigenvalues.
 
 _GONE = 1e-3
 _AIMED_FURTHER = 1.05
@@ -357,7 +372,7 @@ class Shape:
         return total, G
 
     def _of(self, value: complex, *, discrete: bool) -> tuple[float, complex]:
-        """What an eigenvalue adds, and c with Re(c dλ) its differential."""
+        """The term of one eigenvalue, and c for which the differential of the term is Re(c dλ)."""
         total, slope = 0.0, 0j
         modulus = abs(value)
         if modulus < (_GONE if discrete else np.finfo(float).tiny):
@@ -384,7 +399,7 @@ NO_LIMITS = Shape()
 """Eigenvalues may lie anywhere in the region."""
 
 
-# What a search for a controller aims at, besides the rate or the radius.
+# The aims of a search besides the rate or the radius.
 
 MARGIN = 0.3
 SEEDS = 4
@@ -497,7 +512,7 @@ THEOREM = Aims(effort=0)
 """No search: the controller of the theorem."""
 
 
-# Figures of a loop that say whether a person would install its controller.
+# Figures of a loop, and those of the optimal controller of all agents together.
 
 _FREQUENCIES = 200
 STEPS = 400
@@ -600,7 +615,7 @@ def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
 
 
 def _powers(M: Floats, form: SchurForm) -> Iterator[Floats]:
-    """Yield exp(Mt) or M^t at the times that `peak_of_state` tells; ends where numbers overflow."""
+    """Yield exp(Mt) or M^t at the times of `peak_of_state`; ends where numbers overflow."""
     if form.discrete:
         power = np.eye(len(M))
         for _ in range(STEPS):
@@ -700,7 +715,7 @@ def central_optimum(
 
 
 def _sizes(problem: FeedbackProblem, K: Floats, region: StabilityRegion) -> Sizes:
-    """Compute the standard deviations of inputs and outputs; 1 where they are not to be had.
+    """Compute the standard deviations of inputs and outputs; 1 where they cannot be computed.
 
     The pace is the ratio of the deviations of the inputs' derivatives, without noise, and of the
     inputs.

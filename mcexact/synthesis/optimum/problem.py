@@ -1,4 +1,15 @@
-"""All controllers of a structure as one gain matrix with free entries."""
+"""All controllers of a structure as one gain matrix with free entries.
+
+`FeedbackProblem` writes a network of agents, with or without private and shared states, as the loop
+M(K) = A + B K C, with K zero outside a mask.  Structures without communication and with shared
+sub-states differ in A, B, C and the mask alone, and one search serves them all.  `controller_of`
+converts a gain matrix to agent programs, `problem_of` a controller to a gain matrix.
+
+The search also needs from here: `Weights` of the linear-quadratic cost; `Ties`, which keep entries
+equal for agents that use the same program; `SchurForm`, one decomposition of a loop for the
+Gramians of all its shifts; `balanced` and `rounded` gain matrices; and `Effort`, the work of a
+search, which is counted and not timed so that it ends at the same step on every machine.
+"""
 
 from __future__ import annotations
 
@@ -35,15 +46,16 @@ from mcexact.synthesis.networks import (
 def quiet_floats() -> Iterator[None]:
     """Compute in one thread and without warnings.
 
-    For matrices of some hundred rows threads cost more than they bring.  What overflows or is
-    nearly singular belongs to controllers that are dropped, or to figures that say so.
+    For matrices of some hundred rows threads cost more time than they save.  Numbers that overflow
+    or are nearly singular belong to controllers that are dropped, or to figures that are then NaN
+    or infinite.
     """
     with threadpool_limits(1, "blas"), np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
 
-# The work that a search may do, counted and not timed, so that it ends alike everywhere.
+# The work that a search may do: counted, not timed, so that results are reproducible.
 
 _OVERHEAD = 48
 """The number of states at which the arithmetic of one cost takes as long as what surrounds it."""
@@ -60,7 +72,7 @@ class Effort:
     limit : float
     spent : float
     whole : Effort or None
-        What this is a part of, where everything is counted too.
+        The effort of which this is a part, in which all work is counted as well.
 
     Examples
     --------
@@ -95,7 +107,7 @@ class Effort:
         return self.left <= 0
 
     def part(self, share: float) -> Effort:
-        """Return a part of what is left."""
+        """Return a share of the units that are left, as an effort of its own."""
         return Effort(self.left * share, whole=self)
 
 
@@ -228,8 +240,6 @@ def _read(entries: Any, where: str) -> Matrix:
         return matrix_from_float(entries, "decimal", where=where)
     return Matrix.from_rows(entries, where=where)
 
-
-# Which free entries of a gain matrix are equal.
 
 Places = npt.NDArray[np.intp]
 

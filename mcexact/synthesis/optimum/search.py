@@ -1,4 +1,26 @@
-"""The ladder of structures and starts, and what it proposes to the gate."""
+"""The ladder of structures and starts, and what it proposes to the gate.
+
+A local search ends in the local optimum next to its start, so many starts are tried, in steps from
+the lowest order to the highest (`steps_of`):
+
+1. static gains, from the regulators of the agents' own parts and of the whole plant;
+2. for each order, the optimal controller of all agents together, cut to what each agent knows;
+   optimal controllers of the agents' own parts; controllers of this order that agents find for
+   their own parts; and drawn dynamics;
+3. for plants that are not large, the controller of the theorem.
+
+For large plants the cut controllers come before all orders.  `climbed` follows every start of a
+step for a while and the best two to the end, and stops at the first controller that is good enough
+in cost, margin, gains and digits.
+
+`optimum` ranks what was found by its price, the cost made higher by small margins, large gains and
+high orders, and rounds the best one: it finds the least number of digits that the gate certifies,
+and keeps at least one digit more where more digits are allowed.  `searched_proposals` is the entry:
+it decides first whether a fixed mode forbids the region and whether the region is out of reach for
+all agents together, and it falls back to the controller of the theorem if the search finds none.
+The search is floating point and deterministic; only what the gate certifies is proved, and finding
+no controller proves nothing.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +85,7 @@ from mcexact.synthesis.optimum.starts import (
     with_private_parts,
 )
 
-# What a search tries in which structures, what it finds, and how it ranks that.
+# The ladder, its starts and candidates, and the price by which these are ranked.
 
 _LARGEST_ORDER = 3
 _PRICE_OF_ORDER, _PRICED_ORDERS = 1.02, 20
@@ -189,7 +211,8 @@ def ranked(ladder: Ladder, found: list[Candidate]) -> list[Candidate]:
 def _price(ladder: Ladder, candidate: Candidate) -> float:
     """The cost; small margins, large gains and high orders make it higher.
 
-    Of large plants only so many orders do, since each of many agents has one or two.
+    Of large plants, whose many agents have an order of one or two each, orders beyond a limit do
+    not make it higher.
     """
     figures, target = candidate.figures, ladder.target
     lacking = _FRAGILE * target.margin / max(figures.margin, 1e-9)
@@ -202,7 +225,7 @@ def _price(ladder: Ladder, candidate: Candidate) -> float:
 
 
 def contents(ladder: Ladder, found: list[Candidate]) -> bool:
-    """Whether a large plant needs no further search: the best price is nearly low enough."""
+    """Whether the search of a large plant may end: the best price is nearly low enough."""
     return ladder.large and best_price(ladder, found) <= _CONTENT * ladder.enough
 
 
@@ -229,7 +252,7 @@ def steps_of(
 ) -> Iterator[Iterable[Start]]:
     """Yield the starts of each step, from the lowest order to the highest.
 
-    An order is the last one if the best price is moderate, and it did not make it lower by a part.
+    The orders end with one that hardly lowered the best price, if this price is moderate.
     """
     static = ladder.problem(ladder.structure(0))
     parts = [localities(static, ladder.weights, driven=each) for each in (False, True)]
@@ -316,7 +339,7 @@ def _best_static(ladder: Ladder, problem: FeedbackProblem, parts: list[list[Loca
 def _cut(ladder: Ladder, static: FeedbackProblem, parts: Sequence[Locality]) -> list[Start]:
     """Optimal controllers of all agents together, cut to what each agent knows: the best of some.
 
-    The noisier outputs are taken to be, and the dearer inputs, the shorter is the reach of gains.
+    Larger weights of the noise of outputs and of the inputs give gains that reach less far.
     """
     held = held_states(parts)
     problem = ladder.problem(ladder.structure([len(each) for each in held]))
@@ -344,7 +367,7 @@ def _first(ranked: tuple[Rank, Floats]) -> Rank:
 
 
 def _settled(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> tuple[Rank, Floats]:
-    """Follow a start for a short while: the cheapest one need not become the cheapest."""
+    """Follow a start for a short while: the cheapest start need not lead to the cheapest loop."""
     x = settled(problem, problem.entries(K), ladder.target, ladder.effort.part(0.1), rounds=1)
     K = problem.gain(x)
     return _rank(ladder, problem, K), K
@@ -369,10 +392,10 @@ def _local_observers(
 
 
 def _rank(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> Rank:
-    """Whether a start is outside the region; its cost, or else its largest real part or modulus.
+    """Rank a start: whether it is outside the region; then its cost, or outside its spectral bound.
 
-    If agents are tied it is enough that the loop is stable: of long networks the fast starts are
-    far more costly than the way of others into the region.
+    If agents are tied it is enough that the loop is stable: in long networks the starts that lie in
+    the region are far more costly than others that are moved into it.
     """
     ladder.effort.take(len(problem.A), 2.0)
     x, edge = problem.entries(K), 1.0 if problem.discrete else 0.0
@@ -384,7 +407,7 @@ def _rank(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> Rank:
     return False, cost
 
 
-# All steps of the ladder in their order: every start is followed, and the best to the end.
+# The climb: every start of a step is followed for a while, the best two to the end.
 
 _KEPT, _MOST_FREED = 2, 3000
 _GOOD_ENOUGH, _DEAR, _HOPELESS = 2.0, 0.05, 1000.0
@@ -397,9 +420,9 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     -----
     In floating point; nothing is proved.  All starts of a step are followed for a while, and the
     best two of them to the end; a start that lies inside the region counts as it is, too.  For a
-    large plant 1.5 times the price that is enough ends the search after a step.  Where drafts are
-    dear there is only one, and if its cost is far too high it waits until all steps were tried,
-    unless its agents are tied; a hopeless one waits in any case.
+    large plant 1.5 times the price that is enough ends the search after a step.  Where drafts take
+    much of the effort a step has only one; if its cost is far too high it is followed after all
+    other steps, unless its agents are tied.  A draft of hopeless cost always comes last.
     """
     found: list[Candidate] = []
     later: list[tuple[float, Start]] = []
@@ -445,8 +468,8 @@ def _as_it_is(ladder: Ladder, start: Start) -> list[Candidate]:
 def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:
     """Follow a start into the region and for a few steps; return its cost, too.
 
-    It is infinite where the region is not reached.  The barrier does not count: at the border of
-    the region it is high, and polishing leaves it.
+    The cost is infinite if the region is not reached.  It leaves out the barrier, which is high at
+    the border of the region, from where polishing moves away.
     """
     problem, x = start.problem, start.problem.entries(start.K)
     if problem.ties is not None:
@@ -462,9 +485,10 @@ def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:
 
 
 def _finish(ladder: Ladder, draft: Start, found: list[Candidate]) -> bool:
-    """Follow a draft to the end and append what it leads to; whether that is good enough.
+    """Follow a draft to the end, append the results, and return whether one is good enough.
 
-    Where agents that look alike are tied and this does not content, a search without ties goes on.
+    If agents that look alike are tied, and no result is good enough, the ties are removed and the
+    search goes on.
     """
     before = len(found)
     if _followed(ladder, draft, found):
@@ -542,7 +566,7 @@ class Family:
         return None if proposal is None else (self.network, proposal.controller)
 
 
-# Proposals of the ladder to the gate, with as few digits as it certifies.
+# The result of a search, rounded to few digits, as a proposal to the gate.
 
 _MOST_TRIED = 12
 _LEAST_STORED, _MORE, _CERTIFIED = 3, 3, 20
@@ -602,7 +626,7 @@ def target_of(request: Request, central: Figures | None, aims: Aims) -> Target:
 
 
 def _effort(given: float | None, states: int, central: Figures | None, target: Target) -> Effort:
-    """The effort that is given in seconds; by default it grows with the states."""
+    """Convert the effort from seconds to units; by default it grows with the number of states."""
     if given is not None:
         return Effort(given * PER_SECOND)
     grown = max(min((states / _GROWS) ** 2, _MOST_TIMES), (states / _GROWS_WITH_CUBE) ** 3)
@@ -729,7 +753,7 @@ def with_few_digits(
 def _stored(found: Candidate, target: Target, least: int, tried: Iterable[int]) -> Floats:
     """Round to the first number of digits with which the margin is as aimed at, if it was before.
 
-    Otherwise it is the first of them with which the region is kept, or the least of all.
+    Otherwise to the first number with which the loop stays in the region, or else to the least.
     """
     problem, first = found.problem, None
     robust = found.figures.margin >= target.margin
@@ -744,7 +768,7 @@ def _stored(found: Candidate, target: Target, least: int, tried: Iterable[int]) 
 
 
 def _certified(problem: FeedbackProblem, K: Floats, target: Target) -> bool:
-    """Whether the gate certifies a controller; it is asked only where floating point sees it."""
+    """Whether the gate certifies a controller; not tried if floating point already refutes it."""
     if not target.keeps(problem, problem.entries(K)):
         return False
     network = problem.network
@@ -798,11 +822,13 @@ def searched_proposals(
         If even the optimal controller of all agents together is one that nobody would install, and
         the aims name no effort.
     LimitReached
-        If no controller was found, by a search or without one.  Both tell the diagnosis.
+        If no controller was found, by a search or without one.  This message and that of
+        `OutOfReach` contain the diagnosis.
 
     Notes
     -----
-    What is hard for all agents together is told as soon as it is known, by a step `Warned`.
+    A region that is hard even for all agents together is reported before the search, by a step
+    `Warned`.
     """
     network, aims = family.network, aims or Aims()
     weights = weights or Weights.of(network.given, aims.weights)

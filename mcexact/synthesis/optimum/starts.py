@@ -1,4 +1,19 @@
-"""Gain matrices from which a search starts."""
+"""Gain matrices from which a search starts.
+
+No construction is best for all plants, so a search tries several:
+
+- `local_regulators` and `local_observers`: each agent takes a part of the plant for the whole, and
+  uses the linear-quadratic regulator, or the whole Gaussian controller, of this part.  The coupling
+  of the parts is ignored.
+- `cut_gains` and `cut_observers`: the optimal controller of all agents together, without the
+  products of what an agent does not receive.  The coupling counts, and what is cut is ignored.
+- `drawn_dynamics`: stable random dynamics for orders for which there is no construction.
+
+`tied` makes agents with similar surroundings use the same program, which reduces thousands of
+entries to some ten in long networks.  The Riccati equations are solved for the plant that is
+shifted by a rate or scaled by a radius.  No start has to lie in the region, or to be stable, and
+none is proved to be anything.
+"""
 
 from __future__ import annotations
 
@@ -193,7 +208,7 @@ def gaussian_controller(model: Model, shift: float) -> tuple[Floats, Floats, Flo
     return driven @ newest, driven @ L, F @ newest, F @ L
 
 
-# Gain matrices from which a search starts: controllers that each agent designs for itself.
+# Starts from the agents' own parts of the plant, and drawn dynamics.
 
 Realization = tuple[Floats, Floats, Floats, Floats]
 """A controller ż = A z + B y, u = C z + D y."""
@@ -223,8 +238,8 @@ def localities(
 ) -> list[Locality]:
     """Return the part of the plant of each agent.
 
-    These are the states that its outputs read and its inputs drive; a state that belongs to nobody
-    joins the agent with whose states it is coupled most.
+    These are the states that its outputs read and its inputs drive; a state of no agent is added to
+    the agent with whose states it is coupled most.
 
     Parameters
     ----------
@@ -278,7 +293,7 @@ def localities(
 
 
 def _adopt(coupling: Floats, sets: list[set[int]]) -> None:
-    """Add every state that belongs to nobody to the set with which it is coupled most."""
+    """Add every state of no agent to the set with which it is coupled most."""
     negligible = _NEGLIGIBLE * float(np.max(coupling, initial=0.0))
     missing = set(range(len(coupling))).difference(*sets)
     grown = True
@@ -389,7 +404,7 @@ def drawn_dynamics(
     return K * problem.mask
 
 
-# The optimal controller of all agents together, cut to what each agent knows, as a start.
+# Starts from the optimal controller of all agents together, cut to what each one knows.
 
 
 def whole_model(problem: FeedbackProblem, weights: Weights) -> Model:
@@ -536,7 +551,7 @@ def _known(problem: FeedbackProblem, held: Sequence[tuple[int, ...]], i: int) ->
     return found | dict(zip(held[i], map(int, places), strict=False))
 
 
-# Agents that look alike use the same program: few entries to search instead of many.
+# Equal programs for similar agents, which leave few entries to search.
 
 _SMALL = 0.01
 """Entries below this part of the largest one do not make agents different."""
@@ -554,7 +569,7 @@ def tied(problem: FeedbackProblem, weights: Weights) -> FeedbackProblem:
     Returns
     -------
     FeedbackProblem
-        The given one if no two agents look alike.
+        The problem itself if no two agents look alike.
 
     Notes
     -----
@@ -595,7 +610,7 @@ def tied(problem: FeedbackProblem, weights: Weights) -> FeedbackProblem:
 
 
 def _alike(problem: FeedbackProblem, parts: list[Locality]) -> list[list[int]]:
-    """The agents, those together that look alike."""
+    """Group the agents that look alike."""
     found: dict[Hashable, list[int]] = {}
     m = len(problem.agents)
     for i, (agent, part) in enumerate(zip(problem.agents, parts, strict=True)):
@@ -610,7 +625,7 @@ def _alike(problem: FeedbackProblem, parts: list[Locality]) -> list[list[int]]:
 
 
 def _stands(signal: tuple[str, int], i: int, m: int) -> tuple[str, int]:
-    """What a signal is, and how far from an agent its sender stands."""
+    """The kind of a signal, and how far its sender is from an agent in the order of channels."""
     what, j = signal
     return what, (j - i) % m
 
