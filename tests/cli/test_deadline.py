@@ -172,15 +172,15 @@ def test_an_answer_that_was_decided_counts_more_than_a_limit(
 def test_a_limit_keeps_answers_about_parameters_and_names_a_search_that_it_ended(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("mcexact.analysis.structure.setpoint_solvability", endless)
     plant = "gallery:liu2020-3ch-parametric-a11"
-    status, out, err = call("analyze", plant, "--timeout", "6", "--json")
+    with monkeypatch.context() as patched:
+        patched.setattr("mcexact.analysis.structure.setpoint_solvability", endless)
+        status, out, err = call("analyze", plant, "--timeout", "6", "--json")
     told = json.loads(out)
     left = {each["question"] for each in told["questions"] if each["outcome"] == "open"}
     # The indices are asked last, since a limit shall not discard others for them.
     assert (status, left) == (4, {"setpoint", "controllability_indices", "observability_indices"})
     assert "generic" in told["fixed_spectrum"] and "not decided: " in err
-    monkeypatch.undo()
     monkeypatch.setattr("mcexact.analysis.boxes.largest.largest_uncertainty", endless)
     status, _, err = call(*LIMITED, "--largest-uncertainty")
     assert (status, "nothing has been decided" in err) == (4, True)

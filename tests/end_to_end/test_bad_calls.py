@@ -195,7 +195,7 @@ def test_b191_threads_can_share_one_system() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such signal")
-def test_b187_an_interrupt_during_an_analysis_ends_it_with_130_and_leaves_nothing(
+def test_b187_an_interrupt_during_an_analysis_ends_it_with_130_and_leaves_nothing_half_done(
     tmp_path: Path,
 ) -> None:
     n, dice = 800, np.random.default_rng(1)
@@ -219,6 +219,7 @@ def test_b187_an_interrupt_during_an_analysis_ends_it_with_130_and_leaves_nothin
         assert said.decode().startswith("mcexact: analyzing ") and process.poll() is None
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=PATIENCE)
-        assert (process.returncode, out) == (130, b"")
-        assert b"Traceback" not in err
-    assert [path.name for path in tmp_path.iterdir()] == ["large.json"]
+        assert process.returncode == 130 and b"Traceback" not in err
+    # What was decided before is shown, and nothing is begun that would not be finished.
+    assert not out or b"the work was interrupted" in out
+    assert not [path.name for path in tmp_path.iterdir() if path.name.startswith(".")]
