@@ -94,8 +94,14 @@ def manifest_verdicts(path: str, expected: Expectation, limits: Limits) -> Itera
     limits : Limits
         For the manifest and for each certificate.
     """
-    path = os.path.join(path, NAME) if os.path.isdir(path) else os.path.join(".", path)
+    path = _file_of(path)
     return verdicts_of(lambda name: _bytes(path, name, limits), expected, limits)
+
+
+def _file_of(manifest: str) -> str:
+    """The file of a manifest, which may be named by its folder; never standard input."""
+    folder = os.path.isdir(manifest)
+    return os.path.join(manifest, NAME) if folder else os.path.join(".", manifest)
 
 
 def verdicts_of(read: Read, expected: Expectation, limits: Limits) -> Iterator[Found]:
@@ -373,6 +379,22 @@ def _certificate(path: str, wanted: Expectation, limits: Limits) -> Iterator[Fou
     yield about, attempt(lambda: check_document(read_file(path, limits), wanted, limits))
 
 
+def _nearby(manifest: str, limits: Limits) -> set[str]:
+    """The paths of the certificates that a manifest lists as about plants nearby.
+
+    A manifest that cannot be read lists none: its own verdict says why.
+    """
+
+    def names() -> list[str]:
+        data = read_file(manifest, limits)
+        with limited(current(limits.work), len(data)):
+            return list(_parts(parse(data, limits))[-1])
+
+    listed, folder = attempt(names), os.path.dirname(manifest)
+    known = [] if isinstance(listed, Verdict) else listed
+    return {os.path.normpath(os.path.join(folder, name)) for name in known}
+
+
 def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
     """The verdicts on a manifest without those of VALID certificates, and then their numbers."""
     numbers, remarks = Counter[tuple[str, bool]](), 0
@@ -399,7 +421,9 @@ def verdicts(
     What a manifest holds is followed by the path of the ``manifest``.
 
     A path that ends with the usual name of a manifest is read as a manifest.  Every certificate
-    is asked for what three files hold: a system, a controller, and a statement or claim.
+    is asked for what three files hold: a system, a controller, and a statement or claim.  One that
+    a manifest of this call lists as ``nearby`` is about another plant, and asked for the controller
+    alone; its line names its plant.
 
     Raises
     ------
@@ -412,9 +436,16 @@ def verdicts(
             wanted = _told(path, partial(read, wanted), limits, clock)
     listed = [(path, os.path.basename(path) == NAME) for path in paths]
     listed += [] if manifest is None else [(manifest, True)]
+    manifests = [path for path, many in listed if many] if paths and any(asking) else []
+    nearby: set[str] = set()
+    for path in manifests:
+        with suppress(OutOfTime):
+            nearby |= clock.within(partial(_nearby, _file_of(path), limits))
     for path, many in listed:
         look = _manifest if many else _certificate
-        yield from clock.limited(look(path, wanted, limits), {"file": path})
+        near = not many and os.path.normpath(path) in nearby
+        asked = Expectation(controller=wanted.controller) if near else wanted
+        yield from clock.limited(look(path, asked, limits), {"file": path})
 
 
 def status_of(found: Sequence[Found]) -> int:

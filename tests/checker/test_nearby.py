@@ -9,7 +9,8 @@ import pytest
 
 from mcexact.answer.protocol import document
 from mcexact.checker.command import manifest_verdicts
-from mcexact.checker.kinds import Expectation
+from mcexact.checker.command import verdicts as command_verdicts
+from mcexact.checker.kinds import Clock, Expectation
 from mcexact.checker.reading import Limits
 from mcexact.model.box import Box
 from mcexact.model.controller import controller_text
@@ -133,6 +134,66 @@ def test_a_plant_nearby_is_in_a_loop_with_the_controller_that_is_asked_for(tmp_p
     found = [each for _, each in manifest_verdicts(str(tmp_path), wanted, Limits())]
     assert [each.verdict for each in found] == ["VALID", "INVALID", "INVALID"]
     assert found[1].code == "controller"
+
+
+FILES = ("given.json", "manifest.json", "near.json")
+
+
+@pytest.mark.parametrize(
+    ("names", "nearby", "system", "gain", "judged"),
+    [
+        (FILES, ["near.json"], STABLE, -3, {}),
+        (("near.json", "given.json"), ["near.json"], STABLE, -3, {"near.json": "system"}),
+        (("manifest.json", "near.json"), ["given.json"], STABLE, -3, {"near.json": "system"}),
+        (FILES, None, STABLE, -3, {"near.json": "system"}),
+        (FILES, ["near.json"], FAILS, -3, {"given.json": "system"}),
+        (FILES, ["near.json"], STABLE, -2, {"given.json": "controller", "near.json": "controller"}),
+        (FILES, ["near.json", "near.json"], STABLE, -3, {"near.json": "system"}),
+    ],
+    ids=[
+        "beside its manifest",
+        "without the manifest",
+        "another one is listed",
+        "none is listed",
+        "only those listed are about other plants",
+        "the controller is asked of all",
+        "of a malformed manifest nothing is believed",
+    ],
+)
+def test_a_file_beside_its_manifest_may_be_about_a_plant_nearby(
+    tmp_path: Path, names: Any, nearby: Any, system: Any, gain: int, judged: Any
+) -> None:
+    verdicts(tmp_path, loop(STABLE), loop(FAILS), PART, nearby)
+    plant_file, controller = tmp_path / "plant.file", tmp_path / "controller.file"
+    plant_file.write_text(system_text(system), "utf-8")
+    agents = local_controllers(STABLE, [[[gain]], [[0]]])
+    controller.write_text(controller_text(agents), "utf-8")
+    asking = str(plant_file), str(controller), None
+    files = [str(tmp_path / name) for name in names]
+    rows = list(command_verdicts(files, None, asking, Limits(), Clock(None)))
+    codes = {Path(about["file"]).name: each.code for about, each in rows if "manifest" not in about}
+    single = {name: code for name, code in codes.items() if name != "manifest.json"}
+    assert {name: code for name, code in single.items() if code} == judged
+    assert {*single} == {*names} - {"manifest.json"}
+
+
+class Ending(Clock):
+    """A clock whose time is over after the first piece of work."""
+
+    def within(self, work: Any) -> Any:
+        try:
+            return super().within(work)
+        finally:
+            self.over = True
+
+
+def test_after_the_time_is_over_no_manifest_is_read_and_all_is_incomplete(tmp_path: Path) -> None:
+    verdicts(tmp_path, loop(STABLE), loop(FAILS), PART)
+    plant_file = tmp_path / "plant.file"
+    plant_file.write_text(system_text(STABLE), "utf-8")
+    files = [str(tmp_path / name) for name in FILES]
+    rows = command_verdicts(files, None, (str(plant_file), None, None), Limits(), Ending(60))
+    assert [each.code for _, each in rows] == ["time"] * len(FILES)
 
 
 @pytest.mark.parametrize("uncertain", [False, True])
