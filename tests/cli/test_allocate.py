@@ -52,6 +52,15 @@ def test_the_papers_example_is_answered_beside_its_bound(ring: str, tmp_path: Pa
     assert implied.status == 0 and implied.stdout.count("IMPLIED") == len(found["sentences"])
 
 
+def test_dimensions_are_told_by_agent_with_the_total_of_the_bound(ring: str, chain: str) -> None:
+    shares = answer(ring)["shares"]
+    sizes = [shares["by_agent"][name]["least"] for name in PLANT.names]
+    bounds = {shares["by_agent"][name]["bound"] for name in PLANT.names}
+    assert (sizes, bounds) == ([0, 0, 1], {1})
+    assert shares["total"] == {"least": sum(sizes), "bound": len(sizes)}
+    assert "shares" not in answer(chain, status=1)  # no numbers of shared states are enough
+
+
 def least(found: Any) -> Any:
     return found["minimal_shared_dimensions"]
 
