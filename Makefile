@@ -77,51 +77,51 @@ agreement: $(STAMP)
 # Both proofs that no more is fixed beside enumeration, on 10,000 drawn systems, and how often each
 # was found: minutes.  The same command continues after an interruption.
 absence: $(STAMP)
-	$(BIN)/python -m tests.campaigns.absence $(or $(N),10000)
+	$(BIN)/python -m tests.assurance.campaigns.absence $(or $(N),10000)
 
 # Fixed modes for all values of a parameter, and what else is decided so, beside enumeration at 40
 # points and modulo primes, on 1,000 drawn systems: a quarter of an hour.  The same command continues
 # after an interruption.
 parameters: $(STAMP)
-	$(BIN)/python -m tests.campaigns.parametric $(or $(N),1000) $(or $(FIRST),0)
+	$(BIN)/python -m tests.assurance.campaigns.parametric $(or $(N),1000) $(or $(FIRST),0)
 
 # Exceptional hypersurfaces of several parameters beside enumeration on other lines modulo primes, on
 # 300 drawn systems: a quarter of an hour.  The same command continues after an interruption.
 hypersurfaces: $(STAMP)
-	$(BIN)/python -m tests.campaigns.hypersurfaces $(or $(N),300) $(or $(FIRST),0)
+	$(BIN)/python -m tests.assurance.campaigns.hypersurfaces $(or $(N),300) $(or $(FIRST),0)
 
 # What is proved for all plants in boxes of 3,000 drawn systems, beside exact decisions about members
 # and segments: an hour.  The same command continues after an interruption.
 members: $(STAMP)
-	$(BIN)/python -m tests.campaigns.boxes $(or $(N),3000) $(or $(FIRST),0)
+	$(BIN)/python -m tests.assurance.campaigns.boxes $(or $(N),3000) $(or $(FIRST),0)
 
 # Every sentence about 500 drawn plants and designs, judged by an oracle of its own from the plant
 # alone, and which rules were never met: a quarter of an hour.  The same command continues after an
 # interruption.
 judged-sentences: $(STAMP)
-	$(BIN)/python -m tests.campaigns.sentences $(or $(N),500) $(or $(FIRST),0)
+	$(BIN)/python -m tests.assurance.campaigns.sentences $(or $(N),500) $(or $(FIRST),0)
 
 # So many mutants and forgeries of certificates, judged by an oracle that is written from FORMAT.md
 # alone: N=500000 takes minutes, N=5000000 an hour.  KINDS='parametric_fixed_spectrum
 # parametric_rank' tries some kinds of certificates.
 attack: $(STAMP)
-	$(BIN)/python -m tests.attack $(or $(N),500000) $(if $(KINDS),--kinds $(KINDS))
+	$(BIN)/python -m tests.assurance.attack $(or $(N),500000) $(if $(KINDS),--kinds $(KINDS))
 
 # The campaign without each condition of the checker in turn; writes which holes were found: minutes.
 weakened-checker: $(STAMP)
-	$(BIN)/python -m tests.attack $(or $(N),200000) --weakened tests/attack/WEAKENED.md
+	$(BIN)/python -m tests.assurance.attack $(or $(N),200000) --weakened tests/assurance/attack/WEAKENED.md
 
 # The package's readers of system files and controller files beside the checker's, on 120,000 drawn
 # and damaged files: minutes.
 readers: $(STAMP)
-	$(BIN)/python -m tests.campaigns.grammar 100000
-	$(BIN)/python -m tests.campaigns.controller_grammar 20000
+	$(BIN)/python -m tests.assurance.campaigns.grammar 100000
+	$(BIN)/python -m tests.assurance.campaigns.controller_grammar 20000
 
 # So many damaged files of each format, .mat, .npz, CSV, YAML and JSON, in processes with limits: none
 # ends one, is not refused in words, or takes five seconds: ten minutes.  The same command continues
 # after an interruption; FIRST=200 draws other files, in batches of 100.
 damaged-files: $(STAMP)
-	$(BIN)/python -m tests.campaigns.damaged_files $(or $(N),20000) $(or $(FIRST),0)
+	$(BIN)/python -m tests.assurance.campaigns.damaged_files $(or $(N),20000) $(or $(FIRST),0)
 
 # Every line and branch of the checker is run by the tests of its own folder: minutes.
 coverage: $(STAMP)
@@ -140,7 +140,7 @@ package-coverage: $(STAMP)
 # FILES='location rank' tries some files, and continues where an earlier run has ended.
 mutants: $(STAMP)
 	$(PIP) --editable '.[mutants]'
-	HYPOTHESIS_PROFILE=ci $(BIN)/python -m tests.mutants $(FILES)
+	HYPOTHESIS_PROFILE=ci $(BIN)/python -m tests.assurance.mutants $(FILES)
 
 # Certificates, and what each rule for sentences makes of them, as tests/checker compares: minutes.
 corpus: $(STAMP)
@@ -158,7 +158,7 @@ reproduce: $(STAMP)
 
 # Changes of the examinations behind `reproduce`, each of which has to make one fail: minutes.
 paper-mutants: $(STAMP)
-	$(BIN)/python -m tests.paper_mutants
+	$(BIN)/python -m tests.assurance.paper_mutants
 
 # What floating point answers wrongly on this machine, recorded beside the exhibits.
 records: $(STAMP)
@@ -176,7 +176,7 @@ look: $(STAMP)
 	  { apt-get update -qq && \
 	    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends chromium >/dev/null; } || \
 	  { echo "look: Chromium is missing and cannot be installed" >&2; exit 1; }
-	$(BIN)/python -m tests.look look
+	$(BIN)/python -m tests.assurance.look look
 
 # The tables of the paper's statements, of what is open, and of the examinations in proofs/.
 ledger: $(STAMP)
@@ -190,11 +190,11 @@ schemas: $(STAMP)
 # All JSON of all commands about every published plant, against these schemas: half an hour.
 # NAMES='quadruple-tank-pminus' tries some. What build/schemas.jsonl holds is not tried again.
 schemas-everywhere: $(STAMP)
-	$(BIN)/python -m tests.campaigns.schemas $(NAMES)
+	$(BIN)/python -m tests.assurance.campaigns.schemas $(NAMES)
 
 # A sweep of 2,000 systems over a dask cluster of two processes, of which one is killed: minutes.
 cluster: $(STAMP)
-	$(BIN)/python -m tests.campaigns.cluster $(or $(N),2000)
+	$(BIN)/python -m tests.assurance.campaigns.cluster $(or $(N),2000)
 
 # The list of all sentences that the commands print about a system, from their templates.
 sentences: $(STAMP)

@@ -9,8 +9,8 @@ from mcexact.derived.constructions import extended_system, held_system
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from tests.campaigns import extended as campaign
-from tests.campaigns.networks import (
+from tests.assurance.campaigns import extended as campaign
+from tests.oracle.networks import (
     connectivity,
     extended_verdict,
     held_verdict,

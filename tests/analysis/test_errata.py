@@ -15,8 +15,8 @@ from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix, block
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from tests.campaigns.networks import connectivity
 from tests.oracle.enumeration import pencil_rank, plain
+from tests.oracle.networks import connectivity
 
 
 def assert_valid(certificate: Answer) -> None:

@@ -21,7 +21,7 @@ from mcexact import (
 from mcexact.errors import UsageError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_functions import RationalFunction
-from tests.campaigns import hypersurfaces
+from tests.assurance.campaigns import hypersurfaces
 
 
 def surfaces(plant: ParametricSystem) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-from tests.campaigns import structure
+from tests.assurance.campaigns import structure
 
 CASES = (
     "hidden-triple-mode",

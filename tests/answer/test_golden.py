@@ -33,8 +33,8 @@ from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import canonical, plain
-from tests.campaigns.networks import held_verdict, lifted_verdict
 from tests.oracle.draws import exact, sparse_system
+from tests.oracle.networks import held_verdict, lifted_verdict
 
 GOLDEN = Path(__file__).with_name("golden.json")
 DRAWN = 120

@@ -15,7 +15,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.decentralized import design_extended
 from mcexact.synthesis.setpoint import design_setpoint
-from tests.campaigns.sentences import caught, drawn, examined
+from tests.assurance.campaigns.sentences import caught, drawn, examined
 from tests.oracle.sentences import JUDGES, UNJUDGED, Case, Said, plant_of, said, verdict
 from tests.oracle.sentences.cases import plain
 from tests.oracle.sentences.designs import document_of, tracks

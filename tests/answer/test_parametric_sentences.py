@@ -12,7 +12,7 @@ import pytest
 
 from mcexact import ParametricSystem, analyze
 from mcexact.errors import InputError
-from tests.campaigns.parametric_words import examined
+from tests.assurance.campaigns.parametric_words import examined
 from tests.oracle.parametric_words import disagreements
 
 CONDITION = re.compile(r"t = (-?\d+(?:/\d+)?)(?! =)")

@@ -38,9 +38,6 @@ from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.optimum.figures import THEOREM
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.answer.test_sentences import drawn
-from tests.attack.draws.certificates import certified
-from tests.attack.draws.observers import drawn_observer
-from tests.attack.draws.subjects import drawn_subject
 from tests.checker import (
     test_complementary_subsystem,
     test_nearby,
@@ -51,6 +48,9 @@ from tests.checker import (
 from tests.checker.box_plants import OF_ONE_PLANT
 from tests.checker.handmade import Document
 from tests.checker.test_fixed_spectrum import UNEVEN
+from tests.oracle.drawn.certificates import certified
+from tests.oracle.drawn.observers import drawn_observer
+from tests.oracle.drawn.subjects import drawn_subject
 
 Found = Iterator[Document]
 Rows = list[list[Any]]

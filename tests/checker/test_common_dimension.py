@@ -21,7 +21,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 from mcexact.model.text import plain
-from tests.campaigns.allocation import drawn, drawn_neighbors
+from tests.assurance.campaigns.allocation import drawn, drawn_neighbors
 from tests.checker.handmade import CHAIN, GRAPH, Document, certificate, changed, checked
 from tests.checker.polynomials import by_polynomials
 from tests.checker.tables import accepts, rejects

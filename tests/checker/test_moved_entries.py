@@ -32,10 +32,10 @@ from mcexact.checker.parametric_system import read_parametric
 from mcexact.derived import constructions
 from mcexact.derived.constructions import along_line, feedback
 from mcexact.errors import InputError, UsageError
-from tests.attack.draws.parametric import drawn_moves, drawn_on_a_line, drawn_parametric_plant
-from tests.attack.oracle.constructions import subject_of as obvious
 from tests.checker.handmade import changed, checked
 from tests.checker.parametric_plants import PAPER, POLES
+from tests.oracle.certificates.constructions import subject_of as obvious
+from tests.oracle.drawn.parametric import drawn_moves, drawn_on_a_line, drawn_parametric_plant
 
 KIND = "parametric_fixed_spectrum"
 SEVERAL: dict[str, list[Any]] = {

@@ -13,7 +13,7 @@ from mcexact.checker.arithmetic import NotAUnit
 from mcexact.checker.parameters import MovedModes
 from mcexact.checker.parametric_system import one_parameter, read_parametric
 from mcexact.checker.reading import Refused
-from tests.attack.forgeries.parametric_traps import LARGE, constant, plant, scalar
+from tests.assurance.attack.forgeries.parametric_traps import LARGE, constant, plant, scalar
 
 ELL = 101
 

@@ -10,7 +10,7 @@ import pytest
 from mcexact.checker.bivariate import named_matrix, named_text
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
-from tests.attack.forgeries.parametric_traps import plant
+from tests.assurance.attack.forgeries.parametric_traps import plant
 
 PLANT = plant(
     [["t", 1], [0, "(1)/(t + 1)"]],

@@ -11,7 +11,7 @@ from mcexact.checker.cells import moved
 from mcexact.checker.parameters import listed_value, roots_text, values_left_out, where_text
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
-from tests.attack.forgeries.parametric_traps import plant
+from tests.assurance.attack.forgeries.parametric_traps import plant
 
 
 def ranged(low: Any, high: Any) -> ParametricSystem:

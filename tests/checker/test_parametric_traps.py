@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.attack.forgeries.parametric_traps import (
+from tests.assurance.attack.forgeries.parametric_traps import (
     FIXED_AT_ONE,
     FIXED_AT_ZERO,
     FREE,

@@ -40,7 +40,7 @@ from mcexact.model.text import canonical, plain
 from mcexact.synthesis.certify import certify_controller
 from tests.answer.asking import asked as asking
 from tests.answer.test_sentences import drawn, question
-from tests.attack.forgeries.joined import factors_joined
+from tests.assurance.attack.forgeries.joined import factors_joined
 from tests.checker.box_plants import OF_ONE_PLANT
 from tests.checker.handmade import Document, changed
 from tests.checker.manifests import manifest, one, said, sentence, write

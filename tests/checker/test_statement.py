@@ -21,9 +21,6 @@ from mcexact.checker.reading import Refused
 from mcexact.checker.system import System, canonical_json, described, polynomial_text, read_plant
 from mcexact.model.system_file import read_system
 from mcexact.model.text import plain
-from tests.attack.draws.certificates import some_certificate
-from tests.attack.oracle.statement import statement as second
-from tests.attack.oracle.statement import system_words as second_words
 from tests.checker.handmade import (
     CONTROLLABLE,
     FREE,
@@ -41,6 +38,9 @@ from tests.checker.manifests import places, replaced
 from tests.checker.parameter_plants import ALL as ABOUT_RANGES
 from tests.checker.test_closed_loop_spectrum import LOOP
 from tests.checker.test_subject import BUILDS, drawn_plant
+from tests.oracle.certificates.statement import statement as second
+from tests.oracle.certificates.statement import system_words as second_words
+from tests.oracle.drawn.certificates import some_certificate
 
 TWO = plant([[0]], ([[1]], [[1]]), ([[1]], [[1]]), neighbors={"1": [], "2": []})
 DUAL = {"construction": "dual"}

@@ -11,7 +11,7 @@ from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.parameters import polynomial_layers, require_multiple, zero_block
 from mcexact.checker.parametric_system import one_parameter, read_parametric
 from mcexact.checker.reading import Refused
-from tests.attack.forgeries.parametric_traps import block, layers, plant
+from tests.assurance.attack.forgeries.parametric_traps import block, layers, plant
 from tests.checker.handmade import changed
 
 Q = [Fraction(-2), Fraction(0), Fraction(1)]

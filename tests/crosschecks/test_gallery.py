@@ -11,8 +11,8 @@ from mcexact.crosschecks.table import crosscheck, recorded
 from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem
-from tests.attack.oracle.algebra import fraction_polynomial
-from tests.attack.oracle.roots import inside
+from tests.oracle.certificates.algebra import fraction_polynomial
+from tests.oracle.certificates.roots import inside
 from tests.oracle.enumeration import (
     characteristic_polynomial,
     controllable_dimension,

@@ -12,7 +12,7 @@ from mcexact.model.controller import save_controller
 from mcexact.model.files import save_system
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from tests.campaigns.floating import (
+from tests.assurance.campaigns.floating import (
     both_methods,
     near_the_boundary,
     ring_plant,

@@ -13,9 +13,9 @@ from mcexact.checker import reading, system
 from mcexact.checker import system as checker
 from mcexact.exact import rational
 from mcexact.model import entries, system_file
-from tests.campaigns import controller_grammar
-from tests.campaigns.grammar import Tally, run
-from tests.campaigns.grammar_tokens import GOOD_NUMBERS, NAMES, NASTY, TEXTS
+from tests.assurance.campaigns import controller_grammar
+from tests.assurance.campaigns.grammar import Tally, run
+from tests.assurance.campaigns.grammar_tokens import GOOD_NUMBERS, NAMES, NASTY, TEXTS
 
 
 def test_both_readers_accept_the_same_files_with_the_same_digests() -> None:

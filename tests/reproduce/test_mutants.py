@@ -8,7 +8,7 @@ import pytest
 
 from mcexact.reproduce.notebook import examinations
 from mcexact.reproduce.reproduction import procedures
-from tests.paper_mutants.__main__ import KINDS, Mutant, main, mutants, mutated, outcome
+from tests.assurance.paper_mutants.__main__ import KINDS, Mutant, main, mutants, mutated, outcome
 
 
 def test_every_examination_has_two_mutants_or_more() -> None:

@@ -12,7 +12,7 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import double_precision_warning, simulate
 from mcexact.synthesis.distributed_observer import design_observer
-from tests.campaigns.observer import compare_double, compare_multiprecision, one_design
+from tests.assurance.campaigns.observer import compare_double, compare_multiprecision, one_design
 from tests.synthesis.three_channels import three_channels
 
 

@@ -16,7 +16,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.network import ExactArithmetic, InitialState, Network, SignalNotReceived
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.distributed_observer import design_observer
-from tests.campaigns.observer import compare_discrete, one_design
+from tests.assurance.campaigns.observer import compare_discrete, one_design
 from tests.model.test_controller import drawn_controller
 from tests.oracle.controller_loop import applied, loop_rows
 from tests.synthesis.three_channels import three_channels

@@ -29,7 +29,7 @@ from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint, with_integrators
-from tests.campaigns import extended as campaign
+from tests.assurance.campaigns import extended as campaign
 
 
 def two_tanks(time: str = "continuous") -> MultiChannelSystem:

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from tests.campaigns.boxes import QUESTIONS, examined, is_inside, largest_proved
+from tests.assurance.campaigns.boxes import QUESTIONS, examined, is_inside, largest_proved
 
 
 @pytest.mark.slow

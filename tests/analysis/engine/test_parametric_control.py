@@ -23,7 +23,7 @@ from mcexact import (
 from mcexact.errors import InputError, UsageError
 from mcexact.model.system_file import read_parametric_system
 from tests.answer.test_golden import PORTS, with_a_parameter
-from tests.campaigns.parametric import companions
+from tests.assurance.campaigns.parametric import companions
 from tests.oracle.parametric_draws import drawn_parametric
 
 EXAMPLE = with_a_parameter([[1, 0, 0], ["t", 1, 0], [0, 1, 1]], PORTS)

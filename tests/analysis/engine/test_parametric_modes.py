@@ -21,7 +21,7 @@ from mcexact import (
 from mcexact.answer.protocol import encode
 from mcexact.errors import InputError, UsageError
 from tests.answer.test_golden import PORTS, tanks, with_a_parameter
-from tests.campaigns.parametric import examined
+from tests.assurance.campaigns.parametric import examined
 from tests.oracle.parametric_draws import drawn_parametric
 
 t = symbols("t")

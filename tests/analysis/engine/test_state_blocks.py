@@ -23,7 +23,7 @@ from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
-from tests.campaigns.absence import tried
+from tests.assurance.campaigns.absence import tried
 from tests.oracle.agreement import drawn_pair
 
 CHAIN = MultiChannelSystem([[0, 0], [1, 0]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])

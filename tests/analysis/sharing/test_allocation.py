@@ -22,7 +22,12 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from tests.campaigns.allocation import compare_arcs, compare_dimensions, drawn, drawn_neighbors
+from tests.assurance.campaigns.allocation import (
+    compare_arcs,
+    compare_dimensions,
+    drawn,
+    drawn_neighbors,
+)
 from tests.oracle.allocation import boundary
 from tests.oracle.draws import exact
 from tests.oracle.enumeration import (

@@ -23,7 +23,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system, system_text
-from tests.campaigns import damaged_files, grammar
+from tests.assurance.campaigns import damaged_files, grammar
 from tests.model.formats import hostile
 from tests.model.formats.hostile import archive, cell, csv, npz
 

@@ -10,7 +10,7 @@ import pytest
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
 from mcexact.model.files import load_system
-from tests.campaigns import damaged_files
+from tests.assurance.campaigns import damaged_files
 from tests.model.formats.hostile import CSV, MAT, NPZ, TEXTS, YAML
 
 SMALL = Limits(bytes=2**20)

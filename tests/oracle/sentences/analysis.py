@@ -15,7 +15,7 @@ from typing import Any
 
 from flint import fmpq_poly
 
-from tests.attack.oracle.roots import roots_of
+from tests.oracle.certificates.roots import roots_of
 from tests.oracle.sentences.cases import (
     Case,
     Facts,

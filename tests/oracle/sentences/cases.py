@@ -1,9 +1,9 @@
 """What a sentence is about, in plain data, and the algebra by which judges decide on their own.
 
-A `Case` holds the plant as `tests.attack.oracle` reads it from JSON, the request, the controller,
-and all sentences that were said together.  `Facts` knows of one system what enumeration over the
-subsets of channels, drawn gains and certified balls of roots tell.  Nothing here asks the package:
-a value that fills a template is copied into plain data first.
+A `Case` holds the plant as `tests.oracle.certificates` reads it from JSON, the request, the
+controller, and all sentences that were said together.  `Facts` knows of one system what enumeration
+over the subsets of channels, drawn gains and certified balls of roots tell.  Nothing here asks the
+package: a value that fills a template is copied into plain data first.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from flint import fmpq, fmpq_mat, fmpq_poly
 from mcexact.answer.templates import Sentence
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import StabilityRegion
-from tests.attack.oracle.algebra import krylov
-from tests.attack.oracle.constructions import built
-from tests.attack.oracle.controllers import Loop, read_agents
-from tests.attack.oracle.roots import decided, roots_of
-from tests.attack.oracle.systems import System, read_plant
+from tests.oracle.certificates.algebra import krylov
+from tests.oracle.certificates.constructions import built
+from tests.oracle.certificates.controllers import Loop, read_agents
+from tests.oracle.certificates.roots import decided, roots_of
+from tests.oracle.certificates.systems import System, read_plant
 
 DRAWS = 3
 """How many sets of gains are drawn: what all of them leave is taken for fixed."""

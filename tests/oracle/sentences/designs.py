@@ -16,7 +16,7 @@ import numpy as np
 from flint import fmpq_mat, fmpq_poly
 from scipy.linalg import expm
 
-from tests.attack.oracle.controllers import MAPS
+from tests.oracle.certificates.controllers import MAPS
 from tests.oracle.sentences.analysis import blamed, judge, lost
 from tests.oracle.sentences.cases import (
     Case,

@@ -14,8 +14,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from tests.attack.oracle.controllers import Loop, read_agents
-from tests.attack.oracle.systems import System
+from tests.oracle.certificates.controllers import Loop, read_agents
+from tests.oracle.certificates.systems import System
 from tests.oracle.sentences.analysis import judge
 from tests.oracle.sentences.cases import Case, Facts, Region, Said, number
 from tests.oracle.sentences.parameters import inner_points

@@ -19,8 +19,8 @@ from typing import Any
 import sympy
 from flint import fmpq, fmpq_mat, fmpq_poly
 
-from tests.attack.oracle.algebra import identity, krylov
-from tests.attack.oracle.systems import System
+from tests.oracle.certificates.algebra import identity, krylov
+from tests.oracle.certificates.systems import System
 from tests.oracle.sentences.analysis import judge
 from tests.oracle.sentences.cases import (
     Case,

@@ -17,7 +17,7 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.channel_controller import channel_part, drawn_gains
 from mcexact.synthesis.networks import NetworkKind, network_programs, shared_network
-from tests.campaigns.networks import is_power_of_x
+from tests.oracle.networks import is_power_of_x
 
 
 def markov(A: Matrix, B: Matrix, C: Matrix, count: int) -> list[Matrix]:

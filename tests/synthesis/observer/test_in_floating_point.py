@@ -14,7 +14,7 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import gate
 from mcexact.synthesis.distributed_observer import design_observer
-from tests.campaigns.floating import drawn_designs
+from tests.assurance.campaigns.floating import drawn_designs
 from tests.synthesis.three_channels import three_channels
 
 BOTH = {"1": ["2"], "2": ["1"]}

@@ -17,7 +17,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.state_feedback import spectrum_polynomial
-from tests.campaigns.observer import one_design
+from tests.assurance.campaigns.observer import one_design
 from tests.synthesis.three_channels import three_channels
 
 ELEVEN = {

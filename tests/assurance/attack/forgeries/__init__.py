@@ -1,0 +1,92 @@
+"""Claims that are plausible and false, with all of a proof but one part of it.
+
+Each forger takes a true certificate and gives a document that is false, or at least is proved in no
+way: the one condition that stands against it is meant to be found by leaving it out.
+"""
+
+from __future__ import annotations
+
+import random
+
+from tests.oracle.drawn.plants import Document
+
+from ..mutators import SMALL_MODULI, other_modulus
+from . import (
+    box_traps,
+    boxes,
+    gains,
+    loops,
+    modes,
+    parametric,
+    parametric_rank,
+    parametric_traps,
+    plain_traps,
+    ranges,
+    sharing,
+    structure,
+    subjects,
+)
+from .anything import altered
+
+FORGERS = {
+    "assignability": structure.ASSIGNABILITY,
+    "box_controllable": boxes.COVERED,
+    "box_fixed": boxes.FIXED,
+    "box_stable": boxes.STABLE,
+    "closed_loop_spectrum": loops.SPECTRUM,
+    "common_dimension": sharing.COMMON,
+    "communication": sharing.LINKS,
+    "complementary_subsystem": structure.COMPLEMENTARY,
+    "completeness": modes.COMPLETENESS,
+    "controllability": structure.CONTROLLABILITY,
+    "controllability_indices": structure.INDICES,
+    "deficiency": modes.DEFICIENCY,
+    "distributed_observer": loops.OBSERVER,
+    "exceptional_gains": gains.EXCEPTIONAL,
+    "fixed_spectrum": modes.SPECTRUM,
+    "parametric_box_controllable": ranges.RANGED,
+    "parametric_box_fixed": ranges.RANGED,
+    "parametric_box_stable": ranges.STABLE,
+    "parametric_fixed_spectrum": (*parametric.PARAMETRIC, parametric_traps.trap_about_modes),
+    "parametric_rank": (*parametric_rank.RANKS, parametric_traps.trap_about_ranks),
+    "pencil_rank": modes.PENCIL,
+    "setpoint": structure.SETPOINT,
+    "shared_dimensions": sharing.DIMENSIONS,
+    "single_channel_gains": gains.SINGLE,
+    "stability": loops.STABILITY,
+    "transfer_graph": structure.GRAPH,
+}
+
+TRAPS: dict[str, Document] = {
+    **plain_traps.TRAPS,
+    **box_traps.TRAPS,
+    **parametric_traps.SPECTRA,
+    **parametric_traps.RANKS,
+}
+"""Documents made by hand, which are false and would be accepted without one condition."""
+
+
+def forged(rng: random.Random, document: Document) -> Document:
+    """One forgery of the kind, or of any kind."""
+    if rng.random() < 0.1:
+        made = subjects.colliding_names(rng, document)
+        if made is not None:
+            return made
+    if rng.random() < 0.3:
+        made = subjects.other_line(rng, document)
+        if made is not None:
+            return made
+    if document["subject"] and rng.random() < 0.1:
+        return subjects.other_time(rng, document)
+    own = FORGERS.get(document["kind"], ())
+    if own and rng.random() < 0.7:
+        made = rng.choice(own)(rng, document)
+        if made is not None:
+            if rng.random() < 0.1:
+                other_modulus(rng, made, SMALL_MODULI)
+            return made
+    if rng.random() < (0.4 if document["subject"] else 0.2):
+        made = subjects.other_subject(rng, document)
+        if made is not None:
+            return made
+    return altered(rng, document)

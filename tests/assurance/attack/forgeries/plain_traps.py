@@ -1,0 +1,219 @@
+"""Documents made by hand about plants without parameters and radii, each false."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.checker.handmade import (
+    CUT,
+    FREE,
+    INTEGRATOR,
+    OSCILLATION,
+    PAIR,
+    PAPER,
+    PAPER_SUBSPACE,
+    certificate,
+    changed,
+    layers,
+    matrix,
+    plant,
+)
+from tests.oracle.drawn.plants import Document
+
+AT_ONE: list[Any] = [-1, 1]
+"""The polynomial x − 1."""
+TWICE = plant([[1, 0], [0, 1]], ([[0], [0]], [[1, 0]]))
+"""The mode 1 twice, and an input that does nothing."""
+SHIFTED = plant([[0, 1], [-1, -2]], ([[0], [1]], [[0, 1]]))
+"""The output is the rate of the first state: 0 is an invariant zero."""
+CROSSED = plant(
+    [[0, 0], [0, 1]],
+    ([[1], [0]], [[1, 1]]),
+    ([[0], [1]], [[1, 1]]),
+    neighbors={"1": [], "2": []},
+)
+"""Two channels that see both states; nothing is fixed."""
+ALONE = {**INTEGRATOR, "neighbors": {"1": []}}
+UNMOVED = plant([[1]], ([[0]], [[1]]), neighbors={"1": []})
+COPIES = plant([[0]], ([[1]], [[1]]), ([[1]], [[1]]))
+SENDER = plant([[1]], ([[0]], [[1]]), ([[1]], [[0]]), neighbors={"1": [], "2": ["1"]})
+"""Channel 1 sees a state that channel 2 drives."""
+
+
+def gains(*rows: list[int], allowed: list[Any] | None = None) -> Document:
+    """That these gains leave no mode where it is."""
+    moved = [matrix(row) for row in rows]
+    return {"gains": moved, "modulus": 7, "allowed": allowed or [], "arcs": None}
+
+
+def dimensions(
+    system: Document, answer: list[int] | None, cost: int, witness: Document, **parts: Any
+) -> Document:
+    """A claim about the least dimensions of sub-states; None says that nothing suffices."""
+    m = len(system["channels"])
+    claim = {
+        "share": "states",
+        "bound": None,
+        "free_assignability": False,
+        "costs": [1] * m,
+        "upper": [None] * m,
+        "feasible": answer is not None,
+        "dimensions": answer,
+        "cost": None if answer is None else cost,
+    }
+    return certificate("shared_dimensions", system, {**claim, **parts}, witness)
+
+
+def nothing(cut: Document) -> Document:
+    """That a cut excludes everything."""
+    return {"absence": None, "cuts": [cut], "tree": [{"violated": 0}]}
+
+
+def behind(s: list[str], space: Document = PAPER_SUBSPACE) -> Document:
+    """A cut of the mode 1."""
+    return {"subset": s, "polynomial": AT_ONE, "deficiency": 1, "subspace": space}
+
+
+def unseen(s: list[str], sources: list[str], *X: list[int]) -> Document:
+    """A cut that no signal of the sources crosses."""
+    pivots = [i for i, row in enumerate(X) if any(row)]
+    return {"subset": s, "zero": {"from": sources, "X": matrix(*X), "pivots": pivots}}
+
+
+def free(cut: Document) -> Document:
+    """That nothing makes all modes of :data:`CROSSED` assignable."""
+    return dimensions(CROSSED, None, 0, nothing(cut), free_assignability=True)
+
+
+NO_MORE = {"cuts": [], "tree": [{"multipliers": []}]}
+MEASURED = {"channels_T": ["1"], "U": layers([[1]]), "V": layers([[0]]), "pivots": [0]}
+"""The mode of :data:`SENDER`, which channel 1 does not move and channel 2 does not see."""
+
+TRAPS: dict[str, Document] = {
+    "a multiplicity that is too small": certificate(
+        "fixed_spectrum",
+        TWICE,
+        {
+            "polynomial": AT_ONE,
+            "factors": [
+                {
+                    "polynomial": AT_ONE,
+                    "multiplicity_in_A": 2,
+                    "multiplicity_at_most": 1,
+                    "channels": [],
+                    "rank": 0,
+                    "stable": False,
+                    "roots": [{"re": "1", "im": "0", "radius": "0"}],
+                }
+            ],
+            "stabilizable": False,
+            "best_rate": {"lower": "-1", "upper": "-1"},
+        },
+        {
+            "gains": [matrix([0])],
+            "modulus": 101,
+            "subspaces": [
+                {
+                    "channels_T": ["1"],
+                    "U": layers([[1, 0], [0, 1]]),
+                    "V": layers([[0, 0]]),
+                    "pivots": [0, 1],
+                }
+            ],
+            "completion": {"B0": matrix([1, 0], [0, 1]), "C0": matrix([1, 0], [0, 1])},
+        },
+    ),
+    "two discs around the same root": changed(OSCILLATION, ("claim.factors.0.roots.0.im", "1")),
+    "a recurrence that is not monic": certificate(
+        "fixed_spectrum",
+        PAIR,
+        FREE["claim"],
+        {
+            "blocks": [
+                {
+                    "states": [0, 1],
+                    "evidence": {
+                        "modulus": 7,
+                        "gains": [matrix([0])],
+                        "channel": "1",
+                        "inputs": [1],
+                        "outputs": [1],
+                        "recurrence": [6, 1, 0],
+                        "cofactors": [[1], []],
+                    },
+                }
+            ],
+            "modulus": None,
+            "subspaces": [],
+        },
+    ),
+    "a cut that a channel sees through": changed(CUT, ("system.channels.0.C", [[1, 1]])),
+    "a row of zeros for a pencil of full rank": certificate(
+        "setpoint",
+        SHIFTED,
+        {"solvable": False, "rank": 2, "invariant_zero": False},
+        {
+            "modulus": 101,
+            "left": matrix([1, 0, -1]),
+            "pivots": [0],
+            "point": None,
+            "normal": layers([[0, 0, 0]]),
+        },
+    ),
+    "a form that turns with the loop": certificate(
+        "stability",
+        plant([[1, -10], [10, 1]], ([[1], [0]], [[1, 0]])),
+        {"bound": None, "stable": True},
+        {
+            "method": "lyapunov",
+            "transformation": None,
+            "blocks": [
+                {
+                    "size": 2,
+                    "P": matrix([2, -1], [1, 2]),
+                    "R": matrix([1, 0], [0, 1]),
+                    "R2": matrix([1, 0], [0, 1]),
+                }
+            ],
+        },
+    ),
+    "a link that is no candidate": certificate(
+        "communication",
+        COPIES,
+        {
+            "share": "outputs",
+            "dimensions": None,
+            "bound": None,
+            "candidates": [],
+            "feasible": True,
+            "added": [["1", "2"]],
+            "cost": 0,
+        },
+        {"absence": gains([1], [0, 0]), **NO_MORE},
+    ),
+    "a mode that stays beyond the bound": dimensions(
+        UNMOVED, [0], 0, {"absence": gains([0], allowed=[[AT_ONE, 1]]), **NO_MORE}, bound=0
+    ),
+    "a cost that is not that of the dimensions": dimensions(
+        ALONE, [0], -1, {"absence": gains([1]), **NO_MORE}
+    ),
+    "dimensions above the largest ones": dimensions(
+        SENDER,
+        [1, 0],
+        1,
+        {
+            "absence": {**gains(), "gains": [matrix([0, 0], [1, 0]), matrix([0, 1])]},
+            "cuts": [behind(["2"], MEASURED)],
+            "tree": [{"violated": 0}],
+        },
+        upper=[0, None],
+    ),
+    "a cut around all channels": free(unseen(["1", "2"], [], [], [])),
+    "a cut of connections that a channel sees through": free(unseen(["1"], ["2"], [0], [1])),
+    "a cut around channels that another one sees": dimensions(
+        PAPER, None, 0, nothing(behind(["1", "2", "3"]))
+    ),
+    "a cut that unlimited dimensions satisfy": dimensions(
+        PAPER, None, 0, nothing(behind(["2", "3"]))
+    ),
+}

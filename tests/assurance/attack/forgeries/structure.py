@@ -1,0 +1,439 @@
+"""Forgeries about controllability, transfer, zeros and set-points."""
+
+from __future__ import annotations
+
+import json
+import random
+from typing import Any
+
+from flint import fmpq, fmpq_mat
+
+import mcexact
+from mcexact.answer import protocol
+from mcexact.model.system_file import read_system
+from tests.oracle.certificates import algebra
+from tests.oracle.certificates.constructions import subject_of
+from tests.oracle.certificates.modes import transfer_edges
+from tests.oracle.certificates.reading import polynomial, positions
+from tests.oracle.certificates.systems import System
+from tests.oracle.drawn.plants import Document, rows_of
+
+from ..mutators import copied
+from .sequences import blocks
+from .writing import (
+    PRIME,
+    coefficients,
+    left_kernel,
+    names_of,
+    unit,
+    written,
+    zeros,
+)
+
+Forged = Document | None
+
+
+def smaller_dimension(rng: random.Random, document: Document) -> Forged:
+    """A subspace that B_T reaches at once is taken for the controllable one."""
+    system, claim = subject_of(document), document["claim"]
+    B = system.inputs(positions(claim["channels"], system.names))
+    W, pivots = left_kernel(B)
+    if rng.random() < 0.5 and W.nrows():
+        # any rows that annihilate B, not only all of them
+        W, pivots = fmpq_mat(1, system.n, W.tolist()[0]), pivots[:1]
+    d = system.n - W.nrows()
+    Z = [[row[k] for k in pivots] for row in (W * system.A).tolist()]
+    claim["dimension"], claim["controllable"] = d, d == system.n
+    size = len(pivots)
+    chi = fmpq_mat(size, size, [v for row in Z for v in row]).charpoly()
+    claim["uncontrollable_polynomial"] = coefficients(chi)
+    document["witness"] |= {"annihilator": written(W), "pivots": pivots}
+    return document
+
+
+def larger_dimension(rng: random.Random, document: Document) -> Forged:
+    """Everything is said to be controllable, and nothing has to be annihilated."""
+    n = subject_of(document).n
+    document["claim"] |= {
+        "dimension": n,
+        "controllable": True,
+        "uncontrollable_polynomial": [1],
+    }
+    document["witness"] |= {"annihilator": {"denominator": 1, "entries": []}, "pivots": []}
+    return document
+
+
+def reached_by_blocks(rng: random.Random, document: Document) -> Forged:
+    """More said to be controllable than is, by blocks of too many channels or of other outputs."""
+    system, claim = subject_of(document), document["claim"]
+    T = positions(claim["channels"], system.names)
+    wrong = rng.random() < 0.3
+    acting = list(range(system.m)) if wrong else T
+    measured = None
+    if rng.random() < 0.6:
+        measured = [[a for a in range(system.n) if rng.random() < 0.7] for _ in T]
+    part = _measuring(system, acting, None if wrong else measured)
+    made = blocks(rng, part)
+    if made is None:
+        return None
+    if rng.random() < 0.5:
+        larger_dimension(rng, document)
+    W = {key: document["witness"][key] for key in ("annihilator", "pivots")}
+    document["witness"] = {"blocks": made, "measured": measured, **W}
+    return document
+
+
+def _measuring(system: System, acting: list[int], measured: list[list[int]] | None) -> System:
+    """Some channels, with outputs of their own or with states that they measure."""
+    C = [system.C[i] for i in acting]
+    if measured is not None:
+        states = range(system.n)
+        C = [
+            fmpq_mat(len(part), system.n, [int(a == b) for a in part for b in states])
+            for part in measured
+        ]
+    named, B = [system.names[i] for i in acting], [system.B[i] for i in acting]
+    return System(system.time, system.A, tuple(named), tuple(B), tuple(C))
+
+
+def ranks_cut_short(rng: random.Random, document: Document) -> Forged:
+    """Ranks that grow further, with rows of zeros as annihilators."""
+    claim, n = document["claim"], subject_of(document).n
+    ranks = claim["ranks"][: rng.randint(0, len(claim["ranks"]))]
+    if ranks and rng.random() < 0.5:
+        ranks[-1] = max(ranks[-1] - 1, 1)
+    _restated(claim, ranks, n)
+    rows = n - (ranks[0] if ranks else 0)
+    document["witness"]["annihilator"] = zeros(rows, n)
+    return document
+
+
+def ranks_too_large(rng: random.Random, document: Document) -> Forged:
+    """A rank more than there is, with the annihilators that are left."""
+    claim, n = document["claim"], subject_of(document).n
+    ranks = claim["ranks"] + [n] if rng.random() < 0.5 else [*claim["ranks"][:-1], n]
+    _restated(claim, ranks, n)
+    rows = document["witness"]["annihilator"]["entries"]
+    document["witness"]["annihilator"]["entries"] = rows[: n - ranks[0]]
+    return document
+
+
+def _restated(claim: Document, ranks: list[int], n: int) -> None:
+    steps = [b - a for a, b in zip([0, *ranks], ranks, strict=False)]
+    claim["ranks"], claim["index"] = (
+        ranks,
+        len(ranks) if [*ranks, 0][-1 - bool(ranks)] == n else None,
+    )
+    if ranks and ranks[-1] == n:
+        claim["index"] = len(ranks)
+    elif ranks or n:
+        claim["index"] = None
+    claim["indices"] = [sum(s > i for s in steps) for i in range(max([*steps, 0]))]
+
+
+def missing_edge(rng: random.Random, document: Document) -> Forged:
+    """An edge is denied: the zero transfer from everything by everything."""
+    system, claim, witness = subject_of(document), document["claim"], document["witness"]
+    if not claim["arcs"]:
+        return None
+    k = rng.randrange(len(claim["arcs"]))
+    source, _ = claim["arcs"].pop(k)
+    witness["powers"].pop(k)
+    everything = {"from": [source], "X": unit(system.n), "pivots": list(range(system.n))}
+    nothing = {"from": [source], "X": zeros(system.n, 0), "pivots": []}
+    witness["zeros"].append(rng.choice((everything, nothing)))
+    _connected_again(document, system.names)
+    return document
+
+
+def unsorted_edges(rng: random.Random, document: Document) -> Forged:
+    """Two edges exchanged, with the powers that show them."""
+    arcs, powers = document["claim"]["arcs"], document["witness"]["powers"]
+    if len(arcs) < 2:
+        return None
+    i, j = rng.sample(range(len(arcs)), 2)
+    for entries in (arcs, powers):
+        entries[i], entries[j] = entries[j], entries[i]
+    return document
+
+
+def extra_edge(rng: random.Random, document: Document) -> Forged:
+    """An edge that is not there."""
+    system, claim, witness = subject_of(document), document["claim"], document["witness"]
+    names = list(system.names)
+    free = [[j, i] for j in names for i in names if [j, i] not in claim["arcs"]]
+    if not free:
+        return None
+    pairs = [
+        *zip(claim["arcs"], witness["powers"], strict=True),
+        (rng.choice(free), rng.randint(0, 3)),
+    ]
+    pairs.sort(key=lambda pair: [names.index(name) for name in pair[0]])
+    claim["arcs"], witness["powers"] = ([pair[k] for pair in pairs] for k in (0, 1))
+    _connected_again(document, system.names)
+    return document
+
+
+def _connected_again(document: Document, names: Any) -> None:
+    from tests.oracle.certificates.modes import components
+
+    order = list(names)
+    arcs = [(order.index(j), order.index(i)) for j, i in document["claim"]["arcs"]]
+    parts = components(len(order), arcs)
+    document["claim"]["components"] = [[order[i] for i in part] for part in parts]
+    document["claim"]["strongly_connected"] = len(parts) <= 1
+
+
+def smaller_realization(rng: random.Random, document: Document) -> Forged:
+    """A McMillan degree less, with a quotient that is none."""
+    claim, witness = document["claim"], document["witness"]
+    large = [k for k, block in enumerate(claim["blocks"]) if block["dimension"]]
+    if not large:
+        return None
+    k = rng.choice(large)
+    shown = witness["realizations"][k]
+    width = len(shown["pivots"])
+    d = rng.randrange(claim["blocks"][k]["dimension"])
+    columns = sorted(rng.sample(range(width), d))
+    rows = [[rng.choice((0, 1, -1, 2)) for _ in range(width)] for _ in range(d)]
+    for i, row in enumerate(rows):
+        for j, column in enumerate(columns):
+            row[column] = int(i == j)
+    claim["fixed_degree"] += claim["blocks"][k]["dimension"] - d
+    claim["blocks"][k]["dimension"] = d
+    shown |= {"W": {"denominator": 1, "entries": rows}, "columns": columns}
+    return document
+
+
+def outputs_alone(rng: random.Random, document: Document) -> Forged:
+    """A quotient by what the outputs do not show at once."""
+    system, claim = subject_of(document), document["claim"]
+    if not claim["blocks"]:
+        return None
+    k = rng.randrange(len(claim["blocks"]))
+    shown = document["witness"]["realizations"][k]
+    rows, width = shown["X"], len(shown["pivots"])
+    entries = [fmpq(v, rows["denominator"]) for row in rows["entries"] for v in row]
+    c = positions(claim["blocks"][k]["channels"], system.names)
+    reduced, d = (system.outputs(c) * fmpq_mat(system.n, width, entries)).rref()
+    lines = reduced.tolist()[:d]
+    W = fmpq_mat(d, width, [v for line in lines for v in line])
+    columns = [next(j for j in range(width) if line[j] != 0) for line in lines]
+    claim["fixed_degree"] += claim["blocks"][k]["dimension"] - d
+    claim["blocks"][k]["dimension"] = d
+    shown |= {"W": written(W), "columns": columns}
+    return document
+
+
+def larger_realization(rng: random.Random, document: Document) -> Forged:
+    """The whole reachable space as a realization, minimal or not."""
+    claim, witness = document["claim"], document["witness"]
+    if not claim["blocks"]:
+        return None
+    k = rng.randrange(len(claim["blocks"]))
+    shown = witness["realizations"][k]
+    d = len(shown["pivots"])
+    claim["fixed_degree"] += claim["blocks"][k]["dimension"] - d
+    claim["blocks"][k]["dimension"] = d
+    shown |= {"W": unit(d), "columns": list(range(d))}
+    return document
+
+
+def whole_space(rng: random.Random, document: Document) -> Forged:
+    """Every state in the realization of one component."""
+    system, claim = subject_of(document), document["claim"]
+    if not claim["blocks"]:
+        return None
+    k, n = rng.randrange(len(claim["blocks"])), system.n
+    claim["fixed_degree"] += claim["blocks"][k]["dimension"] - n
+    claim["blocks"][k]["dimension"] = n
+    document["witness"]["realizations"][k] = {
+        "X": unit(n), "pivots": list(range(n)), "W": unit(n), "columns": list(range(n)),
+    }  # fmt: skip
+    return document
+
+
+def no_zeros(rng: random.Random, document: Document) -> Forged:
+    """A pencil without zeros of any normal rank, with matrices of zeros as bases."""
+    system, claim = subject_of(document), document["claim"]
+    s = positions(claim["subset"], system.names)
+    n = system.n
+    p = sum(system.B[i].ncols() for i in range(system.m) if i not in s)
+    q = sum(system.C[i].nrows() for i in s)
+    k = n + rng.randint(0, p)
+    shapes = {
+        "X": (n, 0), "F": (p, 0), "A1": (0, 0), "S": (p, n + p - k), "B1": (0, n + p - k),
+        "L": (n, n), "G": (n, q), "N": (n, n),
+    }  # fmt: skip
+    claim |= {
+        "normal_rank": k,
+        "invariant_polynomials": [],
+        "remnant": [1],
+        "transfer_zero": k == n,
+        "complete": k > n,
+    }
+    matrices = {key: zeros(*shape) for key, shape in shapes.items()}
+    document["witness"] |= {"reachable": 0, **matrices}
+    return document
+
+
+def split_zeros(rng: random.Random, document: Document) -> Forged:
+    """An invariant polynomial in two coprime factors, neither of which divides the other."""
+    claim, witness = document["claim"], document["witness"]
+    f = [polynomial(g) for g in claim["invariant_polynomials"]]
+    chosen = [k for k, g in enumerate(f) if len(algebra.irreducible_factors(g)) > 1]
+    if not chosen:
+        return None
+    k = rng.choice(chosen)
+    parts = [g**e for g, e in algebra.irreducible_factors(f[k])]
+    left, right = parts[0], f[k] / parts[0]
+    left, right = algebra.monic(left), algebra.monic(right)
+    d, K = f[k].degree(), algebra.companion(f[k])
+    columns = []
+    for cofactor, part in ((right, left), (left, right)):
+        v = fmpq_mat(d, 1, [cofactor[i] for i in range(d)])
+        for _ in range(part.degree()):
+            columns.append([row[0] for row in v.tolist()])
+            v = K * v
+    T = fmpq_mat(d, d, [column[i] for i in range(d) for column in columns])
+    start = witness["reachable"] + sum(g.degree() for g in f[:k])
+    for key in ("X", "F", "A1"):
+        _columns_changed(witness, key, start, T)
+    f[k : k + 1] = [left, right]
+    claim["invariant_polynomials"] = [coefficients(g) for g in f]
+    free = claim["normal_rank"] - subject_of(document).n
+    remnant = algebra.ONE
+    for g in f[: max(len(f) - free, 0)]:
+        remnant *= g
+    claim["remnant"] = coefficients(remnant)
+    claim["complete"] = free > 0 and remnant == 1
+    return document
+
+
+def _columns_changed(witness: Document, key: str, start: int, T: fmpq_mat) -> None:
+    """The columns from ``start`` on times T."""
+    value = witness[key]
+    rows, d = [[fmpq(v, value["denominator"]) for v in row] for row in value["entries"]], T.nrows()
+    if not rows:
+        return
+    block = fmpq_mat(len(rows), d, [v for row in rows for v in row[start : start + d]]) * T
+    made = [
+        [*row[:start], *new, *row[start + d :]]
+        for row, new in zip(rows, block.tolist(), strict=True)
+    ]
+    witness[key] = written(fmpq_mat(len(made), len(made[0]), [v for row in made for v in row]))
+
+
+def improper_subset(rng: random.Random, document: Document) -> Forged:
+    """The pencil of all channels or of none, as that of a set whose complement has no ports."""
+    plant = document["system"]
+    if document["subject"] or len(plant["channels"]) < 2:
+        return None
+    inside = document["claim"]["subset"]
+    all_of_them = rng.random() < 0.5
+    others = [c for c in plant["channels"] if (c["name"] in inside) != all_of_them]
+    names = [c["name"] for c in others]
+    for channel in others:
+        n = len(rows_of(plant["A"]))
+        channel["B"] = [[] for _ in range(n)]
+        channel["C"] = {"shape": [0, n], "entries": []} if n else []
+    text = json.dumps({"format": "mcexact-system/1", **plant})
+    made = protocol.document(mcexact.complementary_subsystem(read_system(text), inside))
+    plant["channels"] = [c for c in plant["channels"] if c["name"] not in names]
+    plant.pop("neighbors", None)
+    plant.pop("delays", None)
+    document |= copied({"claim": made["claim"], "witness": made["witness"]})
+    document["claim"]["subset"] = [name for name in inside if name not in names]
+    return document
+
+
+def other_rank(rng: random.Random, document: Document) -> Forged:
+    """Another rank at 0, with rows that fit in number alone."""
+    system, claim, witness = subject_of(document), document["claim"], document["witness"]
+    full = system.n + sum(C.nrows() for C in system.C)
+    r = rng.randint(0, full)
+    claim |= {"rank": r, "solvable": r == full, "invariant_zero": None}
+    pivots = sorted(rng.sample(range(full), full - r))
+    rows = [[int(j == k) for j in range(full)] for k in pivots]
+    witness |= {"left": {"denominator": 1, "entries": rows}, "pivots": pivots}
+    witness |= {"point": None, "normal": None}
+    if r < full:
+        _zero_or_not(rng, document, full)
+    return document
+
+
+def other_zero(rng: random.Random, document: Document) -> Forged:
+    """An invariant zero denied by a row that annihilates nothing, or claimed at any point."""
+    system, claim = subject_of(document), document["claim"]
+    full = system.n + sum(C.nrows() for C in system.C)
+    if claim["solvable"]:
+        if rng.random() < 0.5:
+            claim["solvable"] = False
+        _zero_or_not(rng, document, full)
+        return document
+    if rng.random() < 0.3:
+        claim["solvable"], claim["invariant_zero"] = True, None
+        document["witness"] |= {"point": None, "normal": None}
+        return document
+    _zero_or_not(rng, document, full, zero=False if claim["invariant_zero"] else None)
+    return document
+
+
+def _zero_or_not(
+    rng: random.Random, document: Document, full: int, zero: bool | None = None
+) -> None:
+    if zero is None:
+        zero = rng.random() < 0.5
+    document["claim"]["invariant_zero"] = zero
+    row = {"denominator": 1, "coefficients": [[[rng.choice((0, 0, 1)) for _ in range(full)]]]}
+    if rng.random() < 0.5:
+        row["coefficients"] = [[[0] * full]]
+    witness = (
+        {"point": rng.randint(0, 50), "normal": None} if zero else {"point": None, "normal": row}
+    )
+    document["witness"] |= witness
+
+
+def lower_rank_kept(rng: random.Random, document: Document) -> Forged:
+    """The rank of the certificate one more, and a row less."""
+    witness, claim = document["witness"], document["claim"]
+    if not witness["pivots"]:
+        return None
+    k = rng.randrange(len(witness["pivots"]))
+    witness["pivots"].pop(k)
+    witness["left"]["entries"].pop(k)
+    claim["rank"] += 1
+    if not witness["pivots"]:
+        claim |= {"solvable": True, "invariant_zero": None}
+        witness |= {"point": None, "normal": None}
+    return document
+
+
+def all_edges(rng: random.Random, document: Document) -> Forged:
+    """Every edge with the power that shows it, and others with powers that show nothing."""
+    system = subject_of(document)
+    arcs = set(transfer_edges(system))
+    document["claim"]["arcs"] = [names_of(system, edge) for edge in sorted(arcs)]
+    powers = []
+    for j, i in sorted(arcs):
+        M, k = system.B[j], 0
+        while not any(v != 0 for v in (system.C[i] * M).entries()):
+            M, k = system.A * M, k + 1
+        powers.append(k + rng.choice((0, 0, 0, 1, system.n)))
+    document["witness"] |= {"powers": powers, "modulus": PRIME}
+    _connected_again(document, system.names)
+    return document
+
+
+CONTROLLABILITY = (
+    smaller_dimension,
+    smaller_dimension,
+    larger_dimension,
+    reached_by_blocks,
+    reached_by_blocks,
+)
+INDICES = (ranks_cut_short, ranks_too_large)
+GRAPH = (missing_edge, extra_edge, all_edges, unsorted_edges)
+ASSIGNABILITY = (smaller_realization, outputs_alone, larger_realization, whole_space)
+COMPLEMENTARY = (no_zeros, split_zeros, improper_subset)
+SETPOINT = (other_rank, other_zero, lower_rank_kept)

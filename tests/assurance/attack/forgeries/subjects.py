@@ -1,0 +1,77 @@
+"""The same claim about another subject, made by other constructions or in another order."""
+
+from __future__ import annotations
+
+import random
+
+from tests.oracle.certificates.constructions import subject_of
+from tests.oracle.certificates.reading import Unspecified
+from tests.oracle.drawn.plants import Document
+from tests.oracle.drawn.subjects import CONSTRUCTIONS, drawn_step
+
+from ..mutators import PARTS, renamed
+
+
+def colliding_names(rng: random.Random, document: Document) -> Document | None:
+    """Three channels "1+2", "1" and "2", of which the last two are taken as one."""
+    names = [channel["name"] for channel in document["system"]["channels"]]
+    for step in document["subject"]:
+        sizes = sorted(map(len, step.get("parts", ())))
+        if sizes == [1, 2]:
+            fresh = iter(("1", "2"))
+            mapping = {name: "1+2" if [name] in step["parts"] else next(fresh) for name in names}
+            return renamed(document, mapping, PARTS)
+    return None
+
+
+def other_time(rng: random.Random, document: Document) -> Document:
+    """The plant and its controllers in the other time domain."""
+    time = {"continuous": "discrete", "discrete": "continuous"}[document["system"]["time"]]
+    document["system"]["time"] = time
+    for step in document["subject"]:
+        if "controller" in step:
+            step["controller"]["time"] = time
+    return document
+
+
+def other_line(rng: random.Random, document: Document) -> Document | None:
+    """Another line through the same plant, no line, or one behind another construction."""
+    steps = document["subject"]
+    if not steps or steps[0]["construction"] != "line":
+        return None
+    line, what = steps[0], rng.randrange(5)
+    values = line[rng.choice(("point", "direction"))]
+    if what == 0:
+        values[rng.choice(sorted(values))] = rng.choice((0, 1, -2, "1/3"))
+    elif what == 1:
+        line["point"], line["direction"] = line["direction"], line["point"]
+    elif what == 2:
+        first, second = sorted(values)
+        values[first], values[second] = values[second], values[first]
+    elif what == 3:
+        steps.append(steps.pop(0))
+    else:
+        document["subject"] = steps[1:]
+    return document
+
+
+def other_subject(rng: random.Random, document: Document) -> Document | None:
+    """One change of the list of constructions."""
+    steps = document["subject"]
+    k = rng.randrange(len(steps) + 1)
+    what = rng.randrange(4)
+    if what == 0 and k < len(steps):
+        del steps[k]
+    elif what == 1 and len(steps) > 1:
+        rng.shuffle(steps)
+    else:
+        try:
+            system = subject_of(document, k)
+            name = steps[k]["construction"] if what == 2 and k < len(steps) else None
+            step = drawn_step(rng, name or rng.choice(CONSTRUCTIONS), system)
+        except (Unspecified, ValueError):
+            return None
+        if step is None:
+            return None
+        steps[k : k + bool(name)] = [step]
+    return document

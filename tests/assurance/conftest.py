@@ -1,0 +1,3 @@
+"""Programs, in which pytest looks for no tests."""
+
+collect_ignore_glob = ["*"]

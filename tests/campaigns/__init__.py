@@ -1,1 +1,0 @@
-"""Long comparisons with slow oracles: ``python -m tests.campaigns.<topic> COUNT SEED``."""

@@ -1,0 +1,91 @@
+"""A few thousand tries of the campaign, the same ones every time."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact.checker import arithmetic
+from mcexact.checker.kinds import KINDS
+from mcexact.exact import tables
+from tests.assurance.attack.campaign import run, run_batch
+from tests.assurance.attack.report import Report
+from tests.assurance.attack.tries import ORDER, SIZE, batch_numbers, drawn_batch, tries
+from tests.checker.handmade import VALID
+from tests.oracle import certificates as oracle
+from tests.oracle.certificates import reading as oracle_reading
+from tests.oracle.certificates.constructions import CONSTRUCTIONS as KNOWN
+from tests.oracle.certificates.judge import KINDS as JUDGED
+from tests.oracle.certificates.judge import TRUE, judge
+from tests.oracle.drawn.subjects import CONSTRUCTIONS
+
+
+def test_nothing_false_is_accepted_and_nothing_true_is_refused() -> None:
+    report = run(4000, processes=1)
+    assert report.findings == []
+    assert report.total("undecided") <= report.total("tries") / 100
+    assert report.total("true") > report.total("tries") / 10
+    assert report.total("rejected") > report.total("tries") / 4
+
+
+def test_the_same_holds_where_matrices_list_their_entries(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module, least, share in (
+        (arithmetic, "LEAST", "SHARE"),
+        (oracle_reading, "LEAST", "SHARE"),
+        (tables, "LEAST_SPARSE", "_SHARE"),
+    ):
+        monkeypatch.setattr(module, least, 2)
+        monkeypatch.setattr(module, share, 1)
+    report = run(2000, processes=1)
+    assert report.findings == []
+    assert report.total("true") > report.total("tries") / 10
+
+
+def test_the_oracle_knows_every_kind_and_every_construction() -> None:
+    assert set(JUDGED) == set(KINDS)
+    assert set(KNOWN) == set(CONSTRUCTIONS)
+
+
+@pytest.mark.parametrize(
+    "path", sorted(Path(oracle.__path__[0]).glob("*.py")), ids=lambda p: p.stem
+)
+def test_the_oracle_shares_nothing_with_the_package(path: Path) -> None:
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            found = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            found = [node.module or ""] if not node.level else []
+            assert node.level < 2, node.module
+        else:
+            continue
+        assert not any(name.split(".")[0] in ("mcexact", "tests") for name in found), found
+
+
+@pytest.mark.parametrize("number", [3, 64 * 5 + 17])
+def test_a_try_is_repeated_alone(number: int) -> None:
+    alone = run_batch(number // SIZE, Report(), number)
+    assert alone is not None
+    assert alone.number == number
+    again = run_batch(number // SIZE, Report(), number)
+    assert again == alone
+
+
+def test_some_kinds_are_tried_alone_by_the_same_numbers() -> None:
+    kinds = ("parametric_rank", "setpoint")
+    numbers = batch_numbers(3 * SIZE + 1, kinds)
+    assert [ORDER[number % len(ORDER)] for number in numbers] == [*kinds, *kinds]
+    assert numbers[0] == ORDER.index("parametric_rank")
+    assert batch_numbers(1) == [0]
+
+
+def test_a_batch_is_the_same_every_time() -> None:
+    first, second = (list(tries(11, drawn_batch(11))) for _ in range(2))
+    assert first == second
+
+
+@pytest.mark.parametrize("document", VALID.values(), ids=list(VALID))
+def test_the_oracle_confirms_certificates_made_by_hand(document: dict[str, Any]) -> None:
+    assert judge(document) == (TRUE, "")
