@@ -46,7 +46,7 @@ from mcexact import (
 )
 from mcexact.analysis.boxes.cover import Outside
 from mcexact.analysis.boxes.members import FixedModeSearch
-from mcexact.analysis.boxes.pencils import radii_of
+from mcexact.analysis.boxes.pencils import Members
 from mcexact.answer.protocol import encode
 from mcexact.derived.drawn.networks import network_system
 from mcexact.derived.drawn.primary_form import SeededChoices
@@ -222,11 +222,11 @@ def methods(plants: dict[str, MultiChannelSystem]) -> None:
         for k in range(first, 9):
             part = Fraction(1, 10**k)
             boxed = Box.relative(system, part).system
-            search = FixedModeSearch(boxed, radii_of(boxed), starts=1, several=several)
+            search = FixedModeSearch(Members.of(boxed), starts=1, several=several)
             began = time.process_time()
             outside = Outside(boxed.time, None)
-            enough = several or search.prepare(1.0, outside) > 1
-            proof = search.cover(Fraction(1), None) if enough else None
+            enough = search.capacity(outside) > 1
+            proof = search.evidence(Fraction(1), outside) if enough else None
             seconds = time.process_time() - began
             if proof is not None:
                 row(n, m, "several" if several else "A", f"1e-{k}", f"{seconds:.1f}")

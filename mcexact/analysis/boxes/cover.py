@@ -35,6 +35,7 @@ from mcexact.analysis.boxes.pencils import (
     ComplexRows,
     FloatBox,
     Floats,
+    Members,
     Point,
     dyadic,
     modulus_above,
@@ -71,12 +72,12 @@ class Outside:
     time: str
     bound: Fraction | None
 
-    def covers(self, mode: complex) -> bool:
+    def has_point(self, mode: complex) -> bool:
         """Whether a number lies in that part, with some distance from its border."""
         c = Fraction(mode.real), Fraction(mode.imag)
-        return self.bound is not None and self.disc(c, Fraction(abs(mode) / 1000))
+        return self.bound is not None and self.has_disc(c, Fraction(abs(mode) / 1000))
 
-    def disc(self, c: Point, r: Fraction) -> bool:
+    def has_disc(self, c: Point, r: Fraction) -> bool:
         """Whether a disc lies in that part."""
         re, im = c
         if im + r < 0:
@@ -87,7 +88,7 @@ class Outside:
             return re + r < -self.bound
         return self.bound > r and re**2 + im**2 < (self.bound - r) ** 2
 
-    def square(self, c: Point, h: Fraction) -> bool:
+    def has_square(self, c: Point, h: Fraction) -> bool:
         """Whether a square of half side h lies in that part."""
         re, im = c
         if im + h < 0:
@@ -122,17 +123,17 @@ class Cover:
         Squares that meet no disc of one of the other lists are skipped.
         """
         first, *others = ([_exact(disc) for disc in discs] for discs in lists)
-        found = []
+        trees = []
         for c, radius in first:
             tree: list[int | None] = []
             near = [[each for each in discs if meets(c, radius, each)] for discs in others]
-            skipped = self.outside.disc(c, radius) or not all(near)
+            skipped = self.outside.has_disc(c, radius) or not all(near)
             if not skipped and not (
                 self._leaf(c, radius, 0, tree) or self._cut(c, radius, 0, tree, near)
             ):
                 return None
-            found.append(tuple(tree))
-        return tuple(found)
+            trees.append(tuple(tree))
+        return tuple(trees)
 
     def _leaf(self, c: Point, rho: Fraction, depth: int, tree: list[int | None]) -> bool:
         self.tested += 1
@@ -157,7 +158,7 @@ class Cover:
         for x in (-q, q):
             for y in (-q, q):
                 part = c[0] + x, c[1] + y
-                if self.outside.square(part, q):
+                if self.outside.has_square(part, q):
                     continue
                 left = [
                     [each for each in discs if meets(part, q, each, square=True)] for discs in near
@@ -213,8 +214,8 @@ def exterior(
     A: Matrix,
     D: Matrix,
     rng: np.random.Generator,
-    growth: Fraction = Fraction(1),
-    tied: Sequence[Matrix] = (),
+    factor: Fraction = Fraction(1),
+    generators: Sequence[Matrix] = (),
 ) -> Exterior | None:
     """Compute the discs for radii that are multiplied by a factor; None if no proposal holds.
 
@@ -225,18 +226,18 @@ def exterior(
     A, D : Matrix, n × n
         The nominal matrix and its radii.
     rng : numpy.random.Generator
-    growth : Fraction
+    factor : Fraction
         The factor of all radii.
-    tied : sequence of Matrix
+    generators : sequence of Matrix
         Matrices that may be added to A, each with a factor from −1 to 1.
     """
     if not box.n:
         none = ComplexRows.of(Matrix.zeros(0, 0))
         return Exterior(none, none, ())
-    along = [M * growth for M in tied]
-    ranked = coordinates(box, rng, growth)
-    proposed = (each.exact(box.scale, A, D * growth, along) for each in ranked)
-    return next((found for found in proposed if found is not None), None)
+    scaled = [M * factor for M in generators]
+    ranked = coordinates(box, rng, factor)
+    proposed = (each.exact(box.scale, A, D * factor, scaled) for each in ranked)
+    return next((discs for discs in proposed if discs is not None), None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,7 +260,7 @@ class Coordinates:
     size: Floats
 
     def exact(
-        self, scale: Floats, A: Matrix, D: Matrix, tied: Sequence[Matrix] = ()
+        self, scale: Floats, A: Matrix, D: Matrix, generators: Sequence[Matrix] = ()
     ) -> Exterior | None:
         """Round Y and T, and compute the discs of a matrix exactly; None if there are none.
 
@@ -274,16 +275,16 @@ class Coordinates:
         unit_T = np.maximum(_FINE / (n * n * heavy_T), _FINEST * T.max(axis=0))
         exact_Y = dyadic(self.Y / scale[None, :], unit_Y / scale[None, :])
         exact_T = dyadic(self.T * scale[:, None], unit_T * scale[:, None])
-        discs = _discs(exact_Y, exact_T, A, (D, *tied), self.centers)
+        discs = _discs(exact_Y, exact_T, A, D, generators, self.centers)
         return None if discs is None else Exterior(exact_Y, exact_T, discs)
 
 
 def coordinates(
-    box: FloatBox, rng: np.random.Generator, growth: Fraction = Fraction(1)
+    box: FloatBox, rng: np.random.Generator, factor: Fraction = Fraction(1)
 ) -> list[Coordinates]:
     """Y, T and the discs in balanced coordinates, those with the smallest radii first."""
     A, size = box.A, np.abs(box.A)
-    found: list[Coordinates] = []
+    proposals: list[Coordinates] = []
     for T in _candidates(A, box.DA, rng):
         try:
             Y = np.linalg.inv(T)
@@ -292,16 +293,16 @@ def coordinates(
         H = Y @ A @ T
         centers = np.diag(H).copy()
         size_Y, size_T = np.abs(Y), np.abs(T)
-        spread = np.abs(H - np.diag(centers)) + float(growth) * box.moved(Y, T)
+        spread = np.abs(H - np.diag(centers)) + float(factor) * box.deviation(Y, T)
         spread += 1e-12 * (size_Y @ size @ size_T)
         if not np.all(np.isfinite(spread)):
             continue
         for weight in _weights(spread, np.abs(centers)):
             radii = (spread @ weight) / weight
-            turned: tuple[Any, Any] = Y / weight[:, None], T * weight[None, :]
-            if np.all(np.isfinite(turned[0])):
-                found.append(Coordinates(*turned, centers, radii, size))
-    return sorted(found, key=lambda each: float(each.radii.sum()))
+            weighted: tuple[Any, Any] = Y / weight[:, None], T * weight[None, :]
+            if np.all(np.isfinite(weighted[0])):
+                proposals.append(Coordinates(*weighted, centers, radii, size))
+    return sorted(proposals, key=lambda each: float(each.radii.sum()))
 
 
 def _weights(spread: Floats, sizes: Floats) -> Iterator[Floats]:
@@ -357,19 +358,19 @@ def _discs(
     Y: ComplexRows,
     T: ComplexRows,
     A: Matrix,
-    moved: tuple[Matrix, ...],
+    D: Matrix,
+    generators: Sequence[Matrix],
     centers: Complex,
 ) -> tuple[RootDisc, ...] | None:
     """The discs with radii as small as the exact matrices allow, rounded up to three digits."""
     G, H = Y @ T, Y @ T.after(A)
     ones = Matrix.from_integers([[1]] * len(centers), 1, 1)
-    D, *tied = moved
     e = Y.moduli() @ (D @ (T.moduli() @ ones))
-    for M in tied:
+    for M in generators:
         e = e + (Y @ (ComplexRows.of(M) @ T)).moduli() @ ones
     d = math.lcm(G.denominator, H.denominator)
     (G_re, G_im), (H_re, H_im) = G.integers(d), H.integers(d)
-    found = []
+    discs = []
     for i, a in enumerate(centers):
         others = sum(
             modulus_above(x, y)
@@ -388,8 +389,8 @@ def _discs(
         unit = Fraction(1, 10**digits)
         radius = (_distance(row, re * unit, im * unit) + spread) / slack
         above = math.ceil(radius * 10**digits * (1 + Fraction(1, 10**6))) + 1
-        found.append(RootDisc(decimal(re, digits), decimal(im, digits), decimal(above, digits)))
-    return tuple(found)
+        discs.append(RootDisc(decimal(re, digits), decimal(im, digits), decimal(above, digits)))
+    return tuple(discs)
 
 
 def _distance(
@@ -433,12 +434,12 @@ class GainBox:
     A : Matrix, n × n
     B, C : tuples of Matrix
     radii : Radii
-        Those of A, B_i and C_i.
+        Those of A, B_i and C_i in a box of independent entries that contains all members.
     near : FloatBox
-    moved : tuple of Matrix
-        The radii of the independent changes of A, then the matrices that may be added to A, each
-        with a factor from −1 to 1.  ``radii`` are those of a box of independent entries that
-        contains all members.
+    independent_A : Matrix, n × n, optional
+        The radii of the independent changes of A, if there are generators as well.
+    generators_A : tuple of Matrix
+        Matrices that may be added to A, each with a factor from −1 to 1.
     """
 
     A: Matrix
@@ -446,25 +447,40 @@ class GainBox:
     C: tuple[Matrix, ...]
     radii: Radii
     near: FloatBox
-    moved: tuple[Matrix, ...] = ()
+    independent_A: Matrix | None = None
+    generators_A: tuple[Matrix, ...] = ()
 
-    def of_gains(self, F: Sequence[Matrix], growth: Fraction) -> tuple[Matrix, Matrix]:
+    @classmethod
+    def of(cls, members: Members, near: FloatBox) -> GainBox:
+        """Make the box of all matrices of some members."""
+        system = members.system
+        return cls(
+            system.A,
+            system.B,
+            system.C,
+            members.independent,
+            near,
+            members.radii.A,
+            tuple(each.A for each in members.generators),
+        )
+
+    def of_gains(self, F: Sequence[Matrix], factor: Fraction) -> tuple[Matrix, Matrix]:
         """A_F = A + Σ B_i F_i C_i, and its radii if those of the box are multiplied by a factor."""
         n, radii = self.A.nrows, self.radii
-        B, D_B = hstack(self.B, nrows=n), hstack([M * growth for M in radii.B], nrows=n)
+        B, D_B = hstack(self.B, nrows=n), hstack([M * factor for M in radii.B], nrows=n)
         FC = vstack([F_i @ C for F_i, C in zip(F, self.C, strict=True)], ncols=n)
         sizes = [moduli(F_i) for F_i in F]
-        around = vstack([f @ (D * growth) for f, D in zip(sizes, radii.C, strict=True)], ncols=n)
+        around = vstack([f @ (D * factor) for f, D in zip(sizes, radii.C, strict=True)], ncols=n)
         outer = vstack([f @ moduli(C) for f, C in zip(sizes, self.C, strict=True)], ncols=n)
-        D = radii.A * growth + (moduli(B) + D_B) @ around + D_B @ outer
+        D = radii.A * factor + (moduli(B) + D_B) @ around + D_B @ outer
         return self.A + B @ FC, D
 
     def near_gains(self, A_F: Matrix, D_F: Matrix) -> FloatBox:
         """A_F and its radii in balanced coordinates."""
         s = self.near.scale
-        turned = s[None, :] / s[:, None]
-        D = matrix_to_float(D_F) * turned
-        return replace(self.near, A=matrix_to_float(A_F) * turned, DA=D, rest_A=D, tied_A=())
+        ratios = s[None, :] / s[:, None]
+        A, D = (matrix_to_float(M) * ratios for M in (A_F, D_F))
+        return replace(self.near, A=A, DA=D, independent_A=D, generators_A=())
 
 
 @dataclass(frozen=True, eq=False)
@@ -479,23 +495,23 @@ class _Proposal:
     def around(self, points: Complex) -> Complex:
         """The points that are in a disc, or near one."""
         far = np.abs(points[:, None] - self.coordinates.centers[None, :])
-        found: Complex = points[np.any(far <= 1.001 * self.coordinates.radii[None, :], axis=1)]
-        return found
+        near: Complex = points[np.any(far <= 1.001 * self.coordinates.radii[None, :], axis=1)]
+        return near
 
     def points(self, outside: Outside) -> Complex:
         """Points of the discs in the upper half-plane that the claim is about."""
-        found = []
+        points = []
         for c, r in zip(self.coordinates.centers, self.coordinates.radii, strict=True):
             disc = (Fraction(float(c.real)), Fraction(float(c.imag))), Fraction(float(r))
-            if not outside.disc(*disc):
-                found += [c + r * part * turn for part in _LIST_PARTS for turn in _TURNS]
-        return np.array([p for p in found if p.imag >= 0], dtype=np.complex128)
+            if not outside.has_disc(*disc):
+                points += [c + r * part * turn for part in _LIST_PARTS for turn in _TURNS]
+        return np.array([p for p in points if p.imag >= 0], dtype=np.complex128)
 
 
 def disc_lists(
     box: GainBox,
     rng: np.random.Generator,
-    growth: Fraction,
+    factor: Fraction,
     outside: Outside,
     *,
     several: bool,
@@ -506,7 +522,7 @@ def disc_lists(
     ----------
     box : GainBox
     rng : numpy.random.Generator
-    growth : Fraction
+    factor : Fraction
         The factor of all radii.
     outside : Outside
         The part of the plane that need not be covered.
@@ -518,31 +534,31 @@ def disc_lists(
     Gains are drawn at random.  A list is added as long as fewer of some sample points lie in discs
     of every list.
     """
-    found: list[ExteriorDiscs] = []
+    lists: list[ExteriorDiscs] = []
     if several:
-        for each in _drawn_and_chosen(box, rng, growth, outside):
-            made = each.coordinates.exact(box.near.scale, each.M, each.D)
-            found += [] if made is None else [_evidence(each.F, made)]
-    if not found:
-        D, *tied = box.moved or (box.radii.A,)
-        own = exterior(box.near, box.A, D, rng, growth, tied)
-        found = [] if own is None else [_evidence(None, own)]
-    return tuple(found) or None
+        for each in _drawn_and_chosen(box, rng, factor, outside):
+            discs = each.coordinates.exact(box.near.scale, each.M, each.D)
+            lists += [] if discs is None else [_evidence(each.F, discs)]
+    if not lists:
+        D = box.radii.A if box.independent_A is None else box.independent_A
+        own = exterior(box.near, box.A, D, rng, factor, box.generators_A)
+        lists = [] if own is None else [_evidence(None, own)]
+    return tuple(lists) or None
 
 
-def _evidence(F: tuple[Matrix, ...] | None, found: Exterior) -> ExteriorDiscs:
-    return ExteriorDiscs(F, found.Y.evidence(), found.T.evidence(), found.discs)
+def _evidence(F: tuple[Matrix, ...] | None, each: Exterior) -> ExteriorDiscs:
+    return ExteriorDiscs(F, each.Y.evidence(), each.T.evidence(), each.discs)
 
 
 def _drawn_and_chosen(
-    box: GainBox, rng: np.random.Generator, growth: Fraction, outside: Outside
+    box: GainBox, rng: np.random.Generator, factor: Fraction, outside: Outside
 ) -> list[_Proposal]:
     """The discs of A and of A_F for drawn gains, chosen so that few points are in all lists."""
     proposals: list[_Proposal] = []
     chosen: list[_Proposal] = []
     for k in range(_DRAWS + 1):
         F = _drawn(box.near, rng) if k else None
-        M, D = (box.A, box.radii.A * growth) if F is None else box.of_gains(F, growth)
+        M, D = (box.A, box.radii.A * factor) if F is None else box.of_gains(F, factor)
         proposed = coordinates(box.near_gains(M, D), rng)
         if proposed:
             proposals.append(_Proposal(F, M, D, min(proposed, key=_area)))
@@ -575,7 +591,7 @@ def _area(discs: Coordinates) -> float:
 def _drawn(box: FloatBox, rng: np.random.Generator) -> tuple[Matrix, ...]:
     """Draw gains, and their common size, with a few bits each."""
     size = 10 ** rng.uniform(-1, 0.5) * max(float(np.linalg.norm(box.A)), 1e-12)
-    found = []
+    gains = []
     for B, C in zip(box.B, box.C, strict=True):
         p, q = B.shape[1], C.shape[0]
         around = max(float(np.linalg.norm(B)) * float(np.linalg.norm(C)), 1e-300)
@@ -583,5 +599,5 @@ def _drawn(box: FloatBox, rng: np.random.Generator) -> tuple[Matrix, ...]:
         drawn = parts * size / around / np.sqrt(len(box.B))
         unit = Fraction(2) ** (int(np.floor(np.log2(np.abs(drawn).max(initial=1e-290)))) - _BITS)
         rows = [[round(x / float(unit)) for x in row] for row in drawn.tolist()]
-        found.append(Matrix.from_integers(rows, 1, q) * unit)
-    return tuple(found)
+        gains.append(Matrix.from_integers(rows, 1, q) * unit)
+    return tuple(gains)

@@ -10,12 +10,12 @@ claimed between the two.
 - `largest_loop_uncertainty`: one controller keeps all loops in a region (`boxes.loops`);
 - `largest_loop_ranges`: the same for the ranges of parameters, around their middles.
 
-The first two are instances of `Search`, which `two_sided` carries out.  First it looks for a member
-that fails: those proposed by sequential linear programs (`boxes.failure`) and those whose channels
-do nothing are decided exactly, the nearest first.  Then `largest_factor` bisects below the distance
-of that member, and below what floating point considers possible, for the largest factor with a
-proof.  `largest_loop_ranges` bisects in the same way, but looks for failing values along rays from
-the middle of the ranges.
+The first two are carried out by `two_sided`.  First it looks for a member that fails (`Failures`):
+those proposed by sequential linear programs (`boxes.failure`) and those whose channels do nothing
+are decided exactly, the nearest first.  Then `largest_factor` bisects below the distance of that
+member, and below what floating point considers possible, for the largest factor with a proof
+(`Proofs`).  `largest_loop_ranges` bisects in the same way, but looks for failing values along rays
+from the middle of the ranges.
 
 `nearest_fixed` and `failing_member` run the search for a failing plant alone.  The effort counts
 tested squares or parts of the border in place of seconds, so that the load of a machine does not
@@ -44,11 +44,11 @@ from mcexact.analysis.boxes.failure import (
 )
 from mcexact.analysis.boxes.loops import LoopSearch, StabilitySearch, gain_radii
 from mcexact.analysis.boxes.members import ControllabilitySearch, FixedModeSearch
-from mcexact.analysis.boxes.pencils import Floats, one_thread, radii_of
+from mcexact.analysis.boxes.pencils import Floats, Members, one_thread, radii_of
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.stability import certify_stability
-from mcexact.answer.boxes import ParametricBoxStability
+from mcexact.answer.boxes import BoxControllability, BoxFixedModes, ParametricBoxStability
 from mcexact.answer.check import constructed
 from mcexact.answer.loops import StabilityVerdict
 from mcexact.answer.protocol import Answer
@@ -152,8 +152,8 @@ class LargestUncertainty(Shown):
         if self.upper is not None:
             near = f"{_number(self.upper, self.relative, up=True)}{unit}"
         yield "a plant fails within", near
-        told = self.wanted == "no fixed mode"
-        if told and self.channels is not None and self.failing is not None:
+        fixed = self.wanted == "no fixed mode"
+        if fixed and self.channels is not None and self.failing is not None:
             yield "the mode that is fixed there", blame(self.channels, self.failing.names)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
@@ -164,8 +164,6 @@ class LargestUncertainty(Shown):
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
-        from mcexact.exact.rational import written
-
         return {
             "property": self.wanted,
             "relative": self.relative,
@@ -206,8 +204,8 @@ def _above(factor: Fraction) -> str:
 
 
 @dataclass
-class Search:
-    """The functions by which `two_sided` proves a property, and looks for plants that lack it.
+class Proofs:
+    """The functions by which `largest_factor` proves a property for factors of the radii.
 
     Attributes
     ----------
@@ -215,12 +213,6 @@ class Search:
         About how far the radii can grow.
     proof : callable
         The answer for a factor of the radii, or None.
-    refuted : callable
-        The exact answer about a plant that fails, or None.
-    failing : callable
-        A plant that probably fails, searched with so many tries.
-    severed : callable
-        Plants that may fail because their channels have no effect.
     work : callable
         The work done so far.
     likely : callable
@@ -232,20 +224,38 @@ class Search:
 
     capacity: Callable[[], float]
     proof: Callable[[Fraction], Answer | None]
-    refuted: Callable[[MultiChannelSystem], Answer | None]
-    failing: Callable[[int], FailingPlant | None]
-    severed: Callable[[], Iterable[FailingPlant]]
     work: Callable[[], float]
     likely: Callable[[], float] = lambda: float("inf")
     rounds: int = 1
 
 
-def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> LargestUncertainty:
+@dataclass
+class Failures:
+    """The functions by which `nearest` looks for a plant that lacks a property.
+
+    Attributes
+    ----------
+    proposed : callable
+        A plant that probably fails, searched with so many tries.
+    severed : callable
+        Plants that may fail because their channels have no effect.
+    refuted : callable
+        The exact answer about a plant that fails, or None.
+    """
+
+    proposed: Callable[[int], FailingPlant | None]
+    severed: Callable[[], Iterable[FailingPlant]]
+    refuted: Callable[[MultiChannelSystem], Answer | None]
+
+
+def two_sided(
+    proofs: Proofs, failures: Failures, wanted: str, relative: bool, effort: float
+) -> LargestUncertainty:
     """Search a failing plant, then the largest factor with a proof; see `largest_uncertainty`."""
     require_seconds(effort, "effort")
-    near, refutation = nearest(search, min(1 + int(_TRIES * effort), _MOST_TRIES))
+    near, refutation = nearest(failures, min(1 + int(_TRIES * effort), _MOST_TRIES))
     beyond = 1e6 if near is None else to_float(near.distance)
-    lower, proof = largest_factor(search, _SQUARES * effort, beyond)
+    lower, proof = largest_factor(proofs, _SQUARES * effort, beyond)
     return LargestUncertainty(
         wanted,
         relative,
@@ -258,42 +268,42 @@ def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> Lar
     )
 
 
-def nearest(search: Search, tries: int) -> tuple[FailingPlant | None, Answer | None]:
+def nearest(failures: Failures, tries: int) -> tuple[FailingPlant | None, Answer | None]:
     """Return the nearest of the proposed plants that fails, and the exact answer about it."""
-    found = search.failing(tries)
-    known = [*([] if found is None else [found]), *search.severed()]
-    for near in sorted(known, key=lambda each: each.distance):
-        refutation = search.refuted(near.plant)
+    proposed = failures.proposed(tries)
+    candidates = [*([] if proposed is None else [proposed]), *failures.severed()]
+    for near in sorted(candidates, key=lambda each: each.distance):
+        refutation = failures.refuted(near.plant)
         if refutation is not None:
             return near, refutation
     return None, None
 
 
-def largest_factor(search: Search, work: float, beyond: float) -> tuple[Fraction, Answer | None]:
+def largest_factor(proofs: Proofs, work: float, beyond: float) -> tuple[Fraction, Answer | None]:
     """Bisect for the largest factor of the radii with a proof, below the factor ``beyond``."""
-    most = min(search.capacity(), beyond) if beyond > 0 else 0.0
+    most = min(proofs.capacity(), beyond) if beyond > 0 else 0.0
     low, best = Fraction(0), None
     if not most > _LEAST:
         return low, best
-    likely = search.likely()
-    tried = [0.97 * most, 0.97 * likely] if likely < most else [0.97 * most]
-    ended = search.work() + work
-    for _ in range(search.rounds):
-        began, high = low, most
+    likely = proofs.likely()
+    first = [0.97 * most, 0.97 * likely] if likely < most else [0.97 * most]
+    limit = proofs.work() + work
+    for _ in range(proofs.rounds):
+        before, high = low, most
         for step in range(_STEPS):
             if low and high < _CLOSE * low:
                 break
             middle = (float(low) * high) ** 0.5 if low else high * (0.5 if step < 3 else 0.1)
-            x = tried.pop() if tried else middle
-            growth = short(x)
-            found = search.proof(growth) if growth > 0 else None
-            if found is None:
-                high, tried = x, []
+            x = first.pop() if first else middle
+            factor = short(x)
+            proof = proofs.proof(factor) if factor > 0 else None
+            if proof is None:
+                high, first = x, []
             else:
-                low, best = growth, found
-            if search.work() > ended or high < _LEAST:
+                low, best = factor, proof
+            if proofs.work() > limit or high < _LEAST:
                 return low, best
-        if low == began:
+        if low == before:
             break
     return low, best
 
@@ -362,8 +372,8 @@ def largest_uncertainty(
     Examples
     --------
     >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
-    >>> found = largest_uncertainty(plant)
-    >>> found.relative, 0.1 < found.lower < found.upper < 0.5
+    >>> largest = largest_uncertainty(plant)
+    >>> largest.relative, 0.1 < largest.lower < largest.upper < 0.5
     (True, True)
     """
     InputError.require(system, MultiChannelSystem, "system")
@@ -375,7 +385,7 @@ def largest_uncertainty(
     relative = system.uncertainty is None
     unit = Box.relative(system, 1).system if relative else system
     with one_thread():
-        return two_sided(_searches(unit, wanted), wanted, relative, effort)
+        return two_sided(_proofs(unit, wanted), _failures(unit, wanted), wanted, relative, effort)
 
 
 def nearest_fixed(system: MultiChannelSystem, tries: int) -> FailingPlant | None:
@@ -396,9 +406,14 @@ def nearest_fixed(system: MultiChannelSystem, tries: int) -> FailingPlant | None
     >>> near is not None and near.distance < Fraction(1, 900)
     True
     """
-    radii = Radii(*(_of_sizes(given) for given in (system.A, system.B, system.C)))
+    size_A, size_B, size_C = map(largest_entry, ([system.A], system.B, system.C))
+    radii = Radii(
+        _constant(system.A, size_A),
+        [_constant(B, size_B) for B in system.B],
+        [_constant(C, size_C) for C in system.C],
+    )
     with one_thread():
-        return nearest(_searches(Box(system, radii).system, "no fixed mode"), tries)[0]
+        return nearest(_failures(Box(system, radii).system, "no fixed mode"), tries)[0]
 
 
 def failing_member(
@@ -429,48 +444,64 @@ def failing_member(
     True
     """
     with one_thread():
-        search = _searches(system, wanted)
-        known = search.refuted(Box(system).nominal)
-        if known is not None:
-            return known
-        near, refutation = nearest(search, tries)
+        failures = _failures(system, wanted)
+        refuted = failures.refuted(Box(system).nominal)
+        if refuted is not None:
+            return refuted
+        near, refutation = nearest(failures, tries)
     return refutation if near is not None and near.distance <= 1 else None
 
 
-def _of_sizes(given: Any) -> Any:
-    """Matrices whose entries are all the largest modulus of one matrix, or of several."""
-    several = [given] if isinstance(given, Matrix) else list(given)
-    size = largest_entry(several)
-    found = [Matrix.from_rows([[size] * M.ncols] * M.nrows, M.ncols) for M in several]
-    return found[0] if isinstance(given, Matrix) else found
+def _constant(M: Matrix, entry: Fraction) -> Matrix:
+    """A matrix of the shape of another, all entries of which are the same."""
+    return Matrix.from_rows([[entry] * M.ncols] * M.nrows, M.ncols)
 
 
-def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
-    """The search for one property."""
-    if wanted in ("controllable", "observable"):
-        return _controllability(unit, wanted)
-    region = StabilityRegion(unit.time) if wanted == "stabilizable" else None
+def _decided(unit: MultiChannelSystem, wanted: str) -> MultiChannelSystem:
+    """The system of which a property of a plant is decided: the dual one for observability."""
+    return dual(unit) if wanted == "observable" else unit
+
+
+def _region(unit: MultiChannelSystem, wanted: str) -> StabilityRegion | None:
+    """The region in which fixed modes are allowed."""
+    return StabilityRegion(unit.time) if wanted == "stabilizable" else None
+
+
+def _proofs(unit: MultiChannelSystem, wanted: str) -> Proofs:
+    """The search for a proof of one property."""
+    system, region = _decided(unit, wanted), _region(unit, wanted)
     bound = None if region is None else region.edge
-    search = FixedModeSearch(unit, radii_of(unit))
+    members, outside = Members.of(system), Outside(unit.time, bound)
 
-    def failing(tries: int) -> FailingPlant | None:
-        return failing_plant(unit, search.radii, tried_sets(unit.m), tries, region)
+    def scaled(factor: Fraction) -> MultiChannelSystem:
+        """The system with radii that are multiplied by a factor."""
+        plant: MultiChannelSystem = constructed(Box(unit).scaled(factor).system, system.subject)
+        return plant
 
-    def refuted(plant: MultiChannelSystem) -> Answer | None:
-        found = fixed_spectrum(plant)
-        return None if found.empty or (region is not None and found.stabilizable) else found
+    if wanted in ("controllable", "observable"):
+        channels = tuple(range(unit.m))
+        control = ControllabilitySearch(members, channels)
+
+        def controllable(factor: Fraction) -> Answer | None:
+            part, named = control.evidence(factor, outside), system.named(channels)
+            if part is None:
+                return None
+            return BoxControllability(scaled(factor), named, bound, **vars(part))
+
+        return Proofs(lambda: control.capacity(outside), controllable, lambda: control.tested)
+    search = FixedModeSearch(members)
+
+    def not_fixed(factor: Fraction) -> Answer | None:
+        part = search.evidence(factor, outside)
+        return None if part is None else BoxFixedModes(scaled(factor), bound, **vars(part))
 
     def capacity() -> float:
-        outside = Outside(unit.time, bound)
         least = search.prepare(_NEVER_ENOUGH, outside)
         return search.improve(outside, _MORE_GAINS) if search.known else least
 
-    return Search(
+    return Proofs(
         capacity,
-        lambda growth: _about(search.cover(growth, bound), growth),
-        refuted,
-        failing,
-        lambda: severed_plants(unit, search.radii),
+        not_fixed,
         lambda: search.tested + _GAINS * len(search.known),
         # Where the plant has no mode outside of the region, only the factor up to which no mode at
         # all is fixed indicates how far the radii can grow.
@@ -479,45 +510,44 @@ def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
     )
 
 
-def _controllability(unit: MultiChannelSystem, wanted: str) -> Search:
-    system = dual(unit) if wanted == "observable" else unit
-    radii, every = radii_of(system), tuple(range(unit.m))
-    search = ControllabilitySearch(system, radii, every)
+def _failures(unit: MultiChannelSystem, wanted: str) -> Failures:
+    """The search for a plant that lacks one property."""
+    system, region = _decided(unit, wanted), _region(unit, wanted)
+    radii = radii_of(system)
+    if wanted not in ("controllable", "observable"):
 
-    def failing(tries: int) -> FailingPlant | None:
-        found = failing_plant(system, radii, [()], tries)
-        return None if found is None else turned(found)
+        def fixed(plant: MultiChannelSystem) -> Answer | None:
+            spectrum = fixed_spectrum(plant)
+            allowed = region is not None and spectrum.stabilizable
+            return None if spectrum.empty or allowed else spectrum
 
-    def turned(found: FailingPlant) -> FailingPlant:
-        """Turn a plant near the dual system into one near the plant."""
+        return Failures(
+            lambda tries: failing_plant(unit, radii, tried_sets(unit.m), tries, region),
+            lambda: severed_plants(unit, radii),
+            fixed,
+        )
+
+    def near_unit(near: FailingPlant) -> FailingPlant:
+        """The plant near ``unit`` whose dual system, or which itself, is near ``system``."""
         if system is unit:
-            return found
-        back = dual(found.plant)
+            return near
+        back = dual(near.plant)
         plant = MultiChannelSystem(
             back.A, back.B, back.C, time=unit.time, names=unit.names, neighbors=unit.neighbors
         )
-        return replace(found, plant=plant)
+        return replace(near, plant=plant)
 
-    def refuted(plant: MultiChannelSystem) -> Answer | None:
-        found = joint_controllability(plant if system is unit else dual(plant))
-        return None if found.controllable else found
+    def proposed(tries: int) -> FailingPlant | None:
+        near = failing_plant(system, radii, [()], tries)
+        return None if near is None else near_unit(near)
 
-    return Search(
-        lambda: search.capacity(Outside(unit.time, None)),
-        lambda growth: _about(search.cover(growth, None), growth),
-        refuted,
-        failing,
-        lambda: (turned(each) for each in severed_plants(system, radii, inputs=True)),
-        lambda: search.tested,
+    def uncontrollable(plant: MultiChannelSystem) -> Answer | None:
+        answer = joint_controllability(_decided(plant, wanted))
+        return None if answer.controllable else answer
+
+    return Failures(
+        proposed, lambda: map(near_unit, severed_plants(system, radii, inputs=True)), uncontrollable
     )
-
-
-def _about(found: Answer | None, growth: Fraction) -> Answer | None:
-    """The answer, rewritten to be about the box whose radii are multiplied by the factor."""
-    if found is None:
-        return None
-    plant = Box(found.about.plant).scaled(growth).system
-    return replace(found, about=constructed(plant, found.about.subject))
 
 
 # Boxes of plants with one controller.
@@ -560,8 +590,8 @@ def largest_loop_uncertainty(
     --------
     >>> from mcexact.model.statespace import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> found = largest_loop_uncertainty(plant, local_controllers(plant, [[[-3]]]))
-    >>> 0.2 < found.lower < found.upper < 0.4
+    >>> largest = largest_loop_uncertainty(plant, local_controllers(plant, [[[-3]]]))
+    >>> 0.2 < largest.lower < largest.upper < 0.4
     True
     """
     InputError.require(system, MultiChannelSystem, "system")
@@ -572,30 +602,32 @@ def largest_loop_uncertainty(
 
     with one_thread():
         search = StabilitySearch(loop, region, gain_radii(controller, 1) if gains else None)
-        tested, itself = [0], FailingPlant(Box(unit).nominal, Fraction(0), complex("nan"), ())
+        tested, itself = 0, FailingPlant(Box(unit).nominal, Fraction(0), complex("nan"), ())
 
-        def proof(growth: Fraction) -> Answer | None:
-            found = search.border(growth)
-            tested[0] += 100 if found is None else len(found.segments)
-            return found
+        def proof(factor: Fraction) -> Answer | None:
+            nonlocal tested
+            answer = search.border(factor)
+            tested += 100 if answer is None else len(answer.segments)
+            return answer
 
-        made = Search(
-            lambda: min((each for each, _ in search.margins()), default=0.0),
-            proof,
-            lambda plant: refuted_loop(search, plant),
+        proofs = Proofs(
+            lambda: min((each for each, _ in search.margins()), default=0.0), proof, lambda: tested
+        )
+        failures = Failures(
             lambda tries: failing_loop(search, tries),
             lambda: (itself, *severed_plants(unit, Box(unit).radii)),
-            lambda: tested[0],
+            lambda plant: refuted_loop(search, plant),
         )
-        return two_sided(made, f"every eigenvalue satisfies {region}", relative, effort)
+        wanted = f"every eigenvalue satisfies {region}"
+        return two_sided(proofs, failures, wanted, relative, effort)
 
 
 def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> StabilityVerdict | None:
     """The exact answer that the loop of a plant leaves the region; None if it does not."""
     loop = replace(search.loop, given=plant).system
     # With an eigenvalue on the border only the polynomial decides.
-    found = certify_stability(loop, search.region, method="polynomial")
-    return None if found.stable else found
+    verdict = certify_stability(loop, search.region, method="polynomial")
+    return None if verdict.stable else verdict
 
 
 def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
@@ -619,15 +651,15 @@ def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
         near = pencil.drop(point, freedom)
         if near is None or (best is not None and near.size >= best.distance):
             continue
-        made = pencil.exact(near, freedom)
-        if made is not None and (best is None or made[1] < best.distance):
-            moved = _changed(nominal, signals, made[0])
-            best = FailingPlant(moved, made[1], near.point, ())
+        change = pencil.exact(near, freedom)
+        if change is not None and (best is None or change[1] < best.distance):
+            member = _changed(nominal, signals, change[0])
+            best = FailingPlant(member, change[1], near.point, ())
     return best
 
 
 def _changed(plant: MultiChannelSystem, signals: LoopPencil, change: Matrix) -> MultiChannelSystem:
-    """The plant whose entries are moved as those of the pencil are."""
+    """The plant whose entries are changed as those of the pencil are."""
 
     def part(rows: tuple[str, int], cols: tuple[str, int]) -> Matrix:
         (top, height), (left, width) = (signals.blocks[kind, j, 0] for kind, j in (rows, cols))
@@ -696,8 +728,8 @@ class LargestRanges(Shown):
 
     def explain(self) -> str:
         """Say in plain words for which part the property is proved, and where it fails."""
-        (_, wanted), *told = self.rows()
-        return f"{wanted}: {'; '.join(f'{label} {text}' for label, text in told)}"
+        (_, wanted), *rows = self.rows()
+        return f"{wanted}: {'; '.join(f'{label} {text}' for label, text in rows)}"
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         yield from self.rows()
@@ -754,8 +786,8 @@ def largest_loop_ranges(
     >>> plant = ParametricSystem(
     ...     [["k"]], [[[1]]], [[[1]]], parameters=["k"], assume={"k": (-4, 8)}
     ... )
-    >>> found = largest_loop_ranges(plant, local_controllers(plant.at({"k": 1}), [[[-3]]]))
-    >>> 0 < found.lower < found.upper < 1, 3 <= found.failing["k"] < 4
+    >>> largest = largest_loop_ranges(plant, local_controllers(plant.at({"k": 1}), [[[-3]]]))
+    >>> 0 < largest.lower < largest.upper < 1, 3 <= largest.failing["k"] < 4
     (True, True)
     """
     InputError.require(system, ParametricSystem, "system")
@@ -763,8 +795,9 @@ def largest_loop_ranges(
     region = StabilityRegion.of(system.time, rate, radius)
     search = LoopSearch(system, controller, graph, region, gains, _MOST)
     with one_thread():
-        failing = _Directions(search, whole_cell(system)).nearest(2 + int(_DIRECTIONS * effort))
-        lower, proof = _largest_part(search, _SEGMENTS * effort, failing)
+        rays = _Directions(system, search, whole_cell(system))
+        failing = rays.nearest(2 + int(_DIRECTIONS * effort))
+        lower, proof = _largest_part(system, search, _SEGMENTS * effort, failing)
     wanted = f"every eigenvalue satisfies {region}"
     if failing is None:
         return LargestRanges(wanted, lower, proof, None, None, None)
@@ -776,13 +809,13 @@ Failing = tuple[Fraction, dict[str, Fraction], StabilityVerdict]
 
 
 def _largest_part(
-    search: LoopSearch, work: float, failing: Failing | None
+    system: ParametricSystem, search: LoopSearch, work: float, failing: Failing | None
 ) -> tuple[Fraction, ParametricBoxStability | None]:
     """The largest part of the ranges with a proof, and the proof."""
 
     def proof(part: Fraction) -> ParametricBoxStability | None:
         try:
-            return search.proof(_scaled(search.system, part))
+            return search.proof(_scaled(system, part))
         except LimitReached:
             return None
 
@@ -791,13 +824,10 @@ def _largest_part(
     if whole is not None:
         return Fraction(1), whole
     beyond = 1.0 if failing is None else to_float(failing[0])
-    # failing values are searched by `_Directions`, so this search has no failing plants of its own
-    wanted = Search(
-        lambda: 1.0, proof, lambda _: None, lambda _: None, lambda: (), lambda: search.tested
-    )
     search.limit = search.tested + work
-    lower, found = largest_factor(wanted, work, beyond)
-    return lower, found if isinstance(found, ParametricBoxStability) else None
+    proofs = Proofs(lambda: 1.0, proof, lambda: search.tested)
+    lower, answer = largest_factor(proofs, work, beyond)
+    return lower, answer if isinstance(answer, ParametricBoxStability) else None
 
 
 def _scaled(system: ParametricSystem, part: Fraction) -> ParametricSystem:
@@ -815,19 +845,18 @@ def _scaled(system: ParametricSystem, part: Fraction) -> ParametricSystem:
 class _Directions:
     """Values along rays from the middle of the ranges, and whether the loop fails there."""
 
+    system: ParametricSystem
     search: LoopSearch
     cell: Cell
 
     def plant(self, direction: Floats, part: Fraction) -> tuple[MultiChannelSystem | None, Any]:
         """The plant at a part of the way along a direction, if it is defined, and the values."""
         values = {}
-        for name, (low, high), d in zip(
-            self.search.system.parameters, self.cell, direction, strict=True
-        ):
+        for name, (low, high), d in zip(self.system.parameters, self.cell, direction, strict=True):
             share = part * Fraction(round(float(d) * 1024), 1024)
             values[name] = (low + high) / 2 + share * (high - low) / 2
         try:
-            return self.search.system.at(values), values
+            return self.system.at(values), values
         except InputError:
             return None, values
 
@@ -880,10 +909,10 @@ class _Directions:
         near = Fraction(-(-high.numerator * _DIGITS // high.denominator), _DIGITS)
         for part in (min(near, most), high, grid[last]):
             plant, values = self.plant(direction, part)
-            found = None if plant is None else self.search.refuted(plant)
-            if found is not None:
+            refutation = None if plant is None else self.search.refuted(plant)
+            if refutation is not None:
                 reached = max(abs(share) for share in self._shares(values))
-                return reached, values, found
+                return reached, values, refutation
         return None
 
     def _shares(self, values: Mapping[str, Fraction]) -> Iterator[Fraction]:

@@ -1,12 +1,13 @@
 """Closed loops of every member.
 
-`box_stability` proves that one controller keeps all loops of a box in a region: the stable region,
-a half-plane of a rate, or a disc of a radius.  The gains can have radii, too: parts of their
-moduli, or those of rounding to some digits.  If no proof is found, it raises `LimitReached`, which
-proves nothing.
+`box_stability` proves that one controller keeps the loops of all members in a region: the stable
+region, a half-plane of a rate, or a disc of a radius.  The members are the plants of a box, or
+those at all values of parameters in ranges, which `boxes.cells` cuts in half until each cell is
+proved.  The gains can have radii, too: parts of their moduli, or those of rounding to some digits.
+If no proof is found, it raises `LimitReached`, which proves nothing.
 
-The argument is continuity.  The nominal loop is in the region, by `certify_stability`; the box is
-connected; and no member has an eigenvalue on the border.  So no eigenvalue crosses it.
+The argument is continuity.  The nominal loop is in the region, by `certify_stability`; the set of
+members is connected; and no member has an eigenvalue on the border.  So no eigenvalue crosses it.
 
 That the border is free of eigenvalues is tested on the pencil of the loop, whose entries are those
 of the plant and of the controller, so that no radius is enlarged by a product.  In continuous time
@@ -14,29 +15,26 @@ the border is the line Re λ = −rate from 0 up to a number R: weights of the s
 member has an eigenvalue of modulus R or more.  In discrete time it is the upper half circle.  It is
 cut into segments until each, by the disc of which it is a diameter or a chord, passes the exact
 test of `boxes.pencils`, in integers.  The lower half follows by symmetry.
-
-For plants with parameters `parametric_box_stability` cuts the ranges in half until each cell has
-such a proof (`boxes.cells`).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
 from typing import Any, overload
 
 import numpy as np
 
-from mcexact.analysis.boxes.cells import CellBox, proofs_of_cells
+from mcexact.analysis.boxes.cells import Family, proofs
 from mcexact.analysis.boxes.pencils import (
     Frames,
+    Members,
     Pencil,
     Point,
     modulus_above,
-    one_thread,
     perron,
     require_float_range,
     whole_weights,
@@ -46,7 +44,7 @@ from mcexact.answer.boxes import BoxStability, ParametricBoxStability, Stability
 from mcexact.answer.evidence import InverseFrame
 from mcexact.answer.loops import LyapunovMethod, PolynomialMethod, StabilityVerdict
 from mcexact.derived.constructions import add_links, looped
-from mcexact.errors import InputError, InternalError, LimitReached
+from mcexact.errors import InputError, InternalError
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 from mcexact.exact.rational import as_fraction
 from mcexact.exact.roots import StabilityRegion
@@ -55,7 +53,7 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, LoopPencil, closed_loop
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.radii import Radii, moduli
+from mcexact.model.radii import moduli
 from mcexact.model.system import MultiChannelSystem
 
 # Radii of the gains of a controller, held in a controller of the same form.
@@ -64,7 +62,7 @@ from mcexact.model.system import MultiChannelSystem
 def with_gains(controller: Controller, of: Callable[[Matrix], Matrix]) -> Controller:
     """The controller with each matrix of gains replaced by a function of it, without set-points."""
 
-    def made(each: LinearMap) -> LinearMap:
+    def mapped(each: LinearMap) -> LinearMap:
         return LinearMap(
             {j: of(M) for j, M in each.outputs.items()},
             {j: of(M) for j, M in each.shared.items()},
@@ -72,7 +70,7 @@ def with_gains(controller: Controller, of: Callable[[Matrix], Matrix]) -> Contro
         ).without_zeros()
 
     def program(agent: AgentProgram) -> AgentProgram:
-        first, second, third = map(made, agent.maps())
+        first, second, third = map(mapped, agent.maps())
         return replace(agent, shared_update=first, private_update=second, input=third)
 
     return replace(controller, agents=tuple(map(program, controller.agents)))
@@ -123,12 +121,12 @@ def digit_radii(controller: Controller, digits: int) -> Controller:
     Fraction(3, 5)
     """
 
-    def moved(x: Fraction) -> Fraction:
+    def radius(x: Fraction) -> Fraction:
         low, high = rounded_ends(x, digits)
         return max(x - low, high - x)
 
     def radii(M: Matrix) -> Matrix:
-        entries = ((i, j, moved(Fraction(x, M.denominator))) for i, j, x in M.nonzero())
+        entries = ((i, j, radius(Fraction(x, M.denominator))) for i, j, x in M.nonzero())
         return Matrix.from_entries(M.shape, entries)
 
     return with_gains(controller, radii)
@@ -160,28 +158,27 @@ def _unit(x: Fraction, digits: int) -> Fraction:
 
 # The border of a region, cut into segments that pass the test of a disc.
 
-_MOST_SEGMENTS = 4000
+_MOST_SEGMENTS, _MOST_SEGMENTS_OF_CELL = 4000, 1000
+"""The parts of the border that are tried at most; a cell that needs more is cut."""
 _SHORTEST = Fraction(1, 10**12)
 """The part of the whole border below which a segment is not cut again."""
 
 
 @dataclass
 class StabilitySearch:
-    """The search for a proof about one loop, for several factors of all radii.
+    """The search for a proof about the loops of all members, for several factors of all radii.
 
     Attributes
     ----------
     loop : ClosedLoop
-        The loop of a plant whose radii are those of the box.
+        The loop of the nominal plant.
     region : StabilityRegion
     radii : Controller or None
         The radii of the gains, as a controller; None if they are certain.
     most : int
         The largest number of segments of the border that are tested for one factor.
-    spread : Radii, optional
-        The radii of the plant, by default those of its box.
-    tied : tuple of MultiChannelSystem
-        Systems whose matrices may be added to the plant's, each with a factor from −1 to 1.
+    members : Members, optional
+        By default those of the box of the plant.
     tested : int
         The number of segments tested so far.
     """
@@ -190,22 +187,23 @@ class StabilitySearch:
     region: StabilityRegion
     radii: Controller | None = None
     most: int = _MOST_SEGMENTS
-    spread: Radii | None = None
-    tied: tuple[MultiChannelSystem, ...] = ()
+    members: Members | None = None
     tested: int = 0
 
     def __post_init__(self) -> None:
         from scipy.linalg import matrix_balance
 
         signals = LoopPencil(self.loop.given, self.loop.controller, self.loop.graph)
-        spread = self.spread or Box(self.loop.given).radii
-        plant = MultiChannelSystem(spread.A, spread.B, spread.C, time=self.loop.given.time)
+        plant = self.loop.given
+        members = self.members or Members(plant, Box(plant).radii)
+        A, B, C = members.radii.A, members.radii.B, members.radii.C
+        radii = MultiChannelSystem(A, B, C, time=plant.time)
         certain = gain_radii(self.loop.controller, 0)
-        Z0, D = signals.matrix, signals.with_entries(plant, self.radii or certain, 0)
-        tied = tuple(signals.with_entries(each, certain, 0) for each in self.tied)
-        require_float_range([Z0], [D, *tied])
+        Z0, D = signals.matrix, signals.with_entries(radii, self.radii or certain, 0)
+        generators = tuple(signals.with_entries(each, certain, 0) for each in members.generators)
+        require_float_range([Z0], [D, *generators])
         _, (s, _) = matrix_balance(matrix_to_float(Z0), permute=False, separate=True)
-        self.pencil = Pencil(Z0, D, signals.states, s, tied)
+        self.pencil = Pencil(Z0, D, signals.states, s, generators)
 
     def margins(self) -> list[tuple[float, complex]]:
         """About how far the radii can grow at points of the border, the least first.
@@ -230,16 +228,15 @@ class StabilitySearch:
         margins = ((self.pencil.margin(complex(point)), complex(point)) for point in points)
         return sorted(margins, key=lambda each: each[0])
 
-    def border(self, growth: Fraction) -> BoxStability | None:
+    def border(self, factor: Fraction) -> BoxStability | None:
         """The answer for radii that are multiplied by a factor; None if no proof is found."""
-        found = self.evidence(growth)
-        if found is None:
+        evidence = self.evidence(factor)
+        if evidence is None:
             return None
-        radii = None if self.radii is None else _scaled(self.radii, growth).document()
-        parts = (getattr(found, each.name) for each in fields(found))
-        return BoxStability(self._about(growth), self.region.bound, radii, *parts)
+        radii = None if self.radii is None else _scaled(self.radii, factor).document()
+        return BoxStability(self._about(factor), self.region.bound, radii, **vars(evidence))
 
-    def evidence(self, growth: Fraction) -> StabilityOfCell | None:
+    def evidence(self, factor: Fraction) -> StabilityOfCell | None:
         """Search a proof for radii that are multiplied by a factor; None if the search fails."""
         nominal = certify_stability(self.loop.system, self.region)
         if not nominal.stable:
@@ -247,7 +244,7 @@ class StabilitySearch:
         evidence = nominal.evidence
         if not isinstance(evidence, (PolynomialMethod, LyapunovMethod)):
             raise InternalError("a stable loop has another proof than its own two")
-        far = None if self.region.discrete else _growth(self.pencil, growth)
+        far = None if self.region.discrete else _last_point(self.pencil, factor)
         if far is None and not self.region.discrete:
             return None
         frames = Frames()
@@ -262,31 +259,31 @@ class StabilitySearch:
             if k is not None:
                 return k
             near = complex(to_float(c[0]), to_float(c[1]))
-            proposed = self.pencil.proposal(near, to_float(rho), growth)
+            proposed = self.pencil.proposal(near, to_float(rho), factor)
             return None if proposed is None else frames.added(proposed, c, rho)
 
-        found = _segments(test, last, self.most)
-        if found is None:
+        segments = _segments(test, last, self.most)
+        if segments is None:
             return None
-        ends = [b for _, b, _ in found]
+        ends = [b for _, b, _ in segments]
         points = ends if far is not None else [_tangent(b) for b in ends[:-1]]
         return StabilityOfCell(
             evidence,
             tuple(points),
             None if far is None else far[1],
-            tuple(k for _, _, k in found),
+            tuple(k for _, _, k in segments),
             tuple(InverseFrame(V.evidence(), w) for V, w in frames.evidence),
         )
 
-    def _about(self, growth: Fraction) -> MultiChannelSystem:
+    def _about(self, factor: Fraction) -> MultiChannelSystem:
         """The loop of the box whose radii are multiplied by a factor."""
-        if growth == 1:
+        if factor == 1:
             return self.loop.system
-        return replace(self.loop, given=Box(self.loop.given).scaled(growth).system).system
+        return replace(self.loop, given=Box(self.loop.given).scaled(factor).system).system
 
 
-def _scaled(radii: Controller, growth: Fraction) -> Controller:
-    return radii if growth == 1 else gain_radii(radii, growth)
+def _scaled(radii: Controller, factor: Fraction) -> Controller:
+    return radii if factor == 1 else gain_radii(radii, factor)
 
 
 def _segments(
@@ -294,20 +291,20 @@ def _segments(
 ) -> list[tuple[Fraction, Fraction, int]] | None:
     """Cut [0, last] into intervals that pass a test, each with what the test returns."""
     left = [(Fraction(0), last)]
-    found: list[tuple[Fraction, Fraction, int]] = []
+    segments: list[tuple[Fraction, Fraction, int]] = []
     tested = 0
     while left:
         a, b = left.pop()
         tested += 1
         k = test(a, b)
         if k is not None:
-            found.append((a, b, k))
+            segments.append((a, b, k))
             continue
         if tested > most or b - a < _SHORTEST * last:
             return None
         middle = b / 4 if a == 0 and b > 4 else (a + b) / 2 if b < 4 * a or a == 0 else 2 * a
         left += [(middle, b), (a, middle)]
-    return found
+    return segments
 
 
 def _interval(rate: Fraction) -> Callable[[Fraction, Fraction], tuple[Point, Fraction]]:
@@ -339,11 +336,11 @@ def _tangent(a: Fraction) -> Fraction:
     return a if a <= 1 else 1 / (2 - a)
 
 
-def _growth(pencil: Pencil, growth: Fraction) -> tuple[Fraction, tuple[int, ...]] | None:
+def _last_point(pencil: Pencil, factor: Fraction) -> tuple[Fraction, tuple[int, ...]] | None:
     """A number R, and weights of the states by which no member has an eigenvalue of modulus ≥ R."""
     Z0, D, _ = pencil.balanced
-    moved = D + sum(map(np.abs, pencil.balanced_ties))
-    top, N = np.abs(Z0) + float(growth) * moved, pencil.n
+    radii = D + sum(map(np.abs, pencil.balanced_generators))
+    top, N = np.abs(Z0) + float(factor) * radii, pencil.n
     X = np.vstack([np.eye(N), np.zeros((len(top) - N, N))])
     for i in range(N, len(top)):
         X[i] = top[i, :i] @ X[:i]
@@ -352,12 +349,12 @@ def _growth(pencil: Pencil, growth: Fraction) -> tuple[Fraction, tuple[int, ...]
         return (Fraction(1), ()) if not N else None
     w = np.maximum(perron(H, 20)[1], 1e-6)
     g = whole_weights(w * pencil.scale[:N])
-    return _least_radius(pencil, growth, g), g
+    return _least_radius(pencil, factor, g), g
 
 
-def _least_radius(pencil: Pencil, growth: Fraction, g: tuple[int, ...]) -> Fraction:
-    """An integer R above Σ_j (|Z0| + D)_ij g_j / g_i for every dynamic row i, D with the ties."""
-    most = moduli(pencil.Z0) + sum(map(moduli, pencil.tied), pencil.D) * growth
+def _least_radius(pencil: Pencil, factor: Fraction, g: tuple[int, ...]) -> Fraction:
+    """An integer R above Σ_j (|Z0| + D)_ij g_j / g_i for every dynamic row i, D of all changes."""
+    most = moduli(pencil.Z0) + sum(map(moduli, pencil.generators), pencil.D) * factor
     rows, d = most.numerators, most.denominator
     sizes = [Fraction(x) for x in g]
     for row in rows[pencil.n :]:
@@ -399,7 +396,7 @@ def box_stability(
     radius: Any = None,
     gains: Any = None,
 ) -> BoxStability | ParametricBoxStability:
-    """Prove that one controller keeps every plant in a box stable, or fast enough.
+    """Prove that one controller keeps every member of a family stable, or fast enough.
 
     Parameters
     ----------
@@ -409,7 +406,8 @@ def box_stability(
         (`ParametricBoxStability`).
     controller : Controller
     graph : NeighborGraph, optional
-        Overrides ``system.neighbors``.
+        Overrides ``system.neighbors``.  A plant with parameters has no links by default, and the
+        links of a graph have no delays then.
     rate, radius : rational, optional
         A rate in continuous time, a radius in discrete time; by default stability is proved.
     gains : rational or Controller, optional
@@ -435,83 +433,31 @@ def box_stability(
     Traceback (most recent call last):
         ...
     mcexact.errors.LimitReached: no proof was found that every loop in the box has Re λ < 0
-    """
-    if isinstance(system, ParametricSystem):
-        return parametric_box_stability(
-            system, controller, graph, rate=rate, radius=radius, gains=gains
-        )
-    InputError.require(system, MultiChannelSystem, "system")
-    InputError.require(controller, Controller, "controller")
-    region, radii = StabilityRegion.of(system.time, rate, radius), radii_of_gains(controller, gains)
-    with one_thread():
-        search = StabilitySearch(closed_loop(system, controller, graph), region, radii)
-        found = search.border(Fraction(1))
-    if found is None:
-        raise LimitReached(f"no proof was found that every loop in the box has {region}")
-    return found
-
-
-# The same for all values of parameters within their ranges.
-
-_MOST_SEGMENTS_OF_CELL = 1000
-"""The parts of the border that are tried at most; a cell that needs more is cut."""
-
-
-def parametric_box_stability(
-    system: ParametricSystem,
-    controller: Controller,
-    graph: NeighborGraph | None = None,
-    *,
-    rate: Any = None,
-    radius: Any = None,
-    gains: Any = None,
-) -> ParametricBoxStability:
-    """Prove that a loop is stable, or fast enough, at all values of parameters within their ranges.
-
-    Parameters
-    ----------
-    system : ParametricSystem
-        Every parameter has a range with two ends.
-    controller : Controller
-    graph : NeighborGraph, optional
-        The links between agents, without delays; by default there are none.
-    rate, radius, gains : optional
-        As for `box_stability`.
-
-    Raises
-    ------
-    LimitReached
-        If no proof was found; if the loop is unstable at some values, the message names them.
-
-    Examples
-    --------
-    >>> from mcexact.model.statespace import local_controllers
-    >>> plant = ParametricSystem(
+    >>> family = ParametricSystem(
     ...     [["k"]], [[["k"]]], [[[1]]], parameters=["k"], assume={"k": ("1/2", 2)}
     ... )
-    >>> gain = local_controllers(plant.at({"k": 1}), [[[-3]]])
-    >>> str(parametric_box_stability(plant, gain, rate="1/2").bound)
-    '1/2'
-    >>> parametric_box_stability(plant, gain, rate=2)
+    >>> box_stability(family, gain, rate=2)
     Traceback (most recent call last):
         ...
     mcexact.errors.LimitReached: not every eigenvalue has Re λ < -2 at k = 7/8
     """
-    InputError.require(system, ParametricSystem, "system")
+    if not isinstance(system, ParametricSystem):
+        InputError.require(system, MultiChannelSystem, "system")
     region = StabilityRegion.of(system.time, rate, radius)
-    return LoopSearch(system, controller, graph, region, gains).proof(system)
+    most = _MOST_SEGMENTS_OF_CELL if isinstance(system, ParametricSystem) else _MOST_SEGMENTS
+    return LoopSearch(system, controller, graph, region, gains, most).proof(system)
 
 
 @dataclass
 class LoopSearch:
-    """The search for a proof about one controller, for several ranges of the parameters.
+    """The search for a proof about one controller, for a box or for several ranges of parameters.
 
     Attributes
     ----------
-    system : ParametricSystem
+    system : MultiChannelSystem or ParametricSystem
     controller : Controller
     graph : NeighborGraph or None
-        The links between agents, without delays.
+        As for `box_stability`.
     region : StabilityRegion
     gains : rational or Controller, optional
         As for `box_stability`.
@@ -523,7 +469,7 @@ class LoopSearch:
         About how many segments were tested so far.
     """
 
-    system: ParametricSystem
+    system: Family
     controller: Controller
     graph: NeighborGraph | None
     region: StabilityRegion
@@ -537,42 +483,59 @@ class LoopSearch:
         self.radii = radii_of_gains(self.controller, self.gains)
 
     def loop(self, plant: MultiChannelSystem) -> ClosedLoop:
-        """The loop of the plant at some values."""
+        """The loop of the plant, or of the plant at some values."""
+        if not isinstance(self.system, ParametricSystem):
+            return closed_loop(plant, self.controller, self.graph)
+        # A plant with parameters has no graph of its own: links are a construction.
         if self.graph is not None:
             plant = add_links(plant.with_neighbors({}), self.graph.edges())
         return closed_loop(plant, self.controller)
 
     def refuted(self, plant: MultiChannelSystem) -> StabilityVerdict | None:
         """The exact answer that a loop leaves the region; None if it does not."""
-        found = certify_stability(self.loop(plant).system, self.region)
-        return None if found.stable else found
+        verdict = certify_stability(self.loop(plant).system, self.region)
+        return None if verdict.stable else verdict
 
-    def proof(self, system: ParametricSystem) -> ParametricBoxStability:
-        """The answer for the system with these ranges.
+    @overload
+    def proof(self, system: MultiChannelSystem) -> BoxStability: ...
+    @overload
+    def proof(self, system: ParametricSystem) -> ParametricBoxStability: ...
+    def proof(self, system: Family) -> BoxStability | ParametricBoxStability:
+        """The answer for the system with these radii, or with these ranges.
 
         Raises
         ------
         LimitReached
             If no proof was found.
         """
-        about = looped(system, lambda plant: self.loop(plant).system)
-        cuts, parts = proofs_of_cells(
+        if isinstance(system, ParametricSystem):
+            ranges = looped(system, lambda plant: self.loop(plant).system)
+        else:
+            loop, system = self.loop(system), Box(system).system
+        cuts, parts = proofs(
             system,
-            self._of_cell,
+            self._evidence,
             lambda plant: self.refuted(plant) is not None,
-            f"not every eigenvalue has {self.region}",
+            claim=f"every loop in the box has {self.region}",
+            failure=f"not every eigenvalue has {self.region}",
         )
-        claimed = None if self.radii is None else self.radii.document()
-        return ParametricBoxStability(about, self.region.bound, claimed, cuts, parts)
+        radii = None if self.radii is None else self.radii.document()
+        if isinstance(system, ParametricSystem):
+            return ParametricBoxStability(ranges, self.region.bound, radii, cuts, parts)
+        return BoxStability(loop.system, self.region.bound, radii, **vars(parts[0]))
 
-    def _of_cell(self, box: CellBox) -> StabilityOfCell | None:
-        """The evidence about a box around the plants of a cell."""
+    def _evidence(self, members: Members) -> StabilityOfCell | None:
+        """The evidence about the members of a box, or of a cell."""
         if self.tested > self.limit:
             return None
-        loop = self.loop(box.system)
-        search = StabilitySearch(loop, self.region, self.radii, self.most, box.radii, box.tied)
-        # If floating point already shows that the radii are too large, no segment is tested.
-        least = min((each for each, _ in search.margins()), default=0.0)
-        found = search.evidence(Fraction(1)) if least > 1 else None
-        self.tested += 1 if least <= 1 else self.most if found is None else len(found.segments)
-        return found
+        loop = self.loop(members.system)
+        search = StabilitySearch(loop, self.region, self.radii, self.most, members)
+        if isinstance(self.system, ParametricSystem):
+            # A cell is cut, and no segment tested, if its radii seem too large in floating point.
+            least = min((each for each, _ in search.margins()), default=0.0)
+            if least <= 1:
+                self.tested += 1
+                return None
+        evidence = search.evidence(Fraction(1))
+        self.tested += self.most if evidence is None else len(evidence.segments)
+        return evidence

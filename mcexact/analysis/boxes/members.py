@@ -1,8 +1,9 @@
 """Fixed modes, controllability and set-points of every member.
 
 A member is a plant in a box, where each entry has a radius, or the plant at one point of the ranges
-of its parameters.  Each function proves its property for all members, or raises `LimitReached`,
-which proves nothing.  A proof has three parts:
+of its parameters.  Each function proves its property for all members of either family, or raises
+`LimitReached`, which proves nothing.  `boxes.cells` cuts ranges in half until each cell is proved;
+a box is one cell.  The proof of a cell has three parts:
 
 1. discs that contain all eigenvalues of all members (`boxes.cover`);
 2. a tree of squares over these discs, without what lies inside of an allowed region;
@@ -22,9 +23,6 @@ inverse of a pencil.  The questions differ in the pencil:
   plant with an integrator of every output.
 - Channels T control every mode (`box_controllability`): [λI − A, −B_T] has a right inverse, which
   needs no search for gains.  `box_observability` decides it of the dual system.
-
-For plants with parameters the ranges are cut in half until each cell has such a proof
-(`boxes.cells`).
 """
 
 from __future__ import annotations
@@ -37,13 +35,14 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from mcexact.analysis.boxes.cells import CellBox, proofs_of_cells
-from mcexact.analysis.boxes.cover import MANY, Cover, GainBox, Outside, disc_lists
+from mcexact.analysis.boxes.cells import proofs
+from mcexact.analysis.boxes.cover import MANY, Cover, GainBox, Outside, Test, disc_lists
 from mcexact.analysis.boxes.pencils import (
     ComplexRows,
     FloatBox,
     Floats,
     Frames,
+    Members,
     Pencil,
     Point,
     RegularDiscs,
@@ -51,10 +50,7 @@ from mcexact.analysis.boxes.pencils import (
     dyadic,
     entries,
     gain_pencil,
-    independent,
-    one_thread,
     perron,
-    radii_of,
     weights,
     whole_weights,
 )
@@ -152,12 +148,12 @@ def best_gains(
     def ranked(vectors: Iterable[Floats]) -> list[tuple[float, Floats]]:
         return sorted(((value(t)[0], t) for t in vectors), key=lambda each: each[0])
 
-    begun = ranked(shape.vector(each) for each in known)[:_KNOWN]
-    begun += ranked(_start(box, shape, rng) for _ in range(_DRAWS * starts))[:starts]
-    best, found = min(begun, key=lambda each: each[0])
-    if np.exp(-best) > _ENOUGH * target:
-        return float(np.exp(-best)), shape.gains(found)
-    for _, t in begun:
+    ranking = ranked(shape.vector(each) for each in known)[:_KNOWN]
+    ranking += ranked(_start(box, shape, rng) for _ in range(_DRAWS * starts))[:starts]
+    least, best = min(ranking, key=lambda each: each[0])
+    if np.exp(-least) > _ENOUGH * target:
+        return float(np.exp(-least)), shape.gains(best)
+    for _, t in ranking:
         unit = np.maximum(np.abs(t), 1e-3 * np.abs(t).max())
 
         def scaled(z: Floats, unit: Floats = unit) -> tuple[float, Floats]:
@@ -167,11 +163,11 @@ def best_gains(
         result = minimize(
             scaled, t / unit, jac=True, method="L-BFGS-B", options={"maxiter": _ROUNDS}
         )
-        if result.fun < best:
-            best, found = float(result.fun), result.x * unit
-        if np.exp(-best) > _GOOD * target:
+        if result.fun < least:
+            least, best = float(result.fun), result.x * unit
+        if np.exp(-least) > _GOOD * target:
             break
-    return float(np.exp(-best)), shape.gains(found)
+    return float(np.exp(-least)), shape.gains(best)
 
 
 def exact_gains(gains: Gains) -> tuple[tuple[Matrix, ...], tuple[Matrix, ...]]:
@@ -234,8 +230,8 @@ def _logarithm(box: FloatBox, shape: _Shape, t: Floats, point: complex) -> tuple
         by_X = by_Z[rows, :n] @ C_i.T + np.sign(X_i) * (by_D[rows, :n] @ DC_i.T)
         gradient += [by_X.ravel(), by_Z[rows, rows].ravel()]
         start += len(W_i)
-    found = np.concatenate(gradient) / value
-    return float(np.log(value)), np.where(np.isfinite(found), found, 0.0)
+    by_t = np.concatenate(gradient) / value
+    return float(np.log(value)), np.where(np.isfinite(by_t), by_t, 0.0)
 
 
 def _pencil(
@@ -258,11 +254,28 @@ def _pencil(
 
 # Fixed modes of the members, with other gains for each part of the plane.
 
-_MOST_SQUARES = 3000
+
+@dataclass(frozen=True)
+class _Work:
+    """What the search for a proof may do.
+
+    Attributes
+    ----------
+    squares : int
+        The most discs and squares of a cover; there are fewer of a large plant.
+    own_gains : int
+        For at most so many squares gains are searched that no other square has used before.
+    """
+
+    squares: int
+    own_gains: int
+
+
+_OF_BOX, _OF_CELL = _Work(3000, 12), _Work(200, 1)
+"""A cell that needs more is cut."""
 _NEAREST = 10
 _OWN_GAINS_AT = (3, 6, 10, 15)
 """A square that fails at one of these depths gets gains of its own."""
-_MOST_OWN = 12
 _NEVER_ENOUGH = 1e30
 _REUSED = 8.0
 """Gains that suffice for so many times the radii at a mode are used there again."""
@@ -279,62 +292,54 @@ class _Known:
 
 @dataclass
 class FixedModeSearch:
-    """The search for a proof about one system, which keeps its gains for further radii.
+    """The search for a proof about all members, which keeps its gains for further radii.
 
     Attributes
     ----------
-    system : MultiChannelSystem
-    radii : Radii
+    members : Members
     starts : int
         How many local searches for gains there are at most at a point.
-    most_squares : int
-        The most discs and squares of a cover; there are fewer of a large plant.
     several : bool, optional
         Whether to intersect the exterior discs of several matrices A_F; by default for large
         plants only.
-    tied : tuple of MultiChannelSystem
-        What may be added to the system, each with a factor from −1 to 1.
-    most_own : int
-        For at most so many squares gains are searched that no other square has used before.
+    work : _Work
     tested : int
         The number of discs and squares tested so far.
     """
 
-    system: MultiChannelSystem
-    radii: Radii
+    members: Members
     starts: int = 4
-    most_squares: int = _MOST_SQUARES
     several: bool | None = None
-    tied: tuple[MultiChannelSystem, ...] = ()
-    most_own: int = _MOST_OWN
+    work: _Work = _OF_BOX
     known: list[_Known] = field(default_factory=list)
     rng: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
     tested: int = 0
 
     def __post_init__(self) -> None:
-        self.box = FloatBox.of(self.system, self.radii, self.tied)
+        self.box = FloatBox.of(self.members)
         if self.several is None:
-            self.several = self.system.n >= MANY
+            self.several = self.members.system.n >= MANY
         self.alone = _Known(0j, None, self._pencil(None))
 
     def _pencil(self, gains: PencilGains | None) -> Pencil:
         X, W = (None, None) if gains is None else (gains.X, gains.W)
-        return gain_pencil(self.system, self.radii, self.box.scale, X, W, self.tied)
+        return gain_pencil(self.members, self.box.scale, X, W)
 
     def reuse(self, other: FixedModeSearch) -> None:
         """Adopt the gains of another search, about a system of the same shapes."""
         for each in other.known:
             self.known.append(_Known(each.point, each.gains, self._pencil(each.gains)))
 
-    def learn(self, point: complex, growth: float, size: float = 0.0) -> float:
+    def learn(self, point: complex, target: float, size: float = 0.0) -> float:
         """Search gains for a point, and return how far the radii can grow there with them.
 
-        The gains have to suffice on the disc of radius ``size`` around the point: those that are
-        best at the point alone can make the pencil nearly singular beside it.
+        The search ends early far above the factor ``target`` of the radii.  The gains have to
+        suffice on the disc of radius ``size`` around the point: those that are best at the point
+        alone can make the pencil nearly singular beside it.
         """
-        box = self.box.wider(size / growth)
+        box = self.box.wider(size / target)
         known = [_floats(each.gains) for each in self.known if size and each.gains is not None]
-        best = best_gains(box, point, self.rng, starts=self.starts, target=growth, known=known)
+        best = best_gains(box, point, self.rng, starts=self.starts, target=target, known=known)
         if best is None:
             return 0.0
         gains = PencilGains(*exact_gains(best[1]))
@@ -342,7 +347,7 @@ class FixedModeSearch:
         return self.known[-1].pencil.margin(point)
 
     def prepare(
-        self, growth: float, outside: Outside, lists: Sequence[ExteriorDiscs] = ()
+        self, target: float, outside: Outside, lists: Sequence[ExteriorDiscs] = ()
     ) -> float:
         """Learn gains for all modes, and return how far the radii can grow at each of them.
 
@@ -351,11 +356,11 @@ class FixedModeSearch:
         least = np.inf
         for mode in self.box.modes():
             # A mode well inside of the region is left out, as its disc will be.
-            if outside.covers(mode) or not all(_among(mode, each.discs) for each in lists):
+            if outside.has_point(mode) or not all(_among(mode, each.discs) for each in lists):
                 continue
             best = max((each.pencil.margin(mode) for each in self.known), default=0.0)
-            if best <= _REUSED * growth:
-                best = max(best, self.learn(mode, growth))
+            if best <= _REUSED * target:
+                best = max(best, self.learn(mode, target))
             least = min(least, best)
         return float(least)
 
@@ -363,7 +368,7 @@ class FixedModeSearch:
         """Search gains at the mode that limits the radii, and return how far these can grow."""
         least = 0.0
         for k in range(rounds + 1):
-            modes = [mode for mode in self.box.modes() if not outside.covers(mode)]
+            modes = [mode for mode in self.box.modes() if not outside.has_point(mode)]
             best = [(max(e.pencil.margin(mode) for e in self.known), mode) for mode in modes]
             if not best or not self.known:
                 return np.inf
@@ -372,25 +377,24 @@ class FixedModeSearch:
                 self.learn(mode, _NEVER_ENOUGH)
         return float(least)
 
-    def cover(self, growth: Fraction, bound: Fraction | None) -> BoxFixedModes | None:
-        """Search a proof for radii that are multiplied by a factor; None if the search fails.
+    def capacity(self, outside: Outside) -> float:
+        """How far the radii can grow at the modes; infinite if that is not known in advance.
 
-        The answer names the box of the system itself: with a factor other than 1 it has to be
-        rewritten for the larger or smaller box before it is a certificate.
+        Of a large plant few modes are left where the discs of several matrices meet.
         """
-        system, outside = self.system, Outside(self.system.time, bound)
-        free, along = independent(self.radii, self.tied), [each.A for each in self.tied]
-        moved = (self.radii.A, *along)
-        whole = GainBox(system.A, system.B, system.C, free, self.box, moved)
-        lists = disc_lists(whole, self.rng, growth, outside, several=bool(self.several))
+        return np.inf if self.several else self.prepare(1.0, outside)
+
+    def evidence(self, factor: Fraction, outside: Outside) -> FixedModesOfCell | None:
+        """Search a proof for radii that are multiplied by a factor; None if the search fails."""
+        whole = GainBox.of(self.members, self.box)
+        lists = disc_lists(whole, self.rng, factor, outside, several=bool(self.several))
         if lists is None:
             return None
-        if len(lists) > 1 and self.prepare(float(growth), outside, lists) <= growth:
+        if len(lists) > 1 and self.prepare(float(factor), outside, lists) <= factor:
             return None
-        leaves = _Leaves(self, growth)
-        cover = Cover(leaves.test, outside, self.most_squares * MANY // max(self.system.n, MANY))
-        trees = cover.of(*(each.discs for each in lists))
-        self.tested += cover.tested
+        leaves = _Leaves(self, factor)
+        trees, tested = _trees(leaves.test, outside, self.work, lists)
+        self.tested += tested
         if trees is None:
             return None
         gains = list(dict.fromkeys(g for g in leaves.gains if g is not None))
@@ -398,7 +402,16 @@ class FixedModeSearch:
             PencilFrame(None if g is None else gains.index(g), V.evidence(), w)
             for g, (V, w) in zip(leaves.gains, leaves.frames.evidence, strict=True)
         )
-        return BoxFixedModes(system, bound, lists, tuple(gains), frames, trees)
+        return FixedModesOfCell(lists, tuple(gains), frames, trees)
+
+
+def _trees(
+    test: Test, outside: Outside, work: _Work, lists: Sequence[ExteriorDiscs]
+) -> tuple[tuple[tuple[int | None, ...], ...] | None, int]:
+    """The trees of squares over the first discs, and how many discs and squares were tested."""
+    n = len(lists[0].discs)
+    cover = Cover(test, outside, work.squares * MANY // max(n, MANY))
+    return cover.of(*(each.discs for each in lists)), cover.tested
 
 
 @dataclass
@@ -406,7 +419,7 @@ class _Leaves:
     """The tests of discs for one factor of the radii, and the evidence that passed them."""
 
     search: FixedModeSearch
-    growth: Fraction
+    factor: Fraction
     frames: Frames = field(default_factory=Frames)
     gains: list[PencilGains | None] = field(default_factory=list)
     own: int = 0
@@ -420,19 +433,19 @@ class _Leaves:
         size = to_float(rho)
         ranked = sorted(self.search.known, key=lambda each: _distance(each.point, near))
         for each in [*ranked[:_NEAREST], self.search.alone]:
-            k = self._made(each, c, near, rho, size)
+            k = self._added(each, c, near, rho, size)
             if k is not None:
                 return k
-        if depth in _OWN_GAINS_AT and self.own < self.search.most_own:
+        if depth in _OWN_GAINS_AT and self.own < self.search.work.own_gains:
             self.own += 1
-            if self.search.learn(near, 2 * float(self.growth), size) > float(self.growth):
-                return self._made(self.search.known[-1], c, near, rho, size)
+            if self.search.learn(near, 2 * float(self.factor), size) > float(self.factor):
+                return self._added(self.search.known[-1], c, near, rho, size)
         return None
 
-    def _made(
+    def _added(
         self, each: _Known, c: Point, near: complex, rho: Fraction, size: float
     ) -> int | None:
-        proposed = each.pencil.proposal(near, size, self.growth)
+        proposed = each.pencil.proposal(near, size, self.factor)
         k = None if proposed is None else self.frames.added(proposed, c, rho)
         if k is not None:
             self.gains.append(each.gains)
@@ -474,7 +487,7 @@ def box_fixed_modes(
     starts: int = 4,
     spectrum: FixedSpectrum | None = None,
 ) -> BoxFixedModes | ParametricBoxFixedModes:
-    """Prove that no plant in a box has a fixed mode, or none outside of a region.
+    """Prove that no member of a family has a fixed mode, or none outside of a region.
 
     Parameters
     ----------
@@ -515,25 +528,43 @@ def box_fixed_modes(
     mcexact.errors.LimitReached: no proof was found that no plant in the box has a fixed mode
     """
     spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
-    if isinstance(system, ParametricSystem):
-        return parametric_box_fixed_modes(system, bound=bound, starts=starts)
-    InputError.require(system, MultiChannelSystem, "system")
+    ranged = isinstance(system, ParametricSystem)
+    if not ranged:
+        InputError.require(system, MultiChannelSystem, "system")
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
-    if spectrum is not None:
-        _require_moved(spectrum, limit)
-    with one_thread():
-        search = FixedModeSearch(system, radii_of(system), starts)
-        # Of a large plant few modes are left where the discs of several matrices meet.
-        outside = Outside(system.time, limit)
-        least = np.inf if search.several else search.prepare(1.0, outside)
-        found = search.cover(Fraction(1), limit) if least > 1 else None
-    if found is None:
-        where = "" if limit is None else " outside of the region"
-        raise LimitReached(f"no proof was found that no plant in the box has a fixed mode{where}")
-    return found
+    if spectrum is not None and not ranged:
+        _require_nominal(spectrum, limit)
+    outside = Outside(system.time, limit)
+    several, work = (False, _OF_CELL) if ranged else (None, _OF_BOX)
+    searches: list[FixedModeSearch] = []
+
+    def evidence(members: Members) -> FixedModesOfCell | None:
+        search = FixedModeSearch(members, starts, several, work)
+        for latest in searches[-1:]:
+            search.reuse(latest)
+        searches.append(search)
+        return search.evidence(Fraction(1), outside) if search.capacity(outside) > 1 else None
+
+    def fails(plant: MultiChannelSystem) -> bool:
+        nominal = fixed_spectrum(plant)
+        if limit is None:
+            return not nominal.empty
+        return not nominal.stabilizable if limit == StabilityRegion(system.time).edge else False
+
+    where = "" if limit is None else " outside of the region"
+    cuts, parts = proofs(
+        system,
+        evidence,
+        fails,
+        claim=f"no plant in the box has a fixed mode{where}",
+        failure=f"a mode{where} is fixed",
+    )
+    if isinstance(system, ParametricSystem):
+        return ParametricBoxFixedModes(system, limit, cuts, parts)
+    return BoxFixedModes(system, limit, **vars(parts[0]))
 
 
-def _require_moved(spectrum: FixedSpectrum, limit: Fraction | None) -> None:
+def _require_nominal(spectrum: FixedSpectrum, limit: Fraction | None) -> None:
     """Raise `LimitReached` if the nominal plant itself fails."""
     if limit is None and not spectrum.empty:
         raise LimitReached("the plant itself has a fixed mode, at its nominal values")
@@ -550,7 +581,7 @@ def box_stabilizability(system: ParametricSystem) -> ParametricBoxFixedModes: ..
 def box_stabilizability(
     system: MultiChannelSystem | ParametricSystem, *, spectrum: FixedSpectrum | None = None
 ) -> BoxFixedModes | ParametricBoxFixedModes:
-    """Prove that each plant in a box is stabilized by a decentralized controller of its own.
+    """Prove that each member of a family is stabilized by a decentralized controller of its own.
 
     Parameters
     ----------
@@ -586,7 +617,6 @@ def box_stabilizability(
 
 # Controllability of the members, by right inverses of [λI − A, −B_T].
 
-_MOST_SQUARES_CONTROLLABLE = 3000
 _REWEIGHTINGS, _FEW = 40, 10
 _SMALL = 0.9
 """A right inverse with so small a norm is used as it is."""
@@ -601,12 +631,12 @@ class WidePencil:
     Z0, D : Matrix, n × (n + p)
         [A, B] and the radii.
     near, near_D : ndarray
-        Z0 and D in balanced coordinates; here the moduli of the tied matrices are added to D.
+        Z0 and D in balanced coordinates; here the moduli of the generators are added to D.
     scale : ndarray, n
-    tied : tuple of Matrix
+    generators : tuple of Matrix
         Matrices that may be added to Z0, each with a factor from −1 to 1.
-    near_rest, near_tied : ndarray, tuple of ndarray
-        The radii alone, and the tied matrices, in balanced coordinates.
+    near_independent, near_generators : ndarray, tuple of ndarray
+        The radii alone, and the generators, in balanced coordinates.
     """
 
     Z0: Matrix
@@ -614,21 +644,14 @@ class WidePencil:
     near: Floats
     near_D: Floats
     scale: Floats
-    tied: tuple[Matrix, ...]
-    near_rest: Floats
-    near_tied: tuple[Floats, ...]
+    generators: tuple[Matrix, ...]
+    near_independent: Floats
+    near_generators: tuple[Floats, ...]
 
     @classmethod
-    def of(
-        cls,
-        system: MultiChannelSystem,
-        radii: Radii,
-        box: FloatBox,
-        channels: Iterable[int],
-        tied: Sequence[MultiChannelSystem] = (),
-    ) -> WidePencil:
-        """Make the pencil of some channels of a box."""
-        chosen, n = sorted(channels), system.n
+    def of(cls, members: Members, box: FloatBox, channels: Iterable[int]) -> WidePencil:
+        """Make the pencil of some channels of some members."""
+        system, chosen, n = members.system, sorted(channels), members.system.n
 
         def wide(A: Matrix, B: Sequence[Matrix]) -> Matrix:
             return hstack([A, *(B[i] for i in chosen)], nrows=n)
@@ -637,38 +660,39 @@ class WidePencil:
             cols = np.concatenate([box.scale, np.ones(M.ncols - n)])
             return np.asarray(matrix_to_float(M) / box.scale[:, None] * cols[None, :])
 
-        along = tuple(wide(each.A, each.B) for each in tied)
-        D = wide(radii.A, radii.B)
+        generators = tuple(wide(each.A, each.B) for each in members.generators)
+        D = wide(members.radii.A, members.radii.B)
         return cls(
             wide(system.A, system.B),
             D,
             np.hstack([box.A, *(box.B[i] for i in chosen)]),
             np.hstack([box.DA, *(box.DB[i] for i in chosen)]),
             box.scale,
-            along,
+            generators,
             near(D),
-            tuple(map(near, along)),
+            tuple(map(near, generators)),
         )
 
-    def moved(self, R: Any) -> Floats:
+    def deviation(self, R: Any) -> Floats:
         """An upper limit of the moduli of (Z0' − Z0) R for all members Z0'."""
-        return np.asarray(self.near_rest @ np.abs(R) + sum(np.abs(M @ R) for M in self.near_tied))
+        own = self.near_independent @ np.abs(R)
+        return np.asarray(own + sum(np.abs(M @ R) for M in self.near_generators))
 
-    def proposal(self, c: complex, rho: float, growth: Fraction) -> RegularDiscs | None:
+    def proposal(self, c: complex, rho: float, factor: Fraction) -> RegularDiscs | None:
         """Propose a proof that the pencil has full rank on a disc; None without a proposal."""
         n, width = self.near.shape
         E = np.hstack([np.eye(n), np.zeros((n, width - n))])
-        Z, D = c * E - self.near, float(growth) * self.near_D + rho * E
+        Z, D = c * E - self.near, float(factor) * self.near_D + rho * E
         R = _right_inverse(Z, D, _FEW)
-        part = float(growth)
-        w = None if R is None else weights(part * self.moved(R) + rho * E @ np.abs(R))
+        part = float(factor)
+        w = None if R is None else weights(part * self.deviation(R) + rho * E @ np.abs(R))
         if R is None or w is None:
             return None
         heavy = ((np.abs(Z) + D) / w[:, None]).max(axis=0)
         unit = 1 / (width * np.maximum(heavy, 1e-290)[:, None] * w[None, :])
         rows = np.concatenate([self.scale, np.ones(width - n)])
-        turned = rows[:, None] / self.scale[None, :]
-        return self.tested(dyadic(R * turned, unit * turned), whole_weights(w * self.scale), growth)
+        ratios = rows[:, None] / self.scale[None, :]
+        return self.tested(dyadic(R * ratios, unit * ratios), whole_weights(w * self.scale), factor)
 
     def margin(self, c: complex) -> float:
         """The factor up to which the radii can grow while the rank at a point stays full."""
@@ -677,22 +701,22 @@ class WidePencil:
         R = _right_inverse(c * E - self.near, self.near_D, _REWEIGHTINGS)
         if R is None:
             return 0.0
-        size, _, _ = perron(self.moved(R))
+        size, _, _ = perron(self.deviation(R))
         return 1 / size if size > 0 else np.inf
 
-    def tested(self, R: ComplexRows, w: tuple[int, ...], growth: Fraction) -> RegularDiscs:
+    def tested(self, R: ComplexRows, w: tuple[int, ...], factor: Fraction) -> RegularDiscs:
         """The exact test with R and w, of radii that are multiplied by a factor."""
         n, heavy = len(w), column(w)
         R_1 = R.take(range(n), range(n))
-        moved = self.D @ (R.moduli() @ heavy)
-        for M in self.tied:
-            moved = moved + R.after(M).moduli() @ heavy
+        deviation = self.D @ (R.moduli() @ heavy)
+        for M in self.generators:
+            deviation = deviation + R.after(M).moduli() @ heavy
         return RegularDiscs(
             R,
             ComplexRows.of(Matrix.identity(n)) + R.after(self.Z0),
             R_1,
             w,
-            entries(moved * growth),
+            entries(deviation * factor),
             entries(R_1.moduli() @ heavy),
         )
 
@@ -703,24 +727,24 @@ def _right_inverse(Z: Any, D: Floats, rounds: int) -> Any:
     Among all right inverses G Zᴴ (Z G Zᴴ)⁻¹ the positive diagonal G is changed so that it weighs
     each row of R by what it contributes, in the positive vectors of D |R|.
     """
-    g, best, found = np.ones(Z.shape[1]), np.inf, None
+    g, least, best = np.ones(Z.shape[1]), np.inf, None
     for _ in range(rounds):
-        turned = g[:, None] * Z.conj().T
+        weighted = g[:, None] * Z.conj().T
         try:
-            R = turned @ np.linalg.inv(Z @ turned)
+            R = weighted @ np.linalg.inv(Z @ weighted)
         except np.linalg.LinAlgError:
-            return found
+            return best
         if not np.all(np.isfinite(R)):
-            return found
+            return best
         size, right, left = perron(D @ np.abs(R))
-        if size < best:
-            best, found = size, R
-        if best < _SMALL:
-            return found
+        if size < least:
+            least, best = size, R
+        if least < _SMALL:
+            return best
         cost, used = left @ D, np.abs(R) @ right
         g = np.sqrt(g * (used + 1e-9 * used.max()) / (cost + 1e-9 * cost.max()))
         g = g / g.max()
-    return found
+    return best
 
 
 @dataclass
@@ -729,56 +753,54 @@ class ControllabilitySearch:
 
     Attributes
     ----------
-    system : MultiChannelSystem
-    radii : Radii
+    members : Members
     channels : tuple of int
-    most_squares : int
-        The most discs and squares of a cover; there are fewer of a large plant.
-    tied : tuple of MultiChannelSystem
-        What may be added to the system, each with a factor from −1 to 1.
+    work : _Work
     tested : int
         The number of discs and squares tested so far.
     """
 
-    system: MultiChannelSystem
-    radii: Radii
+    members: Members
     channels: tuple[int, ...]
-    most_squares: int = _MOST_SQUARES_CONTROLLABLE
-    tied: tuple[MultiChannelSystem, ...] = ()
+    work: _Work = _OF_BOX
     rng: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
     tested: int = 0
 
     def __post_init__(self) -> None:
-        self.box = FloatBox.of(self.system, self.radii, self.tied)
-        self.pencil = WidePencil.of(self.system, self.radii, self.box, self.channels, self.tied)
+        self.box = FloatBox.of(self.members)
+        self.pencil = WidePencil.of(self.members, self.box, self.channels)
 
     def capacity(self, outside: Outside) -> float:
         """How far the radii can grow at the eigenvalues of A that the claim is about."""
-        left = (mode for mode in self.box.modes() if not outside.covers(mode))
+        left = (mode for mode in self.box.modes() if not outside.has_point(mode))
         return min((self.pencil.margin(mode) for mode in left), default=np.inf)
 
     def state_gains(self) -> GainBox:
         """The box of the plant whose channels measure the whole state without uncertainty."""
-        near, n, chosen = self.box, self.system.n, self.channels
-        B = hstack([self.system.B(i) for i in chosen], nrows=n)
-        free = independent(self.radii, self.tied)
-        D_B = hstack([free.B[i] for i in chosen], nrows=n)
+        system, radii, near = self.members.system, self.members.independent, self.box
+        n, chosen = system.n, self.channels
+        B = hstack([system.B(i) for i in chosen], nrows=n)
+        D_B = hstack([radii.B[i] for i in chosen], nrows=n)
         C, none = Matrix.identity(n), Matrix.zeros(n, n)
         floats = replace(
             near,
             B=(np.hstack([near.B[i] for i in chosen]),),
             C=(np.diag(near.scale),),
         )
-        moved = (self.radii.A, *(each.A for each in self.tied))
-        radii = Radii(free.A, [D_B], [none])
-        return GainBox(self.system.A, (B,), (C,), radii, floats, moved)
-
-    def cover(self, growth: Fraction, bound: Fraction | None) -> BoxControllability | None:
-        """Search a proof for radii that are multiplied by a factor; None if the search fails."""
-        outside = Outside(self.system.time, bound)
-        lists = disc_lists(
-            self.state_gains(), self.rng, growth, outside, several=self.system.n >= MANY
+        return GainBox(
+            system.A,
+            (B,),
+            (C,),
+            Radii(radii.A, [D_B], [none]),
+            floats,
+            self.members.radii.A,
+            tuple(each.A for each in self.members.generators),
         )
+
+    def evidence(self, factor: Fraction, outside: Outside) -> ControlOfCell | None:
+        """Search a proof for radii that are multiplied by a factor; None if the search fails."""
+        several = self.members.system.n >= MANY
+        lists = disc_lists(self.state_gains(), self.rng, factor, outside, several=several)
         if lists is None:
             return None
         frames = Frames()
@@ -788,22 +810,15 @@ class ControllabilitySearch:
             if k is not None:
                 return k
             near = complex(to_float(c[0]), to_float(c[1]))
-            proposed = self.pencil.proposal(near, to_float(rho), growth)
+            proposed = self.pencil.proposal(near, to_float(rho), factor)
             return None if proposed is None else frames.added(proposed, c, rho)
 
-        cover = Cover(test, outside, self.most_squares * MANY // max(self.system.n, MANY))
-        trees = cover.of(*(each.discs for each in lists))
-        self.tested += cover.tested
+        trees, tested = _trees(test, outside, self.work, lists)
+        self.tested += tested
         if trees is None:
             return None
-        return BoxControllability(
-            self.system,
-            self.system.named(self.channels),
-            bound,
-            lists,
-            tuple(RightInverseFrame(R.evidence(), w) for R, w in frames.evidence),
-            trees,
-        )
+        inverses = tuple(RightInverseFrame(R.evidence(), w) for R, w in frames.evidence)
+        return ControlOfCell(lists, inverses, trees)
 
 
 @overload
@@ -820,7 +835,7 @@ def box_controllability(
     *,
     bound: Any = None,
 ) -> BoxControllability | ParametricBoxControllability:
-    """Prove that some channels control every mode of every plant in a box.
+    """Prove that some channels control every mode of every member of a family.
 
     Parameters
     ----------
@@ -853,18 +868,31 @@ def box_controllability(
         ...
     mcexact.errors.LimitReached: no proof was found that every plant in the box is controllable
     """
-    if isinstance(system, ParametricSystem):
-        return parametric_box_controllability(system, channels, bound=bound)
-    InputError.require(system, MultiChannelSystem, "system")
-    chosen = range(system.m) if channels is None else system.indices(channels)
+    if not isinstance(system, ParametricSystem):
+        InputError.require(system, MultiChannelSystem, "system")
+    chosen = tuple(range(system.m)) if channels is None else tuple(system.indices(channels))
+    named = system.named(chosen)
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
-    with one_thread():
-        search = ControllabilitySearch(system, radii_of(system), tuple(chosen))
-        enough = search.capacity(Outside(system.time, limit)) > 1
-        found = search.cover(Fraction(1), limit) if enough else None
-    if found is None:
-        raise LimitReached("no proof was found that every plant in the box is controllable")
-    return found
+    outside = Outside(system.time, limit)
+    work = _OF_CELL if isinstance(system, ParametricSystem) else _OF_BOX
+
+    def evidence(members: Members) -> ControlOfCell | None:
+        search = ControllabilitySearch(members, chosen, work)
+        return search.evidence(Fraction(1), outside) if search.capacity(outside) > 1 else None
+
+    def fails(plant: MultiChannelSystem) -> bool:
+        return limit is None and not joint_controllability(plant, named).controllable
+
+    cuts, parts = proofs(
+        system,
+        evidence,
+        fails,
+        claim="every plant in the box is controllable",
+        failure="a mode is not controlled",
+    )
+    if isinstance(system, ParametricSystem):
+        return ParametricBoxControllability(system, named, limit, cuts, parts)
+    return BoxControllability(system, named, limit, **vars(parts[0]))
 
 
 @overload
@@ -881,7 +909,7 @@ def box_observability(
     *,
     bound: Any = None,
 ) -> BoxControllability | ParametricBoxControllability:
-    """Prove that some channels observe every mode of every plant in a box.
+    """Prove that some channels observe every mode of every member of a family.
 
     The answer is about the controllability of the dual system.
 
@@ -914,8 +942,8 @@ def box_observability(
         InputError.require(system, MultiChannelSystem, "system")
         return box_controllability(dual(system), channels, bound=bound)
     except LimitReached as error:
-        told = error.message.replace("is controllable", "is observable")
-        raise LimitReached(told.replace("is not controlled", "is not observed")) from None
+        message = error.message.replace("is controllable", "is observable")
+        raise LimitReached(message.replace("is not controlled", "is not observed")) from None
 
 
 # Set-points of the members.
@@ -972,124 +1000,3 @@ outside of the region
     if known is not None and not known.solvable:
         raise LimitReached("some set-points of the plant itself have no equilibrium")
     return box_stabilizability(setpoint_system(system))
-
-
-# The same questions for all values of parameters within their ranges.
-
-_MOST_SQUARES_OF_CELL, _MOST_OWN_OF_CELL = 200, 1
-"""A cell that needs more squares, or gains for more of them, is cut."""
-
-
-def parametric_box_fixed_modes(
-    system: ParametricSystem, *, bound: Any = None, starts: int = 4
-) -> ParametricBoxFixedModes:
-    """Prove that no mode is fixed at any values of the parameters within their ranges.
-
-    Parameters
-    ----------
-    system : ParametricSystem
-        Every parameter has a range with two ends.
-    bound : rational, optional
-        A rate from 0 on, or a radius up to 1: fixed modes inside of this region are allowed.
-    starts : int
-        How many local searches for gains there are at most at a point.
-
-    Raises
-    ------
-    LimitReached
-        If no proof was found; if a mode is fixed at some values, the message names them.
-
-    Notes
-    -----
-    Floating point proposes the proof, which is tested exactly.  The ranges are cut in half, one
-    parameter at a time, until each cell is proved like a box.  In the box of a cell, all entries
-    change with one parameter by the same factor times their slopes.
-
-    Examples
-    --------
-    >>> plant = ParametricSystem(
-    ...     [["k", 1], [0, "-k"]], [[[0], [1]]], [[[1, 0]]], parameters=["k"], assume={"k": (1, 2)}
-    ... )
-    >>> parametric_box_fixed_modes(plant).cuts
-    (None,)
-    >>> parametric_box_fixed_modes(plant.along({"k": "k - 3/2"}, ["k"], {"k": (1, 3)})).bound
-    """
-    InputError.require(system, ParametricSystem, "system")
-    limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
-    outside = Outside(system.time, limit)
-    before: list[FixedModeSearch] = []
-
-    def proved(box: CellBox) -> FixedModesOfCell | None:
-        search = FixedModeSearch(
-            box.system,
-            box.radii,
-            starts,
-            _MOST_SQUARES_OF_CELL,
-            several=False,
-            tied=box.tied,
-            most_own=_MOST_OWN_OF_CELL,
-        )
-        for other in before[-1:]:
-            search.reuse(other)
-        before.append(search)
-        found = search.cover(Fraction(1), limit) if search.prepare(1.0, outside) > 1 else None
-        if found is None:
-            return None
-        return FixedModesOfCell(found.exterior, found.gains, found.frames, found.cover)
-
-    def failing(plant: MultiChannelSystem) -> bool:
-        spectrum = fixed_spectrum(plant)
-        if limit is None:
-            return not spectrum.empty
-        return not spectrum.stabilizable if limit == StabilityRegion(system.time).edge else False
-
-    said = "a mode is fixed" if limit is None else "a mode outside of the region is fixed"
-    cuts, parts = proofs_of_cells(system, proved, failing, said)
-    return ParametricBoxFixedModes(system, limit, cuts, parts)
-
-
-def parametric_box_controllability(
-    system: ParametricSystem, channels: Iterable[str] | None = None, *, bound: Any = None
-) -> ParametricBoxControllability:
-    """Prove that channels control every mode at all values of the parameters within their ranges.
-
-    Parameters
-    ----------
-    system : ParametricSystem
-        Every parameter has a range with two ends.
-    channels : iterable of str, optional
-        Names of channels, by default all.
-    bound : rational, optional
-        A rate from 0 on, or a radius up to 1: modes inside of this region need not be controlled.
-
-    Raises
-    ------
-    LimitReached
-        If no proof was found; if a mode is not controlled at some values, the message names them.
-
-    Examples
-    --------
-    >>> plant = ParametricSystem(
-    ...     [[1, "k"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["k"], assume={"k": (1, 2)}
-    ... )
-    >>> parametric_box_controllability(plant).channels
-    ('1',)
-    """
-    InputError.require(system, ParametricSystem, "system")
-    chosen = range(system.m) if channels is None else system.indices(channels)
-    named = system.named(chosen)
-    limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
-    outside = Outside(system.time, limit)
-
-    def proved(box: CellBox) -> ControlOfCell | None:
-        search = ControllabilitySearch(
-            box.system, box.radii, tuple(chosen), _MOST_SQUARES_OF_CELL, tied=box.tied
-        )
-        found = search.cover(Fraction(1), limit) if search.capacity(outside) > 1 else None
-        return None if found is None else ControlOfCell(found.exterior, found.frames, found.cover)
-
-    def failing(plant: MultiChannelSystem) -> bool:
-        return limit is None and not joint_controllability(plant, named).controllable
-
-    cuts, parts = proofs_of_cells(system, proved, failing, "a mode is not controlled")
-    return ParametricBoxControllability(system, named, limit, cuts, parts)

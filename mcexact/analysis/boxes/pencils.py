@@ -16,9 +16,10 @@ integers.  `Pencil` has the exact matrices and makes the proposals; `FloatBox` h
 coordinates that are balanced by powers of 2.  A frame, V and w, often passes on neighboring discs
 as well, so `Frames` tries recent ones first.
 
-`radii_of` gives the radii of a plant, or of a system that constructions made from one.  Some
-changes are not independent: a tied matrix may be added with a factor from −1 to 1, as in the box of
-a cell (`boxes.cells`).
+`Members` are the systems that a proof is about: a nominal system, the radii of its entries, and
+generators, systems of matrices that may be added with one factor from −1 to 1 each.  A box has no
+generators; a cell of the ranges of parameters has one for each parameter (`boxes.cells`).
+`radii_of` gives the radii of a plant, or of a system that constructions made from one.
 """
 
 from __future__ import annotations
@@ -78,11 +79,11 @@ class ComplexRows:
 
     def integers(self, denominator: int) -> tuple[list[list[int]], list[list[int]]]:
         """The rows times a multiple of the denominator."""
-        found = []
+        parts = []
         for part in (self.re, self.im):
             f = denominator // part.denominator
-            found.append([[x * f for x in row] for row in part.numerators])
-        return found[0], found[1]
+            parts.append([[x * f for x in row] for row in part.numerators])
+        return parts[0], parts[1]
 
     def __matmul__(self, other: ComplexRows) -> ComplexRows:
         return ComplexRows(
@@ -158,8 +159,6 @@ class RegularDiscs:
     step: tuple[Fraction, ...]
 
     def __post_init__(self) -> None:
-        import numpy as np
-
         d = lcm(self.K.denominator, self.L.denominator)
         object.__setattr__(self, "_d", d)
         object.__setattr__(self, "_K", self.K.integers(d))
@@ -172,13 +171,11 @@ class RegularDiscs:
 
         object.__setattr__(self, "_near", (floats(self.K), floats(self.L)))
         for key, part in (("_p", self.fixed), ("_r", self.step)):
-            found = np.array([to_float(x / y) for x, y in zip(part, self.w, strict=True)])
-            object.__setattr__(self, key, found)
+            ratios = np.array([to_float(x / y) for x, y in zip(part, self.w, strict=True)])
+            object.__setattr__(self, key, ratios)
 
     def seem(self, c: complex, rho: float) -> bool:
         """Whether a disc passes the test in floating point, which proves nothing."""
-        import numpy as np
-
         own: Any = self
         K, L = own._near
         sums = np.abs(K - c * L).sum(axis=1) + own._p + rho * own._r
@@ -238,14 +235,12 @@ def whole_weights(w: Floats) -> tuple[int, ...]:
 
     Any positive weights are valid proposals.  16 bits keep their sums within the range of floats.
     """
-    import numpy as np
-
     with np.errstate(over="ignore"):
         mantissa, exponent = np.frexp(np.minimum(w / w.min(), _LARGEST_WEIGHT))
-    found = []
+    integers = []
     for m, e in zip(mantissa, exponent, strict=True):
-        found.append(int(np.ceil(np.ldexp(m, _WEIGHT_BITS))) << max(int(e), 0))
-    return tuple(found)
+        integers.append(int(np.ceil(np.ldexp(m, _WEIGHT_BITS))) << max(int(e), 0))
+    return tuple(integers)
 
 
 def dyadic(V: Complex, unit: Floats) -> ComplexRows:
@@ -257,8 +252,6 @@ def dyadic(V: Complex, unit: Floats) -> ComplexRows:
     unit : ndarray of float, r × c
         What each entry may change by, times 2²⁶.
     """
-    import numpy as np
-
     steps = np.floor(np.log2(np.maximum(unit * _STEP, 1e-290))).astype(int)
     finest = int(steps.min(initial=0))
     parts = []
@@ -268,8 +261,7 @@ def dyadic(V: Complex, unit: Floats) -> ComplexRows:
             [int(x) << int(e - finest) for x, e in zip(row, exponents, strict=True)]
             for row, exponents in zip(whole.tolist(), steps, strict=True)
         ]
-        made = Matrix.from_integers(rows, 1, V.shape[1])
-        parts.append(made * (Fraction(2) ** finest))
+        parts.append(Matrix.from_integers(rows, 1, V.shape[1]) * (Fraction(2) ** finest))
     return ComplexRows(parts[0], parts[1])
 
 
@@ -283,7 +275,53 @@ def entries(M: Matrix) -> tuple[Fraction, ...]:
     return tuple(Fraction(row[0], M.denominator) for row in M.numerators)
 
 
-# Pencils λE − Z0 of boxes, and the frames that they propose for a disc.
+# Members, their pencils λE − Z0, and the frames that these propose for a disc.
+
+
+@dataclass(frozen=True)
+class Members:
+    """The systems near a nominal one that a proof is about: those of a box, or of a cell of ranges.
+
+    A member is the nominal system, plus any change of each entry within its radius, plus each
+    generator times a factor from −1 to 1, the same for all its entries.
+
+    Attributes
+    ----------
+    system : MultiChannelSystem
+        The nominal system.
+    radii : Radii
+        The radii of the independent changes.
+    generators : tuple of MultiChannelSystem
+        Matrices A, B_i and C_i of the shapes of the system; a box has none.
+    """
+
+    system: MultiChannelSystem
+    radii: Radii
+    generators: tuple[MultiChannelSystem, ...] = ()
+
+    @classmethod
+    def of(cls, system: MultiChannelSystem) -> Members:
+        """Make the members of the box of a system, which are those within its radii (`radii_of`).
+
+        Raises
+        ------
+        LimitReached
+            If floating point cannot search with the entries.
+        UsageError
+            If a construction closes a loop.
+        """
+        return cls(system, radii_of(system))
+
+    @cached_property
+    def independent(self) -> Radii:
+        """The radii of a box with independent entries that contains all members."""
+        A, B, C = self.radii.A, list(self.radii.B), list(self.radii.C)
+        for each in self.generators:
+            A = A + moduli(each.A)
+            B = [D + moduli(M) for D, M in zip(B, each.B, strict=True)]
+            C = [D + moduli(M) for D, M in zip(C, each.C, strict=True)]
+        return Radii(A, B, C)
+
 
 _ROOM = 0.998
 """The part of 1 below which the norm is to be in floating point."""
@@ -292,16 +330,16 @@ _ROOT = 4
 
 @dataclass(frozen=True)
 class FloatBox:
-    """The matrices of a box in coordinates that are balanced by powers of 2.
+    """The matrices of some members in coordinates that are balanced by powers of 2.
 
     Attributes
     ----------
     A, DA : ndarray, n × n
     B, C, DB, DC : tuples of ndarray
-        DA, DB and DC are radii plus the moduli of the tied matrices.
-    rest_A : ndarray, n × n
+        DA, DB and DC are radii plus the moduli of the generators.
+    independent_A : ndarray, n × n
         The radii of A alone.
-    tied_A : tuple of ndarray
+    generators_A : tuple of ndarray
         Matrices that may be added to A, each with a factor from −1 to 1.
     scale : ndarray, n
         x = scale · z, where z are the balanced states.
@@ -313,19 +351,16 @@ class FloatBox:
     DA: Floats
     DB: tuple[Floats, ...]
     DC: tuple[Floats, ...]
-    rest_A: Floats
-    tied_A: tuple[Floats, ...]
+    independent_A: Floats
+    generators_A: tuple[Floats, ...]
     scale: Floats
 
     @classmethod
-    def of(
-        cls, system: MultiChannelSystem, radii: Radii, tied: Sequence[MultiChannelSystem] = ()
-    ) -> FloatBox:
-        """Make the box of a system, the radii of its entries, and the tied systems."""
+    def of(cls, members: Members) -> FloatBox:
+        """Round the matrices of some members, in coordinates in which A is balanced."""
         from scipy.linalg import matrix_balance
 
-        free = independent(radii, tied)
-
+        system, radii = members.system, members.independent
         A = matrix_to_float(system.A)
         s: Floats = np.ones(system.n)
         if system.n:
@@ -335,18 +370,18 @@ class FloatBox:
             A * rows * cols,
             tuple(matrix_to_float(M) * rows for M in system.B),
             tuple(matrix_to_float(M) * cols for M in system.C),
-            matrix_to_float(free.A) * rows * cols,
-            tuple(matrix_to_float(M) * rows for M in free.B),
-            tuple(matrix_to_float(M) * cols for M in free.C),
             matrix_to_float(radii.A) * rows * cols,
-            tuple(matrix_to_float(each.A) * rows * cols for each in tied),
+            tuple(matrix_to_float(M) * rows for M in radii.B),
+            tuple(matrix_to_float(M) * cols for M in radii.C),
+            matrix_to_float(members.radii.A) * rows * cols,
+            tuple(matrix_to_float(each.A) * rows * cols for each in members.generators),
             s,
         )
 
-    def moved(self, Y: Complex, T: Complex) -> Floats:
+    def deviation(self, Y: Complex, T: Complex) -> Floats:
         """An upper limit of the moduli of Y (A' − A) T for all members A'."""
-        rest = np.abs(Y) @ self.rest_A @ np.abs(T)
-        return np.asarray(rest + sum(np.abs(Y @ M @ T) for M in self.tied_A))
+        own = np.abs(Y) @ self.independent_A @ np.abs(T)
+        return np.asarray(own + sum(np.abs(Y @ M @ T) for M in self.generators_A))
 
     def wider(self, size: float) -> FloatBox:
         """The box in which the diagonal of A may also change by ``size``.
@@ -363,13 +398,13 @@ class FloatBox:
 
     def modes(self) -> list[complex]:
         """One number near each group of eigenvalues of A in the closed upper half-plane."""
-        found: list[complex] = []
+        modes: list[complex] = []
         size = np.linalg.norm(self.A)
         for value in np.linalg.eigvals(self.A):
-            near = (abs(value - x) <= 1e-3 * max(abs(value), 1e-9 * size) for x in found)
+            near = (abs(value - x) <= 1e-3 * max(abs(value), 1e-9 * size) for x in modes)
             if value.imag >= -1e-12 * abs(value) and not any(near):
-                found.append(complex(value.real, max(value.imag, 0.0)))
-        return found
+                modes.append(complex(value.real, max(value.imag, 0.0)))
+        return modes
 
 
 @dataclass(frozen=True, eq=False)
@@ -382,7 +417,7 @@ class Pencil:
     n : int
     scale : ndarray, N
         Powers of 2, by which the coordinates are balanced.
-    tied : tuple of Matrix
+    generators : tuple of Matrix
         Matrices that may be added to Z0, each with a factor from −1 to 1.
     """
 
@@ -390,7 +425,7 @@ class Pencil:
     D: Matrix
     n: int
     scale: Floats
-    tied: tuple[Matrix, ...] = ()
+    generators: tuple[Matrix, ...] = ()
 
     @cached_property
     def balanced(self) -> tuple[Floats, Floats, Floats]:
@@ -401,15 +436,15 @@ class Pencil:
         return matrix_to_float(self.Z0) * rows * cols, matrix_to_float(self.D) * rows * cols, E
 
     @cached_property
-    def balanced_ties(self) -> tuple[Floats, ...]:
-        """The tied matrices, in balanced coordinates."""
+    def balanced_generators(self) -> tuple[Floats, ...]:
+        """The generators, in balanced coordinates."""
         rows, cols = (1 / self.scale)[:, None], self.scale[None, :]
-        return tuple(matrix_to_float(M) * rows * cols for M in self.tied)
+        return tuple(matrix_to_float(M) * rows * cols for M in self.generators)
 
-    def moved(self, V: Complex) -> Floats:
+    def deviation(self, V: Complex) -> Floats:
         """An upper limit of the moduli of V (Z0' − Z0) for all members Z0'."""
         return np.asarray(
-            np.abs(V) @ self.balanced[1] + sum(np.abs(V @ M) for M in self.balanced_ties)
+            np.abs(V) @ self.balanced[1] + sum(np.abs(V @ M) for M in self.balanced_generators)
         )
 
     def inverse(self, c: complex) -> Complex | None:
@@ -426,70 +461,58 @@ class Pencil:
         Y = self.inverse(c)
         if Y is None:
             return 0.0
-        size, _, _ = perron(self.moved(Y))
+        size, _, _ = perron(self.deviation(Y))
         return 1 / size if size > 0 else np.inf
 
-    def proposal(self, c: complex, rho: float, growth: Fraction) -> RegularDiscs | None:
+    def proposal(self, c: complex, rho: float, factor: Fraction) -> RegularDiscs | None:
         """Propose V and w for a disc, as a test in which they are rounded; None without a proposal.
 
         Parameters
         ----------
         c, rho
             Center and radius.
-        growth : Fraction
+        factor : Fraction
             The factor of all radii.
         """
-        g = float(growth)
+        g = float(factor)
         V = self.inverse(c)
         if V is None:
             return None
         Z0, D, E = self.balanced
-        w = weights(g * self.moved(V) + rho * np.abs(V) @ np.diag(E))
+        w = weights(g * self.deviation(V) + rho * np.abs(V) @ np.diag(E))
         if w is None:
             return None
-        free = D + sum(map(np.abs, self.balanced_ties))
+        free = D + sum(map(np.abs, self.balanced_generators))
         unit = w[:, None] / (len(w) * (np.abs(c * np.diag(E) - Z0) @ w + g * free @ w))[None, :]
         turned = self.scale[:, None] / self.scale[None, :]
         exact = dyadic(V * turned, unit * turned)
-        return self.tested(exact, whole_weights(w * self.scale), growth)
+        return self.tested(exact, whole_weights(w * self.scale), factor)
 
-    def tested(self, V: ComplexRows, w: tuple[int, ...], growth: Fraction) -> RegularDiscs:
+    def tested(self, V: ComplexRows, w: tuple[int, ...], factor: Fraction) -> RegularDiscs:
         """Make the exact test with V and w, for radii that are multiplied by a factor."""
         N = len(w)
         one, heavy = ComplexRows.of(Matrix.identity(N)), column(w)
         K = one + V.before(self.Z0)
         E = Matrix.from_entries((N, N), ((i, i, 1) for i in range(self.n)))
         size = V.moduli()
-        moved = size @ (self.D @ heavy)
-        for M in self.tied:
-            moved = moved + V.before(M).moduli() @ heavy
+        deviation = size @ (self.D @ heavy)
+        for M in self.generators:
+            deviation = deviation + V.before(M).moduli() @ heavy
         return RegularDiscs(
             V,
             K,
             V.before(E),
             w,
-            entries(moved * growth),
+            entries(deviation * factor),
             entries(size @ (E @ heavy)),
         )
 
 
-def independent(radii: Radii, tied: Sequence[MultiChannelSystem]) -> Radii:
-    """The radii of a box with independent entries that contains all members."""
-    A, B, C = radii.A, list(radii.B), list(radii.C)
-    for each in tied:
-        A = A + moduli(each.A)
-        B = [D + moduli(M) for D, M in zip(B, each.B, strict=True)]
-        C = [D + moduli(M) for D, M in zip(C, each.C, strict=True)]
-    return Radii(A, B, C)
-
-
 def gain_pencil(
-    system: MultiChannelSystem,
-    radii: Radii,
+    members: Members,
     scale: Floats,
     X: Sequence[Matrix] | None = None,
     W: Sequence[Matrix] | None = None,
-    tied: Sequence[MultiChannelSystem] = (),
 ) -> Pencil:
     """The pencil [[λI − A, −B], [XC, W]]; where it is regular for some X and W, λ is not fixed.
 
@@ -497,9 +520,9 @@ def gain_pencil(
 
         Z0 = [[A, B], [−X C, −W]],   D = [[D_A, D_B], [|X| D_C, 0]].
     """
-    n = system.n
+    system, radii, n = members.system, members.radii, members.system.n
     if X is None or W is None:
-        return Pencil(system.A, radii.A, n, scale, tuple(each.A for each in tied))
+        return Pencil(system.A, radii.A, n, scale, tuple(each.A for each in members.generators))
     p = sum(system.p(i) for i in range(system.m))
 
     def whole(A: Matrix, B: Sequence[Matrix], XC: list[Matrix], W: list[Matrix]) -> Matrix:
@@ -516,13 +539,13 @@ def gain_pencil(
         return whole(each.A, each.B, XC, last)
 
     zeros = [Matrix.zeros(*W_i.shape) for W_i in W]
-    moved = [moduli(X_i) @ DC_i for X_i, DC_i in zip(X, radii.C, strict=True)]
+    XD = [moduli(X_i) @ DC_i for X_i, DC_i in zip(X, radii.C, strict=True)]
     return Pencil(
         of(system, [-W_i for W_i in W]),
-        whole(radii.A, radii.B, moved, zeros),
+        whole(radii.A, radii.B, XD, zeros),
         n,
         np.concatenate([scale, np.ones(p)]),
-        tuple(of(each, zeros) for each in tied),
+        tuple(of(each, zeros) for each in members.generators),
     )
 
 
@@ -668,19 +691,21 @@ def radii_of(system: MultiChannelSystem) -> Radii:
     for each in system.subject:
         if each["construction"] == "closed_loop":
             raise UsageError("radii of a closed loop are a matter of box_stability")
-        low, high = (_made(each, known) for known in (low, high))
+        low, high = (_moduli_constructed(each, moduli_of) for moduli_of in (low, high))
     A, *ports = (M - N for M, N in zip(_matrices(high), _matrices(low), strict=True))
     return Radii(A, ports[: high.m], ports[high.m :])
 
 
-def _made(construction: Mapping[str, Any], system: MultiChannelSystem) -> MultiChannelSystem:
+def _moduli_constructed(
+    construction: Mapping[str, Any], system: MultiChannelSystem
+) -> MultiChannelSystem:
     """Apply a construction, with its gains replaced by their moduli, and return the moduli."""
-    given = dict(construction)
-    if "gains" in given:
-        sizes = [moduli(F) for F in given["gains"]]
-        given["gains"] = [{"denominator": F.denominator, "entries": F.numerators} for F in sizes]
-    made: MultiChannelSystem = constructed(system, [given])
-    return _with_entries(made, map(moduli, _matrices(made)))
+    record = dict(construction)
+    if "gains" in record:
+        sizes = [moduli(F) for F in record["gains"]]
+        record["gains"] = [{"denominator": F.denominator, "entries": F.numerators} for F in sizes]
+    result: MultiChannelSystem = constructed(system, [record])
+    return _with_entries(result, map(moduli, _matrices(result)))
 
 
 def _matrices(system: MultiChannelSystem) -> list[Matrix]:

@@ -19,7 +19,7 @@ from mcexact import (
 from mcexact.analysis.boxes import cover as disc_lists_module
 from mcexact.analysis.boxes import members
 from mcexact.analysis.boxes.cover import GainBox, Outside, disc_lists
-from mcexact.analysis.boxes.pencils import FloatBox
+from mcexact.analysis.boxes.pencils import FloatBox, Members
 from mcexact.errors import LimitReached
 from mcexact.model.gallery import load
 
@@ -29,7 +29,7 @@ PLANT = "quadruple-tank-pminus"
 def of_box(box: Box) -> GainBox:
     """The plant and its radii, for gains."""
     plant = box.system
-    near = FloatBox.of(plant, box.radii)
+    near = FloatBox.of(Members.of(plant))
     return GainBox(plant.A, tuple(plant.B), tuple(plant.C), box.radii, near)
 
 
@@ -37,8 +37,7 @@ def of_box(box: Box) -> GainBox:
 def large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have gains drawn for small plants, too."""
     monkeypatch.setattr(disc_lists_module, "_DRAWS", 4)
-    for module in (members, members):
-        monkeypatch.setattr(module, "MANY", 1)
+    monkeypatch.setattr(members, "MANY", 1)
 
 
 @pytest.mark.usefixtures("large")

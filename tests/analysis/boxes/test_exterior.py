@@ -10,7 +10,7 @@ from hypothesis import given, settings
 
 from mcexact import Box, MultiChannelSystem, testing
 from mcexact.analysis.boxes.cover import Cover, Outside, exterior
-from mcexact.analysis.boxes.pencils import FloatBox, Point
+from mcexact.analysis.boxes.pencils import FloatBox, Members, Point
 from mcexact.answer.evidence import RootDisc
 
 
@@ -19,7 +19,7 @@ from mcexact.answer.evidence import RootDisc
 def test_eigenvalues_of_members_are_in_the_discs(drawn: testing.Drawn) -> None:
     box = Box.relative(drawn.system, "1/10")
     found = exterior(
-        FloatBox.of(box.system, box.radii), box.system.A, box.radii.A, np.random.default_rng(0)
+        FloatBox.of(Members.of(box.system)), box.system.A, box.radii.A, np.random.default_rng(0)
     )
     if found is None:
         return
@@ -38,7 +38,7 @@ def test_a_chain_of_integrators_has_small_discs() -> None:
     A = [[0, 1, 0], [0, 0, 1], [0, 0, 0]]
     box = Box.relative(MultiChannelSystem(A, [[[0], [0], [1]]], [[[1, 0, 0]]]), "1/2")
     found = exterior(
-        FloatBox.of(box.system, box.radii), box.system.A, box.radii.A, np.random.default_rng(0)
+        FloatBox.of(Members.of(box.system)), box.system.A, box.radii.A, np.random.default_rng(0)
     )
     assert found is not None and max(float(disc.radius) for disc in found.discs) < 1e-2
 
@@ -49,7 +49,7 @@ def test_modes_that_are_all_0_at_the_values_have_discs() -> None:
     D = [["1/256", "1/64"], [0, "1/1024"]]
     box = Box.absolute(plant, A=D)
     found = exterior(
-        FloatBox.of(box.system, box.radii), plant.A, box.radii.A, np.random.default_rng(0)
+        FloatBox.of(Members.of(box.system)), plant.A, box.radii.A, np.random.default_rng(0)
     )
     assert found is not None and max(float(disc.radius) for disc in found.discs) < 1e-2
 
@@ -59,7 +59,7 @@ def test_what_couples_blocks_in_one_direction_does_not_make_their_discs_larger()
     A = [[-1, 0], [100, "-1/100000"]]
     box = Box.relative(MultiChannelSystem(A, [[[1], [0]]], [[[0, 1]]]), "1/1000")
     found = exterior(
-        FloatBox.of(box.system, box.radii), box.system.A, box.radii.A, np.random.default_rng(0)
+        FloatBox.of(Members.of(box.system)), box.system.A, box.radii.A, np.random.default_rng(0)
     )
     assert found is not None
     assert min(float(disc.radius) for disc in found.discs) < 1e-6
@@ -86,11 +86,13 @@ def test_squares_are_cut_until_they_pass_and_those_outside_are_left_out() -> Non
 def test_what_lies_inside_of_a_circle_is_outside_of_the_claim() -> None:
     inside = Outside("discrete", Fraction(1))
     origin, half = (Fraction(0), Fraction(0)), (Fraction(1, 2), Fraction(0))
-    assert inside.disc(origin, Fraction(9, 10)) and not inside.disc(origin, Fraction(1))
-    assert inside.disc(half, Fraction(2, 5)) and not inside.disc(half, Fraction(1, 2))
-    assert inside.square(origin, Fraction(7, 10)) and not inside.square(origin, Fraction(3, 4))
-    assert not Outside("discrete", None).square(origin, Fraction(1, 10))
-    assert Outside("discrete", None).square((Fraction(0), Fraction(-2)), Fraction(1))
+    assert inside.has_disc(origin, Fraction(9, 10)) and not inside.has_disc(origin, Fraction(1))
+    assert inside.has_disc(half, Fraction(2, 5)) and not inside.has_disc(half, Fraction(1, 2))
+    assert inside.has_square(origin, Fraction(7, 10)) and not inside.has_square(
+        origin, Fraction(3, 4)
+    )
+    assert not Outside("discrete", None).has_square(origin, Fraction(1, 10))
+    assert Outside("discrete", None).has_square((Fraction(0), Fraction(-2)), Fraction(1))
 
 
 def test_squares_that_meet_no_disc_of_another_list_are_left_out() -> None:

@@ -23,7 +23,7 @@ from mcexact import (
     testing,
 )
 from mcexact.analysis.boxes.failure import failing_plant, rational_point, severed_plants, tried_sets
-from mcexact.analysis.boxes.largest import Search, largest_factor
+from mcexact.analysis.boxes.largest import Proofs, largest_factor
 from mcexact.analysis.boxes.pencils import one_thread
 from mcexact.answer.boxes import BoxFixedModes
 from mcexact.errors import UsageError
@@ -178,9 +178,7 @@ def test_factors_that_failed_are_tried_again_by_a_search_that_learned() -> None:
         asked.append(float(growth))
         return growth if growth < (0.5 if len(asked) <= learned else 0.8) else None
 
-    search = Search(
-        lambda: 1.0, proof, lambda _: None, lambda _: None, list, lambda: float(len(asked))
-    )
+    search = Proofs(lambda: 1.0, proof, lambda: float(len(asked)))
     assert 0.45 < largest_factor(search, 100, 1e6)[0] < 0.5
     learned = len(asked)
     asked.clear()
@@ -198,7 +196,7 @@ def test_a_factor_that_is_as_small_as_rounding_is_reported_as_0() -> None:
         asked.append(growth)
         return growth
 
-    search = Search(lambda: 1e-13, proof, lambda _: None, lambda _: None, list, lambda: 0.0)
+    search = Proofs(lambda: 1e-13, proof, lambda: 0.0)
     assert largest_factor(search, 100, 1e6) == (0, None) and not asked
     nothing = replace(search, capacity=lambda: 1.0, proof=lambda growth: asked.append(growth))
     assert largest_factor(nothing, 100, 1e6) == (0, None) and min(asked) > Fraction(1, 10**13)

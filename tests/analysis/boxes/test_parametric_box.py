@@ -23,8 +23,7 @@ from mcexact import (
     load_certificate,
     save_certificate,
 )
-from mcexact.analysis.boxes.cells import box_of_cell, whole_cell
-from mcexact.analysis.boxes.members import parametric_box_fixed_modes
+from mcexact.analysis.boxes.cells import members_of_cell, whole_cell
 from mcexact.checker.cells import box_of_cell as checked_box
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.errors import LimitReached, UsageError
@@ -134,12 +133,12 @@ def test_the_checker_makes_the_same_boxes(seed: int) -> None:
         parameters=["a", "b"],
         assume={"a": (4, 5), "b": ("1/2", "5/8")},
     )
-    own = box_of_cell(plant, whole_cell(plant))
+    own = members_of_cell(plant, whole_cell(plant))
     other = checked_box(read_parametric(plant.document()), list(whole_cell(plant)))
     radii = own.radii
     pairs = [((own.system.A, *own.system.B, *own.system.C), other)]
     pairs += [((radii.A, *radii.B, *radii.C), other.radii)]  # type: ignore[list-item]
-    pairs += [((e.A, *e.B, *e.C), x) for e, x in zip(own.tied, other.tied, strict=True)]  # type: ignore[misc]
+    pairs += [((e.A, *e.B, *e.C), x) for e, x in zip(own.generators, other.tied, strict=True)]  # type: ignore[misc]
     for matrices, system in pairs:
         for M, N in zip(matrices, (system.A, *system.B, *system.C), strict=True):
             known = [[Fraction(x, N.denominator) for x in row] for row in N.rows]
@@ -182,10 +181,10 @@ def test_a_region_and_the_subject_are_those_of_the_claim() -> None:
         assume={"k": (1, 2)},
         time="discrete",
     )
-    proof = parametric_box_fixed_modes(plant, bound="3/4")
+    proof = box_fixed_modes(plant, bound="3/4")
     assert proof.region is not None and proof.region.edge == Fraction(3, 4)
     assert check(proof).verdict == "VALID"
     with pytest.raises(LimitReached, match="a mode is fixed at k = 3/2"):
-        parametric_box_fixed_modes(plant)
+        box_fixed_modes(plant)
     control = box_controllability(plant, bound="3/4")
     assert control.region == proof.region and check(control).verdict == "VALID"

@@ -24,7 +24,7 @@ from mcexact import (
     local_controllers,
     save_certificate,
 )
-from mcexact.analysis.boxes.cells import box_of_cell, whole_cell
+from mcexact.analysis.boxes.cells import members_of_cell, whole_cell
 from mcexact.analysis.boxes.largest import LargestRanges
 from mcexact.analysis.boxes.loops import LoopSearch
 from mcexact.answer.boxes import ParametricBoxStability
@@ -111,8 +111,8 @@ def test_what_depends_on_one_parameter_is_moved_together() -> None:
     controller = local_controllers(plant.at({"t": 0}), [[[0]]])
     proof = box_stability(plant, controller)
     assert check(proof).verdict == "VALID" and len(proof.parts) > 1
-    box = box_of_cell(plant, whole_cell(plant))
-    free = Box.absolute(box.system, A=box.radii.A + moduli(box.tied[0].A)).system
+    box = members_of_cell(plant, whole_cell(plant))
+    free = Box.absolute(box.system, A=box.radii.A + moduli(box.generators[0].A)).system
     with pytest.raises(LimitReached):
         box_stability(free, controller)
 

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.analysis.boxes.pencils import (
+    Members,
     dyadic,
     gain_pencil,
     modulus_above,
@@ -80,7 +81,7 @@ def test_a_disc_passes_where_no_member_is_singular_and_fails_elsewhere() -> None
     """λ − a with |a − 2| ≤ 1/2 is regular on |λ − c| ≤ ρ exactly if |c − 2| > ρ + 1/2."""
     plant = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
     radii = Radii([["1/2"]], [[[0]]], [[[0]]])
-    pencil = gain_pencil(plant, radii, np.ones(1))
+    pencil = gain_pencil(Members(plant, radii), np.ones(1))
     test = pencil.proposal(4.0, 1.0, Fraction(1))
     assert test is not None
     center = Fraction(4), Fraction(0)
@@ -96,5 +97,5 @@ def test_the_pencil_with_gains_has_the_radii_of_its_entries() -> None:
     radii = Radii([[1]], [[[2]], [[]]], [[[3]], [[4]]])
     one = Matrix.from_rows([[-2]])
     none = Matrix.zeros(0, 1), Matrix.zeros(0, 0)
-    pencil = gain_pencil(plant, radii, np.ones(1), [one, none[0]], [one, none[1]])
+    pencil = gain_pencil(Members(plant, radii), np.ones(1), [one, none[0]], [one, none[1]])
     assert pencil.Z0.rows() == ((2, 3), (10, 2)) and pencil.D.rows() == ((1, 2), (6, 0))
