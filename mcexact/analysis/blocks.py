@@ -95,12 +95,12 @@ def _longest(modular: ModularSystem, rng: random.Random, through: str | None) ->
     """The longest sequence of a few channels for drawn gains."""
     system, ell = modular.system, modular.modulus
     gains, starts = drawn_gains(modular, rng), _starts(system, ell, rng, through)
-    found = []
+    sequences = []
     for start, numbers in zip(starts, channel_sequences(modular, gains, starts), strict=False):
-        found.append((least_recurrence(numbers, ell), start, numbers))
-        if found[-1][0].degree == system.n:
+        sequences.append((least_recurrence(numbers, ell), start, numbers))
+        if sequences[-1][0].degree == system.n:
             break
-    return _evidence(modular, gains, *max(found, key=lambda each: each[0].degree))
+    return _evidence(modular, gains, *max(sequences, key=lambda each: each[0].degree))
 
 
 def _starts(
@@ -109,13 +109,13 @@ def _starts(
     """Channels with inputs and outputs, with a combination of each; no two alike."""
     live = (system.active if through is None else (system.index(through),)) or (0,)
     chosen = rng.sample(live, min(STARTS, len(live)))
-    found: list[Start] = []
+    starts: list[Start] = []
     for k in range(STARTS):
         q = chosen[k % len(chosen)]
         start = q, _direction(system.p(q), ell, rng), _direction(system.q(q), ell, rng)
-        if start not in found:
-            found.append(start)
-    return found
+        if start not in starts:
+            starts.append(start)
+    return starts
 
 
 def _direction(size: int, ell: int, rng: random.Random) -> tuple[int, ...]:
@@ -183,13 +183,13 @@ def state_blocks(system: MultiChannelSystem) -> tuple[StateBlock, ...]:
     if not system.A.is_sparse and _connected(_flags(system.A), system.n):
         states = tuple(range(system.n))
         return (StateBlock(states, _part(system, states, system.active)),)
-    found = []
+    blocks = []
     for component in _components(*_arcs(system)):
         states = tuple(sorted(v for v in component if v < system.n))
         if states:
             acting = sorted(v - system.n for v in component if v >= system.n)
-            found.append(StateBlock(states, _part(system, states, acting)))
-    return tuple(found)
+            blocks.append(StateBlock(states, _part(system, states, acting)))
+    return tuple(blocks)
 
 
 def _part(
@@ -277,14 +277,14 @@ def _number(flags: bytes) -> int:
 
 def _components(into: list[list[int]], out: list[list[int]]) -> list[list[int]]:
     """The strong components, by two depth-first searches; each is reached from later ones alone."""
-    unseen, found = bytearray(b"\1" * len(into)), []
+    unseen, components = bytearray(b"\1" * len(into)), []
     order = _finished(into, range(len(into)), unseen)
     unseen = bytearray(b"\1" * len(into))
     for root in reversed(order):
         component = _finished(out, [root], unseen)
         if component:
-            found.append(component)
-    return found
+            components.append(component)
+    return components
 
 
 def _finished(arcs: list[list[int]], roots: Iterable[int], unseen: bytearray) -> list[int]:
@@ -309,7 +309,7 @@ def _finished(arcs: list[list[int]], roots: Iterable[int], unseen: bytearray) ->
 
 
 def bounded_blocks(system: MultiChannelSystem, through: str | None = None) -> tuple[Block, ...]:
-    """The blocks, each with the longest sequence that is found for it.
+    """The blocks, each with the longest sequence among those that are tried.
 
     Parameters
     ----------
@@ -328,8 +328,8 @@ def _longest_of_block(
 ) -> KrylovSequence | None:
     if block.system is None or not (through is None or through in block.system.names):
         return None
-    found = best_sequences(block.system, denominator, through)
-    return max(found, key=lambda each: each.degree, default=None)
+    sequences = best_sequences(block.system, denominator, through)
+    return max(sequences, key=lambda each: each.degree, default=None)
 
 
 def modes_left(blocks: Sequence[Block]) -> int:
@@ -419,10 +419,10 @@ def measured_blocks(part: MultiChannelSystem) -> tuple[Block, ...]:
 
 def _driven(B: Matrix) -> list[int]:
     """For each input the first state that it drives."""
-    found: dict[int, int] = {}
+    first: dict[int, int] = {}
     for a, j, _ in B.nonzero():
-        found.setdefault(j, a)
-    return sorted(set(found.values()))
+        first.setdefault(j, a)
+    return sorted(set(first.values()))
 
 
 def _picking(states: Sequence[int], n: int) -> Matrix:
@@ -435,19 +435,19 @@ def transposed_blocks(blocks: Sequence[Block]) -> tuple[Block, ...]:
 
 
 def _transposed(
-    found: KrylovSequence | CoprimePolynomials | None,
+    evidence: KrylovSequence | CoprimePolynomials | None,
 ) -> KrylovSequence | CoprimePolynomials | None:
-    if found is None:
+    if evidence is None:
         return None
-    gains = tuple(F.T for F in found.gains)
-    if isinstance(found, CoprimePolynomials):
-        return CoprimePolynomials(gains, found.modulus)
+    gains = tuple(F.T for F in evidence.gains)
+    if isinstance(evidence, CoprimePolynomials):
+        return CoprimePolynomials(gains, evidence.modulus)
     return KrylovSequence(
-        modulus=found.modulus,
+        modulus=evidence.modulus,
         gains=gains,
-        channel=found.channel,
-        inputs=found.outputs,
-        outputs=found.inputs,
-        recurrence=found.recurrence,
-        cofactors=found.cofactors,
+        channel=evidence.channel,
+        inputs=evidence.outputs,
+        outputs=evidence.inputs,
+        recurrence=evidence.recurrence,
+        cofactors=evidence.cofactors,
     )

@@ -20,7 +20,7 @@ controllability or its index, as roots of an exact polynomial.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from random import Random
@@ -51,7 +51,7 @@ from mcexact.answer.structure import (
 from mcexact.derived.constructions import dual
 from mcexact.derived.modular import generator, residue_systems
 from mcexact.errors import Impossible, InputError, InternalError
-from mcexact.exact.krylov import controllable_subspace
+from mcexact.exact.krylov import InvariantSubspace, controllable_subspace
 from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
     characteristic_polynomial,
@@ -124,95 +124,7 @@ def joint_controllability(
     >>> alone.controllable, str(alone.uncontrollable_polynomial)
     (False, 'x - 2')
     """
-    spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
-    if isinstance(system, ParametricSystem):
-        return parametric_controllability(system, channels)
-    InputError.require(system, MultiChannelSystem, "system")
-    return _decided(system, channels, lambda: _own(system, spectrum))
-
-
-def _decided(
-    system: MultiChannelSystem,
-    channels: Iterable[str] | None,
-    own: Callable[[], tuple[Block, ...]],
-) -> JointControllability:
-    """Decide controllability by rank if small, else by blocks, of which ``own`` are tried first."""
-    T = range(system.m) if channels is None else system.indices(channels)
-    if system.n <= _SMALL:
-        return _by_rank(system, T)
-    if len(T) == system.m:
-        blocks = own()
-        if not modes_left(blocks):
-            return _all_reached(system, T, ByBlocks(blocks, None, Matrix.zeros(0, system.n), ()))
-    measuring = _by_measuring(system, T)
-    return _by_rank(system, T) if measuring is None else measuring
-
-
-def _by_measuring(system: MultiChannelSystem, T: Sequence[int]) -> JointControllability | None:
-    """Decide it by blocks, with channels T that measure states; None if sequences are too short."""
-    if not T:
-        return None
-    part, measured = measured_system(system, T)
-    blocks = measured_blocks(part)
-    left = modes_left(blocks)
-    if not left:
-        evidence = ByBlocks(blocks, measured, Matrix.zeros(0, system.n), ())
-        return _all_reached(system, T, evidence)
-    found = annihilator(part, left) if system.A.is_sparse else _annihilator(system, T)
-    if found is None or len(found[1]) < left:
-        return None
-    W, pivots = found
-    return JointControllability(
-        system,
-        channels=system.named(T),
-        dimension=system.n - left,
-        controllable=False,
-        uncontrollable_polynomial=characteristic_polynomial((W @ system.A).take(cols=pivots)),
-        evidence=ByBlocks(blocks, measured, W, pivots),
-    )
-
-
-def _annihilator(system: MultiChannelSystem, T: Sequence[int]) -> tuple[Matrix, tuple[int, ...]]:
-    found = controllable_subspace(
-        system.A, system.input_matrix(T), generator(system, "controllability")
-    )
-    return found.annihilator(), found.free
-
-
-def _own(system: MultiChannelSystem, spectrum: FixedSpectrum | None) -> tuple[Block, ...]:
-    """Blocks with the system's own outputs; those of the fixed spectrum, if it is known."""
-    blocks = free_blocks(system) if spectrum is None else None
-    if spectrum is not None and isinstance(spectrum.evidence, FixedByBlocks):
-        blocks = spectrum.evidence.blocks
-    return blocks or (Block(tuple(range(system.n)), None),)
-
-
-def _all_reached(
-    system: MultiChannelSystem, T: Sequence[int], evidence: ByBlocks
-) -> JointControllability:
-    return JointControllability(
-        system,
-        channels=system.named(T),
-        dimension=system.n,
-        controllable=True,
-        uncontrollable_polynomial=Polynomial.from_coefficients([1]),
-        evidence=evidence,
-    )
-
-
-def _by_rank(system: MultiChannelSystem, T: Sequence[int]) -> JointControllability:
-    found = controllable_subspace(
-        system.A, system.input_matrix(T), generator(system, "controllability")
-    )
-    W = found.annihilator()
-    return JointControllability(
-        system,
-        channels=system.named(T),
-        dimension=found.dimension,
-        controllable=found.dimension == system.n,
-        uncontrollable_polynomial=characteristic_polynomial((W @ system.A).take(cols=found.free)),
-        evidence=ByRank(found.modulus, W, found.free),
-    )
+    return _decided(system, channels, spectrum, observed=False)
 
 
 @overload
@@ -240,12 +152,8 @@ def joint_observability(
 
     Parameters
     ----------
-    system : MultiChannelSystem or ParametricSystem
-        A plant with one parameter is decided for all values, as by `joint_controllability`.
-    channels : iterable of str, optional
-        T, names of channels, by default all.
-    spectrum : FixedSpectrum, optional
-        ``fixed_spectrum(system)`` of a plant without parameters, if it is known already.
+    system, channels, spectrum
+        As for `joint_controllability`; ``spectrum`` is that of the system, not of its dual.
 
     Returns
     -------
@@ -253,11 +161,101 @@ def joint_observability(
         The answer about ``dual(system)``: ``observable`` says whether (C_T, A) is, ``dimension`` is
         the rank of [C_T; C_T A; …], and ``uncontrollable_polynomial`` has the unobservable modes.
     """
+    return _decided(system, channels, spectrum, observed=True)
+
+
+def _decided(
+    system: MultiChannelSystem | ParametricSystem,
+    channels: Iterable[str] | None,
+    spectrum: FixedSpectrum | None,
+    *,
+    observed: bool,
+) -> JointControllability | ParametricFixedSpectrum:
+    """Decide controllability of the system or its dual, by rank if small, else by blocks."""
     spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
-        return parametric_controllability(system, channels, observed=True)
+        return parametric_controllability(system, channels, observed=observed)
     InputError.require(system, MultiChannelSystem, "system")
-    return _decided(dual(system), channels, lambda: transposed_blocks(_own(system, spectrum)))
+    subject = dual(system) if observed else system
+    T = range(system.m) if channels is None else system.indices(channels)
+    if system.n <= _SMALL:
+        return _by_rank(subject, T)
+    if len(T) == system.m:
+        blocks = _own(system, spectrum)
+        blocks = transposed_blocks(blocks) if observed else blocks
+        if not modes_left(blocks):
+            return _all_reached(subject, T, ByBlocks(blocks, None, Matrix.zeros(0, system.n), ()))
+    measuring = _by_measuring(subject, T)
+    return _by_rank(subject, T) if measuring is None else measuring
+
+
+def _by_measuring(system: MultiChannelSystem, T: Sequence[int]) -> JointControllability | None:
+    """Decide it by blocks, with channels T that measure states; None if sequences are too short."""
+    if not T:
+        return None
+    part, measured = measured_system(system, T)
+    blocks = measured_blocks(part)
+    left = modes_left(blocks)
+    if not left:
+        evidence = ByBlocks(blocks, measured, Matrix.zeros(0, system.n), ())
+        return _all_reached(system, T, evidence)
+    annihilating = annihilator(part, left) if system.A.is_sparse else _annihilator(system, T)
+    if annihilating is None or len(annihilating[1]) < left:
+        return None
+    W, pivots = annihilating
+    return JointControllability(
+        system,
+        channels=system.named(T),
+        dimension=system.n - left,
+        controllable=False,
+        uncontrollable_polynomial=characteristic_polynomial((W @ system.A).take(cols=pivots)),
+        evidence=ByBlocks(blocks, measured, W, pivots),
+    )
+
+
+def _annihilator(system: MultiChannelSystem, T: Sequence[int]) -> tuple[Matrix, tuple[int, ...]]:
+    subspace = _subspace(system, T)
+    return subspace.annihilator(), subspace.free
+
+
+def _subspace(system: MultiChannelSystem, T: Sequence[int]) -> InvariantSubspace:
+    """The subspace that channels T control."""
+    B = system.input_matrix(T)
+    return controllable_subspace(system.A, B, generator(system, "controllability"))
+
+
+def _own(system: MultiChannelSystem, spectrum: FixedSpectrum | None) -> tuple[Block, ...]:
+    """Blocks with the system's own outputs; those of the fixed spectrum, if it is known."""
+    blocks = free_blocks(system) if spectrum is None else None
+    if spectrum is not None and isinstance(spectrum.evidence, FixedByBlocks):
+        blocks = spectrum.evidence.blocks
+    return blocks or (Block(tuple(range(system.n)), None),)
+
+
+def _all_reached(
+    system: MultiChannelSystem, T: Sequence[int], evidence: ByBlocks
+) -> JointControllability:
+    return JointControllability(
+        system,
+        channels=system.named(T),
+        dimension=system.n,
+        controllable=True,
+        uncontrollable_polynomial=Polynomial.from_coefficients([1]),
+        evidence=evidence,
+    )
+
+
+def _by_rank(system: MultiChannelSystem, T: Sequence[int]) -> JointControllability:
+    subspace = _subspace(system, T)
+    W, free = subspace.annihilator(), subspace.free
+    return JointControllability(
+        system,
+        channels=system.named(T),
+        dimension=subspace.dimension,
+        controllable=subspace.dimension == system.n,
+        uncontrollable_polynomial=characteristic_polynomial((W @ system.A).take(cols=free)),
+        evidence=ByRank(subspace.modulus, W, free),
+    )
 
 
 # Controllability and observability indices of some channels, by the ranks of [B … A^{k−1}B].
@@ -302,18 +300,18 @@ def controllability_indices(
 
     Notes
     -----
-    Exact.  The ranks are found modulo a prime, which bounds them from below.  From above: W, whose
-    first n − r_k rows annihilate the first k blocks.  With independent rows P and columns J of the
-    first k blocks K, each row f outside P that block k + 1 no longer leaves dependent gives one row
-    of W, the solution of w_P K_{P,J} = −K_{f,J}.
+    Exact.  The ranks modulo a prime bound them from below.  From above: W, whose first n − r_k rows
+    annihilate the first k blocks.  With independent rows P and columns J of the first k blocks K,
+    each row f outside P that block k + 1 no longer leaves dependent gives one row of W, the
+    solution of w_P K_{P,J} = −K_{f,J}.
 
     Examples
     --------
     >>> from mcexact import MultiChannelSystem
     >>> A = [[0, 1, 0], [0, 0, 0], [0, 0, 0]]
     >>> B = [[[0], [1], [0]], [[0], [0], [1]]]
-    >>> found = controllability_indices(MultiChannelSystem(A, B, [[[1, 0, 0]]] * 2))
-    >>> found.ranks, found.index, found.indices
+    >>> answer = controllability_indices(MultiChannelSystem(A, B, [[[1, 0, 0]]] * 2))
+    >>> answer.ranks, answer.index, answer.indices
     ((2, 3), 2, (2, 1))
     >>> controllability_indices(MultiChannelSystem(A, B, [[[1, 0, 0]]] * 2), ["2"]).index is None
     True
@@ -410,15 +408,15 @@ def _rows_of(K: Matrix, P: tuple[int, ...], wanted: list[int]) -> Matrix:
     The rows have no denominators: one for all of W would be as long as all of theirs together.
     """
     n = K.nrows
-    found = solve_nonsingular(K.take(rows=P).T, -K.take(rows=wanted).T)
-    if found is None:
+    solution = solve_nonsingular(K.take(rows=P).T, -K.take(rows=wanted).T)
+    if solution is None:
         raise InternalError("independent rows and columns make a nonsingular matrix")
     table = []
     for i, f in enumerate(wanted):
         row = [0] * n
-        for j, entries in zip(P, found.numerators, strict=True):
+        for j, entries in zip(P, solution.numerators, strict=True):
             row[j] = entries[i]
-        row[f] = found.denominator
+        row[f] = solution.denominator
         content = math.gcd(*row)
         table.append([entry // content for entry in row])
     return Matrix.from_integers(table, ncols=n)
@@ -504,10 +502,10 @@ def exceptional_gains(M: Any, A: Any, B: Any) -> ExceptionalGains:
 
     Examples
     --------
-    >>> found = exceptional_gains([[0, 2], [1, 0]], [[0, 1], [0, 0]], [[0], [1]])
-    >>> found.index, str(found.index_set.polynomial), -2 in found.index_set
+    >>> exceptional = exceptional_gains([[0, 2], [1, 0]], [[0, 1], [0, 0]], [[0], [1]])
+    >>> exceptional.index, str(exceptional.index_set.polynomial), -2 in exceptional.index_set
     (2, 'x + 2', True)
-    >>> [(int(a), int(b)) for a, b in found.index_set.real_roots]
+    >>> [(int(a), int(b)) for a, b in exceptional.index_set.real_roots]
     [(-2, -2)]
     """
     A = as_matrix(A, "A")
@@ -533,8 +531,8 @@ def _blocks_of_g(M: Matrix, A: Matrix, B: Matrix, blocks: int) -> PolynomialMatr
     layers = [[B]]
     for _ in range(blocks - 1):
         last = layers[-1]
-        moved = [M @ part for part in last] + [Matrix.zeros(*B.shape)]
-        layers.append([moved[0], *(x + A @ y for x, y in zip(moved[1:], last, strict=True))])
+        by_M = [M @ part for part in last] + [Matrix.zeros(*B.shape)]
+        layers.append([by_M[0], *(x + A @ y for x, y in zip(by_M[1:], last, strict=True))])
     zero = Matrix.zeros(*B.shape)
     return PolynomialMatrix.from_matrices(
         *(
@@ -547,7 +545,7 @@ def _blocks_of_g(M: Matrix, A: Matrix, B: Matrix, blocks: int) -> PolynomialMatr
 def _exceptional_set(
     system: MultiChannelSystem, M: Matrix, blocks: int, rng: Random
 ) -> ExceptionalSet:
-    """Find all g where some number of blocks of [B, (M+gA)B, …] have rank below n.
+    """Compute all g where some number of blocks of [B, (M+gA)B, …] have rank below n.
 
     Parameters
     ----------

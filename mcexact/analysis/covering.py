@@ -187,16 +187,16 @@ def _integer_optimum(
     lower = np.zeros(size)
     for i, value in enumerate(fixed):
         lower[i] = upper[i] = value
-    found = milp(
+    optimum = milp(
         np.array(objective),
         integrality=np.ones(size, dtype=int),
         bounds=Bounds(lower, upper),
         constraints=constraints,
         options={"mip_rel_gap": 0.0},
     )
-    if found.x is None:
-        raise program.stuck(f"the integer program could not be solved: {found.message}")
-    values = tuple(round(float(x)) for x in found.x)
+    if optimum.x is None:
+        raise program.stuck(f"the integer program could not be solved: {optimum.message}")
+    values = tuple(round(float(x)) for x in optimum.x)
     if not all(sum(values[i] for i in cut.support) >= cut.demand for cut in program.cuts):
         raise InternalError("the integer program's answer does not satisfy its own cuts")
     return values
@@ -314,7 +314,7 @@ def _relaxation(
     size = len(program.costs)
     if not program.cuts:
         return np.array(lower, dtype=float), np.zeros(0)
-    found = linprog(
+    optimum = linprog(
         program.float_costs,
         A_ub=-np.array([_row(cut, size) for cut in program.cuts]),
         b_ub=[-to_float(cut.demand) for cut in program.cuts],
@@ -324,9 +324,9 @@ def _relaxation(
         ],
         method="highs-ds",
     )
-    if found.x is None:
-        raise program.stuck(f"the linear relaxation could not be solved: {found.message}")
-    return np.asarray(found.x), -np.asarray(found.ineqlin.marginals)
+    if optimum.x is None:
+        raise program.stuck(f"the linear relaxation could not be solved: {optimum.message}")
+    return np.asarray(optimum.x), -np.asarray(optimum.ineqlin.marginals)
 
 
 def _proving_multipliers(

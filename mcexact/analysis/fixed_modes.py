@@ -118,7 +118,7 @@ def fixed_spectrum(
 
     Notes
     -----
-    Exact; no subset of channels is enumerated.  In large sparse systems the factors are found by
+    Exact; no subset of channels is enumerated.  In large sparse systems the factors come from
     products with sparse matrices, and how often they occur in χ_A is left open.  The certificate
     splits the states into blocks that share no gain.  For each it has one Krylov sequence of drawn
     gains and one channel, modulo a small prime, which bounds how much is fixed; for each fixed
@@ -145,14 +145,14 @@ def fixed_spectrum(
     InputError.require(system, MultiChannelSystem, "system")
     blocks = bounded_blocks(system)
     if not modes_left(blocks):
-        return _found(system, (), None, ByBlocks(blocks, None, ()))
+        return _answer(system, (), None, ByBlocks(blocks, None, ()))
     if _is_large_and_sparse(system):
         blocks = _with_small_blocks_completed(system, blocks)
         if not modes_left(blocks):
-            return _found(system, (), None, ByBlocks(blocks, None, ()))
-        found = _by_sparse_search(system, blocks)
-        if found is not None:
-            return found
+            return _answer(system, (), None, ByBlocks(blocks, None, ()))
+        answer = _by_sparse_search(system, blocks)
+        if answer is not None:
+            return answer
     rng = generator(system, "fixed_spectrum")
     decision = decide(system, rng)
     region = StabilityRegion(cast(Time, system.time))
@@ -164,14 +164,14 @@ def fixed_spectrum(
         for o, roots in zip(decision.obstructions, discs, strict=True)
     )
     if by_blocks is not None:
-        return _found(system, factors, rate, by_blocks)
-    moved = TwoPolynomials(
+        return _answer(system, factors, rate, by_blocks)
+    proof = TwoPolynomials(
         gains=lifted_gains(decision.modular, decision.gains),
         modulus=decision.modular.modulus,
         subspaces=subspaces,
         completion=_completion(decision, rng) if factors else None,
     )
-    return _found(system, factors, rate, moved)
+    return _answer(system, factors, rate, proof)
 
 
 def _is_large_and_sparse(system: MultiChannelSystem) -> bool:
@@ -198,15 +198,15 @@ def _by_sparse_search(
     if modes_left(blocks) > _MOST_MODES:
         return None
     try:
-        found = fixed_subspaces(system)
+        subspaces = fixed_subspaces(system)
     except LimitReached:
         return None
-    ell = _separating(product(p for p, _ in found), MODULI[-1])
-    fixed = sum(p.degree * space.deficiency for p, space in found)
+    ell = _separating(product(p for p, _ in subspaces), MODULI[-1])
+    fixed = sum(p.degree * space.deficiency for p, space in subspaces)
     if modes_left(blocks) != fixed or ell is None:
         return None
     region = StabilityRegion(cast(Time, system.time))
-    discs, rate = located(system.time, [p for p, _ in found])
+    discs, rate = located(system.time, [p for p, _ in subspaces])
     factors = tuple(
         FixedFactor(
             polynomial=p,
@@ -217,13 +217,13 @@ def _by_sparse_search(
             stable=region.contains_roots_of(p),
             roots=roots,
         )
-        for (p, space), roots in zip(found, discs, strict=True)
+        for (p, space), roots in zip(subspaces, discs, strict=True)
     )
-    spaces = tuple(evidence(system, space) for _, space in found)
-    return _found(system, factors, rate, ByBlocks(blocks, ell, spaces))
+    spaces = tuple(evidence(system, space) for _, space in subspaces)
+    return _answer(system, factors, rate, ByBlocks(blocks, ell, spaces))
 
 
-def _found(
+def _answer(
     system: MultiChannelSystem,
     factors: tuple[FixedFactor, ...],
     rate: RateInterval | None,
@@ -246,15 +246,15 @@ def _by_blocks(
     subspaces: tuple[ShrunkSubspace, ...],
 ) -> ByBlocks | None:
     """The proof by blocks, if they leave just as many modes as the fixed factors account for."""
-    found = decision.obstructions
-    fixed = sum(o.polynomial.degree * o.subspace.deficiency for o in found)
+    obstructions = decision.obstructions
+    fixed = sum(o.polynomial.degree * o.subspace.deficiency for o in obstructions)
     if modes_left(blocks) > fixed and len(blocks) > 1:
         blocks = completed_blocks(system, blocks)
     if modes_left(blocks) > fixed:
         return None
-    if not found:
+    if not obstructions:
         return ByBlocks(blocks, None, ())
-    ell = _separating(product(o.polynomial for o in found), decision.modular.modulus)
+    ell = _separating(product(o.polynomial for o in obstructions), decision.modular.modulus)
     return None if ell is None else ByBlocks(blocks, ell, subspaces)
 
 
@@ -271,21 +271,21 @@ def _separating(whole: Polynomial, last: int) -> int | None:
 def _factor(
     system: MultiChannelSystem,
     decision: Decision,
-    found: Obstruction,
+    obstruction: Obstruction,
     roots: tuple[RootDisc, ...],
     region: StabilityRegion,
     by_blocks: bool,
 ) -> FixedFactor:
-    T = set(found.subspace.channels_T)
-    p, at_most = found.polynomial, found.subspace.deficiency
+    T, deficiency = set(obstruction.subspace.channels_T), obstruction.subspace.deficiency
+    p, at_most = obstruction.polynomial, deficiency
     if not by_blocks:
         at_most = polynomial_residues(p, decision.closed.modulus).multiplicity_in(decision.closed)
     return FixedFactor(
         polynomial=p,
-        multiplicity_in_A=found.multiplicity_in_A,
+        multiplicity_in_A=obstruction.multiplicity_in_A,
         multiplicity_at_most=at_most,
         channels=system.named(i for i in range(system.m) if i not in T),
-        rank=system.n - found.subspace.deficiency,
+        rank=system.n - deficiency,
         stable=region.contains_roots_of(p),
         roots=roots,
     )
@@ -297,16 +297,16 @@ def _completion(decision: Decision, rng: random.Random) -> Completion:
     n, ell = modular.system.n, modular.modulus
     rho = max(o.subspace.deficiency for o in decision.obstructions)
     closed = closed_loop(modular, decision.gains)
-    stuck: dict[int, Polynomial] = {}
+    of_deficiency: dict[int, Polynomial] = {}
     for o in decision.obstructions:
         d = o.subspace.deficiency
-        stuck[d] = stuck.get(d, product([])) * o.polynomial
+        of_deficiency[d] = of_deficiency.get(d, product([])) * o.polynomial
     while True:
         B0, C0 = random_matrix(n, rho, ell, rng), random_matrix(rho, n, ell, rng)
-        for d, factors in stuck.items():
-            cut = closed + B0.take(cols=range(d)) @ C0.take(rows=range(d))
-            freed = cut.characteristic_polynomial().gcd(polynomial_residues(factors, ell))
-            if freed.degree > 0:
+        for d, factors in of_deficiency.items():
+            completed = closed + B0.take(cols=range(d)) @ C0.take(rows=range(d))
+            chi = completed.characteristic_polynomial()
+            if chi.gcd(polynomial_residues(factors, ell)).degree > 0:
                 break
         else:
             return Completion(lifted(B0), lifted(C0))
@@ -384,10 +384,10 @@ def _evidence(system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.R
         closed = _closed_set(system.m, suspected)
         if closed is None:
             return _connected(modular, proof, _connecting_edges(system.m, suspected))
-        found = controllable_subspace(system.A, system.input_matrix(closed), rng)
+        subspace = controllable_subspace(system.A, system.input_matrix(closed), rng)
         rest = [i for i in range(system.m) if i not in closed]
-        if (system.output_matrix(rest) @ found.X).is_zero():
-            return CutWitness(zero_transfer(system, closed, found))
+        if (system.output_matrix(rest) @ subspace.X).is_zero():
+            return CutWitness(zero_transfer(system, closed, subspace))
     raise InternalError("the stream of primes is endless")
 
 
@@ -493,8 +493,8 @@ def assignability(
     --------
     >>> from mcexact import MultiChannelSystem
     >>> B, C = [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]]
-    >>> found = assignability(MultiChannelSystem([[0, 0], [1, 0]], B, C))
-    >>> found.undivided, [(block.channels, block.dimension) for block in found.blocks]
+    >>> answer = assignability(MultiChannelSystem([[0, 0], [1, 0]], B, C))
+    >>> answer.undivided, [(block.channels, block.dimension) for block in answer.blocks]
     (False, [(('1',), 1), (('2',), 1)])
     """
     InputError.require(system, MultiChannelSystem, "system")
@@ -593,8 +593,8 @@ def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) ->
 
     Notes
     -----
-    Exact.  The certificate has the kernel over Q[x]/(p), which bounds the rank from above, and a
-    prime modulo which elimination with unit pivots bounds it from below.
+    Exact.  The certificate has the null space over Q[x]/(p), which bounds the rank from above, and
+    a prime modulo which elimination with unit pivots bounds it from below.
 
     Examples
     --------
@@ -609,7 +609,7 @@ def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) ->
     p = _irreducible(mode)
     inside = system.indices(subset)
     M0, M1 = pencil(system, inside)
-    kernel, pivots = kernel_at(M0, M1, p)
+    null_space, pivots = kernel_at(M0, M1, p)
     rank = M0.ncols - len(pivots)
     return PencilRank(
         system,
@@ -617,7 +617,7 @@ def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) ->
         polynomial=p,
         rank=rank,
         modulus=_pencil_modulus(system, M0, M1, p, rank),
-        kernel=kernel,
+        kernel=null_space,
         pivots=pivots,
     )
 
@@ -641,8 +641,8 @@ def pencil_ranks(
     InputError.require(system, MultiChannelSystem, "system")
     names = system.named(system.indices(subset))
     known = ClosedLoopSpectrum.known(spectrum, system, "spectrum")
-    found = open_loop_spectrum(system) if known is None else known
-    return tuple(pencil_rank(system, names, mode) for mode, _ in found.polynomial.factor())
+    modes = open_loop_spectrum(system) if known is None else known
+    return tuple(pencil_rank(system, names, mode) for mode, _ in modes.polynomial.factor())
 
 
 def _irreducible(mode: Any) -> Polynomial:

@@ -300,7 +300,7 @@ def _balancing(D: Matrix) -> list[Fraction]:
 
 
 def _approximate(D: Matrix, region: StabilityRegion) -> Matrix | None:
-    """A symmetric P with S dominant, found by floating-point solutions of exact residuals."""
+    """A symmetric P with S dominant, from floating-point solutions of exact residuals."""
     import numpy as np
 
     k = D.nrows

@@ -165,10 +165,10 @@ def least_minimizers(
     for modular in residue_systems(system, rng):
         roots = polynomial_residues(p, modular.modulus).roots()
         if roots:
-            found = obstruction_modulo(modular, drawn_gains(modular, rng), min(roots))
-            if found is None:
+            obstruction = obstruction_modulo(modular, drawn_gains(modular, rng), min(roots))
+            if obstruction is None:
                 return
-            yield found.channels_T
+            yield obstruction.channels_T
 
 
 def _extreme_minimizers(
@@ -206,7 +206,7 @@ def violated_subsets(
     graph : NeighborGraph
     rng : random.Random
     """
-    found: list[CoveringCut] = []
+    cuts: list[CoveringCut] = []
     for p in factors:
         for pair in _extreme_minimizers(extended, p, rng):
             here = []
@@ -218,9 +218,9 @@ def violated_subsets(
                     cut = DeficiencyCut(base.named(s), p, lost, shrunk)
                     here.append(CoveringCut(around, lost, cut))
             if here:
-                found += here
+                cuts += here
                 break
-    return found
+    return cuts
 
 
 def absence(
@@ -602,15 +602,15 @@ def minimal_shared_dimensions(
     False
     """
     InputError.require(system, MultiChannelSystem, "system")
-    system, found = plant_with_graph(system, graph, share)
+    system, neighbors = plant_with_graph(system, graph, share)
     program = _program(system.m, costs, upper)
     region = StabilityRegion.asked(system.time, region, rate, radius)
     base, factors = base_system(system, share), violating_factors(system, region)
     rng = generator(base, SharedDimensions.kind)
 
     def violated(sizes: Sequence[int], extended: MultiChannelSystem) -> list[CoveringCut]:
-        cuts = violated_subsets(base, extended, factors, sizes, found, rng)
-        return cuts or (_connectivity_cuts(base, extended, found) if free_assignability else [])
+        cuts = violated_subsets(base, extended, factors, sizes, neighbors, rng)
+        return cuts or (_connectivity_cuts(base, extended, neighbors) if free_assignability else [])
 
     problem = CoveringProblem(
         SharedDimensions.kind,
@@ -648,17 +648,17 @@ def plant_with_graph(
         If there is no neighbor graph, or the system is a derived one.
     """
     checked_share(share)
-    system, found = with_graph(system, graph)
+    system, neighbors = with_graph(system, graph)
     if system.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
-    return system, found
+    return system, neighbors
 
 
 def _program(
     m: int, costs: Sequence[Entry] | None, upper: Sequence[int | None] | None
 ) -> CoveringProgram:
-    given = [1] * m if costs is None else several(costs, "costs", "numbers")
-    prices = tuple(as_requested(c, where=f"costs[{i}]") for i, c in enumerate(given))
+    numbers = [1] * m if costs is None else several(costs, "costs", "numbers")
+    prices = tuple(as_requested(c, where=f"costs[{i}]") for i, c in enumerate(numbers))
     if len(prices) != m or any(price <= 0 for price in prices):
         raise UsageError(f"expected {m} positive numbers, one for each agent", where="costs")
     limits = (None,) * m if upper is None else several(upper, "upper", "integers")
@@ -671,13 +671,13 @@ def _connectivity_cuts(
     base: MultiChannelSystem, extended: MultiChannelSystem, graph: NeighborGraph
 ) -> list[CoveringCut]:
     """The cut of one strong component that no edge leaves, if there is more than one component."""
-    found = transfer_graph(extended)
-    if found.strongly_connected:
+    transfers = transfer_graph(extended)
+    if transfers.strongly_connected:
         return []
     closed = next(
         component
-        for component in found.components
-        if all(i in component for j, i in found.arcs if j in component)
+        for component in transfers.components
+        if all(i in component for j, i in transfers.arcs if j in component)
     )
     T = base.indices(closed)
     s = complement(base.m, T)
@@ -726,14 +726,14 @@ def common_dimension(
     False
     """
     InputError.require(system, MultiChannelSystem, "system")
-    system, found = plant_with_graph(system, graph, share)
+    system, neighbors = plant_with_graph(system, graph, share)
     base = base_system(system, share)
     rng = generator(base, CommonDimension.kind)
     factors = [obstruction.polynomial for obstruction in decide(base, rng).obstructions]
     k, cut = 0, None
     while True:
         extended = extended_system(system, [k] * system.m, share)
-        cuts = violated_subsets(base, extended, factors, [k] * system.m, found, rng)
+        cuts = violated_subsets(base, extended, factors, [k] * system.m, neighbors, rng)
         if not cuts:
             proof = absence(extended, None, generator(extended, CommonDimension.kind))
             return CommonDimension(
@@ -857,8 +857,8 @@ def minimal_communication(
     (('1', '2'),)
     """
     InputError.require(system, MultiChannelSystem, "system")
-    given, found = with_links(system, graph)
-    links = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
+    linked, neighbors = with_links(system, graph)
+    links = _checked(linked.with_neighbors(neighbors), neighbors, dimensions, share, forbidden)
     plant, names = links.plant, links.plant.names
     region = StabilityRegion.asked(plant.time, region, rate, radius)
     factors = violating_factors(plant, region)
@@ -879,7 +879,7 @@ def minimal_communication(
     edges = [(names[j], names[i]) for j, i in links.candidates]
     added = None if least.values is None else tuple(itertools.compress(edges, least.values))
     return MinimalCommunication(
-        given,
+        linked,
         share=links.share,
         dimensions=links.dimensions,
         bound=None if region is None else region.edge,

@@ -118,9 +118,9 @@ def reaching_gains(
             continue
         F = block_diagonal(gains)
         M = modular.A + modular.B @ residues(F, modular.modulus) @ modular.C
-        found = _indices(modular, M, channels, bound)
-        if found is not None and _is_cyclic(M, rng):
-            yield ReachingGains(gains, system.A + B @ F @ C, *found)
+        indices = _indices(modular, M, channels, bound)
+        if indices is not None and _is_cyclic(M, rng):
+            yield ReachingGains(gains, system.A + B @ F @ C, *indices)
 
 
 def _indices(
@@ -325,8 +325,8 @@ def single_channel_gains(
     >>> from mcexact import MultiChannelSystem
     >>> I = [[1, 0], [0, 1]]
     >>> ring = MultiChannelSystem(I, [[[1], [0]], [[0], [1]]], [[[0, 1]], [[1, 0]]])
-    >>> found = single_channel_gains(ring)
-    >>> found.indices
+    >>> answer = single_channel_gains(ring)
+    >>> answer.indices
     ((2, 2), (2, 2))
     >>> apart = MultiChannelSystem(I, [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
     >>> single_channel_gains(apart, "1", want="controllable").exists
@@ -347,8 +347,8 @@ def single_channel_gains(
         if not failing:
             return _with_gains(_attainable(question, modular, closed), modular, draw, rng)
         for q, side in failing:
-            found = _obstruction(system, q, side, rng)
-            if found is not None:
+            obstruction = _obstruction(system, q, side, rng)
+            if obstruction is not None:
                 return SingleChannelGains(
                     system,
                     channels=system.named(channels),
@@ -356,7 +356,7 @@ def single_channel_gains(
                     exists=False,
                     cyclic=False,
                     indices=None,
-                    evidence=found,
+                    evidence=obstruction,
                 )
     raise InternalError("the stream of primes is endless")
 
@@ -382,11 +382,13 @@ def _failing(
 def _obstruction(
     system: MultiChannelSystem, q: int, side: str, rng: Random
 ) -> StuckWitness | UnreachedWitness | None:
-    """Find an obstruction to gains with which channel q controls (or observes), if there is one."""
+    """An obstruction to gains with which channel q controls (or observes), if there is one."""
     target = system if side == "controllable" else dual(system)
     name = system.names[q]
-    for found in decide(full_output(target, q), rng).obstructions:
-        return StuckWitness(name, side, found.polynomial, evidence(target, found.subspace))
+    for obstruction in decide(full_output(target, q), rng).obstructions:
+        return StuckWitness(
+            name, side, obstruction.polynomial, evidence(target, obstruction.subspace)
+        )
     modular = next(residue_systems(target, rng))
     edges = suspected_edges(modular, rng)
     reached = {q}
@@ -432,14 +434,14 @@ def _with_gains(
 ) -> SingleChannelGains:
     """Try gains until some are accepted; all outside a proper algebraic set are."""
     grown = _growing_draws(question.system)
-    given = 0 if draw is None else 400
+    drawn = 0 if draw is None else 400
     for trial in range(10**6):
-        gains = draw(trial, rng) if draw and trial < given else grown(trial - given, rng)
+        gains = draw(trial, rng) if draw and trial < drawn else grown(trial - drawn, rng)
         if any(F.denominator % modular.modulus == 0 for F in gains):
             continue
-        found = _served(question, modular, gains, rng)
-        if found is not None:
-            return found
+        answer = _served(question, modular, gains, rng)
+        if answer is not None:
+            return answer
     raise InternalError("gains that exist were not found")
 
 
@@ -455,7 +457,7 @@ def _served(
     closed = closed_loop(modular, F)
     indices: list[Indices] = []
     for q in question.channels:
-        found = []
+        of_channel = []
         for side in SIDES[question.wanted]:
             control = side == "controllable"
             limited = control and question.index is not None
@@ -463,8 +465,8 @@ def _served(
             nu = _index(closed if control else closed.T, _part(modular, q, side), bound)
             if nu is None:
                 return None
-            found.append(nu)
-        indices.append(tuple(found))
+            of_channel.append(nu)
+        indices.append(tuple(of_channel))
     spun = _generator(closed, rng) if question.cyclic else None
     if question.cyclic and spun is None:
         return None
@@ -565,34 +567,34 @@ class ErrorGains:
 
     Attributes
     ----------
-    found : SingleChannelGains
+    answer : SingleChannelGains
         The answer for the error system, whose matrix the gains make cyclic.
     """
 
-    found: SingleChannelGains
+    answer: SingleChannelGains
 
     @property
     def exists(self) -> bool:
         """Whether such gains exist."""
-        return self.found.exists
+        return self.answer.exists
 
     @property
     def error(self) -> MultiChannelSystem:
         """The open-loop error system, nm states."""
-        return self.found.about
+        return self.answer.about
 
     @property
     def indices(self) -> tuple[tuple[int, ...], ...] | None:
         """The controllability and observability indices for each agent."""
-        return self.found.indices
+        return self.answer.indices
 
     @property
     def gains(self) -> tuple[tuple[Matrix, ...], ...] | None:
         """The gains of each agent i: K_i, n × q_i, then H_ij, n × n, for j ∈ N_i∖{i}, in order."""
-        plant, found = self.error.plant, self.found.gains
-        if found is None:
+        plant, matrices = self.error.plant, self.answer.gains
+        if matrices is None:
             return None
-        return tuple(_split(gain, plant.q(i), plant.n) for i, gain in enumerate(found))
+        return tuple(_split(gain, plant.q(i), plant.n) for i, gain in enumerate(matrices))
 
 
 def error_gains(
@@ -639,8 +641,8 @@ def error_gains(
     exact = checked_gains(system, feedback, [system.n] * system.m)
     error = error_system(system, exact)
     draw = error_gain_draws(system, graph, exact, Fraction(0))
-    found = single_channel_gains(error, cyclic=True, index=system.m, draw=draw)
-    return ErrorGains(found)
+    answer = single_channel_gains(error, cyclic=True, index=system.m, draw=draw)
+    return ErrorGains(answer)
 
 
 def _split(gain: Matrix, q: int, n: int) -> tuple[Matrix, ...]:

@@ -152,7 +152,7 @@ def fixed_subspaces(system: MultiChannelSystem) -> tuple[tuple[Polynomial, Exact
     rng = generator(system, "fixed_spectrum")
     moduli = exact_primes(system, rng)
     whole, loop = _common_factor(system, moduli, rng)
-    found = []
+    factors = []
     for p, often in whole.factor():
         if often > 1:
             raise LimitReached(f"the modes of {p} are fixed by Jordan chains of a large system")
@@ -162,8 +162,8 @@ def fixed_subspaces(system: MultiChannelSystem) -> tuple[tuple[Polynomial, Exact
         loops = chain([loop], (drawn_loop(system, ell, rng) for ell in fitting))
         if len(polynomial_residues(p, loop.parts.ell).roots()) < p.degree:
             next(loops)
-        found.append((p, _subspace(system, p, loops, rng)))
-    return tuple(sorted(found, key=lambda each: (each[0].degree, each[0].coefficients)))
+        factors.append((p, _subspace(system, p, loops, rng)))
+    return tuple(sorted(factors, key=lambda each: (each[0].degree, each[0].coefficients)))
 
 
 def _common_factor(
@@ -205,9 +205,9 @@ def _subspace(
             layers, ell = combine(known[1], known[2], layers, ell), known[2] * ell
         known = first, layers, ell
         lifted = rationals(layers, ell)
-        found = None if lifted is None else _exact(system, p, first, *lifted)
-        if found is not None:
-            return found
+        subspace = None if lifted is None else _exact(system, p, first, *lifted)
+        if subspace is not None:
+            return subspace
     raise LimitReached(f"the subspace for {p} has too long entries")
 
 
@@ -248,8 +248,8 @@ def _limit(loop: DrawnLoop, mu: int, rng: random.Random) -> _Limit | None:
 
 def _seen(loop: DrawnLoop, X: Any) -> set[int]:
     """The channels whose outputs are not all 0 on the columns of X."""
-    outputs, found = loop.parts.outputs, (loop.parts.C @ X % loop.parts.ell).any(axis=1)
-    return {i for i in range(len(outputs) - 1) if found[outputs[i] : outputs[i + 1]].any()}
+    outputs, nonzero = loop.parts.outputs, (loop.parts.C @ X % loop.parts.ell).any(axis=1)
+    return {i for i in range(len(outputs) - 1) if nonzero[outputs[i] : outputs[i + 1]].any()}
 
 
 def _interpolated(values: Sequence[Any], roots: Sequence[int], ell: int) -> list[list[int]]:
@@ -314,8 +314,8 @@ def _nonzero_rows(M: Matrix) -> tuple[list[int], Matrix]:
 def _solution(B: Matrix, right: Matrix) -> Matrix | None:
     """The V with B V = right, 0 in the rows of columns that depend on others; None without one."""
     rows, kept = _nonzero_rows(B)
-    found = solve(kept, right.take(rows=rows))
-    return found if found is not None and (B @ found - right).is_zero() else None
+    V = solve(kept, right.take(rows=rows))
+    return V if V is not None and (B @ V - right).is_zero() else None
 
 
 # Annihilators of what channels control.
@@ -425,14 +425,14 @@ def reachable_pairs(system: MultiChannelSystem) -> Flags:
     import numpy as np
 
     reached, m = _reached(system), system.m
-    found = np.zeros((m, m), dtype=np.bool_)
+    pairs = np.zeros((m, m), dtype=np.bool_)
     for i, channel in enumerate(system.channels):
         mask = 0
         for b in {b for _, b, _ in channel.C.nonzero()}:
             mask |= reached[b]
         sources = np.frombuffer(mask.to_bytes(m // 8 + 1, "little"), dtype=np.uint8)
-        found[:, i] = np.unpackbits(sources, bitorder="little")[:m]
-    return found
+        pairs[:, i] = np.unpackbits(sources, bitorder="little")[:m]
+    return pairs
 
 
 def _reached(system: MultiChannelSystem) -> list[int]:
@@ -454,7 +454,7 @@ def _reached(system: MultiChannelSystem) -> list[int]:
 def sparse_powers(
     system: MultiChannelSystem, ell: int, enough: Callable[[Flags], bool]
 ) -> Integers:
-    """The least k with C_i A^k B_j ≠ 0 modulo ℓ in row j and column i, −1 where none is found.
+    """The least k with C_i A^k B_j ≠ 0 modulo ℓ in row j and column i, −1 where there is none.
 
     Parameters
     ----------
@@ -462,7 +462,7 @@ def sparse_powers(
     ell : int
         One of the moduli of `edge_modulus`.
     enough : function
-        Takes the pairs found so far, each time that there are more, and ends the search.
+        Takes the pairs that have a k, each time that there are more, and ends the search.
 
     Raises
     ------
@@ -478,17 +478,17 @@ def sparse_powers(
         raise LimitReached(f"{n} states and {width} inputs have too many Markov parameters")
     V = loop.B.toarray().astype(np.float32)
     A, seen = loop.A.astype(np.float32), _observed(loop)
-    found = np.full((system.m, system.m), -1, dtype=np.int64)
+    powers = np.full((system.m, system.m), -1, dtype=np.int64)
     most = _MOST_PRODUCTS // max(loop.A.nnz * width + n, 1)
     for k in range(min(n, most + 1)):
         if k:
             V = reduce(A @ V, ell)
-        new = seen(V) & (found < 0)
+        new = seen(V) & (powers < 0)
         if new.any():
-            found[new] = k
-            if enough(found >= 0):
+            powers[new] = k
+            if enough(powers >= 0):
                 break
-    return found
+    return powers
 
 
 def _observed(loop: SparseLoop) -> Callable[[Any], Flags]:
@@ -500,8 +500,8 @@ def _observed(loop: SparseLoop) -> Callable[[Any], Flags]:
 
     def seen(V: Any) -> Flags:
         nonzero = (reduce(C @ V, loop.ell) % loop.ell != 0).astype(np.float32)
-        found: Flags = (outputs @ nonzero @ inputs.T).T > 0
-        return found
+        pairs: Flags = (outputs @ nonzero @ inputs.T).T > 0
+        return pairs
 
     return seen
 

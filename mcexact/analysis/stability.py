@@ -172,17 +172,17 @@ def certify_stability(
         _require_separation(loop.A, separation)
     tried = (method,) if method is not None else _order(loop.n, separation)
     for each in tried:
-        found: PolynomialMethod | LyapunovMethod | InstabilityMethod | None
+        proof: PolynomialMethod | LyapunovMethod | InstabilityMethod | None
         if each == "polynomial":
             polynomial = polynomial or characteristic_polynomial(loop.A)
             stable = region.contains_roots_of(polynomial)
-            found = PolynomialMethod()
+            proof = PolynomialMethod()
         else:
-            found = _lyapunov(loop, region, separation)
-            stable = isinstance(found, LyapunovMethod)
-        if found is not None:
+            proof = _lyapunov(loop, region, separation)
+            stable = isinstance(proof, LyapunovMethod)
+        if proof is not None:
             return StabilityVerdict(
-                loop, bound=region.bound, stable=stable, **region.limits, evidence=found
+                loop, bound=region.bound, stable=stable, **region.limits, evidence=proof
             )
     raise UsageError("the Lyapunov method was inconclusive: leave out `method`", where="method")
 
@@ -213,9 +213,9 @@ def _require_separation(M: Matrix, separation: Separation) -> None:
 def _lyapunov(
     loop: MultiChannelSystem, region: StabilityRegion, separation: Separation | None
 ) -> LyapunovMethod | InstabilityMethod | None:
-    """Find quadratic forms of the blocks, or of the whole loop if unstable; None if undecided."""
+    """Quadratic forms of the blocks, or of the whole loop if unstable; None if undecided."""
     parts: Sequence[Matrix] = (loop.A,) if separation is None else separation.blocks()
-    found: dict[str, list[LyapunovForm]] = {}
+    forms_of: dict[str, list[LyapunovForm]] = {}
     for side in ("bound", *region.limits):
         forms = []
         for D in parts:
@@ -225,11 +225,11 @@ def _lyapunov(
             forms.append(form)
         if any(form.R is None for form in forms):
             return _instability(loop, region, side, separation, forms)
-        found[side] = [LyapunovForm(f.P, f.R, f.R2) for f in forms if f.R is not None]
+        forms_of[side] = [LyapunovForm(f.P, f.R, f.R2) for f in forms if f.R is not None]
     blocks = []
-    for k, first in enumerate(found.pop("bound")):
+    for k, first in enumerate(forms_of.pop("bound")):
         block = LyapunovBlock(first.P.nrows, first.P, first.R, first.R2)
-        limits: dict[str, Any] = {side: made[k] for side, made in found.items()}
+        limits: dict[str, Any] = {side: others[k] for side, others in forms_of.items()}
         blocks.append(replace(block, **limits))
     transformation = None
     if separation is not None:
@@ -239,7 +239,7 @@ def _lyapunov(
 
 
 def _of_side(side: str, D: Matrix, region: StabilityRegion) -> tuple[Matrix, StabilityRegion]:
-    """A matrix that has all its eigenvalues in a region, iff D meets this side of the given one."""
+    """A matrix that has all its eigenvalues in a region, iff D meets one side of another region."""
     if side == "damping" and region.damping is not None:
         return lifted(D, region.damping), StabilityRegion(region.time)
     if side == "largest_modulus" and region.largest_modulus is not None:
@@ -254,14 +254,14 @@ def _instability(
     separation: Separation | None,
     forms: Sequence[QuadraticForm],
 ) -> InstabilityMethod | None:
-    """A form for the whole loop: its only block's, that made of the blocks', or a new one."""
+    """A form for the whole loop: its only block's, one of the blocks' forms, or a new one."""
     named = side if region.limits else None
     if separation is None:
         [form] = forms
     elif separation.inverse is not None and side == "bound":
         T, inverse = separation.T, separation.inverse
-        found = separated_instability(loop.A, T, inverse, forms, region)
-        return None if found is None else replace(found, side=named)
+        method = separated_instability(loop.A, T, inverse, forms, region)
+        return None if method is None else replace(method, side=named)
     else:
         whole = quadratic_form(*_of_side(side, loop.A, region))
         if whole is None:
@@ -486,8 +486,8 @@ def closed_loop_spectrum(M: Matrix, time: str) -> LoopSpectrum:
 
     Examples
     --------
-    >>> found = closed_loop_spectrum(Matrix.from_rows([[-1, 5], [0, -2]]), "continuous")
-    >>> found.stable, found.rate
+    >>> spectrum = closed_loop_spectrum(Matrix.from_rows([[-1, 5], [0, -2]]), "continuous")
+    >>> spectrum.stable, spectrum.rate
     (True, RateInterval(lower='1', upper='1'))
     >>> closed_loop_spectrum(Matrix.from_rows([[1]]), "continuous").stable
     False
@@ -515,8 +515,8 @@ def eigenvalue_outside(M: Matrix, region: StabilityRegion) -> RootDisc | None:
     Examples
     --------
     >>> M = Matrix.from_rows([[-1, 3], [-3, -1]])
-    >>> found = eigenvalue_outside(M, StabilityRegion("continuous", damping="1/2"))
-    >>> found.re, abs(Fraction(found.im))
+    >>> disc = eigenvalue_outside(M, StabilityRegion("continuous", damping="1/2"))
+    >>> disc.re, abs(Fraction(disc.im))
     ('-1', Fraction(3, 1))
     >>> eigenvalue_outside(M, StabilityRegion("continuous", damping="1/4"))
     """

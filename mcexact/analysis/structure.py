@@ -73,10 +73,10 @@ def _channel_of(ranges: Sequence[range]) -> list[int]:
 def _nonzero_blocks(modular: ModularSystem, G: ModularMatrix) -> set[Edge]:
     """The pairs (j, i) with a nonzero block (i, j) of a Σ q_i × Σ p_i matrix."""
     sources, targets = _channel_of(modular.inputs), _channel_of(modular.outputs)
-    found: set[Edge] = set()
+    pairs: set[Edge] = set()
     for i, row in zip(targets, G.rows(), strict=True):
-        found.update((j, i) for j, value in zip(sources, row, strict=True) if value)
-    return found
+        pairs.update((j, i) for j, value in zip(sources, row, strict=True) if value)
+    return pairs
 
 
 def suspected_edges(modular: ModularSystem, rng: random.Random) -> set[Edge]:
@@ -111,31 +111,31 @@ def witnessed_powers(modular: ModularSystem, suspected: set[Edge]) -> dict[Edge,
     ----------
     modular : ModularSystem
     suspected : set of (int, int)
-        The search ends as soon as each of these pairs has its k; other pairs found are kept.
+        The search ends as soon as each of these pairs has its k; the k of other pairs are kept.
 
     Notes
     -----
     The rational C_i A^k B_j is then not 0 either, so k proves the edge j → i.
     """
-    found: dict[Edge, int] = {}
+    powers: dict[Edge, int] = {}
     if not suspected:
-        return found
-    moved = modular.B
+        return powers
+    AkB = modular.B
     for k in range(modular.system.n):
         if k:
-            moved = modular.A @ moved
-        for edge in _nonzero_blocks(modular, modular.C @ moved):
-            found.setdefault(edge, k)
-        if suspected <= found.keys():
+            AkB = modular.A @ AkB
+        for edge in _nonzero_blocks(modular, modular.C @ AkB):
+            powers.setdefault(edge, k)
+        if suspected <= powers.keys():
             break
-    return found
+    return powers
 
 
 def zero_transfer(
-    system: MultiChannelSystem, sources: Sequence[int], found: InvariantSubspace
+    system: MultiChannelSystem, sources: Sequence[int], space: InvariantSubspace
 ) -> ZeroTransfer:
     """Make the evidence of an invariant subspace that contains im B_j for some channels."""
-    return ZeroTransfer(channels_from=system.named(sources), X=found.X, pivots=found.pivots)
+    return ZeroTransfer(channels_from=system.named(sources), X=space.X, pivots=space.pivots)
 
 
 def strong_components(m: int, edges: Sequence[Edge]) -> tuple[tuple[int, ...], ...]:
@@ -152,7 +152,7 @@ def strong_components(m: int, edges: Sequence[Edge]) -> tuple[tuple[int, ...], .
     >>> strong_components(3, [(0, 1), (1, 0), (1, 2)])
     ((0, 1), (2,))
     """
-    import networkx
+    import networkx  # a fifth of a second, which most questions about one system save
 
     graph = networkx.DiGraph()
     graph.add_nodes_from(range(m))
@@ -205,9 +205,9 @@ def transfer_graph(
         return parametric_transfer_graph(system)
     InputError.require(system, MultiChannelSystem, "system")
     if is_large_and_sparse(system):
-        found = _by_structure(system)
-        if found is not None:
-            return found
+        graph = _by_structure(system)
+        if graph is not None:
+            return graph
     rng = generator(system, "transfer_graph")
     for modular in residue_systems(system, rng):
         suspected = suspected_edges(modular, rng)
@@ -223,7 +223,7 @@ def _by_structure(system: MultiChannelSystem) -> TransferGraph | None:
     ell, paths = edge_modulus(system), reachable_pairs(system)
     if ell is None:
         return None
-    powers = sparse_powers(system, ell, lambda found: bool((found | ~paths).all()))
+    powers = sparse_powers(system, ell, lambda edges: bool((edges | ~paths).all()))
     if ((powers < 0) & paths).any():
         return None
     edges = [(int(j), int(i)) for j, i in zip(*paths.nonzero(), strict=True)]
@@ -242,10 +242,10 @@ def _zero_transfers(
             groups.setdefault(unreached, []).append(j)
     zeros = []
     for unreached, sources in groups.items():
-        found = controllable_subspace(system.A, system.input_matrix(sources), rng)
-        if not (system.output_matrix(unreached) @ found.X).is_zero():
+        space = controllable_subspace(system.A, system.input_matrix(sources), rng)
+        if not (system.output_matrix(unreached) @ space.X).is_zero():
             return None
-        zeros.append((tuple(sources), found))
+        zeros.append((tuple(sources), space))
     return zeros
 
 
@@ -265,7 +265,7 @@ def _graph_answer(
         strongly_connected=len(components) <= 1,
         modulus=modulus,
         powers=tuple(powers[edge] for edge in edges),
-        zeros=tuple(zero_transfer(system, sources, found) for sources, found in zeros),
+        zeros=tuple(zero_transfer(system, sources, space) for sources, space in zeros),
     )
 
 
@@ -276,7 +276,7 @@ def _graph_answer(
 class _Outside:
     """L, c × n, with L = G C + N L A and N L B = 0, N strictly lower triangular.
 
-    The kernel of L is the largest subspace V of the kernel of C with A V ⊂ V + im B.
+    The null space of L is the largest subspace V of that of C with A V ⊂ V + im B.
     """
 
     L: Matrix
@@ -320,10 +320,10 @@ def complementary_subsystem(
     >>> A = [[1, 0, 0], [0, 1, 0], [0, 1, 1]]
     >>> B = [[[1], [0], [0]], [[0], [1], [0]], [[1], [0], [0]]]
     >>> C = [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 1, 0]]]
-    >>> found = complementary_subsystem(MultiChannelSystem(A, B, C), ["2", "3"])
-    >>> found.complete, str(found.remnant)
+    >>> answer = complementary_subsystem(MultiChannelSystem(A, B, C), ["2", "3"])
+    >>> answer.complete, str(answer.remnant)
     (False, 'x - 1')
-    >>> found.transfer_zero, [(str(zeros.polynomial), zeros.rank) for zeros in found.zeros]
+    >>> answer.transfer_zero, [(str(zeros.polynomial), zeros.rank) for zeros in answer.zeros]
     (True, [('x - 1', 2)])
     """
     InputError.require(system, MultiChannelSystem, "system")
@@ -335,10 +335,10 @@ def complementary_subsystem(
     B, C = system.input_matrix(rest), system.output_matrix(inside)
     for modular in residue_systems(system, rng, bits=61):
         outside = _outside(system.A, B, C, modular.modulus)
-        found = None if outside is None else _decomposed(system.A, B, outside, rng)
-        if outside is None or found is None:
+        decomposition = None if outside is None else _decomposed(system.A, B, outside, rng)
+        if outside is None or decomposition is None:
             continue
-        parts, polynomials, reachable = found
+        parts, polynomials, reachable = decomposition
         evidence = {**parts, "L": outside.L, "G": outside.G, "N": outside.N}
         if _full_ranks(evidence, B, reachable, modular.modulus):
             names = system.named(inside)
@@ -359,20 +359,20 @@ def _outside(A: Matrix, B: Matrix, C: Matrix, ell: int) -> _Outside | None:
     places = list(residues(L, ell).rref()[1]) if L.nrows else []
     while 0 < L.nrows < n:
         Y = left_nullspace(L @ B) if B.ncols else Matrix.identity(L.nrows)
-        moved = Y @ L @ A
-        stacked = vstack([L, moved], ncols=n)
+        YLA = Y @ L @ A
+        stacked = vstack([L, YLA], ncols=n)
         if stacked.denominator % ell == 0:
             return None
         chosen = [j - L.nrows for j in residues(stacked.T, ell).rref()[1] if j >= L.nrows]
         if not chosen:
             break
-        Y, moved = Y.take(rows=chosen), moved.take(rows=chosen)
+        Y, YLA = Y.take(rows=chosen), YLA.take(rows=chosen)
         # Clear the columns of the earlier pivots, and make the new pivots an identity.
-        c = solve(L.take(cols=places).T, moved.take(cols=places).T)
+        c = solve(L.take(cols=places).T, YLA.take(cols=places).T)
         if c is None:
             return None
         c = c.T
-        new = moved - c @ L
+        new = YLA - c @ L
         if new.denominator % ell == 0:
             return None
         fresh = list(residues(new, ell).rref()[1])
@@ -398,10 +398,10 @@ def _decomposed(
     n, p = A.nrows, B.ncols
     X, pivots = kernel(outside.L) if outside.L.nrows else (Matrix.identity(n), tuple(range(n)))
     v = X.ncols
-    found = solve(hstack([X, -B], nrows=n), A @ X)
-    if found is None:
+    solution = solve(hstack([X, -B], nrows=n), A @ X)
+    if solution is None:
         return None
-    inner, F = found.take(rows=range(v)), found.take(rows=range(v, v + p))
+    inner, F = solution.take(rows=range(v)), solution.take(rows=range(v, v + p))
     S = nullspace(outside.L @ B) if outside.L.nrows else Matrix.identity(p)
     driven = (B @ S).take(rows=pivots)
     space = controllable_subspace(inner, driven, rng)
@@ -503,8 +503,8 @@ def setpoint_solvability(
     --------
     >>> from mcexact import MultiChannelSystem
     >>> plant = MultiChannelSystem([[-1, 0], [0, -2]], [[[1], [0]], [[0], [1]]], [[[1, 1]]] * 2)
-    >>> found = setpoint_solvability(plant)
-    >>> found.solvable, found.invariant_zero, found.combinations.numerators
+    >>> answer = setpoint_solvability(plant)
+    >>> answer.solvable, answer.invariant_zero, answer.combinations.numerators
     (False, False, ((-1, 1),))
     >>> wash = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]])
     >>> setpoint_solvability(wash).invariant_zero
@@ -572,9 +572,9 @@ def _annihilating_row(
             rank = residues(M0 + M1 * x, ell).rank() - system.n
             if rank > _MINORS:
                 return _row_of_least_degree(M0, M1)
-            found = _row_of_minors(system, x, ell)
-            if found is not None and (found @ PolynomialMatrix.pencil(M0, M1)).is_zero():
-                return found
+            row = _row_of_minors(system, x, ell)
+            if row is not None and (row @ PolynomialMatrix.pencil(M0, M1)).is_zero():
+                return row
     raise InternalError("the stream of primes is endless")
 
 
@@ -620,7 +620,7 @@ def _minor(rows: list[list[Polynomial]]) -> Polynomial:
 
 
 def _row_of_least_degree(M0: Matrix, M1: Matrix) -> PolynomialMatrix:
-    """Find an annihilating row of least degree, for pencils that have one of small degree.
+    """Compute an annihilating row of least degree, for pencils that have one of small degree.
 
     Σ w_k x^k annihilates iff w_0 M0 = 0, w_k M0 + w_{k−1} M1 = 0 and w_d M1 = 0.
     """
@@ -631,9 +631,9 @@ def _row_of_least_degree(M0: Matrix, M1: Matrix) -> PolynomialMatrix:
             parts = [Matrix.zeros(rows, width)] * (degree + 2)
             parts[k], parts[k + 1] = M0, M1
             blocks.append(hstack(parts))
-        found = left_nullspace(vstack(blocks))
-        if found.nrows:
-            row = found.take(rows=[0])
+        rows_of_degree = left_nullspace(vstack(blocks))
+        if rows_of_degree.nrows:
+            row = rows_of_degree.take(rows=[0])
             return PolynomialMatrix.from_matrices(
                 *(row.take(cols=range(k * rows, (k + 1) * rows)) for k in range(degree + 1))
             )

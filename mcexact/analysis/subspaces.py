@@ -65,7 +65,8 @@ class ModularObstruction:
     channels_T : tuple of int
         The least T for which rank P_s(μ) is least, s its complement.
     deficiency : int
-        n − rank P_s(μ), the dimension of the kernel of μI − A_F for the gains below; at least 1.
+        n − rank P_s(μ), the dimension of the null space of μI − A_F for the gains below; at
+        least 1.
     gains : tuple
         F of greatest rank of μI − A_F modulo ℓ.
     """
@@ -79,11 +80,11 @@ class ModularObstruction:
 class _Echelon:
     """The result of reducing [N, B], N = μI − A_F.
 
-    ``kernel`` is n × (n − rank N).  ``images`` lists, for each column of B, whether N x = b has a
-    solution; column j of ``solutions`` (n × Σ p_i) is one, or 0 where there is none.
+    ``null_space`` is n × (n − rank N).  ``images`` lists, for each column of B, whether N x = b has
+    a solution; column j of ``solutions`` (n × Σ p_i) is one, or 0 where there is none.
     """
 
-    kernel: ModularMatrix
+    null_space: ModularMatrix
     images: list[bool]
     solutions: ModularMatrix
 
@@ -110,24 +111,24 @@ def obstruction_modulo(modular: ModularSystem, gains: Gains, mu: int) -> Modular
     one solution X_j of N X_j = B_j for every channel j, N⁻¹(im B_T) is ker N + Σ_{j∈T} im X_j, so
     the whole sequence is one reduction of [N, B] and a search in the graph with an edge from j to
     i wherever C_i X_j ≠ 0.  Where some B_i with i ∈ T is not in im N, F is not of greatest rank,
-    and a change of rank one in F_i repairs it: at level 0 the rank grows, at level k the kernel
-    stays and the violation moves to a lower level.  So at most n rounds of at most m changes.
+    and a change of rank one in F_i repairs it: at level 0 the rank grows, at level k the null
+    space stays and the violation moves to a lower level.  So at most n rounds of at most m changes.
     """
     n, m = modular.system.n, modular.system.m
     for _ in range((n + 1) * (m + 1)):
-        found = _reduce(modular, gains, mu)
-        if found.kernel.ncols == 0:
+        echelon = _reduce(modular, gains, mu)
+        if echelon.null_space.ncols == 0:
             return None
-        T, repair = _wong_sequence(modular, found)
+        T, repair = _wong_sequence(modular, echelon)
         if repair is None:
-            return ModularObstruction(T, found.kernel.ncols, gains)
+            return ModularObstruction(T, echelon.null_space.ncols, gains)
         gains = _repaired(gains, *repair, modular.modulus)
     message = "the repair of the gains did not end within n(m+1) changes"
     raise InternalError(message)
 
 
 def _reduce(modular: ModularSystem, gains: Gains, mu: int) -> _Echelon:
-    """Row-reduce [μI − A_F, B] once and read off kernel and solutions."""
+    """Row-reduce [μI − A_F, B] once and read off null space and solutions."""
     ell, n = modular.modulus, modular.system.n
     N = ModularMatrix.scalar(n, mu, ell) - closed_loop(modular, gains)
     width = modular.B.ncols
@@ -135,32 +136,32 @@ def _reduce(modular: ModularSystem, gains: Gains, mu: int) -> _Echelon:
     rows = reduced.rows()
     bound = [j for j in pivots if j < n]
     free = sorted(set(range(n)) - set(bound))
-    kernel = [[0] * len(free) for _ in range(n)]
+    null_space = [[0] * len(free) for _ in range(n)]
     for k, f in enumerate(free):
-        kernel[f][k] = 1
+        null_space[f][k] = 1
     solutions = [[0] * width for _ in range(n)]
     below = rows[len(bound) : len(pivots)]
     images = [not any(row[n + j] for row in below) for j in range(width)]
     for row, position in zip(rows, bound, strict=False):
-        kernel[position] = [-row[f] % ell for f in free]
+        null_space[position] = [-row[f] % ell for f in free]
         solutions[position] = [
             v if inside else 0 for v, inside in zip(row[n:], images, strict=True)
         ]
     return _Echelon(
-        ModularMatrix.from_rows(kernel, ell, ncols=len(free)),
+        ModularMatrix.from_rows(null_space, ell, ncols=len(free)),
         images,
         ModularMatrix.from_rows(solutions, ell, ncols=width),
     )
 
 
 def _wong_sequence(
-    modular: ModularSystem, found: _Echelon
+    modular: ModularSystem, echelon: _Echelon
 ) -> tuple[tuple[int, ...], tuple[int, int, int] | None]:
     """The limit T of the Wong sequence, or the first repair (channel, input, output) it needs."""
     m = modular.system.m
     # The output row of channel i by which the sequence reached i; None: not reached.
     reached: list[int | None] = [None] * m
-    seen = (modular.C @ found.kernel).rows()
+    seen = (modular.C @ echelon.null_space).rows()
     level = []
     for i in range(m):
         for r in modular.outputs[i]:
@@ -168,11 +169,11 @@ def _wong_sequence(
                 reached[i] = r - modular.outputs[i].start
                 level.append(i)
                 break
-    passed = (modular.C @ found.solutions).rows()
+    passed = (modular.C @ echelon.solutions).rows()
     while level:
         for i in level:
             for j in modular.inputs[i]:
-                if not found.images[j]:
+                if not echelon.images[j]:
                     row = reached[i]
                     if row is None:
                         raise InternalError("a channel of the Wong sequence has no output row")
@@ -246,21 +247,21 @@ def shrunk_subspace(
 
     Notes
     -----
-    T is found at a root of p modulo a prime where p has one.  Gains that make μI − A_F nonsingular
+    T is that of a root of p modulo a prime where p has one.  Gains that make μI − A_F nonsingular
     there make λI − A_F nonsingular, so the answer None is proved.  The subspace is computed over
     Q[x]/(p), and is itself a proof.  If T or the deficiency is wrong for a prime, the next prime is
     tried.
     """
-    given = () if first is None else (first,)
-    for modular in itertools.chain(given, residue_systems(system, rng)):
+    known = () if first is None else (first,)
+    for modular in itertools.chain(known, residue_systems(system, rng)):
         roots = polynomial_residues(p, modular.modulus).roots()
         if not roots:
             continue
-        found = obstruction_modulo(modular, drawn_gains(modular, rng), min(roots))
-        if found is None:
+        obstruction = obstruction_modulo(modular, drawn_gains(modular, rng), min(roots))
+        if obstruction is None:
             return None
-        exact = exact_subspace(system, found.channels_T, p)
-        if exact is not None and exact.deficiency == found.deficiency:
+        exact = exact_subspace(system, obstruction.channels_T, p)
+        if exact is not None and exact.deficiency == obstruction.deficiency:
             return exact
     raise InternalError("the stream of primes is endless")
 
@@ -268,7 +269,7 @@ def shrunk_subspace(
 def exact_subspace(
     system: MultiChannelSystem, T: Sequence[int], p: Polynomial
 ) -> ExactSubspace | None:
-    """The whole kernel of [−B_T, xI − A; 0, C_{m−T}] over Q[x]/(p), as a shrunk subspace.
+    """The whole null space of [−B_T, xI − A; 0, C_{m−T}] over Q[x]/(p), as a shrunk subspace.
 
     Parameters
     ----------
@@ -281,7 +282,7 @@ def exact_subspace(
     Returns
     -------
     ExactSubspace or None
-        None if the kernel has at most rank B_T columns, so that T proves nothing about p.
+        None if the null space has at most rank B_T columns, so that T proves nothing about p.
 
     Notes
     -----
@@ -305,7 +306,7 @@ def exact_subspace(
             [Matrix.zeros(C.nrows, b), Matrix.zeros(C.nrows, n)],
         ]
     )
-    kernel, pivots = kernel_at(constant, shift, p)
+    null_space, pivots = kernel_at(constant, shift, p)
     if len(pivots) <= b:
         return None
     spread = Matrix.from_integers(
@@ -313,8 +314,8 @@ def exact_subspace(
     )
     return ExactSubspace(
         channels_T=tuple(T),
-        U=kernel.take(rows=range(b, b + n)),
-        V=spread @ kernel.take(rows=range(b)),
+        U=null_space.take(rows=range(b, b + n)),
+        V=spread @ null_space.take(rows=range(b)),
         pivots=tuple(pivot - b for pivot in pivots),
         deficiency=len(pivots) - b,
     )
@@ -409,16 +410,18 @@ def decide(system: MultiChannelSystem, rng: random.Random) -> Decision:
         candidate = lift.lifted(common)
         if candidate is None:
             continue
-        found = []
+        obstructions = []
         for p, _ in candidate.factor():
             if p not in known:
                 known[p] = shrunk_subspace(system, p, rng, first=modular)
             subspace = known[p]
             if subspace is not None:
-                found.append(Obstruction(p, p.multiplicity_in(lift.characteristic), subspace))
-        if _rest_is_free(lift.characteristic, closed, found):
-            found.sort(key=lambda o: (o.polynomial.degree, o.polynomial.coefficients))
-            return Decision(modular, gains, closed, tuple(found))
+                obstructions.append(
+                    Obstruction(p, p.multiplicity_in(lift.characteristic), subspace)
+                )
+        if _rest_is_free(lift.characteristic, closed, obstructions):
+            obstructions.sort(key=lambda o: (o.polynomial.degree, o.polynomial.coefficients))
+            return Decision(modular, gains, closed, tuple(obstructions))
     raise InternalError("the stream of primes is endless")
 
 
@@ -458,12 +461,12 @@ class CommonFactor:
 
 
 def _rest_is_free(
-    characteristic: Polynomial, closed: ModularPolynomial, found: list[Obstruction]
+    characteristic: Polynomial, closed: ModularPolynomial, obstructions: list[Obstruction]
 ) -> bool:
     """Whether χ_A / Π p^a and χ_{A_F} are coprime modulo ℓ, and the p are, pairwise."""
     ell = closed.modulus
-    rest = characteristic // product(o.polynomial**o.multiplicity_in_A for o in found)
+    rest = characteristic // product(o.polynomial**o.multiplicity_in_A for o in obstructions)
     if polynomial_residues(rest, ell).gcd(closed).degree > 0:
         return False
-    residues = [polynomial_residues(o.polynomial, ell) for o in found]
+    residues = [polynomial_residues(o.polynomial, ell) for o in obstructions]
     return all(p.gcd(q).degree == 0 for p, q in itertools.combinations(residues, 2))

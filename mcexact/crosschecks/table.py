@@ -348,12 +348,11 @@ def _controllability(system: MultiChannelSystem, floats: _Floats) -> list[CrossC
         ("controllability", joint_controllability(system), "B", "ctrb", floats.inputs),
         ("observability", joint_observability(system), "C", "obsv", floats.outputs),
     ):
-        ranked = verdicts.ctrb_rank if call == "ctrb" else verdicts.obsv_rank
         rows.append(
             _row(
                 f"joint {name}",
                 f"numpy.linalg.matrix_rank(control.{call}(A, {letter}))",
-                _answer(partial(ranked, A, matrix)),
+                _answer(partial(verdicts.control_rank, call, A, matrix)),
                 truth.dimension,
                 lambda rank: f"{_yes(rank == n)}, rank {rank} of {n}",
             )

@@ -270,13 +270,16 @@ def controllability_rank(A: NDArray[np.float64], B: NDArray[np.float64]) -> int:
     return int(np.linalg.matrix_rank(controllability_matrix(A, B)))
 
 
-def ctrb_rank(A: NDArray[np.float64], B: NDArray[np.float64]) -> int:
-    """Rank of python-control's controllability matrix, at numpy's default tolerance.
+def control_rank(function: str, A: NDArray[np.float64], M: NDArray[np.float64]) -> int:
+    """Rank of python-control's controllability or observability matrix, at numpy's tolerance.
 
     Parameters
     ----------
+    function : {"ctrb", "obsv"}
+        The function of python-control that makes the matrix.
     A : ndarray, shape (n, n)
-    B : ndarray, shape (n, p)
+    M : ndarray, shape (n, p) or (q, n)
+        B for ``ctrb``, C for ``obsv``.
 
     Raises
     ------
@@ -286,26 +289,8 @@ def ctrb_rank(A: NDArray[np.float64], B: NDArray[np.float64]) -> int:
     with MissingExtra.named("control"):
         import control
 
-    return int(np.linalg.matrix_rank(control.ctrb(A, B)))
-
-
-def obsv_rank(A: NDArray[np.float64], C: NDArray[np.float64]) -> int:
-    """Rank of python-control's observability matrix, at numpy's default tolerance.
-
-    Parameters
-    ----------
-    A : ndarray, shape (n, n)
-    C : ndarray, shape (q, n)
-
-    Raises
-    ------
-    MissingExtra
-        If python-control is not installed.
-    """
-    with MissingExtra.named("control"):
-        import control
-
-    return int(np.linalg.matrix_rank(control.obsv(A, C)))
+    matrix = control.ctrb(A, M) if function == "ctrb" else control.obsv(A, M)
+    return int(np.linalg.matrix_rank(matrix))
 
 
 def hautus_controllable(A: NDArray[np.float64], B: NDArray[np.float64]) -> bool:

@@ -10,7 +10,7 @@ import pytest
 
 from mcexact import MissingExtra
 from mcexact.cli import main
-from mcexact.floating.verdicts import ctrb_rank
+from mcexact.floating.verdicts import control_rank
 from mcexact.model import gallery
 from mcexact.plot.canvas import _figure_class, empty_figure
 
@@ -64,7 +64,7 @@ def test_python_gets_an_import_error_that_names_the_extra(monkeypatch: pytest.Mo
 def test_another_library_that_is_missing_is_named_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "control", None)
     with pytest.raises(MissingExtra, match=r"needs control.*'mcexact\[control\]'"):
-        ctrb_rank(None, None)
+        control_rank("ctrb", None, None)
 
 
 def test_the_error_comes_back_from_another_process() -> None:

@@ -50,7 +50,7 @@ def test_a_library_that_is_missing_gives_no_answer(monkeypatch):
     def missing(*_):
         raise ModuleNotFoundError("No module named 'control'", name="control")
 
-    monkeypatch.setattr(verdicts, "ctrb_rank", missing)
+    monkeypatch.setattr(verdicts, "control_rank", missing)
     [row] = [row for row in crosscheck(PLAIN).rows if row.question == "joint controllability"]
     assert row.agree is None and row.floating == "no answer (control is not installed)"
 
@@ -59,7 +59,7 @@ def test_a_library_that_cannot_be_loaded_is_not_called_missing(monkeypatch):
     def unmapped(*_):
         raise ImportError("failed to map segment from shared object", name="control")
 
-    monkeypatch.setattr(verdicts, "ctrb_rank", unmapped)
+    monkeypatch.setattr(verdicts, "control_rank", unmapped)
     with pytest.raises(ImportError, match="failed to map"):
         crosscheck(PLAIN)
 

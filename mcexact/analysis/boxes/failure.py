@@ -122,16 +122,16 @@ class Uncertain:
                 best = Drop(size, point, change)
             L = U[:, self.rank :].conj() / rows[:, None]
             R = Vh[self.rank :].conj().T / cols[:, None]
-            moved = _moves(point, freedom, real)
+            directions = _directions(point, freedom, real)
             # Every entry of Δ contributes −L_i R_j; λ contributes Lᵀ E R.
             per_entry = -np.einsum("ea,eb->eab", L[I] * D[I, J][:, None], R[J]).reshape(len(I), -1)
             base = (L.T @ P @ R).ravel() - part @ per_entry
             along = (L.T @ E @ R).ravel()
-            found = _program(per_entry.T, [move * along for move in moved], base, real)
-            if found is None:
+            solution = _program(per_entry.T, [each * along for each in directions], base, real)
+            if solution is None:
                 return best
-            part, steps = found
-            point = _moved(point, freedom, moved, steps)
+            part, steps = solution
+            point = _after_steps(point, freedom, directions, steps)
             if np.abs(part).max() > _TOO_FAR * max(1.0, size):
                 return best
         return best
@@ -139,24 +139,21 @@ class Uncertain:
     def exact(self, near: Drop, freedom: Freedom = "plane") -> tuple[Matrix, Fraction] | None:
         """An exact change near one in floating point, and its size; None if the search fails.
 
-        λ is rounded, and so are all rows but a few, which then stay as they are.  Their kernel is
-        computed exactly, and the entries of the few other rows are changed as little as possible so
-        that they vanish on it.  The same is tried for columns.
+        λ is rounded, and so are all rows but a few, which then stay as they are.  Their null
+        space is computed exactly, and the entries of the few other rows are changed as little as
+        possible so that they vanish on it.  The same is tried for columns.
         """
         point = rational_point(near.point, freedom)
         change = _rounded(near.change)
-        found = []
-        for turned in (False, True):
-            made = self._by_rows(change, point, turned)
-            if made is not None:
-                found.append(made)
-        return min(found, key=lambda each: each[1], default=None)
+        exact = (self._by_rows(change, point, transposed) for transposed in (False, True))
+        changes = [each for each in exact if each is not None]
+        return min(changes, key=lambda each: each[1], default=None)
 
     def _by_rows(
-        self, change: Matrix, point: tuple[Fraction, Fraction], turned: bool
+        self, change: Matrix, point: tuple[Fraction, Fraction], transposed: bool
     ) -> tuple[Matrix, Fraction] | None:
-        Z, D = (self.Z.T, self.D.T) if turned else (self.Z, self.D)
-        change = change.T if turned else change
+        Z, D = (self.Z.T, self.D.T) if transposed else (self.Z, self.D)
+        change = change.T if transposed else change
         entries = ((i, i, point[0]) for i in range(self.states))
         P = Matrix.from_entries(Z.shape, entries) - Z - change
         turn = Matrix.from_entries(Z.shape, ((i, i, point[1]) for i in range(self.states)))
@@ -169,7 +166,7 @@ class Uncertain:
                 sizes = (abs(total[i, j]) / D[i, j] for i, j, _ in total.nonzero())
                 size = max(sizes, default=Fraction(0))
                 if best is None or size < best[1]:
-                    best = (total.T if turned else total), size
+                    best = (total.T if transposed else total), size
         return best
 
 
@@ -192,7 +189,7 @@ def _choices(P: Matrix, turn: Matrix, known: list[list[int]], few: int) -> Itera
 def _correction(
     P: Matrix, turn: Matrix, D: Matrix, known: list[list[int]], free: list[int]
 ) -> Matrix | None:
-    """Entries of some rows that let P − Δ vanish in these rows on the kernel of all others."""
+    """Entries of some rows that let P − Δ vanish in these rows on the null space of all others."""
     others = [i for i in range(P.nrows) if i not in free]
     width = P.ncols
     # Complex numbers are pairs of real ones: P + i·turn acts on x + iy.
@@ -213,10 +210,10 @@ def _correction(
         basis = _independent(M @ spread, right)
         if basis is None:
             return None
-        found = spread.take(cols=basis[0]) @ basis[1]
-        if M @ found != right:
+        entries = spread.take(cols=basis[0]) @ basis[1]
+        if M @ entries != right:
             return None
-        parts += [(i, j, found[k, 0]) for k, j in enumerate(known[i])]
+        parts += [(i, j, entries[k, 0]) for k, j in enumerate(known[i])]
     return Matrix.from_entries(P.shape, parts)
 
 
@@ -235,7 +232,7 @@ def _scaled(P: Any, D: Floats) -> tuple[Any, Floats, Floats]:
     return P / rows[:, None] / cols[None, :], rows, cols
 
 
-def _moves(point: complex, freedom: Freedom, real: bool) -> list[complex]:
+def _directions(point: complex, freedom: Freedom, real: bool) -> list[complex]:
     """The directions in which λ can move."""
     if freedom == "plane":
         return [1.0] if real else [1.0, 1j]
@@ -244,17 +241,22 @@ def _moves(point: complex, freedom: Freedom, real: bool) -> list[complex]:
     return [1j] if freedom == "line" else [1j * point]
 
 
-def _moved(point: complex, freedom: Freedom, moves: list[complex], steps: Floats) -> complex:
-    if freedom == "circle" and moves:
+def _after_steps(
+    point: complex, freedom: Freedom, directions: list[complex], steps: Floats
+) -> complex:
+    """λ after steps along the directions, or along the circle."""
+    if freedom == "circle" and directions:
         return complex(point * np.exp(1j * float(steps[0])))
-    return point + complex(sum(m * s for m, s in zip(moves, steps, strict=True)))
+    return point + complex(sum(d * s for d, s in zip(directions, steps, strict=True)))
 
 
-def _program(entries: Any, moves: list[Any], base: Any, real: bool) -> tuple[Floats, Floats] | None:
-    """Minimize the largest |part| subject to entries · part + moves · steps + base = 0."""
+def _program(
+    entries: Any, directions: list[Any], base: Any, real: bool
+) -> tuple[Floats, Floats] | None:
+    """Minimize the largest |part| subject to entries · part + directions · steps + base = 0."""
     from scipy.optimize import linprog
 
-    columns = [entries, *(each[:, None] for each in moves)]
+    columns = [entries, *(each[:, None] for each in directions)]
     equations, right = np.hstack(columns), -base
     if real:
         equations, right = equations.real, right.real
@@ -265,12 +267,12 @@ def _program(entries: Any, moves: list[Any], base: Any, real: bool) -> tuple[Flo
     equations, right = equations / size[:, None], right / size
     if not (np.all(np.isfinite(equations)) and np.all(np.isfinite(right))):
         return None
-    count, free = entries.shape[1], len(moves)
+    count, free = entries.shape[1], len(directions)
     eye, none, one = np.eye(count), np.zeros((count, free)), np.ones((count, 1))
     limits = np.vstack([np.hstack([eye, none, -one]), np.hstack([-eye, none, -one])])
     cost = np.zeros(count + free + 1)
     cost[-1] = 1
-    found = linprog(
+    optimum = linprog(
         cost,
         A_ub=limits,
         b_ub=np.zeros(2 * count),
@@ -279,9 +281,9 @@ def _program(entries: Any, moves: list[Any], base: Any, real: bool) -> tuple[Flo
         bounds=[(None, None)] * (count + free) + [(0, None)],
         method="highs",
     )
-    if found.status != 0 or found.x is None:
+    if optimum.status != 0 or optimum.x is None:
         return None
-    return found.x[:count], found.x[count : count + free]
+    return optimum.x[:count], optimum.x[count : count + free]
 
 
 def rational_point(point: complex, freedom: Freedom) -> tuple[Fraction, Fraction]:
@@ -400,11 +402,12 @@ def failing_plant(
         limit = None if best is None else best.distance
         if near is None or (limit is not None and near.size >= limit):
             continue
-        made = pencil.exact(near, freedom)
-        if made is None or (limit is not None and made[1] >= limit):
+        exact = pencil.exact(near, freedom)
+        if exact is None or (limit is not None and exact[1] >= limit):
             continue
-        plant = _changed(system, s, made[0])
-        best = FailingPlant(plant, made[1], near.point, system.named(s))
+        change, size = exact
+        plant = _changed(system, s, change)
+        best = FailingPlant(plant, size, near.point, system.named(s))
     return best
 
 
@@ -497,7 +500,7 @@ def severed_plants(
     >>> from mcexact.model.box import Box
     >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
     >>> halves = Box.absolute(plant, B=[[["1/2"]]]).radii
-    >>> [(found.distance, found.plant.B[0].is_zero()) for found in severed_plants(plant, halves)]
+    >>> [(near.distance, near.plant.B[0].is_zero()) for near in severed_plants(plant, halves)]
     [(Fraction(2, 1), True)]
     """
     B, C, distance = list(system.B), list(system.C), Fraction(0)
@@ -521,9 +524,9 @@ def severed_plants(
 
 def _whole(M: Matrix, D: Matrix) -> Fraction | None:
     """The least multiple of the radii within which all entries can be 0; None without one."""
-    found = Fraction(0)
+    factor = Fraction(0)
     for i, j, x in M.nonzero():
         if not D[i, j]:
             return None
-        found = max(found, Fraction(abs(x), M.denominator) / D[i, j])
-    return found
+        factor = max(factor, Fraction(abs(x), M.denominator) / D[i, j])
+    return factor

@@ -484,8 +484,8 @@ class Pencil:
             return None
         free = D + sum(map(np.abs, self.balanced_generators))
         unit = w[:, None] / (len(w) * (np.abs(c * np.diag(E) - Z0) @ w + g * free @ w))[None, :]
-        turned = self.scale[:, None] / self.scale[None, :]
-        exact = dyadic(V * turned, unit * turned)
+        ratios = self.scale[:, None] / self.scale[None, :]
+        exact = dyadic(V * ratios, unit * ratios)
         return self.tested(exact, whole_weights(w * self.scale), factor)
 
     def tested(self, V: ComplexRows, w: tuple[int, ...], factor: Fraction) -> RegularDiscs:

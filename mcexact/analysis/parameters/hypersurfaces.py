@@ -73,7 +73,7 @@ _NUMBER = RationalFunction.constant(0, ())
 def mode_hypersurfaces(system: ParametricSystem) -> ExceptionalHypersurfaces:
     """Decide which modes are fixed for almost all values, and where further modes are."""
     rng = generator(system, "exceptional_hypersurfaces")
-    return _Search(system, system, parametric_fixed_spectrum, rng).found()
+    return _Search(system, system, parametric_fixed_spectrum, rng).answer()
 
 
 def controllability_hypersurfaces(
@@ -95,7 +95,7 @@ def controllability_hypersurfaces(
     def decide(line: ParametricSystem) -> ParametricFixedSpectrum:
         return parametric_controllability(line, chosen, observed)
 
-    return _Search(system, _with_full_ports(system, chosen, observed), decide, rng).found()
+    return _Search(system, _with_full_ports(system, chosen, observed), decide, rng).answer()
 
 
 def _with_full_ports(
@@ -144,7 +144,7 @@ class _Search:
         self.poles = poles(entries, self.names)
         self.chi = rational_functions.characteristic(self.A, self.names)
 
-    def found(self) -> ExceptionalHypersurfaces:
+    def answer(self) -> ExceptionalHypersurfaces:
         """The answer."""
         for attempt in range(DRAWS):
             drawn = self._candidates(1 + attempt)
@@ -156,12 +156,12 @@ class _Search:
             def is_generic(answer: ParametricFixedSpectrum, degree: int = degree) -> bool:
                 return sum(len(p) - 1 for p in answer.generic) == degree
 
-            made = confirming_lines(self.about, self.decide, is_generic, candidates, self.rng)
-            if made is not None:
+            result = confirming_lines(self.about, self.decide, is_generic, candidates, self.rng)
+            if result is not None:
                 break
         else:
             raise LimitReached("no drawn gains leave the fixed modes alone")
-        lines, confirmed = made
+        lines, confirmed = result
         # Where a line meets two hypersurfaces at once, either may be why a mode is fixed.
         met = Counter(id(value) for values in confirmed.values() for value in values)
         alone = {
@@ -269,7 +269,7 @@ class ParametricTransferGraph:
     @property
     def arcs(self) -> tuple[Pair, ...]:
         """The edges j → i for almost every value."""
-        return tuple(pair for pair, found in self.columns.items() if found.rank)
+        return tuple(pair for pair, answer in self.columns.items() if answer.rank)
 
     @property
     def lost(self) -> dict[Pair, tuple[Any, ...]]:
@@ -350,9 +350,9 @@ class ParametricCompleteness:
         if not self.generic:
             return ()
         cut = [q for q in self.graph.lost_at if not self.graph.strongly_connected(q)]
-        found = {*self.spectrum.exceptional_at, *cut}
-        surfaces = in_order([q for q in found if isinstance(q, RationalFunction)])
-        values = [q for q in found if isinstance(q, Polynomial)]
+        polynomials = {*self.spectrum.exceptional_at, *cut}
+        surfaces = in_order([q for q in polynomials if isinstance(q, RationalFunction)])
+        values = [q for q in polynomials if isinstance(q, Polynomial)]
         return (*surfaces, *sorted(values, key=lambda q: (q.degree, q.coefficients)))
 
     @property
@@ -364,12 +364,12 @@ class ParametricCompleteness:
         )
         names = ", ".join(about.parameters_in_words if beyond else about.parameters)
         some = "almost " if self.exceptional else ""
-        said = "complete" if self.generic else "not complete"
-        found = [(f"{some}every value of {names}", said, "")]
+        verdict = "complete" if self.generic else "not complete"
+        lines = [(f"{some}every value of {names}", verdict, "")]
         for q in self.exceptional:
-            found.append((self._at(q), "not complete", ""))
+            lines.append((self._at(q), "not complete", ""))
         parts = [self.spectrum, *self.graph.columns.values()]
-        return *found, *rows_left_out(each.left_out for each in parts)
+        return *lines, *rows_left_out(each.left_out for each in parts)
 
     def _at(self, q: Surface) -> str:
         """The words for the roots of a polynomial in the parameters."""
@@ -392,18 +392,18 @@ class ParametricCompleteness:
 
 def _as_edge(what: str) -> str:
     """A row about the rank of a column in words of edges."""
-    for rank, said in ((": rank 1", ": an edge"), (": rank 0", ": no edge")):
-        what = what.removesuffix(rank) + said if what.endswith(rank) else what
+    for rank, edge in ((": rank 1", ": an edge"), (": rank 0", ": no edge")):
+        what = what.removesuffix(rank) + edge if what.endswith(rank) else what
     return what
 
 
 def _proofs(
-    found: Along | ExceptionalHypersurfaces | RankHypersurfaces,
+    answer: Along | ExceptionalHypersurfaces | RankHypersurfaces,
 ) -> tuple[Along, ...]:
     """The certificates of an answer: itself, or with several parameters those along lines."""
-    if isinstance(found, ParametricFixedSpectrum | ParametricRank):
-        return (found,)
-    return tuple(found.certificates.values())
+    if isinstance(answer, ParametricFixedSpectrum | ParametricRank):
+        return (answer,)
+    return tuple(answer.certificates.values())
 
 
 def parametric_completeness(
@@ -523,8 +523,8 @@ def exceptional_hypersurfaces(
     >>> plant = ParametricSystem(
     ...     [[0, "a"], [0, 1]], [[[0], [1]]], [[["b - a", 1]]], parameters=["a", "b"]
     ... )
-    >>> found = exceptional_hypersurfaces(plant)
-    >>> [str(each) for each in found.hypersurfaces]
+    >>> answer = exceptional_hypersurfaces(plant)
+    >>> [str(each) for each in answer.hypersurfaces]
     ['a = 0', 'a - b = 0', 'a^2 - a*b - 1 = 0']
     >>> [str(each) for each in exceptional_hypersurfaces(plant, "setpoint").hypersurfaces]
     ['a = 0', 'a - b = 0']

@@ -150,7 +150,7 @@ class MovingGains:
             self.psi, difference(self.moved, self.psi)
         ):
             return None
-        found, rest = [], self.first
+        divisors, rest = [], self.first
         for q in [*values, *outside]:
             bottom = residues(q, self.ell)
             if not self.is_needed(q) or not divmod(rest, bottom)[1].is_zero():
@@ -158,10 +158,10 @@ class MovingGains:
             if q in outside and q.degree() > _SHORT:
                 return None
             first, second = (bivariate.reduced(f, q) for f in (self.psi, self.moved))
-            found.append((q, bivariate.gcd(first, second, q)))
-            for _ in found[-1][1][1:]:
+            divisors.append((q, bivariate.gcd(first, second, q)))
+            for _ in divisors[-1][1][1:]:
                 rest = divmod(rest, bottom)[0]
-        return found if rest.gcd(self.other).degree() == 0 else None
+        return divisors if rest.gcd(self.other).degree() == 0 else None
 
 
 # Zero blocks, which prove that a mode is fixed.
@@ -184,8 +184,8 @@ def responsible_channels(
             continue
         for tau, mu in roots_modulo(q, p, ell):
             modular = system.modulo(tau, ell)
-            found = obstruction_modulo(modular, drawn_gains(modular, rng), mu)
-            return None if found is None else found.channels_T
+            obstruction = obstruction_modulo(modular, drawn_gains(modular, rng), mu)
+            return None if obstruction is None else obstruction.channels_T
     raise InternalError("no prime has roots of both polynomials")
 
 
@@ -309,14 +309,16 @@ def parametric_fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectr
     >>> plant = ParametricSystem(
     ...     [["t", 1], [0, 2]], [[[1], ["t^2 - 2"]]], [[[1, 0]]], parameters=["t"]
     ... )
-    >>> found = parametric_fixed_spectrum(plant)
-    >>> found.generic
+    >>> answer = parametric_fixed_spectrum(plant)
+    >>> answer.generic
     ()
-    >>> print(*found.words, sep="\\n")
+    >>> print(*answer.words, sep="\\n")
     the roots of x - t (no channel controls it) where t^2 + t - 4 = 0 (t about -2.56155, 1.56155)
     the roots of x - 2 (no channel controls it) where t^2 - 2 = 0 (t about -1.41421, 1.41421)
     """
-    return _Search(PolynomialSystem(system), generator(system, "parametric_fixed_spectrum")).found()
+    return _Search(
+        PolynomialSystem(system), generator(system, "parametric_fixed_spectrum")
+    ).answer()
 
 
 _Mode = tuple[Bivariate, tuple[int, ...], ZeroBlock]
@@ -341,13 +343,13 @@ class _Search:
         self.gains: list[list[Matrix]] = []
         self.modes: dict[Polynomial, list[_Mode]] = {}
 
-    def found(self) -> ParametricFixedSpectrum:
+    def answer(self) -> ParametricFixedSpectrum:
         """The answer."""
         for attempt in range(_DRAWS):
             if self._draw(1 + attempt):
-                found = self._answer(exactly=attempt >= _TRIES)
-                if found is not None:
-                    return found
+                answer = self._answer(exactly=attempt >= _TRIES)
+                if answer is not None:
+                    return answer
         raise InternalError("no drawn gains leave the fixed modes alone")
 
     def _answer(self, *, exactly: bool) -> ParametricFixedSpectrum | None:
@@ -438,7 +440,7 @@ class _Search:
                 for p in bivariate.factors(common, q)
                 if all(bivariate.divided(g, p, q)[1] for g in known)
             ]
-            self.modes[value] = [found for p in new if (found := self._mode(q, p)) is not None]
+            self.modes[value] = [mode for p in new if (mode := self._mode(q, p)) is not None]
         return _Candidate(q, self.modes[value], self._shared(q, known))
 
     def _mode(self, q: Any, p: Bivariate) -> _Mode | None:
@@ -459,8 +461,8 @@ class _Search:
         known = [c for f in (*self.psi, second) for c in f]
         usable = (ell for ell in stream if self._is_defined(known, ell))
         common = bivariate.common_divisor(self.psi[0], self.psi[1], second, usable)
-        found = {q for q, _ in _polynomial(common).factor()}
-        return sorted(found, key=lambda q: (q.degree, q.coefficients))
+        values = {q for q, _ in _polynomial(common).factor()}
+        return sorted(values, key=lambda q: (q.degree, q.coefficients))
 
     def _is_defined(self, known: list[Any], ell: int) -> bool:
         """Whether a prime divides no denominator."""
@@ -469,12 +471,12 @@ class _Search:
 
     def _shared(self, q: Any, known: list[Bivariate]) -> list[Bivariate]:
         """Divisors of generic factors that also divide ψ_0 at the roots of q."""
-        left, found = bivariate.reduced(self.psi[0], q), []
+        left, divisors = bivariate.reduced(self.psi[0], q), []
         for p in known:
             while len(g := bivariate.gcd(left, p, q)) > 1:
-                found.append(g)
+                divisors.append(g)
                 left = without(left, g, q)
-        return found
+        return divisors
 
     def _moved(self, decided: list[_Candidate], others: list[Polynomial]) -> MovingGains:
         """A prime ℓ, and gains that move, modulo ℓ, all modes that are not fixed."""
@@ -499,10 +501,10 @@ class _Search:
         first, second = self.psi[0], self.psi[1]
         sizes = bivariate.size(first), bivariate.size(second)
         least = 2 * sizes[0] ** (len(second) - 1) * sizes[1] ** (len(first) - 1)
-        found: list[int] = []
-        while math.prod(found) <= least:
-            found.append(long_prime(self.rng, _LONG_BITS))
-        return tuple(found)
+        moduli: list[int] = []
+        while math.prod(moduli) <= least:
+            moduli.append(long_prime(self.rng, _LONG_BITS))
+        return tuple(moduli)
 
     def _exceptional(self, each: _Candidate) -> ExceptionalValue:
         q, names = _polynomial(each.q), self.system.system.names
@@ -557,12 +559,12 @@ def parametric_controllability(
     chosen = system.names if channels is None else system.named(system.indices(channels))
 
     def alone(plain: MultiChannelSystem) -> MultiChannelSystem:
-        made = dual(plain) if observed else plain
-        if set(chosen) != set(made.names):
-            made = restricted(made, chosen)
-        if made.m > 1:
-            made = merged(made, [made.names])
-        return full_output(made, 0)
+        subject = dual(plain) if observed else plain
+        if set(chosen) != set(subject.names):
+            subject = restricted(subject, chosen)
+        if subject.m > 1:
+            subject = merged(subject, [subject.names])
+        return full_output(subject, 0)
 
     return parametric_fixed_spectrum(moved(system, alone))
 
@@ -631,8 +633,8 @@ def shared_dimensions_for_every_value(
     ...     [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 1, 0]]],
     ...     parameters=["t"],
     ... )
-    >>> found = shared_dimensions_for_every_value(plant, NeighborGraph.ring(plant.names))
-    >>> found.dimensions, len(found.refused)
+    >>> sharing = shared_dimensions_for_every_value(plant, NeighborGraph.ring(plant.names))
+    >>> sharing.dimensions, len(sharing.refused)
     ((0, 0, 1), 1)
     >>> alone = shared_dimensions_for_every_value(plant, NeighborGraph.empty(plant.names))
     >>> alone.dimensions, [str(each.value) for each in alone.spectrum.exceptional]
@@ -658,9 +660,9 @@ def shared_dimensions_for_every_value(
     return ParametricSharing((system.n,) * system.m, enough, tuple(refused))
 
 
-def _fixes(found: ParametricFixedSpectrum) -> bool:
+def _fixes(answer: ParametricFixedSpectrum) -> bool:
     """Whether a mode is fixed for almost every value, or at some."""
-    return bool(found.generic or found.exceptional)
+    return bool(answer.generic or answer.exceptional)
 
 
 def _with_sum(total: int, m: int) -> Iterator[tuple[int, ...]]:

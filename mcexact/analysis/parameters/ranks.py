@@ -1,13 +1,13 @@
 """Ranks of matrices of polynomials for all values of parameters.
 
-The matrices are made by name from those of a plant: [A, B; C, 0] for set-points and its extension
+The matrices are built by name from those of a plant: [A, B; C, 0] for set-points and its extension
 for signals, [B, AB, …] for controllability, and the columns C_i A^k B_j of a transfer matrix.  The
 denominators of the entries are cleared first (`Entries`), which keeps the rank.
 
 - One parameter (`parametric_rank`): the roots of one minor of full order are the candidates for a
-  lower rank.  Each irreducible factor is decided modulo a prime, and proved by a kernel over its
-  number field; a second, drawn minor modulo a prime proves that no other value counts.  The answer
-  holds for every complex value at which all entries of the plant are defined.
+  lower rank.  Each irreducible factor is decided modulo a prime, and proved by a null space over
+  its number field; a second, drawn minor modulo a prime proves that no other value counts.  The
+  answer holds for every complex value at which all entries of the plant are defined.
 - Several parameters (`rank_hypersurfaces`): the rank for almost all values, and the hypersurfaces
   on which it is less.  The irreducible factors of one minor are the candidates.  Drawn lines
   through the space of parameters decide which of them count (`confirming_lines`): along a line
@@ -63,7 +63,7 @@ from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
 from mcexact.exact.roots import root_discs, steady_point
 from mcexact.model.parametric import ParametricSystem
 
-# Matrices made by name from those of a system, over the polynomials in its parameters.
+# Matrices built by name from those of a system, over the polynomials in its parameters.
 
 Named = SetpointMatrix | SignalMatrix | ControllabilityMatrix | TransferColumn
 Rows = list[list[Any]]
@@ -127,19 +127,19 @@ class Entries:
         upper, lower = [], []
         for i in range(d):
             for k, row in enumerate(self.A):
-                made = [self.zero] * (d * (n + width))
-                made[i * n : (i + 1) * n] = row
+                entries = [self.zero] * (d * (n + width))
+                entries[i * n : (i + 1) * n] = row
                 if i:
-                    made[(i - 1) * n + k] = made[(i - 1) * n + k] - self.scale
+                    entries[(i - 1) * n + k] = entries[(i - 1) * n + k] - self.scale
                 last = (d - 1) * n + k
                 c = p.coefficients[i]
-                made[last] = made[last] + self.scale * c.numerator / c.denominator
-                made[d * n + i * width : d * n + (i + 1) * width] = inputs[k]
-                upper.append(made)
+                entries[last] = entries[last] + self.scale * c.numerator / c.denominator
+                entries[d * n + i * width : d * n + (i + 1) * width] = inputs[k]
+                upper.append(entries)
             for row in outputs:
-                made = [self.zero] * (d * (n + width))
-                made[i * n : (i + 1) * n] = row
-                lower.append(made)
+                entries = [self.zero] * (d * (n + width))
+                entries[i * n : (i + 1) * n] = row
+                lower.append(entries)
         return upper + lower
 
     def _controllability(self, named: ControllabilityMatrix) -> Rows:
@@ -153,15 +153,15 @@ class Entries:
 
     def _transfer(self, named: TransferColumn) -> Rows:
         power = self.B[self.names.index(named.source)]
-        outputs, found = self.C[self.names.index(named.to)], []
+        outputs, markov = self.C[self.names.index(named.to)], []
         for _ in self.A:
             columns = zip(*self.product(outputs, power), strict=True)
-            found += [[entry] for column in columns for entry in column]
+            markov += [[entry] for column in columns for entry in column]
             power = self.product(self.A, power)
-        return found
+        return markov
 
 
-# One parameter: a minor of full order, kernels, and a second minor.
+# One parameter: a minor of full order, null spaces, and a second minor.
 
 _BITS = 61
 _DRAWS = 60
@@ -180,10 +180,10 @@ def parametric_rank(system: ParametricSystem, matrix: Named) -> ParametricRank:
     -----
     Exact, for every complex value at which all entries of the plant are defined.  The roots of one
     minor of full order are the candidates; each irreducible factor is decided modulo a prime in
-    which it has a root, and a lower rank is proved by a kernel over its number field.  A second,
-    drawn minor modulo a prime proves that the rank is lower at no other value.
+    which it has a root, and a lower rank is proved by a null space over its number field.  A
+    second, drawn minor modulo a prime proves that the rank is lower at no other value.
     """
-    return _Search(PolynomialSystem(system), matrix).found()
+    return _Search(PolynomialSystem(system), matrix).answer()
 
 
 class _Search:
@@ -197,7 +197,7 @@ class _Search:
         self.M = matrix_of(self.rows, self.ncols)
         self.stream = primes(self.rng.getrandbits(64), _BITS)
 
-    def found(self) -> ParametricRank:
+    def answer(self) -> ParametricRank:
         """The answer."""
         above, beside = self._pivots()
         rank, bounds = len(above), self.system.system.ranges[0]
@@ -254,8 +254,8 @@ class _Search:
                 return self.M.at_residue(int(root), ell).rank()
         raise InternalError("no prime has a root of the polynomial")
 
-    def _kernel(self, found: Columns) -> Kernel:
-        pivots, vectors = found
+    def _kernel(self, null_space: Columns) -> Kernel:
+        pivots, vectors = null_space
         rows = [[v[i][0] for v in vectors] for i in range(self.ncols)]
         return Kernel(matrix_of(rows, len(vectors)), pivots)
 
@@ -351,12 +351,12 @@ def confirming_lines(
         if any(values & {*line.poles} for values in met.values()):
             continue  # nothing is claimed where an entry is undefined
         answer = decide(line)
-        found = _confirmed(answer, met)
-        if found is None or not is_generic(answer):
+        on_line = _confirmed(answer, met)
+        if on_line is None or not is_generic(answer):
             continue
-        if lines and found.keys() != confirmed.keys():
+        if lines and on_line.keys() != confirmed.keys():
             return None
-        for h, values in found.items():
+        for h, values in on_line.items():
             confirmed.setdefault(h, []).extend(values)
         lines.append(Line(at, answer))
         if len(lines) == _LINES:
@@ -410,15 +410,15 @@ def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Poly
 
 def _confirmed(answer: Along, met: Mapping[RationalFunction, set[Polynomial]]) -> Confirmed | None:
     """The candidates that are exceptional; None if other values are exceptional as well."""
-    found = {each.value: each for each in answer.exceptional}
-    if found.keys() - set().union(*met.values()):
+    exceptional = {each.value: each for each in answer.exceptional}
+    if exceptional.keys() - set().union(*met.values()):
         return None
     confirmed: Confirmed = {}
     for h, values in met.items():
-        if not values or 0 < len(values & found.keys()) < len(values):
+        if not values or 0 < len(values & exceptional.keys()) < len(values):
             return None
-        if values <= found.keys():
-            confirmed[h] = [found[q] for q in values]
+        if values <= exceptional.keys():
+            confirmed[h] = [exceptional[q] for q in values]
     return confirmed
 
 
@@ -446,7 +446,7 @@ def rank_hypersurfaces(
     system : ParametricSystem
     matrix : SetpointMatrix, SignalMatrix, ControllabilityMatrix or TransferColumn
     observed : bool
-        Whether the matrix is made from the dual system.
+        Whether the matrix is that of the dual system.
 
     Notes
     -----
@@ -475,12 +475,12 @@ def rank_hypersurfaces(
             return parametric_rank(moved(line, dual) if observed else line, matrix)
 
         left = [h for h in candidates if h not in undefined]
-        made = confirming_lines(system, decide, is_generic, left, rng)
-        if made is not None:
+        result = confirming_lines(system, decide, is_generic, left, rng)
+        if result is not None:
             break
     else:
         raise LimitReached("no drawn point has the rank of almost all")
-    lines, confirmed = made
+    lines, confirmed = result
     return RankHypersurfaces(
         about=system,
         hypersurfaces=tuple(
@@ -538,8 +538,8 @@ def parametric_setpoints(system: ParametricSystem) -> ParametricRank:
     Examples
     --------
     >>> plant = ParametricSystem([[-1]], [[["1 - t"]]], [[[1]]], parameters=["t"])
-    >>> found = parametric_setpoints(plant)
-    >>> found.words
+    >>> answer = parametric_setpoints(plant)
+    >>> answer.words
     ('rank 2 for almost every t', 'rank 1 where t = 1')
     """
     return parametric_rank(system, SetpointMatrix())
@@ -631,9 +631,9 @@ def _growing(
 ) -> tuple[R, ...]:
     """The answers for 1, 2, … blocks, until two agree or there are n blocks."""
     chosen = system.names if channels is None else system.named(system.indices(channels))
-    found: list[R] = []
+    answers: list[R] = []
     for k in range(1, max(system.n, 1) + 1):
-        found.append(decide(ControllabilityMatrix(chosen, k)))
-        if k > 1 and found[-1].said == found[-2].said:
+        answers.append(decide(ControllabilityMatrix(chosen, k)))
+        if k > 1 and answers[-1].said == answers[-2].said:
             break
-    return tuple(found)
+    return tuple(answers)

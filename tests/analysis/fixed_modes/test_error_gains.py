@@ -41,7 +41,7 @@ def test_the_lists_make_the_error_matrix_of_the_paper_cyclic() -> None:
     assert minimal_polynomial(block(rows)).degree == 9
     assert found.indices is not None
     assert {control for control, _ in found.indices} == {3}
-    verdict = check_document(encode(found.found).encode())
+    verdict = check_document(encode(found.answer).encode())
     assert verdict.verdict == "VALID"
     assert "A_F cyclic" in verdict.statement
 
@@ -51,7 +51,7 @@ def test_without_arcs_the_plant_itself_may_connect_the_agents() -> None:
     assert error_gains(plant, [[[-1]], [[-1]]]).exists
     refused = error_gains(plant, [[[0]], [[0]]])
     assert not refused.exists
-    verdict = check_document(encode(refused.found).encode())
+    verdict = check_document(encode(refused.answer).encode())
     assert verdict.verdict == "VALID"
     assert ": no constant gains F, the same for all q, make " in verdict.statement
 
@@ -66,8 +66,8 @@ def test_a_plant_that_is_not_jointly_observable_is_refused_with_a_mode() -> None
     found = error_gains(plant, [[[0, 0]], [[0, 0]]])
     assert not found.exists
     assert found.gains is None
-    assert isinstance(found.found.evidence, StuckWitness)
-    assert str(found.found.evidence.polynomial) == "x - 2"
+    assert isinstance(found.answer.evidence, StuckWitness)
+    assert str(found.answer.evidence.polynomial) == "x - 2"
 
 
 def test_a_graph_is_needed() -> None:

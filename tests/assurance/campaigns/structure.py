@@ -224,7 +224,7 @@ def compare_observers(count: int, seed: int) -> Seen:
             found = error_gains(system, F)
             wanted = enumeration.is_complete(enumeration.plain(found.error))
             agree(f"not connected, {heard}, n = {n}", found.exists, wanted)
-            require_valid(f"not connected, {heard}", [found.found])
+            require_valid(f"not connected, {heard}", [found.answer])
             seen[f"not connected: {'yes' if wanted else 'no'}"] += 1
     return seen
 
@@ -247,7 +247,7 @@ def _observed(rng: random.Random, heard: list[list[int]], n: int, seen: Seen) ->
     what = f"m = {m}, n = {n}, {heard}"
     agree(what, found.exists, True)
     agree(f"{what}, index", {pair[0] for pair in found.indices or ()}, {m})
-    require_valid(what, [found.found])
+    require_valid(what, [found.answer])
     seen[f"strongly connected on {m} vertices"] += 1
 
 
