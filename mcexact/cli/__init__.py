@@ -1,6 +1,10 @@
-"""The command line, with one module for each command.
+"""The command line, with a module for each command or group of them.
 
-The modules import the rest of mcexact inside functions only, so that ``--help`` is quick.
+`mcexact.cli.commands` lists the commands, so that ``--help`` loads none of them.  The module of a
+command has its options and the work of this process: it reads, waits, prints and writes, and loads
+no library that starts threads, because a process with threads cannot be forked.  What decides runs
+in a child process (`mcexact.cli.running`), in a module that the child loads alone; between the two
+go the types of `mcexact.cli.results`.
 """
 
 from __future__ import annotations
@@ -8,11 +12,12 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+import time
 from collections.abc import Sequence
 
 import click
 
-from mcexact.cli import files
+from mcexact.cli import output
 from mcexact.cli.commands import Commands, exit_status, one_message
 from mcexact.errors import NotWritten
 
@@ -49,10 +54,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """
     # The readers limit the length of numbers themselves, and printed numbers may be longer.
     sys.set_int_max_str_digits(0)
-    files.begin()
+    output.begin()
     try:
-        returned = command_line.main(arguments, prog_name="mcexact", standalone_mode=False)
-        sys.exit(returned if isinstance(returned, int) else 0)
+        # A limit on time counts from here on, also while the command is imported.
+        start = time.monotonic()
+        status = command_line.main(arguments, prog_name="mcexact", standalone_mode=False, obj=start)
+        sys.exit(status if isinstance(status, int) else 0)
     except Exception as error:
         message, status = one_message(error), exit_status(error)
         _complain(message)
@@ -64,9 +71,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def _tell(message: str, status: int, arguments: Sequence[str]) -> None:
     """Print an error as a JSON document, where one is asked for and nothing was printed before."""
-    if "--json" in arguments and not files.has_written():
+    if "--json" in arguments and not output.has_written():
         with contextlib.suppress(NotWritten):
-            files.emit_json({"format": "mcexact-error/1", "status": status, "message": message})
+            output.emit_json({"format": "mcexact-error/1", "status": status, "message": message})
 
 
 def _complain(message: str) -> None:

@@ -1,40 +1,40 @@
-"""`mcexact analyze`: decide all questions about one system."""
+"""`mcexact analyze`: the options, and how the answers are shown.
+
+Which questions there are is not decided here: `QUESTIONS` has them with their options and help
+texts.  `mcexact.cli.decisions.analyzed` decides in a child process.  Where a limit or an interrupt
+ends it, what was decided is shown, re-checked and written all the same, and then the status is that
+of the limit.  ``--assert`` is answered from the fixed spectrum, even if other questions are open.
+"""
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-from mcexact.analysis.questions import QUESTIONS, asked_by
+from mcexact.analysis.questions import QUESTIONS
 from mcexact.cli import options
 from mcexact.cli.commands import DEFINITE_NO, one_message
-from mcexact.cli.uncertainty import at_values
-from mcexact.model.properties import PROPERTIES, Property, question_about
+from mcexact.cli.files import emit_tables, require_apart, require_page, write_result
+from mcexact.cli.output import emit
+from mcexact.cli.results import Analyzed, Asked
+from mcexact.cli.running import Rechecked, Run, undecided_error
+from mcexact.model.properties import PROPERTIES
 
-if TYPE_CHECKING:
-    from mcexact.analysis.boxes.largest import LargestUncertainty
-    from mcexact.cli.running import Known, Reporting
-    from mcexact.model.system import MultiChannelSystem
-
-_LINES_OF_WORDS, _WITH_LINKS = 5, 8
-"""The most lines of sentences before the tables, also where links of the plant are told about."""
-_MODES = 6
 _FIXED = ("factors", "generic", "exceptional", "hypersurfaces")
 """What the fixed spectrum says of modes, without and with parameters."""
-_ASKED = {question.option: question.help for question in reversed([*QUESTIONS.values()])}
-_ALSO = {option: told for option, told in reversed(_ASKED.items()) if option}
+_BY_OPTION = {question.option: question.help for question in reversed([*QUESTIONS.values()])}
+_ALSO = {option: text for option, text in reversed(_BY_OPTION.items()) if option}
 """The options that add questions, from the table of questions, with their help texts."""
 
 
 def _also(function: Callable[..., int]) -> Callable[..., int]:
     """Add the options that add questions."""
-    for option, told in reversed(_ALSO.items()):
-        function = click.option(f"--{option}", is_flag=True, help=f"Also decide {told}.")(function)
+    for option, text in reversed(_ALSO.items()):
+        function = click.option(f"--{option}", is_flag=True, help=f"Also decide {text}.")(function)
     return function
 
 
@@ -83,7 +83,7 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     show_default=True,
     help="With --largest-uncertainty: what every plant is to have, or to be.",
 )
-@at_values(
+@options.at_values(
     "give a parameter a value",
     "May be repeated; without values for all of them, the others stay, and the answers are about "
     "all their values.",
@@ -109,7 +109,7 @@ def command(
     asserted: str | None,
     html: Path | None,
     latex: bool,
-    **given: Any,
+    **values: Any,
 ) -> int:
     """Decide the questions about the system in FILE (- for standard input).
 
@@ -120,33 +120,34 @@ def command(
     Of a system with parameters most of these are decided for all values, and it is said at which
     values the answer is another one.  With --at all questions are asked about one value.
     """
-
-    from mcexact.cli import files
-    from mcexact.cli.files import require_apart, require_page, write_result
-    from mcexact.cli.running import Rechecked, Run, undecided_error
-
-    effort = options.effort_of_search(given, "property")
+    effort = options.effort_of_search(values, "property")
     if effort is not None and information != "own":
         raise click.UsageError(
             "--largest-uncertainty is about agents that feed back their own outputs: leave out "
             "--information"
         )
-    wanted = given.pop("property").replace("-", " ")
-    run = Run(given)
+    wanted = values.pop("property").replace("-", " ")
+    run = Run(values)
     require_page(html, run.certificates, file)
     require_apart(html, run.certificates)
-    also = [option for option in _ALSO if given[option.replace("-", "_")]]
+    also = [option for option in _ALSO if values[option.replace("-", "_")]]
     plant = run.read(file)
     doing = f"analyzing {plant[0]}"
     answer, ended = run.result_in_parts(
-        _answer,
+        _analyzed,
         plant,
         run.limits,
-        also,
-        {"information": information, "subset": _named(subset), "channel": channel},
-        named,
-        (given.pop("uncertainty"), effort, wanted),
-        dict(at),
+        Asked(
+            options=also,
+            named=named,
+            information=information,
+            subset=_subset(subset),
+            channel=channel,
+            radii=values["uncertainty"],
+            effort=effort,
+            wanted=wanted,
+            at=dict(at),
+        ),
         html is not None,
         latex,
         run.system_by_digest,
@@ -156,26 +157,26 @@ def command(
 
     def show() -> bool:
         if only_latex:
-            files.emit(answer["latex"])
+            emit(answer.latex)
         else:
-            files.emit(answer["words"] + "\n")
-            files.emit_tables(answer["tables"])
+            emit(answer.words + "\n")
+            emit_tables(answer.tables)
         return not only_latex
 
     def write(checked: Rechecked) -> None:
-        if html is not None:
-            results = answer["latex"] if latex else None
-            page = answer["page"].rendered(answer["certificates"], checked.verdicts, results)
-            write_result(html, page)
+        if html is not None and answer.page is not None:
+            results = answer.latex if latex else None
+            certificates = answer.evidence.certificates
+            write_result(html, answer.page.rendered(certificates, checked.verdicts, results))
 
     about = f"the answers about {plant[0]}"
     checked = run.conclude(answer, show, about=about, write=write)
-    undecided = undecided_error(ended, answer["ended"], doing)
+    undecided = undecided_error(ended, answer.undecided, doing)
     if checked.missing is not None and undecided is not None:
         click.echo(one_message(undecided), err=True)
     checked.require_complete()
     if asserted == "no-fixed-modes":
-        spectrum = answer["json"]["fixed_spectrum"]
+        spectrum = answer.document["fixed_spectrum"]
         if any(spectrum.get(key) for key in _FIXED):
             return DEFINITE_NO
     if undecided is not None:
@@ -183,112 +184,16 @@ def command(
     return 0
 
 
-def _named(subset: str | None) -> list[str] | None:
+def _subset(text: str | None) -> list[str] | None:
     """Parse names separated by commas; an empty text is the empty set."""
-    if subset is None:
+    if text is None:
         return None
-    return [name.strip() for name in subset.split(",")] if subset.strip() else []
+    return [name.strip() for name in text.split(",")] if text.strip() else []
 
 
-def _answer(
-    plant: tuple[str, bytes],
-    limits: dict[str, int],
-    also: list[str],
-    question: dict[str, Any],
-    named: tuple[str, ...],
-    uncertain: tuple[Fraction | None, float | None, Property],
-    at: dict[str, Fraction],
-    with_page: bool,
-    with_latex: bool,
-    system_by_digest: bool,
-    known: Known,
-    report: Reporting,
-) -> dict[str, Any]:
-    """Decide and format the answer, in the child process."""
-    from dataclasses import replace
+def _analyzed(*arguments: Any, **messages: Any) -> Analyzed:
+    """Decide and format the answers, in the child process."""
+    # The child process alone loads what decides: the clock runs while it does, and Ctrl-C ends it.
+    from mcexact.cli.decisions import analyzed
 
-    from mcexact.analysis.analyze import analyze
-    from mcexact.cli import uncertainty
-    from mcexact.cli.files import plant_in
-    from mcexact.cli.running import told
-    from mcexact.cli.uncertainty import effort_tables, for_all_values
-    from mcexact.model.parametric import ParametricSystem
-    from mcexact.report.text import in_lines, latex, tables
-
-    given = plant_in(*plant, limits, at)
-    if isinstance(given, ParametricSystem):
-        refused = question["information"] != "own" or question["subset"] or any(uncertain[:2])
-        asked, channel = [*asked_by(*also), *named], question["channel"]
-        return for_all_values(
-            *(given, asked, channel, bool(refused), with_page, with_latex, system_by_digest),
-            known=known,
-            report=report,
-        )
-    system, largest = _searched(given, uncertain, known, report)
-    found = analyze(system, also=[*asked_by(*also), *named], **question)
-    if largest is not None and largest.proof is not None:
-        found.know(question_about(uncertain[2]), largest.proof)
-    known.resume(found, report)
-    account = found.account
-    lines = _WITH_LINKS if "linked_fixed_spectrum" in account.answers else _LINES_OF_WORDS
-    page = None
-    if with_page:
-        from mcexact.report.pages import account_page
-
-        page = account_page(account)
-        more = (*uncertainty.tables(largest), *effort_tables(found.effort()))
-        page = replace(
-            page,
-            answer=(*uncertainty.leading(account, largest), *page.answer),
-            pictures=(*uncertainty.pictures(largest), *page.pictures),
-            tables=(
-                *page.tables,
-                *(replace(each, title=each.title.capitalize()) for each in more),
-            ),
-        )
-    return told(account, system_by_digest and system is given) | {
-        "json": found.to_dict() | uncertainty.view(largest),
-        "words": uncertainty.lead(account, largest) + in_lines(account.sentences, lines),
-        "tables": (
-            *uncertainty.tables(largest),
-            *tables(account.sentences, most_modes=_MODES),
-            *effort_tables(found.effort()),
-        ),
-        "latex": latex(account) if with_latex else "",
-        "page": page,
-        "ended": _not_searched(uncertain, known) | found.ended(),
-    }
-
-
-_LARGEST = "largest uncertainty"
-
-
-def _searched(
-    given: MultiChannelSystem,
-    uncertain: tuple[Fraction | None, float | None, Property],
-    known: Known,
-    report: Reporting,
-) -> tuple[MultiChannelSystem, LargestUncertainty | None]:
-    """The system with the radii that are asked for, and the search for the largest ones."""
-    from mcexact.cli import uncertainty
-
-    part, effort, wanted = uncertain
-    if effort is None or _not_searched(uncertain, known):
-        return uncertainty.of(given, part)
-    if _LARGEST in known.parts:
-        found: tuple[MultiChannelSystem, LargestUncertainty] = pickle.loads(known.parts[_LARGEST])
-        return found
-    report.begin(_LARGEST, f"searching the {_LARGEST}")
-    made = uncertainty.of(given, part, effort, wanted)
-    report.keep(_LARGEST, pickle.dumps(made))
-    return made
-
-
-def _not_searched(
-    uncertain: tuple[Fraction | None, float | None, Property], known: Known
-) -> dict[str, list[str]]:
-    """The search for the largest radii, by the reason why it was ended, if it was."""
-    reason = known.lost.get(_LARGEST) or known.ended
-    if uncertain[1] is None or not reason or _LARGEST in known.parts:
-        return {}
-    return {reason: [_LARGEST]}
+    return analyzed(*arguments, **messages)

@@ -1,23 +1,31 @@
-"""`mcexact certify`: decide whether a controller makes the closed loop stable, or fast enough."""
+"""`mcexact certify`: decide whether a controller makes the closed loop stable, or fast enough.
+
+`mcexact.cli.loops.certified` decides in a child process.  The status is 0 only if what was asked is
+proved; it is 1 if the loop, or the loop at some values of parameters, is proved to fail, and 4 if
+neither was found.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import click
 
 from mcexact.cli import options
 from mcexact.cli.commands import DEFINITE_NO, GroupedCommand
-from mcexact.cli.uncertainty import at_values
-
-rounded_output = click.option(
-    "-o",
-    "--output",
-    type=options.FOLDER,
-    metavar="FILE",
-    help="Write the rounded controller to this file.",
+from mcexact.cli.files import (
+    emit_tables,
+    place_of,
+    require_apart,
+    require_other,
+    require_page,
+    require_writable,
+    write_result,
 )
+from mcexact.cli.output import emit
+from mcexact.cli.results import Loop
+from mcexact.cli.running import Rechecked, Run
+from mcexact.errors import LimitReached
 
 
 @click.command(
@@ -51,7 +59,7 @@ rounded_output = click.option(
     "Search the largest part by which entries of the plant may differ such that every loop meets "
     "the rate or radius, or is stable if none is given, and a plant near it whose loop fails to."
 )
-@at_values(
+@options.at_values(
     "give a parameter a value",
     "May be repeated; where parameters are left, the answer is about all values in their ranges.",
 )
@@ -63,10 +71,16 @@ rounded_output = click.option(
     "moduli, such as 1%.",
 )
 @options.weights
-@rounded_output
+@click.option(
+    "-o",
+    "--output",
+    type=options.FOLDER,
+    metavar="FILE",
+    help="Write the rounded controller to this file.",
+)
 @options.page("figures of the loop and all certificates")
 @options.answering
-def command(file: str, controller: str, **given: Any) -> int:
+def command(file: str, controller: str, **values: Any) -> int:
     """Decide whether CONTROLLER stabilizes the system in FILE, or makes it fast enough.
 
     The controller is linear and time-invariant, as in every controller file. The decision is exact,
@@ -80,26 +94,13 @@ def command(file: str, controller: str, **given: Any) -> int:
     told, and values at which the loop fails, which are decided exactly: the exit status is then 1,
     and 4 if none are found.
     """
-    from mcexact.cli.files import (
-        emit,
-        emit_tables,
-        place_of,
-        require_apart,
-        require_other,
-        require_page,
-        require_writable,
-        write_result,
-    )
-    from mcexact.cli.running import Rechecked, Run
-    from mcexact.errors import LimitReached
-
-    run, weights, html = Run(given), given.pop("weights"), given.pop("html")
-    output, given["effort"] = given.pop("output"), options.effort_of_search(given)
-    if given["effort"] is not None and given["gains"] is not None:
+    run, weights, html = Run(values), values.pop("weights"), values.pop("html")
+    output, values["effort"] = values.pop("output"), options.effort_of_search(values)
+    if values["effort"] is not None and values["gains"] is not None:
         raise click.UsageError(
             "--largest-uncertainty takes the gains as they are: leave out --gains"
         )
-    if output is not None and given["round_gains"] is None:
+    if output is not None and values["round_gains"] is None:
         raise click.UsageError("-o writes the rounded controller: give --round-gains, too")
     require_other(output, file, controller, weights)
     require_writable(output, run.certificates)
@@ -111,117 +112,35 @@ def command(file: str, controller: str, **given: Any) -> int:
         _certified,
         *programs,
         run.limits,
-        given,
+        values,
         html is not None,
         run.system_by_digest,
         doing=f"certifying {about}",
     )
-    for warning in answer["json"]["warnings"]:
+    for warning in answer.document["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
 
     def show() -> bool:
-        emit("\n".join(answer["said"]) + "\n\n")
-        emit_tables(answer["tables"])
+        emit("\n".join(answer.verdict) + "\n\n")
+        emit_tables(answer.tables)
         return True
 
     def write(checked: Rechecked) -> None:
         if output is not None:
-            write_result(output, answer["controller"])
-        if html is not None:
-            write_result(html, answer["page"].rendered(answer["certificates"], checked.verdicts))
+            write_result(output, answer.controller)
+        if html is not None and answer.page is not None:
+            page = answer.page.rendered(answer.evidence.certificates, checked.verdicts)
+            write_result(html, page)
 
-    about = f"the verdict on {about}"
-    run.conclude(answer, show, about=about, write=write).require_complete()
-    if answer["json"]["certified"]:
+    run.conclude(answer, show, about=f"the verdict on {about}", write=write).require_complete()
+    if answer.document["certified"]:
         return 0
-    return DEFINITE_NO if answer["json"].get("refuted", True) else LimitReached.exit_status
+    return DEFINITE_NO if answer.document.get("refuted", True) else LimitReached.exit_status
 
 
-def _certified(
-    plant: tuple[str, bytes],
-    program: tuple[str, bytes],
-    weights: tuple[str, bytes] | None,
-    limits: dict[str, int],
-    wanted: dict[str, Any],
-    with_page: bool,
-    system_by_digest: bool,
-) -> dict[str, Any]:
+def _certified(*arguments: Any) -> Loop:
     """Decide and format the answer, in the child process."""
-    from mcexact.answer.templates import count
-    from mcexact.cli import uncertainty
-    from mcexact.cli.design import assessed
-    from mcexact.cli.files import plant_in
-    from mcexact.cli.running import told
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.exact.roots import StabilityRegion
-    from mcexact.model.controller import controller_text, read_controller
-    from mcexact.model.loop import closed_loop
-    from mcexact.model.parametric import ParametricSystem
-    from mcexact.report.text import Table, tables
-    from mcexact.synthesis.assessment import BASIS, assessed_loop
-    from mcexact.synthesis.certify import account_of_verdict, certify_controller, enclosed_outside
-    from mcexact.synthesis.optimum.diagnosis import rounded_controller
+    # The child process alone loads what decides: the clock runs while it does, and Ctrl-C ends it.
+    from mcexact.cli.loops import certified
 
-    gains, effort, at = wanted.pop("gains"), wanted.pop("effort"), dict(wanted.pop("at"))
-    typed_plant = plant_in(*plant, limits, at)
-    with InputError.inside(program[0]):
-        controller = read_controller(program[1], Limits(**limits))
-    if isinstance(typed_plant, ParametricSystem):
-        given = wanted | {"weights": weights, "effort": effort}
-        return uncertainty.certified(
-            typed_plant, controller, gains, given, with_page, system_by_digest
-        )
-    system, largest = uncertainty.of(typed_plant, wanted.pop("uncertainty"))
-    with InputError.inside(program[0]):
-        digits, notes, typed = wanted.pop("round_gains"), tuple[str, ...](), controller
-        if digits is not None:
-            controller = rounded_controller(controller, digits)
-            notes = (f"the verdict is about the controller rounded to {count(digits, 'digit')}",)
-        if effort is not None:
-            asked = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
-            system, largest = uncertainty.of_loop(system, controller, asked, effort)
-        found = certify_controller(system, controller, **wanted)
-    outside = enclosed_outside(found)
-    if outside is not None:
-        center = f"{outside.re} + {outside.im} i".replace("+ -", "- ")
-        near = f"an eigenvalue is at most {outside.radius} from {center}"
-        notes = (*notes, f"{near}, outside {found.region}")
-    loop, weighed = closed_loop(system, controller), options.read_weights(weights, limits)
-    with InputError.inside(plant[0] if weights is None else weights[0]):
-        assessment = assessed_loop(
-            loop, found.region, certified=found.stable, weights=weighed, notes=notes
-        )
-    loops = uncertainty.loops(system, controller, found, gains, largest)
-    assessment = replace(assessment, within_radii=loops.within_radii)
-    account = account_of_verdict(
-        found, largest=wanted["largest"], every_loop=loops.proof, gains=gains, failing=loops.failing
-    )
-    if digits is not None:
-        loops = loops.with_digits(uncertainty.digits_of(system, typed, found, digits))
-    figures = Table(BASIS, (), tuple(assessment.rows()))
-    shown = (*uncertainty.tables(largest), *loops.tables(), *tables(account.sentences), figures)
-    drawn = uncertainty.pictures(largest) if with_page else ()
-    bound = None if found.bound is None else str(found.bound)
-    return (
-        told(account, system_by_digest and system is typed_plant)
-        | assessed(account, assessment, loop, shown, with_page, drawn)
-        | {
-            "json": account.as_json(
-                certified=found.stable,
-                region=str(found.region),
-                bound=bound,
-                method=found.method,
-                states=found.about.n,
-                blocks=list(found.blocks),
-                largest=bound if wanted["largest"] else None,
-                warnings=list(controller.warnings_for(typed_plant)),
-                rounded_to_digits=digits,
-                eigenvalue_outside=None if outside is None else outside.to_dict(),
-                **loops.view,
-                **uncertainty.view(largest),
-                assessment=assessment.to_dict(),
-            ),
-            "controller": controller_text(controller),
-        }
-    )
+    return certified(*arguments)

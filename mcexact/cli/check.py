@@ -1,4 +1,12 @@
-"""mcexact check."""
+"""`mcexact check`: the independent checker, which can also be copied away and run alone.
+
+The verdicts are those of `mcexact.checker`; the command reads its options, prints a line as soon as
+a file is checked, and shows progress on a terminal.  It runs in this process, and loads nothing of
+the package besides the checker, so that no fault of the rest can change a verdict.  The limits on
+time and memory are the checker's own (`Clock`, `memory`): what they end is INCOMPLETE.
+
+`checker_archive` packs the checker as one file, whose bytes depend on its sources alone.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +15,31 @@ import io
 import sys
 import zipfile
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
+from importlib import resources
 from pathlib import Path
 
 import click
 
+from mcexact import checker
+from mcexact.checker.command import (
+    FORMAT,
+    UNWRITTEN,
+    NotAsked,
+    line_of,
+    misuse,
+    status_of,
+    verdicts,
+)
+from mcexact.checker.kinds import Clock, memory
+from mcexact.checker.reading import Limits
 from mcexact.cli import options
 from mcexact.cli.commands import INTERRUPTED
+from mcexact.cli.output import deliver, json_text
+from mcexact.errors import InputError, NotWritten
 
-# `mcexact check`: the independent checker, which can also be copied away and run alone.
+FIRST_DAY = (1980, 1, 1, 0, 0, 0)
+"""The earliest time of a member of an archive, whose bytes shall not depend on the time."""
 
 
 @click.command(name="check", short_help="Verify certificates with the independent checker.")
@@ -98,22 +123,6 @@ def command(
     74 if the verdicts cannot be written. The file that --export writes prints the same verdicts:
     python -I FILE CERTIFICATE...
     """
-    from dataclasses import asdict
-
-    from mcexact.checker.command import (
-        FORMAT,
-        UNWRITTEN,
-        NotAsked,
-        line_of,
-        misuse,
-        status_of,
-        verdicts,
-    )
-    from mcexact.checker.kinds import Clock, memory
-    from mcexact.checker.reading import Limits
-    from mcexact.cli.files import deliver, json_text
-    from mcexact.errors import InputError, NotWritten
-
     if export is not None:
         if certificates or manifest is not None:
             raise click.UsageError("--export checks nothing: give it alone")
@@ -122,15 +131,15 @@ def command(
     asking = None if system is None else _plant_file(system), controller, expect
     if wrong := misuse(certificates, manifest, asking, bool(timeout or max_memory)):
         raise click.UsageError(wrong)
-    found, clock = [], Clock(timeout)
-    allowed = Limits(**options.given(limits))
+    judged, clock = [], Clock(timeout)
+    allowed = Limits(**options.set_limits(limits))
     paths = [*certificates, *([manifest] if manifest else [])]
     progress, interrupted = _Progress(paths), False
     try:
         try:
             with memory(max_memory), clock.running(), progress.shown():
                 for each in verdicts(certificates, manifest, asking, allowed, clock):
-                    found.append(each)
+                    judged.append(each)
                     progress.clear()
                     if not as_json:
                         deliver(line_of(each, paths) + "\n")
@@ -142,9 +151,9 @@ def command(
                 error = InputError(str(refused))
                 error.exit_status = status_of([refused.found])
                 raise error from None
-            found = [refused.found]
+            judged = [refused.found]
         if as_json:
-            rows = [about | asdict(verdict) for about, verdict in found]
+            rows = [about | asdict(verdict) for about, verdict in judged]
             deliver(json_text({"format": FORMAT, "verdicts": rows}))
     except NotWritten as error:
         if not error.reader_left:
@@ -153,7 +162,7 @@ def command(
     if interrupted:
         click.echo(f"mcexact: interrupted after {progress.done()}", err=True)
         return INTERRUPTED
-    return status_of(found)
+    return status_of(judged)
 
 
 class _Progress:
@@ -200,9 +209,7 @@ def _plant_file(system: str) -> str:
     InputError
         If it is a file of another kind.
     """
-    from importlib import resources
-
-    from mcexact.errors import InputError
+    # The checker shall not need what reads plants of other kinds.
     from mcexact.model import gallery
     from mcexact.model.files import GALLERY, is_foreign
 
@@ -220,15 +227,10 @@ def _plant_file(system: str) -> str:
 
 def _export(file: Path) -> None:
     """Write the archive of the checker."""
+    # The checker shall not need what writes files.
     from mcexact.cli.files import write_result
 
     write_result(file, checker_archive())
-
-
-# The independent checker as one file, which Python runs without anything else.
-
-FIRST_DAY = (1980, 1, 1, 0, 0, 0)
-"""The earliest time of a member, so that the bytes do not depend on when the archive is made."""
 
 
 def checker_archive() -> bytes:
@@ -239,8 +241,6 @@ def checker_archive() -> bytes:
     bytes
         The same for the same sources: the members are sorted, not compressed, and have no times.
     """
-    from mcexact import checker
-
     folder, archive = Path(checker.__path__[0]), io.BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_STORED) as packed:
         for path in sorted(folder.glob("*.py")):

@@ -1,4 +1,9 @@
-"""Groups of commands, and the message and status of a failure."""
+"""Groups of commands, and the message and status of a failure.
+
+A group knows of each command where it stands and what help says of it in one line (`Listed`), so
+that the list of commands, their completion in a shell, and the hint after a misspelled name load no
+command.  A command is imported when it is named, with all that it needs.
+"""
 
 from __future__ import annotations
 
@@ -6,34 +11,71 @@ import difflib
 import importlib
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
 from mcexact.analysis.questions import QUESTIONS
 from mcexact.errors import InternalError, McexactError
 
-# Groups of commands, which load a command when it is named and suggest the nearest name.
+
+@dataclass(frozen=True)
+class Listed:
+    """What a group knows of a command that is not loaded.
+
+    Attributes
+    ----------
+    place : str
+        Its module below `mcexact.cli`, and its name there, such as ``"sweep:command"``.
+    help : str
+        The line of help about it, which is its ``short_help``.
+    """
+
+    place: str
+    help: str
+
+    def load(self) -> click.Command:
+        """Import the command."""
+        home, _, name = self.place.partition(":")
+        command = getattr(importlib.import_module(f"mcexact.cli.{home}"), name)
+        if not isinstance(command, click.Command):
+            raise TypeError(f"{self.place} is not a command")
+        return command
+
 
 COMMANDS = {
-    "analyze": "mcexact.cli.analyze:command",
-    "check": "mcexact.cli.check:command",
-    "allocate": "mcexact.cli.allocate:command",
-    "design": "mcexact.cli.design:design_command",
-    "certify": "mcexact.cli.certify:command",
-    "crosscheck": "mcexact.cli.reproduce:crosscheck_command",
-    "simulate": "mcexact.cli.simulate:command",
-    "reproduce": "mcexact.cli.reproduce:reproduce_command",
-    "demo": "mcexact.cli.reproduce:demo_command",
-    "gallery": "mcexact.cli.convert:gallery_command",
-    "sample": "mcexact.cli.convert:sample_command",
-    "convert": "mcexact.cli.convert:convert_command",
-    "c2d": "mcexact.cli.convert:c2d_command",
-    "schema": "mcexact.cli.convert:schema_command",
-    "sweep": "mcexact.cli.sweep:command",
+    "analyze": Listed(
+        "analyze:command", "Decide which modes are fixed, and all other questions about a system."
+    ),
+    "check": Listed("check:command", "Verify certificates with the independent checker."),
+    "allocate": Listed("allocate:command", "Find the least that agents must share, and prove it."),
+    "design": Listed("design:design_command", "Design a controller and prove its closed loop."),
+    "certify": Listed("certify:command", "Decide whether a controller stabilizes, with proof."),
+    "crosscheck": Listed(
+        "reproduce:crosscheck_command", "Compare floating-point verdicts with the exact ones."
+    ),
+    "simulate": Listed("simulate:command", "Run a controller as a network of agents."),
+    "reproduce": Listed(
+        "reproduce:reproduce_command", "Say of every statement of the paper what is known."
+    ),
+    "demo": Listed(
+        "reproduce:demo_command", "Show two wrong answers of floating point with the exact ones."
+    ),
+    "gallery": Listed(
+        "convert:gallery_command", "List published plants, which every command takes."
+    ),
+    "sample": Listed("convert:sample_command", "Draw systems with known structure."),
+    "convert": Listed(
+        "convert:convert_command", "Convert system files of MATLAB, numpy and others."
+    ),
+    "c2d": Listed("convert:c2d_command", "Sample a plant in continuous time."),
+    "schema": Listed("convert:schema_command", "Print a JSON Schema of files or of --json."),
+    "sweep": Listed("sweep:command", "Answer the same questions about many systems."),
 }
-"""The commands in the order of the help text, each with its module and its name there."""
+"""The commands in the order of the help text."""
 
 
 class NoCommand(click.UsageError):
@@ -81,31 +123,39 @@ class Commands(click.Group):
 
     Parameters
     ----------
-    names : mapping of str
-        The module and the name of each command, in the order in which help lists them.
+    listed : mapping from names to Listed
+        The commands, in the order of help.
     **attributes
         Arguments of `click.Group`.
     """
 
     def __init__(
-        self, *, names: Mapping[str, str] = MappingProxyType(COMMANDS), **attributes: Any
+        self, *, listed: Mapping[str, Listed] = MappingProxyType(COMMANDS), **attributes: Any
     ) -> None:
         super().__init__(**attributes)
-        self.names = names
+        self.listed = listed
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the commands in the order of help."""
-        return list(self.names)
+        return list(self.listed)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Return the command with a name, or None."""
-        if cmd_name not in self.names:
-            return None
-        home, _, name = self.names[cmd_name].partition(":")
-        command = getattr(importlib.import_module(home), name)
-        if not isinstance(command, click.Command):
-            raise TypeError(f"{self.names[cmd_name]} is not a command")
-        return command
+        """Import and return the command with a name; None if there is none."""
+        return self.listed[cmd_name].load() if cmd_name in self.listed else None
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the list of commands, without loading them."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, each.help) for name, each in self.listed.items()])
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Complete the name of a command, without loading one, or an option of the group."""
+        names = [
+            CompletionItem(name, help=each.help)
+            for name, each in self.listed.items()
+            if name.startswith(incomplete)
+        ]
+        return names + click.Command.shell_complete(self, ctx, incomplete)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the options of the group.
@@ -131,9 +181,11 @@ class Commands(click.Group):
             If no command has this name; the message suggests the nearest one.
         """
         name = args[0]
-        if name not in self.names and not name.startswith("-"):
-            nearest = difflib.get_close_matches(name, self.names, n=1, cutoff=0.5)
-            hint = f"did you mean '{nearest[0]}'?" if nearest else f"one of {', '.join(self.names)}"
+        if name not in self.listed and not name.startswith("-"):
+            nearest = difflib.get_close_matches(name, self.listed, n=1, cutoff=0.5)
+            hint = (
+                f"did you mean '{nearest[0]}'?" if nearest else f"one of {', '.join(self.listed)}"
+            )
             raise click.UsageError(f"there is no command '{name}': {hint}", ctx)
         return super().resolve_command(ctx, args)
 

@@ -1,23 +1,51 @@
-"""Commands that make files: convert, c2d, sample, gallery, schema."""
+"""Commands that make files: convert, c2d, sample, gallery, schema.
+
+What reads a file of a user runs in a child process, within the limits on time and memory, as it is
+in the commands that decide.  `convert_command` refuses what the output cannot hold, and gives the
+floats of an output the rounding that makes the same numbers of them again.  `c2d_command` says in
+the file by how much a sampled plant differs from the exact one.
+"""
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from mcexact.cli import options
+from mcexact.cli.files import (
+    Deadline,
+    directory,
+    emit_tables,
+    require_other,
+    require_replaceable,
+    require_writable,
+    say_written,
+    system_in,
+    write_folder,
+    write_result,
+)
 from mcexact.cli.options import FOLDER, as_json
-from mcexact.cli.uncertainty import at_values
-
-if TYPE_CHECKING:
-    from mcexact.derived.drawn.systems import Draw
-    from mcexact.exact.matrix import Rounding
-
-
-# `mcexact convert`: a system file of one kind as one of another kind.
+from mcexact.cli.output import emit, emit_json
+from mcexact.cli.results import Sampled
+from mcexact.cli.running import Run, supervised
+from mcexact.derived.drawn.systems import Draw, drawn_system
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Rounding
+from mcexact.exact.rational import Limits
+from mcexact.model.arrays import MARK, Reading
+from mcexact.model.files import is_folder, read_plant, require_suffix, system_files
+from mcexact.model.gallery import published
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system_file import system_text
+from mcexact.model.system_file import template as starting_file
+from mcexact.model.text import write_text
+from mcexact.report.schema import DOCUMENTS, schema_text
+from mcexact.report.schema import FOLDER as SCHEMAS
+from mcexact.report.text import WIDE, Table, shorten
 
 
 def sizes(text: str) -> tuple[int, ...]:
@@ -52,11 +80,11 @@ def sizes(text: str) -> tuple[int, ...]:
 )
 @click.option("--inputs", type=sizes, metavar="SIZES", help="Columns of a stacked B per channel.")
 @click.option("--outputs", type=sizes, metavar="SIZES", help="Rows of a stacked C per channel.")
-@at_values("write the system at this value of a parameter", "Repeat it for each parameter.")
+@options.at_values("write the system at this value of a parameter", "Repeat it for each parameter.")
 @options.as_json
 @options.work_limits
 @options.file_limits
-def convert_command(file: str, output: Path | None, **given: Any) -> None:
+def convert_command(file: str, output: Path | None, **values: Any) -> None:
     """Convert the system in FILE, a .json, .yaml, .mat or .npz file or a folder of .csv files.
 
     Arrays are named A, B_1, C_1, B_2, C_2 and so on; or A, and the stacked B and C, with the sizes
@@ -65,19 +93,7 @@ def convert_command(file: str, output: Path | None, **given: Any) -> None:
     source. Nothing is lost: numbers that the output cannot hold are an error. A system with
     parameters is written as JSON, which YAML is too, or with --at in every kind.
     """
-    from mcexact.cli.files import (
-        emit,
-        require_other,
-        require_replaceable,
-        require_writable,
-        write_folder,
-        write_result,
-    )
-    from mcexact.cli.running import Run
-    from mcexact.model.arrays import MARK
-    from mcexact.model.files import is_folder, require_suffix
-
-    run = Run(given)
+    run = Run(values)
     if output is not None:
         require_suffix(output)
     require_other(output, file)
@@ -87,49 +103,51 @@ def convert_command(file: str, output: Path | None, **given: Any) -> None:
         require_writable(output)
     plant = run.read(file)
     target = "plant.json" if output is None else str(output)
-    made = run.result(_converted, plant, run.limits, target, given, doing=f"converting {plant[0]}")
-    if output is None:
-        emit(made.decode("ascii"))
-    elif isinstance(made, bytes):
-        write_result(output, made)
+    content = run.result(
+        _converted,
+        plant,
+        run.limits,
+        target,
+        values["rounding"],
+        values["inputs"],
+        values["outputs"],
+        values["nearest"],
+        dict(values["at"]),
+        doing=f"converting {plant[0]}",
+    )
+    if not isinstance(content, bytes):
+        write_folder(Path(target), content)
+    elif output is None:
+        emit(content.decode("ascii"))
     else:
-        write_folder(output, made)
+        write_result(output, content)
 
 
 def _converted(
     plant: tuple[str, bytes],
     limits: dict[str, int],
     target: str,
-    given: dict[str, Any],
+    rounding: Rounding | None,
+    inputs: tuple[int, ...] | None,
+    outputs: tuple[int, ...] | None,
+    nearest: bool,
+    at: dict[str, Fraction],
 ) -> bytes | dict[str, str]:
     """Read a system and return the contents of the output, in the child process."""
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.model.arrays import Reading
-    from mcexact.model.files import read_plant, system_files
-    from mcexact.model.parametric import ParametricSystem
-
     place, data = plant
-    rounding: Rounding | None = given["rounding"]
     with InputError.inside(place):
-        how = Reading(Limits(**limits), rounding, given["inputs"], given["outputs"])
-        system = read_plant(data, place, how)
-        if given["at"]:
+        system = read_plant(data, place, Reading(Limits(**limits), rounding, inputs, outputs))
+        if at:
             if not isinstance(system, ParametricSystem):
                 raise InputError("found a system without parameters: leave out --at")
-            system = system.at(dict(given["at"]))
+            system = system.at(at)
     with InputError.inside(target):
-        return system_files(
-            system, target, rounding=_used(rounding, target), nearest=given["nearest"]
-        )
+        return system_files(system, target, rounding=_used(rounding, target), nearest=nearest)
 
 
 def _used(rounding: Rounding | None, target: str) -> Rounding | None:
     """The rounding for the output; other kinds of files need none, and the input may."""
     return rounding if target.lower().endswith((".mat", ".npz")) else None
-
-
-# `mcexact c2d`: sample a plant in continuous time.
 
 
 @click.command(name="c2d", short_help="Sample a plant in continuous time.")
@@ -155,7 +173,7 @@ def _used(rounding: Rounding | None, target: str) -> Rounding | None:
 @options.work_limits
 @options.file_limits
 def c2d_command(
-    file: str, step: Fraction, decimals: int, output: Path | None, **given: Any
+    file: str, step: Fraction, decimals: int, output: Path | None, **values: Any
 ) -> None:
     """Sample the system in FILE, whose inputs are held between samples (- for standard input).
 
@@ -167,41 +185,33 @@ def c2d_command(
     sampled A and B depends on many of the entries that are uncertain. Decide about the plant in
     continuous time, or give the sampled file an "uncertainty" of its own.
     """
-    from mcexact.cli.files import emit, require_other, require_writable, write_result
-    from mcexact.cli.running import Run
-
-    run = Run(given)
+    run = Run(values)
     require_other(output, file)
     require_writable(output)
     plant = run.read(file)
-    text, certain = run.result(
-        _sampled, plant, run.limits, step, decimals, doing=f"sampling {plant[0]}"
-    )
-    if not certain:
+    sampled = run.result(_sampled, plant, run.limits, step, decimals, doing=f"sampling {plant[0]}")
+    if sampled.drops_radii:
         click.echo(
             "mcexact: warning: the values are sampled, and the radii of the file are not carried "
             "over: answers about the sampled plant hold for the values alone",
             err=True,
         )
     if output is None:
-        emit(text)
+        emit(sampled.text)
     else:
-        write_result(output, text)
+        write_result(output, sampled.text)
 
 
 def _sampled(
     plant: tuple[str, bytes], limits: dict[str, int], step: Fraction, decimals: int
-) -> tuple[str, bool]:
-    """Sample a system: its file's text, and whether the plant is certain, in the child process."""
-    from mcexact.cli.files import system_in
+) -> Sampled:
+    """Sample a system, in the child process."""
+    # Only there: sampling needs numpy, whose threads forbid that this process is forked.
     from mcexact.model.statespace import c2d
-    from mcexact.model.system_file import system_text
 
     system = system_in(*plant, limits)
-    return system_text(c2d(system, step, decimals=decimals)), system.uncertainty is None
-
-
-# `mcexact sample`: systems drawn with known structure.
+    text = system_text(c2d(system, step, decimals=decimals))
+    return Sampled(text, drops_radii=system.uncertainty is not None)
 
 
 @click.command(name="sample", short_help="Draw systems with known structure.")
@@ -247,14 +257,7 @@ def sample_command(
 
     The output is JSON with and without --json, since a system file is JSON.
     """
-    from mcexact.cli.files import Deadline, directory, emit, require_writable, say_written
-    from mcexact.cli.running import supervised
-    from mcexact.derived.drawn.systems import Draw
-    from mcexact.model.text import write_text
-
     if template is not None:
-        from mcexact.model.system_file import template as starting_file
-
         if output is not None or count > 1:
             raise click.UsageError("--template prints one file: leave out --output and --count")
         emit(starting_file(template))
@@ -282,13 +285,7 @@ def sample_command(
 
 def _drawn(draw: Draw) -> str:
     """Draw a system and return its file's text, in the child process."""
-    from mcexact.derived.drawn.systems import drawn_system
-    from mcexact.model.system_file import system_text
-
     return system_text(drawn_system(draw))
-
-
-# `mcexact gallery`: the published plants that every command takes by name.
 
 
 @click.command(name="gallery", short_help="List published plants, which every command takes.")
@@ -299,12 +296,6 @@ def gallery_command(as_json: bool) -> None:
     Every command takes one as gallery:NAME in place of a file, such as `mcexact analyze
     gallery:quadruple-tank-pminus`; `mcexact convert gallery:NAME -o FILE` writes its file.
     """
-    from dataclasses import asdict
-
-    from mcexact.cli.files import emit_json, emit_tables
-    from mcexact.model.gallery import published
-    from mcexact.report.text import WIDE, Table, shorten
-
     plants = published()
     if as_json:
         emit_json({"format": "mcexact-gallery/1", "plants": [asdict(each) for each in plants]})
@@ -326,9 +317,6 @@ def gallery_command(as_json: bool) -> None:
     emit_tables((Table("", columns, rows, note),), width=WIDE)
 
 
-# `mcexact schema`: JSON Schemas of files and of the JSON of commands.
-
-
 @click.command(name="schema", short_help="Print a JSON Schema of files or of --json.")
 @click.argument("name", required=False)
 @as_json
@@ -338,16 +326,15 @@ def schema_command(name: str | None, as_json: bool) -> None:
     Editors complete and check system files by it, and programs what the commands print. The output
     for a NAME is JSON with and without --json.
     """
-    from mcexact.cli.files import emit, emit_json, emit_tables
-    from mcexact.report.schema import DOCUMENTS, FOLDER, schema_text
-    from mcexact.report.text import Table
-
     if name is not None:
         emit(schema_text(name))
     elif as_json:
         emit_json(
-            {"folder": str(FOLDER), "schemas": {key: told for key, (_, told) in DOCUMENTS.items()}}
+            {
+                "folder": str(SCHEMAS),
+                "schemas": {key: purpose for key, (_, purpose) in DOCUMENTS.items()},
+            }
         )
     else:
-        listed = tuple((key, told) for key, (_, told) in DOCUMENTS.items())
-        emit_tables((Table(f"schemas in {FOLDER}", (), listed, "mcexact schema NAME"),))
+        listed = tuple((key, purpose) for key, (_, purpose) in DOCUMENTS.items())
+        emit_tables((Table(f"schemas in {SCHEMAS}", (), listed, "mcexact schema NAME"),))

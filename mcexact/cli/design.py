@@ -1,8 +1,9 @@
 """`mcexact design` and its kinds: decentralized, extended, observer, setpoint.
 
-The four commands share their options (`design_options`) and their work (`answer`): design in a
-child process, show the result, have the certificates verified, write the files.  `read_spectrum`
-reads what ``--spectrum`` takes.
+The four commands differ in what they ask of `mcexact.synthesis`; their options (`design_options`)
+and their work (`answer`) are the same: `mcexact.cli.designs.designed` designs in a child process,
+the result is shown, its certificates are verified, and the files are written.  `read_spectrum`
+reads what ``--spectrum`` takes: numbers, JSON or the name of a file.
 """
 
 from __future__ import annotations
@@ -11,49 +12,49 @@ import json
 import os
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import replace
-from math import log10
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import click
 
 from mcexact.cli import options
-from mcexact.cli.commands import Commands, GroupedCommand
-
-if TYPE_CHECKING:
-    from mcexact.answer.account import Account
-    from mcexact.answer.protocol import Answer
-    from mcexact.cli.running import Run
-    from mcexact.exact.rational import Limits
-    from mcexact.exact.roots import StabilityRegion
-    from mcexact.model.loop import ClosedLoop
-    from mcexact.model.system import MultiChannelSystem
-    from mcexact.report.html import EmbeddedPicture
-    from mcexact.report.text import Table
-    from mcexact.synthesis.assessment import Assessment
-    from mcexact.synthesis.design import Design
-    from mcexact.synthesis.robustness import EveryLoop
-
-
-# `mcexact design`: the group of the design commands, each in its own module.
+from mcexact.cli.commands import Commands, GroupedCommand, Listed
+from mcexact.cli.files import (
+    emit_tables,
+    require_apart,
+    require_other,
+    require_page,
+    require_writable,
+    write_result,
+)
+from mcexact.cli.output import emit
+from mcexact.cli.results import Loop, Refused
+from mcexact.cli.running import Rechecked, Run
+from mcexact.errors import Impossible, InputError
 
 
 @click.group(
     name="design",
     cls=Commands,
-    names={
-        "decentralized": "mcexact.cli.design:design_decentralized_command",
-        "observer": "mcexact.cli.design:design_observer_command",
-        "extended": "mcexact.cli.design:design_extended_command",
-        "setpoint": "mcexact.cli.design:design_setpoint_command",
+    listed={
+        "decentralized": Listed(
+            "design:design_decentralized_command", "Design a controller without communication."
+        ),
+        "observer": Listed(
+            "design:design_observer_command", "Design a distributed observer-based controller."
+        ),
+        "extended": Listed(
+            "design:design_extended_command", "Design a controller with shared sub-states."
+        ),
+        "setpoint": Listed(
+            "design:design_setpoint_command",
+            "Design a controller that holds outputs at set-points.",
+        ),
     },
     short_help="Design a controller and prove its closed loop.",
 )
 def design_command() -> None:
     """Design a linear time-invariant controller and certify its closed loop."""
 
-
-# Options and work of all design commands.
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -69,7 +70,7 @@ def design_options(
     searches: bool = True,
 ) -> Callable[[F], F]:
     """Add the options of every design command, and those of a search if there is one."""
-    given = (
+    every_option = (
         options.rate,
         options.radius,
         click.option("--spectrum", metavar="SPECTRUM", help=spectrum_help),
@@ -90,14 +91,14 @@ def design_options(
     )
 
     def decorate(function: F) -> F:
-        for option in reversed(given):
+        for option in reversed(every_option):
             function = option(function)
         return function
 
     return decorate
 
 
-def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any]) -> None:
+def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, Any]) -> None:
     """Design in a child process, show the result, verify its certificates and write the files.
 
     Parameters
@@ -105,25 +106,18 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     name : str
         The name of the command; the function of `mcexact.synthesis` is ``design_`` and this name.
     file : str
-    given : dict
+    values : dict
         The values of `design_options`.
     wanted : mapping
         Further keyword arguments of the function.
-    """
-    from mcexact.cli.files import (
-        emit,
-        emit_tables,
-        require_apart,
-        require_other,
-        require_page,
-        require_writable,
-        write_result,
-    )
-    from mcexact.cli.running import Rechecked, Run
-    from mcexact.errors import Impossible
 
-    run, spectrum, weights = Run(given), given["spectrum"], given["weights"]
-    output, html = given["output"], given["html"]
+    Raises
+    ------
+    Impossible
+        If no controller of this form exists, which a certificate proves.
+    """
+    run, spectrum, weights = Run(values), values["spectrum"], values["weights"]
+    output, html = values["output"], values["html"]
     require_other(output, file, spectrum, weights)
     require_writable(output, run.certificates)
     require_page(html, run.certificates, file, spectrum, weights)
@@ -132,180 +126,53 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         None if spectrum is None else read_spectrum(spectrum, run),
         None if weights is None else run.read(weights),
     )
-    keywords = {**wanted, "agent": given["agent"], **{key: given[key] for key in HOW}}
-    aimed = {key: given[key] for key in options.AIMS if key in given}
+    keywords = {**wanted, "agent": values["agent"], **{key: values[key] for key in HOW}}
+    aimed = {key: values[key] for key in options.AIMS if key in values}
     plant = run.read(file)
-    done = run.result(
+    result = run.result(
         _designed,
-        *(name, plant, extra, run.limits, keywords, aimed, given["box"]),
+        *(name, plant, *extra, run.limits, keywords, aimed, values["box"]),
         *(html is not None, run.system_by_digest),
         doing=f"designing for {plant[0]}",
         telling=True,
     )
-    possible = "impossible" not in done
 
     def show() -> bool:
-        if possible and output is None:
-            click.echo("\n".join(f"mcexact: {line}" for line in done["said"]), err=True)
-            emit(done["controller"])
-        elif possible:
-            emit("\n".join(done["said"]) + "\n\n")
-            emit_tables(done["tables"])
-        return possible and output is not None
+        if isinstance(result, Refused):
+            return False
+        if output is None:
+            click.echo("\n".join(f"mcexact: {line}" for line in result.verdict), err=True)
+            emit(result.controller)
+            return False
+        emit("\n".join(result.verdict) + "\n\n")
+        emit_tables(result.tables)
+        return True
 
     def write(checked: Rechecked) -> None:
-        if possible and output is not None:
-            write_result(output, done["controller"])
-        if possible and html is not None:
-            write_result(html, done["page"].rendered(done["certificates"], checked.verdicts))
+        if isinstance(result, Refused):
+            return
+        if output is not None:
+            write_result(output, result.controller)
+        if html is not None and result.page is not None:
+            page = result.page.rendered(result.evidence.certificates, checked.verdicts)
+            write_result(html, page)
 
-    checked = run.conclude(done, show, about=f"the design for {plant[0]}", write=write)
-    if not possible and checked.missing is not None and not run.as_json:
-        click.echo(f"mcexact: {done['impossible']}", err=True)
+    checked = run.conclude(result, show, about=f"the design for {plant[0]}", write=write)
+    if isinstance(result, Refused):
+        if checked.missing is not None and not run.as_json:
+            click.echo(f"mcexact: {result.reason}", err=True)
+        checked.require_complete()
+        raise Impossible(f"{result.reason}{result.advice}")
     checked.require_complete()
-    if not possible:
-        raise Impossible(f"{done['impossible']}{done['advice']}")
 
 
-def _advice(
-    name: str, file: str, proof: Answer, system: MultiChannelSystem, region: StabilityRegion
-) -> str:
-    """Which command to try if no controller without communication exists, but others may.
-
-    This is a design over the links of the plant, if sharing outputs over these leaves no fixed mode
-    outside the region; otherwise a search of links to add.
-    """
-    from mcexact.analysis.fixed_modes import fixed_spectrum
-    from mcexact.answer.modes import FixedSpectrum
-    from mcexact.derived.constructions import augmented_outputs
-    from mcexact.exact.rational import written
-
-    if name != "decentralized" or not isinstance(proof, FixedSpectrum):
-        return ""
-    if all(len(factor.channels) in (0, system.m) for factor in proof.factors):
-        return ""
-    links = "links between agents change"
-    if system.neighbors is not None and system.neighbors.edges():
-        left = fixed_spectrum(augmented_outputs(system)).factors
-        if all(region.contains_roots_of(factor.polynomial) for factor in left):
-            asked = "" if region.bound is None else f" --{region.word} {written(region.bound)}"
-            command = f"mcexact design extended {file}{asked}"
-            return f"; over the links of this plant, `{command}` designs one"
-        links = "more links between agents change"
-    return f"; `mcexact allocate {file} --links` says whether {links} this"
-
-
-def _designed(
-    name: str,
-    plant: tuple[str, bytes],
-    extra: tuple[tuple[str, bytes] | None, ...],
-    limits: dict[str, int],
-    wanted: dict[str, Any],
-    aimed: dict[str, Any],
-    with_box: bool,
-    with_page: bool,
-    system_by_digest: bool,
-    tell: Callable[[str], None],
-) -> dict[str, Any]:
+def _designed(*arguments: Any, **messages: Any) -> Loop | Refused:
     """Design and format the result, in the child process."""
-    import mcexact
-    from mcexact.answer.account import Account
-    from mcexact.answer.sentence import Given, Sentences
-    from mcexact.answer.templates import Sentence
-    from mcexact.cli.files import system_in
-    from mcexact.cli.running import told
-    from mcexact.errors import Impossible, InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.exact.roots import StabilityRegion
-    from mcexact.model.controller import controller_text
-    from mcexact.model.text import parse
-    from mcexact.report.text import measured, tables
-    from mcexact.synthesis.assessment import assess
-    from mcexact.synthesis.gate import Warned
-    from mcexact.synthesis.optimum.figures import Aims
-    from mcexact.synthesis.state_feedback import require_numbers
+    # The child process alone loads what decides: the clock runs while it does, and Ctrl-C ends it.
+    from mcexact.cli.designs import designed
 
-    def progress(step: str) -> None:
-        if isinstance(step, Warned):
-            tell(step)
+    return designed(*arguments, **messages)
 
-    (prescribed, weights), spectrum = extra, None
-    system = system_in(*plant, limits)
-    weighed = options.read_weights(weights, limits)
-    aims = options.aims_of(aimed, weighed) if aimed else Aims(weights=weighed)
-    if aimed:
-        wanted["aims"] = aims
-    try:
-        if prescribed is not None:
-            spectrum = parse(prescribed[1], Limits(**limits))
-            require_numbers(spectrum)
-        found = getattr(mcexact, f"design_{name}")(
-            system, spectrum=spectrum, progress=progress, **wanted
-        )
-    except InputError as error:
-        place = next((each[0] for each in extra if each is not None), plant[0])
-        raise error.within(place) from None
-    except Impossible as refused:
-        reason, proof = refused.message, refused.certificate
-        region = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
-        said = Sentences([reason] if isinstance(reason, Sentence) else [])
-        account = Account({proof.kind: proof}, Given(system), said)
-        return told(account, system_by_digest) | {
-            "impossible": str(refused),
-            "advice": _advice(name, plant[0], proof, system, region),
-            "json": account.as_json(design=name, possible=False, reason=reason),
-        }
-    _require_readable(found, Limits(**limits))
-    around = None
-    if with_box and found.stable:
-        around = found.every_loop(**({"effort": aims.effort} if aims.effort else {}))
-    account, assessment = found.account_with(around), assess(found, aims, around)
-    figures = measured(
-        found.measures(), assessment.rows(), account.sentences, found.region.discrete
-    )
-    return (
-        told(account, system_by_digest)
-        | assessed(
-            account,
-            assessment,
-            found.loop.closed,
-            (*tables(account.sentences), *_box(around), figures),
-            with_page,
-        )
-        | {
-            "controller": controller_text(found.controller),
-            "json": account.as_json(
-                **found.to_dict(),
-                **({} if around is None else {"every_loop": around.to_dict()}),
-                assessment=assessment.to_dict(),
-            ),
-        }
-    )
-
-
-def _box(around: EveryLoop | None) -> tuple[Table, ...]:
-    """What is not proved of every loop in a box, as a table."""
-    from mcexact.report.text import Table
-
-    rows = () if around is None else tuple(around.rows())
-    return (Table("plants near this one", (), rows),) if rows else ()
-
-
-def _require_readable(found: Design, limits: Limits) -> None:
-    """Stop where no command would read the controller, or check what is certified of it."""
-    from mcexact.errors import LimitReached
-
-    digits = int(found.controller.bit_length() * log10(2)) + 1
-    if digits > limits.digits:
-        other = " or choose gains in floating point (--arithmetic float)"
-        raise LimitReached(
-            f"the controller has numbers of about {digits} digits, and files with more than "
-            f"{limits.digits} in a row are not read: allow them (--max-digits {digits + 1})"
-            f"{other if found.arithmetic == 'exact' else ''}"
-        )
-
-
-# What ``--spectrum`` takes: numbers, JSON or a file, with an example of each form for the help.
 
 NUMBERS = "-1, -1+2i"
 ROOTS = [-1, "-1+2i"]
@@ -318,11 +185,11 @@ _HEAD = (
 _LIST = re.compile(r"[-+0-9./eEij,\s]*[0-9ij][-+0-9./eEij,\s]*", re.ASCII)
 
 
-def spectrum_text(given: str) -> str | None:
-    """Return the JSON of a spectrum that is given as text; None for the name of a file.
+def spectrum_text(text: str) -> str | None:
+    """Return the JSON of a spectrum that is written as text; None for the name of a file.
 
-    Numbers are separated by commas, and may have blanks around signs.  A file of the name that is
-    given is read whatever its name is.
+    Numbers are separated by commas, and may have blanks around signs.  A text that is the name of a
+    file stands for this file, even if it looks like numbers.
 
     Examples
     --------
@@ -331,14 +198,14 @@ def spectrum_text(given: str) -> str | None:
     >>> spectrum_text("[1, 2]"), spectrum_text("spectrum.json"), spectrum_text("-")
     ('[1, 2]', None, None)
     """
-    if given.lstrip()[:1] in {"{", "["}:
-        return given
-    if not _LIST.fullmatch(given) or os.path.exists(given):
+    if text.lstrip()[:1] in {"{", "["}:
+        return text
+    if not _LIST.fullmatch(text) or os.path.exists(text):
         return None
-    return json.dumps([re.sub(r"\s*([-+])\s*", r"\1", each).strip() for each in given.split(",")])
+    return json.dumps([re.sub(r"\s*([-+])\s*", r"\1", each).strip() for each in text.split(",")])
 
 
-def read_spectrum(given: str, run: Run) -> tuple[str, bytes]:
+def read_spectrum(value: str, run: Run) -> tuple[str, bytes]:
     """Return the name by which messages refer to a spectrum, and its JSON, from text or a file.
 
     Raises
@@ -346,15 +213,13 @@ def read_spectrum(given: str, run: Run) -> tuple[str, bytes]:
     InputError
         If it is neither, or the file cannot be read.
     """
-    from mcexact.errors import InputError
-
-    text = spectrum_text(given)
-    if text is None and given != "-" and not os.path.exists(given):
+    text = spectrum_text(value)
+    if text is None and value != "-" and not os.path.exists(value):
         raise InputError(
-            f"expected numbers such as '-1+2i, -3', JSON, or the name of a file, found {given!a}",
+            f"expected numbers such as '-1+2i, -3', JSON, or the name of a file, found {value!a}",
             where="--spectrum",
         )
-    return run.read(given) if text is None else ("--spectrum", text.encode())
+    return run.read(value) if text is None else ("--spectrum", text.encode())
 
 
 def spectrum_examples(*keys: str, parts: bool = False) -> str:
@@ -382,11 +247,11 @@ def spectrum_examples(*keys: str, parts: bool = False) -> str:
       {"closed_loop": [5, 7, 3, 1]}
           the same as coefficients, the constant term first: x^3 + 3x^2 + 7x + 5
     """
-    told = "the root -1 and the pair -1 ± 2i"
+    meaning_of_roots = "the root -1 and the pair -1 ± 2i"
     shown: list[tuple[dict[str, Any], str]] = [
         (
             dict.fromkeys(keys, ROOTS),
-            told if len(keys) > 1 else "the same as JSON",
+            meaning_of_roots if len(keys) > 1 else "the same as JSON",
         ),
         (
             dict.fromkeys(keys, PAIRS),
@@ -407,13 +272,10 @@ def spectrum_examples(*keys: str, parts: bool = False) -> str:
         )
     lines = ["\b", _HEAD]
     if len(keys) == 1:
-        lines += [f"  '{NUMBERS}'", f"      {told}"]
+        lines += [f"  '{NUMBERS}'", f"      {meaning_of_roots}"]
     for document, meaning in shown:
         lines += [f"  {json.dumps(document)}", f"      {meaning}"]
     return "\n".join(lines)
-
-
-# `mcexact design decentralized`: design a controller without communication.
 
 
 @click.command(
@@ -428,7 +290,7 @@ def spectrum_examples(*keys: str, parts: bool = False) -> str:
     "of coefficients or of roots and pairs, or a mapping from one agent of each strong component "
     "of the transfer graph to such a list."
 )
-def design_decentralized_command(file: str, **given: Any) -> None:
+def design_decentralized_command(file: str, **values: Any) -> None:
     """Design a decentralized controller for the system in FILE (- for standard input).
 
     Agent i computes u_i from y_i alone. Without --rate or --radius, half the sensible rate is
@@ -437,10 +299,7 @@ def design_decentralized_command(file: str, **given: Any) -> None:
     enough; if one is too slow, the status is 1 and a certificate proves that no such controller
     exists.
     """
-    answer("decentralized", file, given, {})
-
-
-# `mcexact design extended`: design a controller with shared sub-states of least dimension.
+    answer("decentralized", file, values, {})
 
 
 @click.command(
@@ -484,7 +343,7 @@ def design_extended_command(
     share: str | None,
     network: str | None,
     free_assignability: bool,
-    **given: Any,
+    **values: Any,
 ) -> None:
     """Design a distributed controller through the extended system of FILE (- for standard input).
 
@@ -507,10 +366,7 @@ def design_extended_command(
         "network": network,
         "free_assignability": free_assignability,
     }
-    answer("extended", file, given, wanted)
-
-
-# `mcexact design observer`: design a distributed observer-based controller.
+    answer("extended", file, values, wanted)
 
 
 @click.command(
@@ -534,7 +390,7 @@ def design_extended_command(
     "point an observer of reduced order. `low`: compare it with a controller of low order over the "
     "same links, whose agents do not estimate the whole state, and keep the better one.",
 )
-def design_observer_command(file: str, order: str | None, **given: Any) -> None:
+def design_observer_command(file: str, order: str | None, **values: Any) -> None:
     """Design a distributed observer-based controller for the system in FILE (- for standard input).
 
     FILE needs a neighbor graph. Without a rate, a radius or a spectrum, half the sensible rate is
@@ -542,10 +398,7 @@ def design_observer_command(file: str, order: str | None, **given: Any) -> None:
     linear time-invariant controller of this form exists, the status is 1 and a certificate proves
     this.
     """
-    answer("observer", file, given, {"order": order})
-
-
-# `mcexact design setpoint`: design a controller that holds every output at its set-point.
+    answer("observer", file, values, {"order": order})
 
 
 @click.command(
@@ -565,7 +418,7 @@ def design_observer_command(file: str, order: str | None, **given: Any) -> None:
     help="Use a distributed observer, or shared sub-states; by default a controller of low order "
     "without communication if one exists, else with shared sub-states.",
 )
-def design_setpoint_command(file: str, method: str | None, **given: Any) -> None:
+def design_setpoint_command(file: str, method: str | None, **values: Any) -> None:
     """Design a distributed controller that holds every output of FILE at its agent's set-point.
 
     Without a neighbor graph in FILE agents receive nothing. Without a rate, a radius or a spectrum,
@@ -573,38 +426,4 @@ def design_setpoint_command(file: str, method: str | None, **given: Any) -> None
     set-points. If some set-points have no equilibrium, the status is 1 and a certificate gives
     their linear combinations.
     """
-    answer("setpoint", file, given, {"method": method})
-
-
-# The verdict, the tables and the page of an assessed controller.
-
-
-def assessed(
-    account: Account,
-    found: Assessment,
-    loop: ClosedLoop,
-    tables: tuple[Table, ...],
-    with_page: bool,
-    pictures: tuple[EmbeddedPicture, ...] = (),
-) -> dict[str, Any]:
-    """Return the lines before the tables, the first of which is the verdict, and the page.
-
-    What is certified of all loops near this one follows the verdict; ``pictures`` come first on the
-    page.
-    """
-    # Help loads every command, and must not load flint with the templates.
-    from mcexact.answer.loops import EVERY_LOOP, EVERY_LOOP_PART
-
-    all_loops = (EVERY_LOOP, EVERY_LOOP_PART)
-    said = [found.verdict, *(each.line for each in account.sentences if each.template in all_loops)]
-    said += [f"warning: {each}" for each in found.warnings[1:]]
-    said += [f"note: {each}" for each in found.notes]
-    page = None
-    if with_page:
-        from mcexact.report.pages import loop_page
-        from mcexact.synthesis.optimum.diagnosis import curves_of
-
-        curves = curves_of(loop, found.region)
-        page = loop_page(account, found.install, said, tables, curves, loop.controller)
-        page = replace(page, pictures=(*pictures, *page.pictures))
-    return {"said": said, "tables": tables, "page": page}
+    answer("setpoint", file, values, {"method": method})

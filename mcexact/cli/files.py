@@ -1,16 +1,14 @@
-"""Input files within a deadline, results written completely or not at all, standard output.
+"""Input files within a deadline, results written completely or not at all, tables.
 
 The parent process reads all inputs, with one `Deadline` for the whole command.  Before any work,
 the ``require_…`` functions check that results can be written where they are wanted, without
 creating or changing anything: that the place is writable, is not also an input, and is not named
-twice.  `write_result` and `write_folder` write completely or not at all.  `emit` writes to standard
-output and stops without an error if the reader has closed the pipe.
+twice.  `write_result` and `write_folder` write completely or not at all.
 """
 
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import shutil
 import signal
@@ -19,24 +17,22 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
+from mcexact.cli.output import emit
 from mcexact.errors import InputError, LimitReached, MissingExtra, NotWritten
 from mcexact.errors import place_of as place_of
-
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from mcexact.model.parametric import ParametricSystem
-    from mcexact.model.system import MultiChannelSystem
-    from mcexact.report.text import Table
-
-
-# Reading input files, checking where results can be written, and writing them.
+from mcexact.exact.rational import Limits
+from mcexact.model.arrays import Reading
+from mcexact.model.files import read_any, read_input, read_plant
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import write_bytes
+from mcexact.report.text import WIDTH, Table, plain, show
 
 
 def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
@@ -52,9 +48,6 @@ def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
     LimitReached
         If the deadline passes.
     """
-    from mcexact.exact.rational import Limits
-    from mcexact.model.files import read_input
-
     place = place_of(file)
     with InputError.inside(place), deadline.interrupting(f"reading {place}"):
         return read_input(file, Limits(**limits))
@@ -68,10 +61,6 @@ def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChanne
     InputError
         If it is malformed.
     """
-    from mcexact.exact.rational import Limits
-    from mcexact.model.arrays import Reading
-    from mcexact.model.files import read_any
-
     with InputError.inside(place):
         return read_any(data, place, Reading(Limits(**limits)))
 
@@ -86,10 +75,6 @@ def plant_in(
     InputError
         If it is malformed, or a value is that of no parameter.
     """
-    from mcexact.exact.rational import Limits
-    from mcexact.model.arrays import Reading
-    from mcexact.model.files import read_plant
-
     with InputError.inside(place):
         return valued(read_plant(data, place, Reading(Limits(**limits))), at)
 
@@ -104,8 +89,6 @@ def valued(
     InputError
         If it has no parameters, or a value is that of no parameter.
     """
-    from mcexact.model.parametric import ParametricSystem
-
     if not at:
         return system
     if not isinstance(system, ParametricSystem):
@@ -136,9 +119,9 @@ def require_apart(*outputs: Path | None) -> None:
     InputError
         If two names are those of one place, whether or not there is anything yet.
     """
-    given = [each for each in outputs if each is not None]
-    for k, output in enumerate(given):
-        if any(_is_place(output, other) for other in given[:k]):
+    wanted = [each for each in outputs if each is not None]
+    for k, output in enumerate(wanted):
+        if any(_is_place(output, other) for other in wanted[:k]):
             raise InputError(
                 "two results would be written there: choose another name for one of them",
                 where=str(output),
@@ -170,7 +153,7 @@ def require_writable(file: Path | None, folder: Path | None = None) -> None:
     file : Path or None
         The file for a result; its folder exists, or will be made for the other results.
     folder : Path or None
-        The folder for other results; it will be made, with the folders above it, if it is missing.
+        The folder for other results; a missing one will be created, with the folders above it.
 
     Raises
     ------
@@ -179,10 +162,10 @@ def require_writable(file: Path | None, folder: Path | None = None) -> None:
     """
     if folder is not None:
         with _refusing(folder):
-            made = Path(os.path.realpath(folder))
-            if _exists(made) and not made.is_dir():
+            resolved = Path(os.path.realpath(folder))
+            if _exists(resolved) and not resolved.is_dir():
                 raise NotWritten("cannot be made a directory: File exists", where=str(folder))
-            _try(_nearest(made))
+            _try(_nearest(resolved))
     if file is not None:
         with _refusing(file):
             if _exists(file) and not file.is_file():
@@ -191,9 +174,9 @@ def require_writable(file: Path | None, folder: Path | None = None) -> None:
                 return
             target = Path(os.path.realpath(file))
             _exists(target)
-            to_be_made = () if folder is None else (made, *made.parents)
+            new_folders = () if folder is None else (resolved, *resolved.parents)
             parent = target.parent
-            _try(_nearest(parent) if parent in to_be_made else parent)
+            _try(_nearest(parent) if parent in new_folders else parent)
 
 
 def require_drawable(file: Path | None) -> None:
@@ -277,8 +260,6 @@ def write_result(path: Path, content: str | bytes) -> None:
     NotWritten
         If it cannot be written.
     """
-    from mcexact.model.text import write_bytes
-
     write_bytes(path, content if isinstance(content, bytes) else content.encode("utf-8"))
     say_written(path)
 
@@ -317,25 +298,25 @@ def directory(path: Path) -> Path:
     return path
 
 
-# A time limit for everything that one command does.
-
 _LEAST_GRACE = 5.0
 """Seconds that it may take at least to show and to re-check what was decided in time."""
 
 
 class Deadline:
-    """A time limit of some seconds from now, or no limit.
+    """A time limit of some seconds, or no limit.
 
     Parameters
     ----------
     seconds : float or None
         None means that there is no limit.
+    start : float, optional
+        When the time began, by the clock of `time.monotonic`; by default now.
     """
 
-    def __init__(self, seconds: float | None) -> None:
+    def __init__(self, seconds: float | None, start: float | None = None) -> None:
         self.seconds = seconds
-        self._start = time.monotonic()
-        self._said = seconds
+        self._start = time.monotonic() if start is None else start
+        self._stated = seconds
 
     def left(self) -> float | None:
         """Return the seconds that are left, at least 0; None without a limit."""
@@ -349,13 +330,13 @@ class Deadline:
         if left is None or self.seconds is None:
             return self
         allowed = Deadline(max(left, self.seconds / 4, _LEAST_GRACE))
-        allowed._said = self._said
+        allowed._stated = self._stated
         return allowed
 
     def missed(self, doing: str) -> LimitReached:
         """Return the error to raise when the time is over."""
         return LimitReached(
-            f"the time limit of {self._said:g} s was reached while {doing}; "
+            f"the time limit of {self._stated:g} s was reached while {doing}; "
             "nothing has been decided (--timeout allows more)"
         )
 
@@ -386,9 +367,6 @@ class Deadline:
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0)
             signal.signal(signal.SIGALRM, before)
-
-
-# Write a folder of files completely or not at all.
 
 
 def require_replaceable(folder: Path, mark: str) -> None:
@@ -434,96 +412,26 @@ def write_folder(folder: Path, files: Mapping[str, str]) -> None:
     target = Path(os.path.realpath(folder))
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        made = Path(tempfile.mkdtemp(prefix=".mcexact-", dir=target.parent))
+        scratch = Path(tempfile.mkdtemp(prefix=".mcexact-", dir=target.parent))
         try:
-            made.chmod(0o755)
+            scratch.chmod(0o755)
             for name, text in files.items():
-                path = made / "new" / name
+                path = scratch / "new" / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text, encoding="utf-8")
             if target.exists():
-                target.rename(made / "old")
+                target.rename(scratch / "old")
             try:
-                (made / "new").rename(target)
+                (scratch / "new").rename(target)
             except BaseException:
-                if (made / "old").exists():
-                    (made / "old").rename(target)
+                if (scratch / "old").exists():
+                    (scratch / "old").rename(target)
                 raise
         finally:
-            shutil.rmtree(made, ignore_errors=True)
+            shutil.rmtree(scratch, ignore_errors=True)
     except OSError as error:
         raise NotWritten(f"cannot write: {error.strerror or error}", where=str(folder)) from error
     say_written(folder, len(files))
-
-
-# Writing to standard output, also when the reader closes the pipe.
-
-_PLACE = "standard output"
-_run = {"written": False}
-
-
-def begin() -> None:
-    """Begin a run, which has written nothing."""
-    _run["written"] = False
-
-
-def has_written() -> bool:
-    """Whether this run has written to standard output, or tried to."""
-    return _run["written"]
-
-
-def deliver(text: str) -> None:
-    """Write text to standard output.
-
-    A character that the terminal's encoding lacks is written as an escape.
-
-    Raises
-    ------
-    NotWritten
-        If that is impossible, also because the reader of a pipe has closed it.
-    """
-    _run["written"] = True
-    stream: TextIO | None = sys.stdout
-    if stream is None:
-        raise NotWritten("cannot be written: it is closed", where=_PLACE)
-    try:
-        try:
-            stream.write(text)
-        except UnicodeEncodeError:
-            encoding = stream.encoding or "ascii"
-            stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
-        stream.flush()
-    except OSError as error:
-        # The interpreter flushes again when it exits, which must not raise another error.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
-        left = isinstance(error, BrokenPipeError)
-        reason = f"cannot be written: {error.strerror}"
-        raise NotWritten(reason, where=_PLACE, reader_left=left) from None
-
-
-def emit(text: str) -> None:
-    """Write text to standard output, and stop without an error if its reader has closed it.
-
-    Raises
-    ------
-    NotWritten
-        If it cannot be written for another reason.
-    """
-    try:
-        deliver(text)
-    except NotWritten as error:
-        if not error.reader_left:
-            raise
-
-
-def emit_json(document: Any) -> None:
-    """Write one JSON document to standard output."""
-    emit(json_text(document))
-
-
-def json_text(document: Any) -> str:
-    """The text of one JSON document, as it is printed."""
-    return json.dumps(document, indent=2, ensure_ascii=True) + "\n"
 
 
 def emit_tables(tables: Sequence[Table], width: int | None = None) -> None:
@@ -535,8 +443,6 @@ def emit_tables(tables: Sequence[Table], width: int | None = None) -> None:
     width : int, optional
         The width of plain lines in characters.
     """
-    from mcexact.report.text import WIDTH, plain, show
-
     if sys.stdout is not None and sys.stdout.isatty():
         show(tables, sys.stdout)
     else:

@@ -1,4 +1,11 @@
-"""Options of several commands, and aims."""
+"""Options of several commands, and the types of their values.
+
+Values are parsed as exact numbers by the grammar of numbers in files (`rational`, `part`), and a
+value that does not fit is a click.BadParameter, which names the option.  Options that always come
+together are one decorator: `answering` for every command with certificates, `aims` for a search,
+`draws` for drawn systems, `file_limits` and `work_limits`.  Every command imports this module, and
+it loads none of the package besides errors and rational numbers.
+"""
 
 from __future__ import annotations
 
@@ -6,16 +13,13 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import click
 from click.core import ParameterSource
 
-if TYPE_CHECKING:
-    from mcexact.synthesis.optimum.figures import Aims
-
-
-# Options of several commands, and the types of their values.
+from mcexact.errors import InputError
+from mcexact.exact.rational import parse_rational
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -28,9 +32,6 @@ def rational(text: str) -> Fraction:
     >>> rational("-1/2")
     Fraction(-1, 2)
     """
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import parse_rational
-
     try:
         return parse_rational(text)
     except InputError as error:
@@ -45,16 +46,16 @@ def part(text: str) -> Fraction:
     >>> part("0.1%"), part("1/50"), part("200%")
     (Fraction(1, 1000), Fraction(1, 50), Fraction(2, 1))
     """
-    found = rational(text.removesuffix("%").rstrip())
-    if found > 1 and not text.endswith("%"):
+    ratio = rational(text.removesuffix("%").rstrip())
+    if ratio > 1 and not text.endswith("%"):
         raise click.BadParameter(
             f"found '{text}', more than the whole: write {text}% for {text} percent"
         )
-    if found < 0:
+    if ratio < 0:
         raise click.BadParameter(
             f"expected a part from 0 on, such as 0.1% or 1/1000, found '{text}'"
         )
-    return found / 100 if text.endswith("%") else found
+    return ratio / 100 if text.endswith("%") else ratio
 
 
 def count(text: str) -> int:
@@ -95,9 +96,8 @@ uncertainty = click.option(
 
 
 def largest_uncertainty(searched: str) -> Callable[[F], F]:
-    """Return the options for a search of the largest radii, with what is searched in words."""
-    named = "largest_uncertainty"
-    largest = click.option("--largest-uncertainty", named, is_flag=True, help=searched)
+    """Return the options for a search of the largest radii; ``searched`` says for what."""
+    largest = click.option("--largest-uncertainty", is_flag=True, help=searched)
     effort = click.option(
         "--effort",
         type=seconds,
@@ -110,18 +110,23 @@ def largest_uncertainty(searched: str) -> Callable[[F], F]:
     return lambda function: largest(effort(function))
 
 
-def effort_of_search(given: dict[str, Any], *others: str) -> float | None:
-    """Take the options of a search of the largest radii: its effort; None if it is not asked for.
+def effort_of_search(values: dict[str, Any], *others: str) -> float | None:
+    """Return the effort of the search of the largest radii in seconds; None without a search.
 
     Parameters
     ----------
-    given : dict
-        All options of the command by name.
+    values : dict
+        The values of all options of the command, from which those of the search are removed.
     others : str
-        Options that are for the search alone, too.
+        Further options that are for the search alone.
+
+    Raises
+    ------
+    click.UsageError
+        If the radii are prescribed as well, or an option of the search is given without it.
     """
-    context, largest = click.get_current_context(), given.pop("largest_uncertainty")
-    if largest and given["uncertainty"] is not None:
+    context, largest = click.get_current_context(), values.pop("largest_uncertainty")
+    if largest and values["uncertainty"] is not None:
         raise click.UsageError("--largest-uncertainty searches the part: leave out --uncertainty")
     for name in ("effort", *others):
         typed = context.get_parameter_source(name) is ParameterSource.COMMANDLINE
@@ -129,7 +134,7 @@ def effort_of_search(given: dict[str, Any], *others: str) -> float | None:
             raise click.UsageError(
                 f"--{name} is for --largest-uncertainty: add this, or leave it out"
             )
-    effort = float(given.pop("effort"))
+    effort = float(values.pop("effort"))
     return effort if largest else None
 
 
@@ -188,7 +193,7 @@ def file_limits(function: F) -> F:
     """Add the options that change the limits on input files.
 
     The command receives them as the keywords ``bytes``, ``depth``, ``digits`` and ``exponent``; see
-    `given`.  Only ``--help-all`` shows them.
+    `set_limits`.  Only ``--help-all`` shows them.
     """
     function = click.option(
         "--help-all",
@@ -226,8 +231,8 @@ def _show_all(context: click.Context, _: click.Parameter, asked: bool) -> None:
     context.exit()
 
 
-def given(limits: Mapping[str, int | None]) -> dict[str, int]:
-    """Return the limits that were given."""
+def set_limits(limits: Mapping[str, int | None]) -> dict[str, int]:
+    """Return the limits that are set, without those that are None."""
     return {name: limit for name, limit in limits.items() if limit is not None}
 
 
@@ -304,23 +309,22 @@ def answering(function: F) -> F:
     return function
 
 
-# Options for what a search aims at, and the aims that they give.
-
 AIMS = (
     "margin", "damping", "largest_modulus", "largest_gain", "largest_order", "most_digits",
     "effort", "seeds",
 )  # fmt: skip
+"""What a search aims at: the names of the options that `aims` adds."""
 
 
 def number(text: str) -> float:
     """Parse a finite number of at least 0."""
     try:
-        found = float(text)
+        value = float(text)
     except ValueError:
-        found = -1.0
-    if not (found >= 0 and isfinite(found)):
+        value = -1.0
+    if not (value >= 0 and isfinite(value)):
         raise click.BadParameter(f"expected a number of at least 0, found '{text}'")
-    return found
+    return value
 
 
 weights = click.option(
@@ -350,7 +354,7 @@ fastest = click.option(
 
 
 def aims(function: F) -> F:
-    """Add the options of a search; see `aims_of`."""
+    """Add the options of a search, whose names are `AIMS`."""
     for option in (
         click.option(
             "--seeds",
@@ -403,32 +407,26 @@ def aims(function: F) -> F:
     return function
 
 
-def aims_of(given: Mapping[str, Any], weighed: Mapping[str, Any] | None) -> Aims:
-    """Return the aims that the options of `aims` and the content of a file of weights give."""
-    from mcexact.synthesis.optimum.figures import Aims
+def parameter_value(text: str) -> tuple[str, Fraction]:
+    """Parse ``NAME=VALUE`` with an exact number.
 
-    chosen = {name: given[name] for name in AIMS}
-    return Aims(weights=weighed, digits=chosen.pop("most_digits"), **chosen)
-
-
-def read_weights(
-    file: tuple[str, bytes] | None, limits: Mapping[str, int]
-) -> dict[str, Any] | None:
-    """Read a file of weights, an object of lists of rows.
-
-    Raises
-    ------
-    InputError
-        If it is malformed; sizes and entries are checked when the plant is known.
+    Examples
+    --------
+    >>> parameter_value("t=1/3")
+    ('t', Fraction(1, 3))
     """
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.model.text import parse
+    name, equals, value = text.partition("=")
+    if not (name.strip() and equals and value.strip()):
+        raise click.BadParameter(f"expected NAME=VALUE, such as t=1/3, found '{text}'")
+    return name.strip(), rational(value.strip())
 
-    if file is None:
-        return None
-    with InputError.inside(file[0]):
-        found = parse(file[1], Limits(**limits))
-        if not isinstance(found, dict):
-            raise InputError('expected an object such as {"Q": rows, "R": rows}')
-    return found
+
+def at_values(use: str, more: str) -> Callable[[F], F]:
+    """Return the option for values of parameters, whose help says their use, and more."""
+    return click.option(
+        "--at",
+        type=parameter_value,
+        multiple=True,
+        metavar="NAME=VALUE",
+        help=f"Of a system with parameters: {use}, such as t=1/3.  {more}",
+    )

@@ -1,17 +1,40 @@
-"""Commands about the paper and floating point: reproduce, crosscheck, demo."""
+"""Commands about the paper and floating point: reproduce, crosscheck, demo.
+
+`reproduce_command` examines the statements of the paper section by section, each in a child process
+with the limits to itself, so that a line of progress follows every section.  `crosscheck_command`
+compares libraries with the exact answers about one system, or shows the systems with a recorded
+wrong answer; `demo_command` shows two of those.  Each of the three loads another large part of the
+package, with numpy, which the other two do not need.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mcexact.cli import options
 from mcexact.cli.commands import DEFINITE_NO
+from mcexact.cli.files import (
+    emit_tables,
+    require_replaceable,
+    require_writable,
+    system_in,
+    write_folder,
+    write_result,
+)
 from mcexact.cli.options import as_json
+from mcexact.cli.output import emit, emit_json
+from mcexact.cli.results import Compared
+from mcexact.cli.running import Run, supervised
+from mcexact.errors import MissingExtra
+from mcexact.report.text import WIDE, plain
 
-# `mcexact reproduce`: what is known of every statement of the paper, examined exactly.
+if TYPE_CHECKING:
+    from mcexact.reproduce.notebook import Notebook
+
+FORMAT = "mcexact-crosscheck/1"
 
 
 @click.command(name="reproduce", short_help="Say of every statement of the paper what is known.")
@@ -46,21 +69,18 @@ def reproduce_command(
     Says what is known of each, with certificates. If an examination fails, the status is 1, and the
     examination is named.
     """
-
-    from mcexact.cli.files import emit, emit_json, emit_tables, require_replaceable, write_folder
-    from mcexact.cli.running import supervised
-    from mcexact.errors import MissingExtra
+    # Only this of the three commands needs the examinations.
     from mcexact.reproduce import reproduction
 
     MissingExtra.require("plot", "matplotlib")
     keys = reproduction.chosen(wanted)
     if output is not None:
         require_replaceable(output, "report.html")
-    findings: list[Any] = []
+    findings: list[Notebook] = []
     for k, (name, procedures) in enumerate(reproduction.SECTIONS):
         if not any(key in procedures for key in keys):
             continue
-        found = supervised(
+        section = supervised(
             reproduction.examine,
             k,
             keys,
@@ -68,8 +88,8 @@ def reproduce_command(
             timeout=timeout,
             max_memory=max_memory,
         )
-        findings += found
-        _tell(name, found)
+        findings += section
+        _tell(name, section)
     result = reproduction.assembled(findings)
     if output is not None:
         files = {f"certificates/{name}": text for name, text in result.certificates().items()}
@@ -88,20 +108,15 @@ def reproduce_command(
     return 0 if result.holds else DEFINITE_NO
 
 
-def _tell(name: str, findings: tuple[Any, ...]) -> None:
+def _tell(name: str, findings: tuple[Notebook, ...]) -> None:
     """Print one line of progress for a finished section."""
     held = sum(finding.holds for finding in findings)
-    made = sum(len(finding.certificates) for finding in findings)
+    certificates = sum(len(finding.certificates) for finding in findings)
     click.echo(
         f"mcexact: section {name}: {held} of {len(findings)} examinations hold, "
-        f"{made} certificates",
+        f"{certificates} certificates",
         err=True,
     )
-
-
-# `mcexact crosscheck`: compare floating-point verdicts on a system with the exact ones.
-
-FORMAT = "mcexact-crosscheck/1"
 
 
 @click.command(name="crosscheck", short_help="Compare floating-point verdicts with the exact ones.")
@@ -121,23 +136,19 @@ FORMAT = "mcexact-crosscheck/1"
 @options.as_json
 @options.work_limits
 @options.file_limits
-def crosscheck_command(file: str | None, exhibits: bool, html: Path | None, **given: Any) -> None:
+def crosscheck_command(file: str | None, exhibits: bool, html: Path | None, **values: Any) -> None:
     """Answer structural questions about the system in FILE in floating point and exactly.
 
     Each floating-point verdict comes from a library's own function with its default tolerance; the
     table quotes the call. The last table has a plant near a small system that has a fixed
     mode, which is decided exactly.
     """
-    from mcexact.cli.files import emit, emit_json, require_writable, write_result
-    from mcexact.cli.running import Run
-    from mcexact.report.text import WIDE, plain
-
     if exhibits == (file is not None):
         raise click.UsageError("give either FILE or --exhibits")
     if html is not None and not exhibits:
         raise click.UsageError("--html goes with --exhibits")
     require_writable(html)
-    run = Run(given)
+    run = Run(values)
     if file is None:
         answer = run.result(_exhibited, doing="asking the exhibits' questions")
     else:
@@ -145,44 +156,32 @@ def crosscheck_command(file: str | None, exhibits: bool, html: Path | None, **gi
         doing = f"cross-checking {plant[0]}"
         answer = run.result(_crosschecked, *plant, run.limits, doing=doing)
     if html is not None:
-        write_result(html, answer["html"])
+        write_result(html, answer.page)
     if run.as_json:
-        emit_json(answer["json"])
+        emit_json(answer.document)
     else:
-        emit(plain(answer["tables"], width=WIDE))
+        emit(plain(answer.tables, width=WIDE))
 
 
-def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, Any]:
+def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> Compared:
     """Answer and format the answers, in the child process."""
-    from mcexact.cli.files import system_in
+    # Only there: numpy has threads, with which this process could not be forked.
     from mcexact.crosschecks.gallery import crosscheck_tables, crosscheck_view
     from mcexact.crosschecks.table import crosscheck
 
-    system = system_in(place, data, limits)
-    found = crosscheck(system)
-    view = {"format": FORMAT, **crosscheck_view(found)}
-    return {"json": view, "tables": crosscheck_tables(found)}
+    comparison = crosscheck(system_in(place, data, limits))
+    document = {"format": FORMAT, **crosscheck_view(comparison)}
+    return Compared(document, crosscheck_tables(comparison))
 
 
-def _exhibited() -> dict[str, Any]:
+def _exhibited() -> Compared:
     """Answer every exhibit's question on this machine, in the child process."""
-    from mcexact.crosschecks.gallery import (
-        exhibit_tables,
-        exhibits,
-        exhibits_page,
-        exhibits_view,
-        shown,
-    )
+    # Only there: numpy has threads, with which this process could not be forked.
+    from mcexact.crosschecks import gallery
 
-    found = [shown(each) for each in exhibits()]
-    return {
-        "json": {"format": FORMAT, "exhibits": exhibits_view(found)},
-        "tables": exhibit_tables(found),
-        "html": exhibits_page(found),
-    }
-
-
-# `mcexact demo`: two questions that floating point answers wrongly.
+    exhibits = [gallery.shown(each) for each in gallery.exhibits()]
+    document = {"format": FORMAT, "exhibits": gallery.exhibits_view(exhibits)}
+    return Compared(document, gallery.exhibit_tables(exhibits), gallery.exhibits_page(exhibits))
 
 
 @click.command(
@@ -191,15 +190,11 @@ def _exhibited() -> dict[str, Any]:
 @as_json
 def demo_command(as_json: bool) -> None:
     """Show two wrong answers of floating point, recorded and recomputed, with the exact ones."""
-    from mcexact.cli.files import emit, emit_json
-    from mcexact.crosschecks.demonstration import (
-        demonstration,
-        demonstration_text,
-        demonstration_view,
-    )
+    # Only this of the three commands needs them.
+    from mcexact.crosschecks import demonstration
 
-    shown = demonstration()
+    shown = demonstration.demonstration()
     if as_json:
-        emit_json({"format": "mcexact-demo/1", **demonstration_view(shown)})
+        emit_json({"format": "mcexact-demo/1", **demonstration.demonstration_view(shown)})
     else:
-        emit(demonstration_text(shown))
+        emit(demonstration.demonstration_text(shown))

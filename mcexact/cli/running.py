@@ -34,15 +34,22 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from mcexact.answer.sentence import MANIFEST
+from mcexact.answer.templates import count
 from mcexact.cli import options
-from mcexact.cli.files import Deadline
+from mcexact.cli.commands import INTERRUPTED
+from mcexact.cli.files import Deadline, directory, emit_tables, place_of, read, say_written
+from mcexact.cli.output import emit, emit_json
+from mcexact.cli.results import Evidence, Result, Shown
 from mcexact.errors import InternalError, LimitReached, McexactError, UsageError
+from mcexact.model.text import write_text
 from mcexact.processes import Child
 
 if TYPE_CHECKING:
     from mcexact.analysis.analyze import Asking
-    from mcexact.answer.account import Account
     from mcexact.checker.kinds import Verdict
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -69,8 +76,6 @@ class Rechecked:
 
     def line(self) -> str:
         """Return a line of text that gives the number of VALID certificates."""
-        from mcexact.answer.templates import count
-
         if not self.verdicts:
             return "no certificate, as nothing was decided exactly\n"
         number = count(len(self.verdicts), "certificate")
@@ -89,8 +94,7 @@ class Rechecked:
 
 
 def rechecked(
-    files: Mapping[str, str],
-    plant: str | Mapping[str, str],
+    evidence: Evidence,
     *,
     doing: str,
     deadline: Deadline,
@@ -100,11 +104,7 @@ def rechecked(
 
     Parameters
     ----------
-    files : mapping from names to texts
-        The certificates, and the manifest of the sentences, if there is one.
-    plant : str or mapping
-        The plant that all certificates must be about, as their object ``system``; or of each its
-        own.
+    evidence : Evidence
     doing : str
         A description of the work, for progress.
     deadline : Deadline
@@ -116,15 +116,12 @@ def rechecked(
     InternalError
         If the checker rejects a certificate, or a sentence that the certificates do not imply.
     """
-    from mcexact.answer.sentence import MANIFEST
-    from mcexact.errors import LimitReached
-
-    names, kept, missing = [name for name in files if name != MANIFEST], Kept(), None
+    names, kept, missing = [name for name in evidence.files if name != MANIFEST], Kept(), None
     try:
-        found = supervised(
+        verdicts = supervised(
             _recheck,
-            dict(files),
-            plant,
+            dict(evidence.files),
+            evidence.plants,
             len(names),
             doing=doing,
             timeout=deadline,
@@ -132,27 +129,33 @@ def rechecked(
             kept=kept,
         )
     except LimitReached as reached:
-        found = {name: said for name, said in kept.parts.items() if name != MANIFEST}
-        valid = {name: said for name, said in found.items() if said.verdict == "VALID"}
+        valid = _valid(kept.parts)
+        valid.pop(MANIFEST, None)
         what = f"{len(valid)} of {len(names)} certificates" if valid else "the answers"
         what += " are re-checked, and the sentences are not" if valid else " are not re-checked"
         missing = LimitReached(reached.message.replace("nothing has been decided", what))
         return Rechecked(valid, tuple(name for name in names if name not in valid), missing)
-    valid = {name: said for name, said in found.items() if said.verdict == "VALID"}
-    reasons = [f"{name} ({found[name].message})" for name in found if name not in valid]
+    valid = _valid(verdicts)
+    reasons = [f"{name} ({verdicts[name].message})" for name in verdicts if name not in valid]
     if reasons:
         missing = LimitReached(f"not re-checked, a limit of the checker: {', '.join(reasons)}")
-    return Rechecked(valid, tuple(name for name in found if name not in valid), missing)
+    return Rechecked(valid, tuple(name for name in verdicts if name not in valid), missing)
+
+
+def _valid(verdicts: Mapping[str, Verdict]) -> dict[str, Verdict]:
+    """Return the verdicts that are VALID."""
+    return {name: verdict for name, verdict in verdicts.items() if verdict.verdict == "VALID"}
 
 
 def _recheck(
     files: Mapping[str, str],
-    plant: str | Mapping[str, str],
+    plants: str | Mapping[str, str],
     number: int,
     *,
     report: Reporting,
 ) -> dict[str, Verdict]:
     """Verify files, and hand over each verdict, in the child process."""
+    # Only there: it has every kind of answer, and every command imports this module.
     from mcexact.answer.check import recheck
 
     done: list[str] = []
@@ -163,34 +166,10 @@ def _recheck(
         report.step(f"{len(done)} of {number} certificates")
 
     report.step(f"0 of {number} certificates")
-    return recheck(files, plant, keep)
+    return recheck(files, plants, keep)
 
-
-# One run of a command: its limits, its inputs, and the common end of all commands.
 
 LIMITS = ("bytes", "depth", "digits", "exponent")
-
-
-def told(account: Account, system_by_digest: bool) -> dict[str, Any]:
-    """Return the parts of an account that a child process sends back.
-
-    Parameters
-    ----------
-    account : Account
-    system_by_digest : bool
-        Whether the files name the plant by its digest.
-    """
-    from mcexact.answer import protocol
-
-    files, own = account.files(system_by_digest=system_by_digest), account.given.system
-    refuted = {f"{name}_refuted.json": answer for name, answer in account.failing.items()}
-    others = {name: protocol.encode(answer) for name, answer in refuted.items()}
-    plants = {name: answer.about.plant.canonical_text() for name, answer in refuted.items()}
-    return {
-        "certificates": account.certificates | others,
-        "files": files | others,
-        "plant": dict.fromkeys(files, own.canonical_text()) | plants,
-    }
 
 
 @dataclass
@@ -211,16 +190,18 @@ class Known:
     lost: dict[str, str] = field(default_factory=dict)
     ended: str = ""
 
-    def resume(self, found: Asking, report: Reporting) -> None:
+    def resume(self, analysis: Asking, report: Reporting) -> None:
         """Enter the decided parts into an analysis, and have it report what else it decides."""
         for name, data in self.parts.items():
-            if name in found.questions:
-                found.know(name, *pickle.loads(data))
+            if name in analysis.questions:
+                analysis.know(name, *pickle.loads(data))
         for name, reason in self.lost.items():
-            found.leave_open(reason, [name])
+            analysis.leave_open(reason, [name])
         if self.ended:
-            found.leave_open(self.ended)
-        found.watch(report.begin, lambda name, *outcome: report.keep(name, pickle.dumps(outcome)))
+            analysis.leave_open(self.ended)
+        analysis.watch(
+            report.begin, lambda name, *outcome: report.keep(name, pickle.dumps(outcome))
+        )
 
 
 class Run:
@@ -228,32 +209,36 @@ class Run:
 
     Parameters
     ----------
-    given : dict
-        The values of `options.work_limits` and, if the command has them, of `options.file_limits`,
-        `options.certificates` and `options.as_json`, which are removed.
+    values : dict
+        The values of all options of the command, from which those of `options.work_limits` are
+        removed and, if the command has them, those of `options.file_limits`,
+        `options.certificates` and `options.as_json`.
+
+    Notes
+    -----
+    The time of ``--timeout`` began when the command line did, so that it holds for the import of
+    the command, too.
     """
 
-    def __init__(self, given: dict[str, Any]) -> None:
-        self.deadline = Deadline(given.pop("timeout"))
-        self.max_memory: int | None = given.pop("max_memory")
-        self.limits = options.given({name: given.pop(name, None) for name in LIMITS})
-        self.certificates = given.pop("certificates", None)
-        self.system_by_digest = given.pop("system_by_digest", False)
+    def __init__(self, values: dict[str, Any]) -> None:
+        context = click.get_current_context(silent=True)
+        self.deadline = Deadline(values.pop("timeout"), context.obj if context else None)
+        self.max_memory: int | None = values.pop("max_memory")
+        self.limits = options.set_limits({name: values.pop(name, None) for name in LIMITS})
+        self.certificates = values.pop("certificates", None)
+        self.system_by_digest = values.pop("system_by_digest", False)
         if self.system_by_digest and self.certificates is None:
             raise click.UsageError("--system-by-digest is about files: give --certificates, too")
-        self.as_json = given.pop("as_json", False)
+        self.as_json = values.pop("as_json", False)
 
     def read(self, file: str) -> tuple[str, bytes]:
         """Return the name by which messages refer to a file, and its bytes."""
-        from mcexact.cli.files import place_of, read
-
         return place_of(file), read(file, self.limits, self.deadline)
 
     def result(
-        self, work: Callable[..., Any], *arguments: Any, doing: str, telling: bool = False
-    ) -> Any:
-        """Call a function in a child process, within the limits."""
-
+        self, work: Callable[..., T], *arguments: Any, doing: str, telling: bool = False
+    ) -> T:
+        """Call a function in a child process, within the limits; see `supervised`."""
         return supervised(
             work,
             *arguments,
@@ -264,8 +249,8 @@ class Run:
         )
 
     def result_in_parts(
-        self, work: Callable[..., Any], *arguments: Any, doing: str
-    ) -> tuple[Any, BaseException | None]:
+        self, work: Callable[..., T], *arguments: Any, doing: str
+    ) -> tuple[T, BaseException | None]:
         """Call a function in a child process, and again with what was decided before a limit.
 
         Parameters
@@ -288,8 +273,6 @@ class Run:
         LimitReached, KeyboardInterrupt
             If nothing was decided by then.
         """
-        from mcexact.errors import LimitReached
-
         known, kept = Known(), Kept()
         ended: BaseException | None = None
         deadline = self.deadline
@@ -322,7 +305,7 @@ class Run:
 
     def conclude(
         self,
-        answer: Mapping[str, Any],
+        result: Result,
         show: Callable[[], bool],
         *,
         about: str,
@@ -332,8 +315,7 @@ class Run:
 
         Parameters
         ----------
-        answer : mapping
-            The parts that `told` returns, and ``json``.
+        result : Result
         show : callable
             A function that prints the answer and returns whether a line about the checker may
             follow.
@@ -347,60 +329,53 @@ class Run:
         InternalError
             If the checker rejects a certificate or a sentence; no file is written then.
         """
-        from mcexact.cli.files import directory, emit, emit_json, say_written
-        from mcexact.model.text import write_text
-
         line_follows = not self.as_json and show()
         checked = rechecked(
-            answer["files"],
-            answer["plant"],
+            result.evidence,
             doing=f"re-checking {about}",
             deadline=self.deadline.with_grace(),
             max_memory=self.max_memory,
         )
         if self.certificates is not None:
             folder = directory(self.certificates)
-            for name, text in answer["files"].items():
+            for name, text in result.evidence.files.items():
                 write_text(folder / name, text)
-            say_written(folder, len(answer["files"]))
+            say_written(folder, len(result.evidence.files))
         write(checked)
         if self.as_json:
-            emit_json({**answer["json"], "re_checked": checked.view()})
+            emit_json({**result.document, "re_checked": checked.view()})
         elif line_follows and (checked.missing is None or checked.verdicts):
             emit("\n" + checked.line())
         return checked
 
 
 def undecided_error(
-    ended: BaseException | None, open_: Mapping[str, Sequence[str]], doing: str
+    ended: BaseException | None, undecided: Mapping[str, Sequence[str]], doing: str
 ) -> LimitReached | None:
     """Return the error to raise if something ended the work, which names what is not decided.
 
     Parameters
     ----------
     ended : LimitReached or KeyboardInterrupt or None
-    open_ : mapping
+    undecided : mapping
         The parts that were not decided, by the reason of that.
     doing : str
         A description of the work.
     """
-    from mcexact.cli.commands import INTERRUPTED
-    from mcexact.errors import LimitReached
-
     if ended is None:
         return None
-    said = f"{_reason(ended)} while {doing}, after everything was decided"
-    if open_:
-        lists = {reason: ", ".join(names).replace("_", " ") for reason, names in open_.items()}
-        said = "; ".join(
+    sentence = f"{_reason(ended)} while {doing}, after everything was decided"
+    if undecided:
+        lists = {reason: ", ".join(names).replace("_", " ") for reason, names in undecided.items()}
+        sentence = "; ".join(
             f"{reason} while {doing}, not decided: {names}" for reason, names in lists.items()
         )
     if isinstance(ended, KeyboardInterrupt):
-        error = LimitReached(said)
+        error = LimitReached(sentence)
         error.exit_status = INTERRUPTED
         return error
-    option = "--timeout" if "time limit" in said else "--max-memory"
-    return LimitReached(f"{said} ({option} allows more)")
+    option = "--timeout" if "time limit" in sentence else "--max-memory"
+    return LimitReached(f"{sentence} ({option} allows more)")
 
 
 def _reason(error: BaseException) -> str:
@@ -410,12 +385,11 @@ def _reason(error: BaseException) -> str:
     return str(error).partition(" while ")[0]
 
 
-def show_tables(answer: Mapping[str, Any]) -> Callable[[], bool]:
+def show_tables(result: Shown) -> Callable[[], bool]:
     """Return a function that prints the tables of an answer; a line about the checker follows."""
-    from mcexact.cli.files import emit_tables
 
     def show() -> bool:
-        emit_tables(answer["tables"])
+        emit_tables(result.tables)
         return True
 
     return show
@@ -530,23 +504,18 @@ def _claim_working_memory(libraries: Sequence[str]) -> None:
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
     """Yield an error and those that led to it."""
-    found: BaseException | None = error
-    while found is not None:
-        yield found
-        found = found.__cause__ or found.__context__
+    cause: BaseException | None = error
+    while cause is not None:
+        yield cause
+        cause = cause.__cause__ or cause.__context__
 
 
 def _kibibytes(name: str) -> int:
     """A size from the kernel's status of this process; 0 where the platform has none."""
     with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as status:
-        found = re.search(rf"^{name}:\s*(\d+) kB$", status.read(), re.MULTILINE)
-        return int(found[1]) if found else 0
+        line = re.search(rf"^{name}:\s*(\d+) kB$", status.read(), re.MULTILINE)
+        return int(line[1]) if line else 0
     return 0
-
-
-# Work in a child process.
-
-T = TypeVar("T")
 
 
 class _Note(str):
@@ -728,21 +697,21 @@ def _child(
     try:
         if max_memory is not None:
             limit = MemoryLimit(max_memory, libraries)
-        told: dict[str, Any] = {}
+        channels: dict[str, Any] = {}
         if telling:
-            told["tell"] = lambda line: sender.send_bytes(pickle.dumps(_Note(line)))
+            channels["tell"] = lambda line: sender.send_bytes(pickle.dumps(_Note(line)))
         if keeping:
-            told["report"] = Reporting(lambda said: sender.send_bytes(pickle.dumps(said)))
-        message = pickle.dumps((work(*arguments, **told),))
+            channels["report"] = Reporting(lambda part: sender.send_bytes(pickle.dumps(part)))
+        message = pickle.dumps((work(*arguments, **channels),))
     except Exception as error:
         if limit is not None:
             limit.lift()
-        message = pickle.dumps(_told(error, limit))
+        message = pickle.dumps(_as_sent(error, limit))
     sender.send_bytes(message)
     sender.close()
 
 
-def _told(error: Exception, limit: MemoryLimit | None) -> Exception:
+def _as_sent(error: Exception, limit: MemoryLimit | None) -> Exception:
     """The form in which an error is sent to the parent: an unexpected one as text."""
     if ran_out(error) or (limit is not None and limit.explains(error)):
         return MemoryError()

@@ -1,4 +1,9 @@
-"""`mcexact simulate`: run a controller as a network of agents."""
+"""`mcexact simulate`: run a controller as a network of agents.
+
+The signals that act on the loop are parsed here: numbers with commas, from a time on.  Their
+lengths are checked where the plant is known, in `mcexact.cli.loops.simulated`, which runs in a
+child process.  A run without a proof has no certificate, and then nothing is said of the checker.
+"""
 
 from __future__ import annotations
 
@@ -10,11 +15,21 @@ from typing import Any
 import click
 
 from mcexact.cli import options
+from mcexact.cli.files import (
+    emit_tables,
+    require_apart,
+    require_drawable,
+    require_other,
+    require_writable,
+    write_result,
+)
+from mcexact.cli.results import Simulated
+from mcexact.cli.running import Rechecked, Run
 
 _FILES = (".csv", ".png", ".html")
 
 
-def changes(name: str, what: str) -> Callable[[options.F], options.F]:
+def change_option(name: str, what: str) -> Callable[[options.F], options.F]:
     """Return an option for numbers that are added to a signal from a time on."""
     return click.option(
         f"--{name}",
@@ -51,9 +66,9 @@ def changes(name: str, what: str) -> Callable[[options.F], options.F]:
     metavar="NUMBERS",
     help="Set-points, one number for each output in the order of the channels; 0 by default.",
 )
-@changes("steps", "Add these numbers, such as 0,2@5, to the set-points")
-@changes("ramps", "Let the set-points grow by these numbers in each unit of time,")
-@changes("disturbances", "Add these numbers to the inputs at the plant")
+@change_option("steps", "Add these numbers, such as 0,2@5, to the set-points")
+@change_option("ramps", "Let the set-points grow by these numbers in each unit of time,")
+@change_option("disturbances", "Add these numbers to the inputs at the plant")
 @click.option(
     "--arithmetic",
     type=click.Choice(["exact", "multiprecision", "float"]),
@@ -73,25 +88,15 @@ def changes(name: str, what: str) -> Callable[[options.F], options.F]:
     help="Write the trajectory to this file, which ends in .csv, .png or .html.",
 )
 @options.answering
-def command(file: str, controller: str, **given: Any) -> None:
+def command(file: str, controller: str, **values: Any) -> None:
     """Run CONTROLLER on the system in FILE, as agents that receive messages from neighbors only.
 
     Shown are the outputs y, the inputs u, and the set-points r if there are any. If the loop is
     stable and nothing changes after the start, bounds on the outputs are proved, too; their
     certificate is checked, and --certificates writes it.
     """
-    from mcexact.cli.files import (
-        emit_tables,
-        require_apart,
-        require_drawable,
-        require_other,
-        require_writable,
-        write_result,
-    )
-    from mcexact.cli.running import Rechecked, Run
-
-    run = Run(given)
-    output, fractions = given.pop("output"), given.pop("fractions")
+    run = Run(values)
+    output, fractions = values.pop("output"), values.pop("fractions")
     suffix = "" if output is None else output.suffix
     if output is not None and suffix not in _FILES:
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
@@ -99,27 +104,28 @@ def command(file: str, controller: str, **given: Any) -> None:
     require_writable(output, run.certificates)
     require_apart(output, run.certificates)
     require_drawable(output if suffix in (".png", ".html") else None)
-    wanted = given | {
-        "initial": _numbers(given["initial"], "--initial"),
-        "reference": _numbers(given["reference"], "--reference"),
-        **{name: _changes(given[name], name) for name in ("steps", "ramps", "disturbances")},
+    wanted = values | {
+        "initial": _numbers(values["initial"], "--initial"),
+        "reference": _numbers(values["reference"], "--reference"),
+        **{name: _changes(values[name], name) for name in ("steps", "ramps", "disturbances")},
     }
     plant, program = run.read(file), run.read(controller)
     doing = f"simulating {plant[0]}"
     how = suffix, fractions, run.system_by_digest
     answer = run.result(_simulated, plant, program, run.limits, wanted, *how, doing=doing)
-    for warning in answer["warnings"]:
+    for warning in answer.warnings:
         click.echo(f"mcexact: warning: {warning}", err=True)
 
     def show() -> bool:
-        emit_tables(answer["tables"])
-        return bool(answer["files"])
+        emit_tables(answer.tables)
+        return bool(answer.evidence.files)
 
     def write(checked: Rechecked) -> None:
-        if output is not None and answer["page"] is not None:
-            write_result(output, answer["page"].rendered(answer["certificates"], checked.verdicts))
+        if output is not None and answer.page is not None:
+            page = answer.page.rendered(answer.evidence.certificates, checked.verdicts)
+            write_result(output, page)
         elif output is not None:
-            write_result(output, answer["file"])
+            write_result(output, answer.file)
 
     about = f"the simulation of {plant[0]}"
     run.conclude(answer, show, about=about, write=write).require_complete()
@@ -137,51 +143,17 @@ def _numbers(text: str | None, name: str) -> list[Fraction] | None:
 
 def _changes(texts: tuple[str, ...], name: str) -> list[tuple[Fraction, list[Fraction]]]:
     """Parse numbers with the time from which they are added."""
-    found = []
+    changes = []
     for text in texts:
         numbers, _, time = text.partition("@")
         [start] = _numbers(time or "0", f"--{name}") or [Fraction(0)]
-        found.append((start, _numbers(numbers, f"--{name}") or []))
-    return found
+        changes.append((start, _numbers(numbers, f"--{name}") or []))
+    return changes
 
 
-def _simulated(
-    plant: tuple[str, bytes],
-    program: tuple[str, bytes],
-    limits: dict[str, int],
-    wanted: dict[str, Any],
-    suffix: str,
-    fractions: bool,
-    system_by_digest: bool,
-) -> dict[str, Any]:
+def _simulated(*arguments: Any) -> Simulated:
     """Simulate and format the results, in the child process."""
-    from mcexact.answer.account import Account
-    from mcexact.answer.sentence import Given, Sentences
-    from mcexact.cli.files import system_in
-    from mcexact.cli.running import told
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.model.controller import read_controller
-    from mcexact.report.simulation import SimulationReport
-    from mcexact.simulation.envelope import simulated_loop
-    from mcexact.synthesis.certify import account_of_verdict
+    # The child process alone loads what decides: the clock runs while it does, and Ctrl-C ends it.
+    from mcexact.cli.loops import simulated
 
-    system = system_in(*plant, limits)
-    with InputError.inside(program[0]):
-        controller = read_controller(program[1], Limits(**limits))
-    if wanted["initial"] is not None and len(wanted["initial"]) == 1:
-        wanted = wanted | {"initial": wanted["initial"] * system.n}
-    done = simulated_loop(system, controller, **wanted)
-    report = SimulationReport(done, fractions)
-    account = Account({}, Given(system), Sentences([]))
-    proved: dict[str, Any] = {"certificates": {}, "files": {}, "plant": system.canonical_text()}
-    if done.envelope is not None:
-        account = account_of_verdict(done.envelope.proof, largest=False)
-        proved = told(account, system_by_digest)
-    return proved | {
-        "warnings": done.warnings,
-        "json": account.as_json(**report.as_json()),
-        "tables": report.tables(),
-        "file": report.file(suffix),
-        "page": report.page() if suffix == ".html" else None,
-    }
+    return simulated(*arguments)

@@ -1,7 +1,10 @@
 """`mcexact sweep`: the same questions about many systems.
 
 `Families` makes many systems of each file (grids of parameters, tolerances, all graphs, all
-sensors); `command` runs the sweep over them, in processes of this machine or on a dask cluster.
+sensors), and `_Listed` the files of directories, which are skipped and named if they are no system
+files.  `command` runs `mcexact.sweeps.run.sweep` over them, in processes of this machine or on a
+dask cluster.  Workers are new interpreters, never forks, and one system has the limits on time and
+memory to itself: then the worker is a child process of `supervised`.
 """
 
 from __future__ import annotations
@@ -9,9 +12,12 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -19,18 +25,46 @@ import click
 
 from mcexact.cli import options
 from mcexact.cli.commands import INTERRUPTED
-from mcexact.sweeps.questions import KNOWN
+from mcexact.cli.files import (
+    Deadline,
+    directory,
+    emit_tables,
+    require_apart,
+    require_other,
+    require_writable,
+    say_written,
+    write_result,
+)
+from mcexact.cli.output import emit_json
+from mcexact.cli.running import LIMITS, supervised
+from mcexact.derived.drawn.systems import Draw
+from mcexact.derived.variants import (
+    Variant,
+    neighbor_graph_variants,
+    parameter_grid,
+    sensor_variants,
+    tolerance_variants,
+)
+from mcexact.errors import InputError, LimitReached, McexactError, MissingExtra, place_of
+from mcexact.exact.rational import Limits
+from mcexact.model.arrays import MARK
+from mcexact.model.files import load_parametric_system, load_system, read_input
+from mcexact.model.text import write_text
+from mcexact.report.sweep import (
+    skipped_table,
+    sweep_page,
+    sweep_tables,
+    sweep_view,
+    tolerance_tables,
+)
+from mcexact.report.text import WIDE
+from mcexact.sweeps import run
+from mcexact.sweeps.jobs import Job, Source, decide, failure
+from mcexact.sweeps.questions import KNOWN, WITHIN_RADII
+from mcexact.sweeps.run import Record
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
-
-    from mcexact.derived.variants import Variant
-    from mcexact.exact.rational import Limits
-    from mcexact.sweeps.jobs import Job, Source
-    from mcexact.sweeps.run import Record
-
-
-# Options of `mcexact sweep` that make many systems of each file, and the cluster that decides.
 
 F = TypeVar("F", bound=Callable[..., Any])
 _MOST_VALUES = 10**6
@@ -122,15 +156,15 @@ class Families:
 
     Parameters
     ----------
-    given : dict
+    values : dict
         The values of the options of `families`, which are removed.
     """
 
-    def __init__(self, given: dict[str, Any]) -> None:
-        self._grid, self._parts = dict(given.pop("grid")), given.pop("tolerances") or ()
-        self._sensors, self._graphs = given.pop("all_sensors"), given.pop("all_graphs")
+    def __init__(self, values: dict[str, Any]) -> None:
+        self._grid, self._parts = dict(values.pop("grid")), values.pop("tolerances") or ()
+        self._sensors, self._graphs = values.pop("all_sensors"), values.pop("all_graphs")
         self._kinds = {
-            name: given.pop(name) for name in ("up_to_isomorphism", "strongly_connected")
+            name: values.pop(name) for name in ("up_to_isomorphism", "strongly_connected")
         }
         self._ways = (self._grid, self._parts, self._sensors, self._graphs)
         if sum(map(bool, self._ways)) > 1:
@@ -142,8 +176,6 @@ class Families:
 
     def questions(self, named: tuple[str, ...]) -> tuple[str, ...]:
         """The questions to ask, by default the first that can be asked about such systems."""
-        from mcexact.sweeps.questions import KNOWN, WITHIN_RADII
-
         able = WITHIN_RADII if self._parts else KNOWN
         if other := next((name for name in named if name not in able), ""):
             raise click.UsageError(
@@ -157,8 +189,6 @@ class Families:
 
         A file that cannot be read is yielded as it is, so that its error is in its record.
         """
-        from mcexact.errors import InputError, LimitReached
-
         for k, path in enumerate(paths):
             if not any(self._ways):
                 yield k, path
@@ -170,36 +200,24 @@ class Families:
                 yield k, _failing(path, error)
 
     def _variants(self, path: str, limits: Limits) -> Iterator[Variant]:
-        from dataclasses import replace
-
-        from mcexact.derived.variants import (
-            neighbor_graph_variants,
-            parameter_grid,
-            sensor_variants,
-            tolerance_variants,
-        )
-        from mcexact.errors import InputError, place_of
-        from mcexact.model.files import load_parametric_system, load_system
-
-        found: Iterator[Variant]
+        variants: Iterator[Variant]
         if self._grid:
             plant = load_parametric_system(path, limits=limits)
             with InputError.inside(place_of(path)):
-                found = parameter_grid(plant, self._grid)
+                variants = parameter_grid(plant, self._grid)
         elif self._parts:
-            found = tolerance_variants(load_system(path, limits=limits), self._parts)
+            variants = tolerance_variants(load_system(path, limits=limits), self._parts)
         elif self._graphs:
-            found = neighbor_graph_variants(
+            variants = neighbor_graph_variants(
                 load_system(path, limits=limits), information="outputs", **self._kinds
             )
         else:
-            found = sensor_variants(load_system(path, limits=limits))
-        return (replace(each, name=f"{path}: {each.name}") for each in found)
+            variants = sensor_variants(load_system(path, limits=limits))
+        return (replace(each, name=f"{path}: {each.name}") for each in variants)
 
 
 def _failing(path: str, error: Exception) -> Variant:
     """Stands for a family without members; reading it raises the error."""
-    from mcexact.derived.variants import Variant
 
     def fail() -> Any:
         raise error
@@ -221,23 +239,19 @@ def cluster(address: str | None) -> Iterator[tuple[Executor | None, int]]:
     if address is None:
         yield None, 0
         return
-    from mcexact.errors import InputError, MissingExtra
-
     with MissingExtra.named("cluster"):
         import distributed
     connect: Any = distributed.Client
     try:
         client = connect(address, timeout="10s", set_as_default=False)
     except (OSError, ValueError, TimeoutError, ImportError) as error:
-        said = str(error).partition("\n")[0]
-        raise InputError(f"no scheduler of dask answers: {said}", where=address) from None
+        reason = str(error).partition("\n")[0]
+        raise InputError(f"no scheduler of dask answers: {reason}", where=address) from None
     with client:
         threads = sum(client.ncores().values())
         with client.get_executor() as executor:
             yield executor, max(1, min(256, threads))
 
-
-# `mcexact sweep`: answer the same questions about many systems.
 
 # The status of a sweep is the first of these with which some system ended.
 _PRECEDENCE = (70, 3, 2, 4, 0)
@@ -315,42 +329,14 @@ def command(
     reported; the sweep continues. The limits on time and memory apply to each system. With
     --certificates, only the systems decided in this run give certificates, not those skipped.
     """
-    from functools import partial
-
-    from mcexact.cli.files import (
-        directory,
-        emit_json,
-        emit_tables,
-        require_apart,
-        require_other,
-        require_writable,
-        say_written,
-        write_result,
-    )
-    from mcexact.derived.drawn.systems import Draw
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.report.sweep import (
-        skipped_table,
-        sweep_page,
-        sweep_tables,
-        sweep_view,
-        tolerance_tables,
-    )
-    from mcexact.report.text import WIDE
-    from mcexact.sweeps.jobs import decide
-    from mcexact.sweeps.run import sweep
-
-    limits = Limits(
-        **options.given({name: rest.pop(name) for name in ("bytes", "depth", "digits", "exponent")})
-    )
-    made_of = Families(rest)
+    limits = Limits(**options.set_limits({name: rest.pop(name) for name in LIMITS}))
+    families_asked = Families(rest)
     listed = _Listed(files)
-    sources: list[Source] = listed.expanded(made_of.of(listed.paths, limits))
+    sources: list[Source] = listed.expanded(families_asked.of(listed.paths, limits))
     sources += [Draw(number, **rest) for number in range(seed, seed + (draws or 0))]
     if not sources:
         raise click.UsageError("there are no systems to sweep over: name files, or give --draws N")
-    asked = made_of.questions(questions)
+    asked = families_asked.questions(questions)
     require_writable(output, certificates)
     require_other(html, *listed.paths)
     require_writable(html, certificates)
@@ -362,7 +348,7 @@ def command(
     written = 0
     try:
         with cluster(scheduler) as (executor, threads), _progress(len(sources)) as tell:
-            records = sweep(
+            records = run.sweep(
                 sources,
                 asked,
                 results=output,
@@ -382,8 +368,8 @@ def command(
                         written += _write(directory(certificates), record, len(sources))
     except KeyboardInterrupt:
         kept = f"; run the same command again to resume from {output}" if output is not None else ""
-        said = f"interrupted after {len(documents)} of {len(sources)} systems{kept}"
-        click.echo(f"mcexact: {said}", err=True)
+        progress = f"{len(documents)} of {len(sources)} systems"
+        click.echo(f"mcexact: interrupted after {progress}{kept}", err=True)
         return INTERRUPTED
     documents.sort(key=lambda document: int(document["number"]))
     documents, skipped = listed.separated(documents)
@@ -414,11 +400,8 @@ class _Listed:
     """
 
     def __init__(self, files: tuple[str, ...]) -> None:
-        from mcexact.errors import InputError
-        from mcexact.model.arrays import MARK
-
         self.paths: list[str] = []
-        self._found: set[int] = set()
+        self._in_directories: set[int] = set()
         self._skipped: list[tuple[str, str]] = []
         for file in files:
             if not os.path.isdir(file) or os.path.isfile(os.path.join(file, MARK)):
@@ -439,18 +422,18 @@ class _Listed:
         elif not path.is_file():
             self._skipped.append((str(path), "it is no regular file"))
         else:
-            self._found.add(len(self.paths))
+            self._in_directories.add(len(self.paths))
             self.paths.append(str(path))
 
     def expanded(self, members: Iterable[tuple[int, Source]]) -> list[Source]:
         """List what is made of the files, of which those in directories may be skipped."""
         sources: list[Source] = []
-        found = set()
+        positions = set()
         for k, source in members:
-            if k in self._found:
-                found.add(len(sources))
+            if k in self._in_directories:
+                positions.add(len(sources))
             sources.append(source)
-        self._found = found
+        self._in_directories = positions
         return sources
 
     def separated(
@@ -460,7 +443,7 @@ class _Listed:
         kept, skipped = [], list(self._skipped)
         for document in documents:
             error = document.get("error", {})
-            if document["number"] in self._found and error.get("other_format"):
+            if document["number"] in self._in_directories and error.get("other_format"):
                 skipped.append((document["name"], error["message"]))
             else:
                 kept.append(document)
@@ -476,10 +459,6 @@ def _processors() -> int:
 
 def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[str, Any]:
     """Decide a job in a child process, which is ended at a limit."""
-    from mcexact.cli.running import supervised
-    from mcexact.errors import McexactError
-    from mcexact.sweeps.jobs import decide, failure
-
     try:
         return supervised(
             decide,
@@ -496,9 +475,6 @@ def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[st
 
 def _read(path: str | os.PathLike[str], limits: Limits, timeout: float | None) -> bytes:
     """Read a file; waiting for a pipe is limited to the time allowed for a system."""
-    from mcexact.cli.files import Deadline
-    from mcexact.model.files import read_input
-
     if os.path.isfile(path):
         return read_input(path, limits)
     with Deadline(timeout).interrupting(f"reading {os.fspath(path)}"):
@@ -510,8 +486,6 @@ def _write(folder: Path, record: Record, total: int) -> int:
 
     Returns how many these are.
     """
-    from mcexact.model.text import write_text
-
     number = str(record.number + 1).zfill(len(str(total)))
     path, _, member = record.name.partition(": ")
     stem = re.sub(r"[^A-Za-z0-9_.-]+", "-", Path(path).stem + (f"-{member}" if member else ""))[:60]
@@ -523,8 +497,6 @@ def _write(folder: Path, record: Record, total: int) -> int:
 @contextlib.contextmanager
 def _progress(total: int) -> Iterator[Any]:
     """Show progress on standard error: a bar on a terminal, otherwise a line at intervals."""
-    import sys
-
     if sys.stderr is not None and sys.stderr.isatty():
         with click.progressbar(length=total, file=sys.stderr, show_pos=True) as bar:
             yield lambda documents: bar.update(len(documents) - bar.pos)

@@ -43,8 +43,20 @@ HEAVY = {
     "sympy",
 }
 """Libraries that no program loads only to say what it is able to do."""
-STARTS = (f"{PACKAGE}.cli", f"{PACKAGE}.testing.plugin")
-"""What is loaded before anything is asked; its modules, too."""
+THREADED = {"control", "matplotlib", "numpy", "scipy"}
+"""Libraries that start threads.  A process with threads cannot be forked: what waits for a child
+process and loads one of them pays for a new interpreter, and for all imports once more."""
+STARTS = {
+    f"{PACKAGE}.cli": HEAVY,  # the list of commands, and every error of usage before a command
+    f"{PACKAGE}.testing.plugin": HEAVY,
+    f"{PACKAGE}.cli.check": HEAVY,  # the checker needs the standard library alone
+    **{
+        f"{PACKAGE}.cli.{name}": THREADED
+        for name in ("allocate", "analyze", "certify", "convert", "design", "reproduce", "simulate")
+    },
+    f"{PACKAGE}.cli.decisions": THREADED,  # numpy takes as long as the analysis of a small system
+}
+"""What no module may load before it is asked for, by the module that is loaded."""
 DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 BLANK = {
     tokenize.COMMENT,
@@ -249,24 +261,25 @@ class Layout:
         return place.get(other, len(place)) < place.get(one, -1)
 
     def loaded(self, start: str) -> set[str]:
-        """The heavy libraries that a start loads."""
+        """The libraries that a module loads, with those of the packages that it stands in."""
         graph = self.graph(TOP)
-        first = {f for f in self.package.modules if f == start or f.startswith(f"{start}.")}
+        parts = start.split(".")
+        first = {".".join(parts[: k + 1]) for k in range(len(parts))} & self.package.modules.keys()
         files = first.union(*(nx.descendants(graph, one) for one in first & graph.nodes))
-        return {library for file in files for library in self.package.outside[file]} & HEAVY
+        return {library for file in files for library in self.package.outside[file]}
 
     def wrong(self) -> list[str]:
         """What is not as the list and the rule have it."""
-        found = list(self.problems)
+        problems = list(self.problems)
         for name, size in self.sizes.items():
             if not LEAST <= size <= MOST and name not in self.exceptions:
-                found.append(f"{PACKAGE}.{name} has {size} lines of code")
-        found += [f"these import each other: {', '.join(part)}" for part in self.circles()]
-        found += [f"{one} imports {other}, against the order" for one, other in self.backwards()]
-        for start in STARTS:
-            if libraries := self.loaded(start):
-                found.append(f"the start of {start} loads {', '.join(sorted(libraries))}")
-        return found
+                problems.append(f"{PACKAGE}.{name} has {size} lines of code")
+        problems += [f"these import each other: {', '.join(part)}" for part in self.circles()]
+        problems += [f"{one} imports {other}, against the order" for one, other in self.backwards()]
+        for start, forbidden in STARTS.items():
+            if libraries := self.loaded(start) & forbidden:
+                problems.append(f"the start of {start} loads {', '.join(sorted(libraries))}")
+        return problems
 
     def figures(self) -> Iterator[str]:
         """How many modules there are, how large, and how many names cross their borders."""

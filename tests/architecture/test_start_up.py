@@ -35,6 +35,24 @@ def test_the_help_of_the_command_line_loads_nothing_heavy() -> None:
     assert loaded_after(call) == "[]"
 
 
+@pytest.mark.parametrize("name", ["", "c"])
+def test_listing_and_completing_commands_loads_none_of_them(name: str) -> None:
+    statement = (
+        "import click; from mcexact.cli import command_line; "
+        f"command_line.shell_complete(click.Context(command_line), {name!r}); "
+        "click.Context(command_line).get_help(); "
+        "import sys; assert not {f'mcexact.cli.{each.place.partition(\":\")[0]}' "
+        "for each in command_line.listed.values()} & sys.modules.keys()"
+    )
+    assert loaded_after(statement) == "[]"
+
+
+@pytest.mark.parametrize("command", ["analyze", "allocate", "certify", "design", "simulate"])
+def test_what_waits_for_a_child_loads_no_library_with_threads(command: str) -> None:
+    loaded = loaded_after(f"import mcexact.cli.{command}")
+    assert not {"'numpy'", "'scipy'", "'matplotlib'"} & set(loaded.strip("[]").split(", "))
+
+
 @pytest.mark.parametrize("name", sorted(mcexact.__all__))
 def test_every_exported_name_is_there(name: str) -> None:
     assert getattr(mcexact, name) is not None

@@ -6,12 +6,14 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
+import click
 import pytest
 
 import mcexact
 from mcexact.analysis.questions import QUESTIONS
-from mcexact.cli import main
+from mcexact.cli import command_line, main
 from mcexact.cli.commands import COMMANDS
 from mcexact.crosschecks import demonstration
 from mcexact.crosschecks.table import libraries_here
@@ -49,6 +51,23 @@ def test_every_command_has_help_with_a_sentence_and_its_options(name: str, call:
     assert out.startswith(f"Usage: mcexact {name} ")
     assert "--json" in out or "COMMAND [ARGS]" in out
     assert call("--help")[1].count(f"  {name} ") == 1
+
+
+@pytest.mark.parametrize("group", [(), ("design",)])
+def test_the_list_of_commands_has_the_line_of_help_of_each(group: tuple[str, ...]) -> None:
+    listing: Any = command_line
+    for name in group:
+        listing = listing.listed[name].load()
+    for name, listed in listing.listed.items():
+        command = listed.load()
+        assert (name, listed.help) == (command.name, command.get_short_help_str(limit=10**3))
+
+
+def test_names_of_commands_and_options_are_completed() -> None:
+    with click.Context(command_line) as context:
+        completed = [each.value for each in command_line.shell_complete(context, "c")]
+        assert completed == ["check", "certify", "crosscheck", "convert", "c2d"]
+        assert [each.value for each in command_line.shell_complete(context, "--v")] == ["--version"]
 
 
 @pytest.mark.parametrize("group", [(), ("design",)])

@@ -12,7 +12,7 @@ from mcexact.cli import options
 @click.option("--timeout", type=options.seconds)
 @options.file_limits
 def echo(shift: object, timeout: object, **limits: int | None) -> None:
-    click.echo(f"{shift} {timeout} {options.given(limits)}")
+    click.echo(f"{shift} {timeout} {options.set_limits(limits)}")
 
 
 @pytest.mark.parametrize(

@@ -105,7 +105,7 @@ def test_what_the_time_limit_leaves_open_is_status_4_and_keeps_the_answer(
         monkeypatch.setattr(Deadline, "left", lambda _: 0.0)
 
     monkeypatch.setattr(Deadline, "left", lambda _: 10.0**6)
-    monkeypatch.setattr(files, "emit_tables", show_and_run_out)
+    monkeypatch.setattr("mcexact.cli.analyze.emit_tables", show_and_run_out)
     status, out, err = call("analyze", PLANT, "--timeout", "60")
     assert status == 4
     assert "No mode is fixed" in out and "re-checked by" not in out

@@ -32,7 +32,6 @@ from tests.effort import PATIENCE
 LIBRARIES = ("flint", "networkx", "numpy", "scipy.linalg", "scipy.optimize", "sympy")
 PACKAGE = (
     "mcexact.cli.running",
-    "mcexact.cli.running",
     "mcexact.model.files",
     "mcexact.synthesis.certify",
     "mcexact.synthesis.decentralized",

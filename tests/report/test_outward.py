@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.analysis.stability import closed_loop_spectrum
-from mcexact.cli.uncertainty import loops
+from mcexact.cli.loops import loops_within
 from mcexact.exact.matrix import Matrix, float_above, float_below
 from mcexact.exact.rational import digits_outward
 from mcexact.model.statespace import local_controllers
@@ -75,5 +75,6 @@ def test_a_part_within_which_plants_fail_is_written_exactly() -> None:
 def test_the_part_of_gains_is_not_rounded_up() -> None:
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     controller = local_controllers(plant, [[[0]]])
-    found = loops(plant, controller, certify_controller(plant, controller), Fraction(2, 3))
-    assert dict(found.rows)["gains"] == "within 66.6 %"
+    verdict = certify_controller(plant, controller)
+    loops = loops_within(plant, controller, verdict, Fraction(2, 3))
+    assert dict(loops.rows)["gains"] == "within 66.6 %"

@@ -1,0 +1,194 @@
+"""What the commands of `mcexact design` design and prove, in their child processes.
+
+`designed` calls the function of `mcexact.synthesis` that a command is about, and assesses the
+controller that it certified.  For a controller that meets the request and is stable it also
+searches a part by which all entries of the plant may differ.  Where no controller of the kind
+exists, the result is the proof of this, with advice: a design over the links of the plant, if
+outputs that are shared over them leave no fixed mode, or else a search of links to add.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from math import log10
+from typing import Any
+
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.answer.account import Account
+from mcexact.answer.modes import FixedSpectrum
+from mcexact.answer.protocol import Answer
+from mcexact.answer.sentence import Given, Sentences
+from mcexact.answer.templates import Sentence
+from mcexact.cli.files import system_in
+from mcexact.cli.loops import assessed, read_weights
+from mcexact.cli.options import AIMS
+from mcexact.cli.results import Evidence, Loop, Refused
+from mcexact.derived.constructions import augmented_outputs
+from mcexact.errors import Impossible, InputError, LimitReached
+from mcexact.exact.rational import Limits, written
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.controller import controller_text
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import parse
+from mcexact.report.text import Table, measured, tables
+from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.distributed_observer import design_observer
+from mcexact.synthesis.gate import Warned
+from mcexact.synthesis.optimum.figures import Aims
+from mcexact.synthesis.robustness import EveryLoop
+from mcexact.synthesis.setpoint import design_setpoint
+from mcexact.synthesis.state_feedback import require_numbers
+
+_DESIGNERS: dict[str, Callable[..., Design]] = {
+    "decentralized": design_decentralized,
+    "extended": design_extended,
+    "observer": design_observer,
+    "setpoint": design_setpoint,
+}
+
+
+def designed(
+    name: str,
+    plant: tuple[str, bytes],
+    prescribed: tuple[str, bytes] | None,
+    weights: tuple[str, bytes] | None,
+    limits: Mapping[str, int],
+    wanted: dict[str, Any],
+    aimed: Mapping[str, Any],
+    with_box: bool,
+    with_page: bool,
+    system_by_digest: bool,
+    tell: Callable[[str], None],
+) -> Loop | Refused:
+    """Design a controller, prove its loop, and format the result.
+
+    Parameters
+    ----------
+    name : str
+        The name of the command, which is that of the function without ``design_``.
+    plant : tuple of str and bytes
+        The name of the file and its content.
+    prescribed, weights : tuple of str and bytes, or None
+        The spectrum and the weights, with the names by which messages refer to them.
+    limits : mapping
+        The limits on input files.
+    wanted : dict
+        Keyword arguments of the function.
+    aimed : mapping
+        The options of a search (`mcexact.cli.options.AIMS`); empty if the command has none.
+    with_box : bool
+        Whether to search a part by which the entries of the plant may differ.
+    with_page, system_by_digest : bool
+    tell : callable
+        Shows a warning to the user at once.
+
+    Raises
+    ------
+    InputError
+        If a file is malformed or does not fit the plant; the message names the file.
+    LimitReached
+        If no command would read the controller.
+    """
+
+    def progress(step: str) -> None:
+        if isinstance(step, Warned):
+            tell(step)
+
+    spectrum = None
+    system = system_in(*plant, limits)
+    weighed = read_weights(weights, limits)
+    aims = _aims(aimed, weighed)
+    if aimed:
+        wanted["aims"] = aims
+    try:
+        if prescribed is not None:
+            spectrum = parse(prescribed[1], Limits(**limits))
+            require_numbers(spectrum)
+        design = _DESIGNERS[name](system, spectrum=spectrum, progress=progress, **wanted)
+    except InputError as error:
+        file = prescribed or weights or plant
+        raise error.within(file[0]) from None
+    except Impossible as refused:
+        reason, proof = refused.message, refused.certificate
+        region = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
+        sentences = Sentences([reason] if isinstance(reason, Sentence) else [])
+        account = Account({proof.kind: proof}, Given(system), sentences)
+        return Refused(
+            evidence=Evidence.of(account, system_by_digest),
+            document=account.as_json(design=name, possible=False, reason=reason),
+            reason=str(refused),
+            advice=_advice(name, plant[0], proof, system, region),
+        )
+    _require_readable(design, Limits(**limits))
+    every_loop = None
+    if with_box and design.stable:
+        every_loop = design.every_loop(**({"effort": aims.effort} if aims.effort else {}))
+    account, assessment = design.account_with(every_loop), assess(design, aims, every_loop)
+    figures = measured(
+        design.measures(), assessment.rows(), account.sentences, design.region.discrete
+    )
+    return assessed(
+        account,
+        assessment,
+        design.loop.closed,
+        tables=(*tables(account.sentences), *_box(every_loop), figures),
+        with_page=with_page,
+        system_by_digest=system_by_digest,
+        document=account.as_json(
+            **design.to_dict(),
+            **({} if every_loop is None else {"every_loop": every_loop.to_dict()}),
+            assessment=assessment.to_dict(),
+        ),
+        controller=controller_text(design.controller),
+    )
+
+
+def _aims(aimed: Mapping[str, Any], weights: Mapping[str, Any] | None) -> Aims:
+    """Return the aims that the options of a search give, and the content of a file of weights."""
+    if not aimed:
+        return Aims(weights=weights)
+    chosen = {name: aimed[name] for name in AIMS}
+    return Aims(weights=weights, digits=chosen.pop("most_digits"), **chosen)
+
+
+def _advice(
+    name: str, file: str, proof: Answer, system: MultiChannelSystem, region: StabilityRegion
+) -> str:
+    """Return which command may help where no controller without communication exists.
+
+    This is a design over the links of the plant, if sharing outputs over these leaves no fixed mode
+    outside the region; otherwise a search of links to add.
+    """
+    if name != "decentralized" or not isinstance(proof, FixedSpectrum):
+        return ""
+    if all(len(factor.channels) in (0, system.m) for factor in proof.factors):
+        return ""
+    links = "links between agents change"
+    if system.neighbors is not None and system.neighbors.edges():
+        left = fixed_spectrum(augmented_outputs(system)).factors
+        if all(region.contains_roots_of(factor.polynomial) for factor in left):
+            asked = "" if region.bound is None else f" --{region.word} {written(region.bound)}"
+            command = f"mcexact design extended {file}{asked}"
+            return f"; over the links of this plant, `{command}` designs one"
+        links = "more links between agents change"
+    return f"; `mcexact allocate {file} --links` says whether {links} this"
+
+
+def _box(every_loop: EveryLoop | None) -> tuple[Table, ...]:
+    """The table of what is not proved of every loop in a box, if there is anything."""
+    rows = () if every_loop is None else tuple(every_loop.rows())
+    return (Table("plants near this one", (), rows),) if rows else ()
+
+
+def _require_readable(design: Design, limits: Limits) -> None:
+    """Stop where no command would read the controller, or check what is certified of it."""
+    digits = int(design.controller.bit_length() * log10(2)) + 1
+    if digits > limits.digits:
+        other = " or choose gains in floating point (--arithmetic float)"
+        raise LimitReached(
+            f"the controller has numbers of about {digits} digits, and files with more than "
+            f"{limits.digits} in a row are not read: allow them (--max-digits {digits + 1})"
+            f"{other if design.arithmetic == 'exact' else ''}"
+        )

@@ -1,0 +1,536 @@
+"""What `mcexact certify` and `mcexact simulate` decide about a loop, in their child processes.
+
+`certified` decides about the loop itself, whose eigenvalues are enclosed (`certify_controller`),
+and then about all loops near it: within the radii of the plant's entries and of the gains
+(`loops_within`), with the largest radii if these are searched, and with gains of fewer digits
+(`loops_with_digits`).  A proof for the region that is asked for is tried first, then one of mere
+stability; where neither is found, a plant within the radii whose loop fails is searched.
+
+A plant with parameters has a loop for all values in their ranges (`_certified_for_all_values`): one
+search gives the largest part of the ranges with a proof, and values at which the loop fails.
+
+`assessed` states the verdict on a controller and its figures, also for `mcexact.cli.designs`.
+`simulated` runs the controller, and proves bounds on the outputs where the loop is stable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+from mcexact.analysis.boxes.failure import FailingPlant
+from mcexact.analysis.boxes.largest import (
+    LargestRanges,
+    LargestUncertainty,
+    largest_loop_ranges,
+    largest_loop_uncertainty,
+)
+from mcexact.analysis.boxes.loops import box_stability
+from mcexact.answer.account import Account
+from mcexact.answer.boxes import BoxStability
+from mcexact.answer.loops import EVERY_LOOP, EVERY_LOOP_PART, EVERY_LOOP_RULES, StabilityVerdict
+from mcexact.answer.protocol import Answer
+from mcexact.answer.sentence import Given, Sentences
+from mcexact.answer.templates import count
+from mcexact.cli import uncertainty
+from mcexact.cli.files import plant_in, system_in
+from mcexact.cli.results import Evidence, Loop, Simulated
+from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.exact.rational import Limits, percent, written
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.box import radii_in_words
+from mcexact.model.controller import Controller, controller_text, read_controller
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import parse
+from mcexact.report.html import AnswerPage, EmbeddedPicture, shown_plant
+from mcexact.report.pages import loop_page
+from mcexact.report.simulation import SimulationReport
+from mcexact.report.text import Table, tables
+from mcexact.simulation.envelope import simulated_loop
+from mcexact.synthesis.assessment import BASIS, Assessment, assessed_loop
+from mcexact.synthesis.certify import (
+    account_of_verdict,
+    certify_controller,
+    enclosed_outside,
+    safe_digits,
+)
+from mcexact.synthesis.optimum.diagnosis import curves_of, rounded_controller
+from mcexact.synthesis.robustness import WithinRadii, failing_plant, known_within
+
+_EFFORT = 5.0
+"""The seconds of a search for the largest part of the ranges of parameters."""
+_OF_RANGES = ("rate", "radius")
+"""The options of `mcexact certify` that say what is proved for all values, besides --gains."""
+
+
+def certified(
+    plant: tuple[str, bytes],
+    program: tuple[str, bytes],
+    weights: tuple[str, bytes] | None,
+    limits: Mapping[str, int],
+    wanted: dict[str, Any],
+    with_page: bool,
+    system_by_digest: bool,
+) -> Loop:
+    """Decide whether a controller makes its loop stable, or fast enough, and format the answer.
+
+    Parameters
+    ----------
+    plant, program : tuple of str and bytes
+        The names of the files of the plant and of the controller, and their contents.
+    weights : tuple of str and bytes, or None
+        The file of weights for the figures.
+    limits : mapping
+        The limits on input files.
+    wanted : dict
+        The options of `mcexact certify` that say what is asked.
+    with_page, system_by_digest : bool
+
+    Raises
+    ------
+    InputError
+        If a file is malformed, or the controller does not fit the plant.
+    UsageError
+        If options contradict each other, or do not apply to the plant.
+    """
+    gains, effort, at = wanted.pop("gains"), wanted.pop("effort"), dict(wanted.pop("at"))
+    typed_plant = plant_in(*plant, limits, at)
+    with InputError.inside(program[0]):
+        controller = read_controller(program[1], Limits(**limits))
+    if isinstance(typed_plant, ParametricSystem):
+        every_option = wanted | {"weights": weights, "effort": effort}
+        return _certified_for_all_values(
+            typed_plant, controller, gains, every_option, with_page, system_by_digest
+        )
+    system, search = uncertainty.with_radii(typed_plant, wanted.pop("uncertainty"))
+    with InputError.inside(program[0]):
+        digits, notes, typed = wanted.pop("round_gains"), tuple[str, ...](), controller
+        if digits is not None:
+            controller = rounded_controller(controller, digits)
+            notes = (f"the verdict is about the controller rounded to {count(digits, 'digit')}",)
+        if effort is not None:
+            asked = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
+            bound: dict[str, Any] = {asked.word: asked.bound}
+            search = largest_loop_uncertainty(system, controller, effort=effort, **bound)
+            system = uncertainty.with_proved_radii(system, search)
+        verdict = certify_controller(system, controller, **wanted)
+    outside = enclosed_outside(verdict)
+    if outside is not None:
+        center = f"{outside.re} + {outside.im} i".replace("+ -", "- ")
+        near = f"an eigenvalue is at most {outside.radius} from {center}"
+        notes = (*notes, f"{near}, outside {verdict.region}")
+    loop, weighed = closed_loop(system, controller), read_weights(weights, limits)
+    with InputError.inside(plant[0] if weights is None else weights[0]):
+        assessment = assessed_loop(
+            loop, verdict.region, certified=verdict.stable, weights=weighed, notes=notes
+        )
+    loops = loops_within(system, controller, verdict, gains, search)
+    assessment = replace(assessment, within_radii=loops.within_radii)
+    account = account_of_verdict(
+        verdict,
+        largest=wanted["largest"],
+        every_loop=loops.proof,
+        gains=gains,
+        failing=loops.failing,
+    )
+    if digits is not None:
+        loops = loops.with_digits(loops_with_digits(system, typed, verdict, digits))
+    figures = Table(BASIS, (), tuple(assessment.rows()))
+    bound_text = None if verdict.bound is None else str(verdict.bound)
+    return assessed(
+        account,
+        assessment,
+        loop,
+        tables=(
+            *uncertainty.tables(search),
+            *loops.tables(),
+            *tables(account.sentences),
+            figures,
+        ),
+        pictures=uncertainty.pictures(search) if with_page else (),
+        with_page=with_page,
+        system_by_digest=system_by_digest and system is typed_plant,
+        document=account.as_json(
+            certified=verdict.stable,
+            region=str(verdict.region),
+            bound=bound_text,
+            method=verdict.method,
+            states=verdict.about.n,
+            blocks=list(verdict.blocks),
+            largest=bound_text if wanted["largest"] else None,
+            warnings=list(controller.warnings_for(typed_plant)),
+            rounded_to_digits=digits,
+            eigenvalue_outside=None if outside is None else outside.to_dict(),
+            **loops.view,
+            **uncertainty.view(search),
+            assessment=assessment.to_dict(),
+        ),
+        controller=controller_text(controller),
+    )
+
+
+def assessed(
+    account: Account,
+    assessment: Assessment,
+    loop: ClosedLoop,
+    *,
+    tables: tuple[Table, ...],
+    pictures: tuple[EmbeddedPicture, ...] = (),
+    with_page: bool,
+    system_by_digest: bool,
+    document: Mapping[str, Any],
+    controller: str,
+) -> Loop:
+    """Return a controller with the verdict on its loop, as it is shown.
+
+    Parameters
+    ----------
+    account : Account
+        The certified answers; what they say of all loops near this one follows the verdict.
+    assessment : Assessment
+        The verdict, with figures that are computed and not certified.
+    loop : ClosedLoop
+    tables : tuple of Table
+    pictures : tuple of EmbeddedPicture
+        The pictures that come first on the page.
+    with_page, system_by_digest : bool
+    document : mapping
+        What ``--json`` prints.
+    controller : str
+        The controller's file.
+    """
+    all_loops = (EVERY_LOOP, EVERY_LOOP_PART)
+    lines = [assessment.verdict]
+    lines += [each.line for each in account.sentences if each.template in all_loops]
+    lines += [f"warning: {each}" for each in assessment.warnings[1:]]
+    lines += [f"note: {each}" for each in assessment.notes]
+    page = None
+    if with_page:
+        curves = curves_of(loop, assessment.region)
+        page = loop_page(account, assessment.install, lines, tables, curves, loop.controller)
+        page = replace(page, pictures=(*pictures, *page.pictures))
+    evidence = Evidence.of(account, system_by_digest)
+    return Loop(evidence, document, tables, page, lines, controller)
+
+
+def read_weights(
+    file: tuple[str, bytes] | None, limits: Mapping[str, int]
+) -> dict[str, Any] | None:
+    """Read a file of weights, an object of lists of rows; None without a file.
+
+    Raises
+    ------
+    InputError
+        If it is malformed; sizes and entries are checked when the plant is known.
+    """
+    if file is None:
+        return None
+    with InputError.inside(file[0]):
+        content = parse(file[1], Limits(**limits))
+        if not isinstance(content, dict):
+            raise InputError('expected an object such as {"Q": rows, "R": rows}')
+    return content
+
+
+@dataclass(frozen=True)
+class Loops:
+    """What is proved about all loops within radii of plant and gains.
+
+    Attributes
+    ----------
+    rows : tuple of (str, str)
+        Labels and texts of a table.
+    proof : BoxStability or None
+        The proof that all of them are in a region.
+    view : mapping
+        What the JSON of an answer says of them.
+    within_radii : str or None
+        Whether all loops within the radii of the plant are stable; None if it has none.
+    failing : FailingPlant or None
+        A plant nearby whose loop is not stable.
+    """
+
+    rows: tuple[tuple[str, str], ...] = ()
+    proof: BoxStability | None = None
+    view: Mapping[str, Any] = field(default_factory=dict)
+    within_radii: WithinRadii | None = None
+    failing: FailingPlant | None = None
+
+    def tables(self) -> tuple[Table, ...]:
+        """The table, if there is something to say."""
+        title = "every loop in the box" if "every_loop" in self.view else "rounded gains"
+        return (Table(title, (), self.rows),) if self.rows else ()
+
+    def with_digits(self, other: Loops) -> Loops:
+        """The same with rows and data about digits."""
+        return replace(self, rows=self.rows + other.rows, view={**self.view, **other.view})
+
+
+def loops_within(
+    system: MultiChannelSystem,
+    controller: Controller,
+    verdict: StabilityVerdict,
+    gains: Fraction | None,
+    search: LargestUncertainty | None = None,
+) -> Loops:
+    """Decide whether every loop within the radii of plant and gains is in the region of a verdict.
+
+    Where this is not proved, stability alone is tried, and then a plant whose loop fails is
+    searched.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    controller : Controller
+    verdict : StabilityVerdict
+        About the nominal loop.
+    gains : Fraction or None
+        The radii of the gains, as a part of their moduli.
+    search : LargestUncertainty or None
+        The search that found the radii of the system.
+    """
+    near = None if search is None or not verdict.stable else search.nearby
+    if system.uncertainty is None and gains is None:
+        return Loops(failing=near)
+    rows = [] if system.uncertainty is None else [("plant", radii_in_words(system))]
+    rows += [] if gains is None else [("gains", f"within {percent(gains)}")]
+    proof, failing, region = None, None, _region_for_boxes(verdict)
+    unproved = [region]
+    if verdict.stable:
+        known = None if search is None else search.proof
+        proof, region, unproved = _proof(system, controller, region, gains, known)
+    if unproved:
+        neither = "".join(f", and neither is {each}" for each in unproved[1:])
+        rows.append(("eigenvalues of every loop", f"{unproved[0]} is not proved{neither}"))
+    view: dict[str, Any] = {"certified": proof is not None, "region": str(region)}
+    if proof is None and verdict.stable and system.uncertainty is not None:
+        failing = failing_plant(closed_loop(system, controller))
+    if failing is not None:
+        view |= {"fails_within": written(failing.distance), "failing": failing.plant.to_dict()}
+    within: WithinRadii | None = known_within(proof, failing)
+    if search is not None and search.proof is not None:
+        within = _within_radii_of_file(search)
+    return Loops(tuple(rows), proof, {"every_loop": view}, within, failing or near)
+
+
+def _within_radii_of_file(search: LargestUncertainty) -> WithinRadii | None:
+    """Whether all loops are stable within the radii of the file, from which a search began."""
+    if search.relative:
+        return None
+    if search.lower >= 1:
+        return "proved"
+    # A plant that misses a rate or radius may be stable.
+    fails = isinstance(search.proof, BoxStability) and search.proof.bound is None
+    return "refuted" if fails and search.upper is not None and search.upper <= 1 else "open"
+
+
+def _proof(
+    system: MultiChannelSystem,
+    controller: Controller,
+    asked: StabilityRegion,
+    gains: Fraction | None,
+    known: Answer | None,
+) -> tuple[BoxStability | None, StabilityRegion, list[StabilityRegion]]:
+    """A proof for the region that is asked for, or else for stability, and what is not proved.
+
+    A proof in ``known`` is used and not made again.
+    """
+    unproved = list[StabilityRegion]()
+    for region in dict.fromkeys((asked, StabilityRegion(asked.time))):
+        if isinstance(known, BoxStability) and known.region == region:
+            return known, region, unproved
+        bound: dict[str, Any] = {region.word: region.bound}
+        with suppress(LimitReached):
+            proof = box_stability(system, controller, gains=gains, **bound)
+            return proof, region, unproved
+        unproved.append(region)
+    return None, asked, unproved
+
+
+def _region_for_boxes(verdict: StabilityVerdict) -> StabilityRegion:
+    """The region of a verdict without its limits on damping and modulus: boxes have none."""
+    return replace(verdict.region, damping=None, largest_modulus=None)
+
+
+def loops_with_digits(
+    system: MultiChannelSystem, controller: Controller, verdict: StabilityVerdict, most: int
+) -> Loops:
+    """Decide how many digits of the gains are safe, however rounded, and find too few of them."""
+    region = _region_for_boxes(verdict)
+    bound: dict[str, Any] = {region.word: region.bound}
+    known = safe_digits(system, controller, most=most, **bound)
+    safe = "none proved" if known.safe is None else f"{count(known.safe, 'digit')}, however rounded"
+    safe += "" if region == verdict.region else f", for {region} alone"
+    few = (
+        "none found"
+        if known.unsafe is None
+        else f"{count(known.unsafe, 'digit')}, rounded up or down so that the loop fails"
+    )
+    view = {"safe_digits": {"safe": known.safe, "too_few": known.unsafe}}
+    rows = ("digits of the gains that are safe", safe), ("digits that are too few", few)
+    return Loops(rows, None, view)
+
+
+def _certified_for_all_values(
+    system: ParametricSystem,
+    controller: Controller,
+    gains: Fraction | None,
+    wanted: Mapping[str, Any],
+    with_page: bool,
+    system_by_digest: bool,
+) -> Loop:
+    """Prove a loop for all values, or search the largest part of the ranges and values that fail.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    controller : Controller
+    gains : Fraction or None
+        The radii of the gains, as a part of their moduli.
+    wanted : mapping
+        The other options by name.
+    with_page, system_by_digest : bool
+
+    Raises
+    ------
+    UsageError
+        If something is asked that is only decided for systems without parameters.
+    """
+    if any(value for name, value in wanted.items() if name not in _OF_RANGES):
+        raise UsageError(
+            "with parameters only --rate, --radius and --gains are decided: give values to "
+            f"{', '.join(system.parameters)} by --at NAME=VALUE"
+        )
+    asked = {name: wanted[name] for name in _OF_RANGES}
+    region = StabilityRegion.of(system.time, **asked)
+    search = largest_loop_ranges(system, controller, gains=gains, effort=_EFFORT, **asked)
+    account = _account_of_ranges(system, search, gains)
+    ranges = ", ".join(system.parameters_in_words)
+    proved = search.lower == 1
+    if proved:
+        sentence = f"{region} for every {ranges}: proved."
+    elif search.failing is not None:
+        sentence = f"{region} does not hold for every {ranges}."
+    else:
+        sentence = (
+            f"{region} for every {ranges}: open, as no proof and no value that fails was found."
+        )
+    table = _ranges_table(account, search, proved)
+    return Loop(
+        evidence=_ranges_evidence(account, search, proved, system_by_digest),
+        document=account.as_json(
+            certified=proved,
+            refuted=search.failing is not None,
+            region=str(region),
+            bound=None if region.bound is None else str(region.bound),
+            parameters=system.document()["parameters"],
+            largest_ranges=search.to_dict(),
+            warnings=[],
+        ),
+        tables=(table,),
+        page=_ranges_page(system, sentence, table, proved) if with_page else None,
+        verdict=[sentence],
+        controller="",
+    )
+
+
+def _account_of_ranges(
+    system: ParametricSystem, search: LargestRanges, gains: Fraction | None
+) -> Account:
+    """The proof for the whole ranges with its sentence, if there is one."""
+    ranges = ", ".join(system.parameters_in_words)
+    asked = Given(system, {"parameters": ranges, "part_of_gains": gains})
+    whole = search.proof is not None and search.lower == 1
+    answers: dict[str, Any] = {"box_stability": search.proof} if whole else {}
+    return Account(answers, asked, EVERY_LOOP_RULES.sentences(answers, asked))
+
+
+def _ranges_evidence(
+    account: Account, search: LargestRanges, proved: bool, system_by_digest: bool
+) -> Evidence:
+    """The certificates: of the whole ranges, or of a part of them and of values that fail."""
+    if proved:
+        return Evidence.of(account, system_by_digest)
+    parts = {
+        "box_stability_in_part.json": search.proof,
+        "stability_at_values.json": search.refutation,
+    }
+    return Evidence.about_own_plants(
+        {name: answer for name, answer in parts.items() if answer is not None}
+    )
+
+
+def _ranges_table(account: Account, search: LargestRanges, proved: bool) -> Table:
+    """The sentence, or how large a part of the ranges is proved and where the loop fails."""
+    rows = [each.cells for each in account.sentences] if proved else list(search.rows())
+    return Table("closed loop" if proved else "largest part of the ranges", (), tuple(rows))
+
+
+def _ranges_page(system: ParametricSystem, sentence: str, table: Table, proved: bool) -> AnswerPage:
+    """The page of a loop for all values."""
+    return AnswerPage(
+        title=system.name or "A closed loop",
+        heading="A controller and its closed loops, for all values of the plant's parameters.",
+        good=proved,
+        answer=(sentence,),
+        pictures=(),
+        tables=(table,),
+        plant=shown_plant(system),
+    )
+
+
+def simulated(
+    plant: tuple[str, bytes],
+    program: tuple[str, bytes],
+    limits: Mapping[str, int],
+    wanted: dict[str, Any],
+    suffix: str,
+    fractions: bool,
+    system_by_digest: bool,
+) -> Simulated:
+    """Run a controller on a plant, prove bounds on the outputs, and format the results.
+
+    Parameters
+    ----------
+    plant, program : tuple of str and bytes
+        The names of the files of the plant and of the controller, and their contents.
+    limits : mapping
+        The limits on input files.
+    wanted : dict
+        The arguments of `simulated_loop`; one number as the initial state is that of every state.
+    suffix : str
+        The end of the name of the file that is written: ".csv", ".png", ".html" or nothing.
+    fractions : bool
+        Whether exact numbers are written as fractions.
+    system_by_digest : bool
+
+    Raises
+    ------
+    InputError
+        If a file is malformed, or the controller does not fit the plant.
+    """
+    system = system_in(*plant, limits)
+    with InputError.inside(program[0]):
+        controller = read_controller(program[1], Limits(**limits))
+    if wanted["initial"] is not None and len(wanted["initial"]) == 1:
+        wanted = wanted | {"initial": wanted["initial"] * system.n}
+    simulation = simulated_loop(system, controller, **wanted)
+    report = SimulationReport(simulation, fractions)
+    account = Account({}, Given(system), Sentences([]))
+    evidence = Evidence({}, {}, system.canonical_text())
+    if simulation.envelope is not None:
+        account = account_of_verdict(simulation.envelope.proof, largest=False)
+        evidence = Evidence.of(account, system_by_digest)
+    return Simulated(
+        evidence=evidence,
+        document=account.as_json(**report.as_json()),
+        tables=report.tables(),
+        page=report.page() if suffix == ".html" else None,
+        warnings=simulation.warnings,
+        file=report.file(suffix),
+    )
