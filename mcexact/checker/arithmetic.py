@@ -135,12 +135,12 @@ def integer_product(A: Table, B: Table, ncols: int) -> list[list[int]]:
     half = 1 << (8 * size - 1)
     halves = _packed([half] * ncols, size)
     rows = [_packed([entry + half for entry in row], size) - halves for row in B]
-    slots, found = range(0, ncols * size, size), []
+    slots, table = range(0, ncols * size, size), []
     for u in A:
         total = sum([factor * row for factor, row in zip(u, rows, strict=True) if factor], halves)
         data = total.to_bytes(ncols * size, "little")
-        found.append([int.from_bytes(data[k : k + size], "little") - half for k in slots])
-    return found
+        table.append([int.from_bytes(data[k : k + size], "little") - half for k in slots])
+    return table
 
 
 def _bits(M: Table) -> int:
@@ -312,7 +312,7 @@ def diagonal(A: Matrix, B: Matrix) -> Matrix:
 
 
 def product(A: Rows, B: Rows, ncols: int, ell: int = 0) -> Rows:
-    """A·B over the integers, or modulo ℓ if one is given, which reduces the factors."""
+    """A·B over the integers, or modulo ℓ ≠ 0, which reduces the factors."""
     if ell:
         a = budget.limbs([ell])
         build(len(A) + 1, ncols, a, a, len(B) + 4)
@@ -334,20 +334,20 @@ def rank(A: Matrix) -> int:
     ``elimination.bareiss_rank``.
     """
     spend(budget.table(A.nrows, A.ncols, A.limbs))
-    rows, found, previous = [list(row) for row in A.rows], 0, 1
+    rows, pivots, previous = [list(row) for row in A.rows], 0, 1
     for column in counted(range(A.ncols)):
-        pivot = next((i for i in range(found, len(rows)) if rows[i][column]), None)
+        pivot = next((i for i in range(pivots, len(rows)) if rows[i][column]), None)
         if pivot is None:
             continue
-        rows[found], rows[pivot] = rows[pivot], rows[found]
-        top, p = rows[found], rows[found][column]
-        longest = max(map(budget.limbs, rows[found:]))
-        spend(budget.reductions((A.nrows - found - 1) * A.ncols, longest) + 20 * A.nrows)
-        for i in range(found + 1, len(rows)):
+        rows[pivots], rows[pivot] = rows[pivot], rows[pivots]
+        top, p = rows[pivots], rows[pivots][column]
+        longest = max(map(budget.limbs, rows[pivots:]))
+        spend(budget.reductions((A.nrows - pivots - 1) * A.ncols, longest) + 20 * A.nrows)
+        for i in range(pivots + 1, len(rows)):
             f = rows[i][column]
             rows[i] = [(p * a - f * b) // previous for a, b in zip(rows[i], top, strict=True)]
-        previous, found = p, found + 1
-    return found
+        previous, pivots = p, pivots + 1
+    return pivots
 
 
 class Echelon:
@@ -429,7 +429,7 @@ def poly_product(a: Polynomial, b: Polynomial) -> Polynomial:
 
 
 def poly_divide(a: Polynomial, b: Polynomial, ell: int = 0) -> tuple[Polynomial, Polynomial]:
-    """Quotient and remainder of a by b ≠ 0, over Q, or modulo ℓ if one is given."""
+    """Quotient and remainder of a by b ≠ 0, over Q, or modulo ℓ unless it is 0."""
     turns = max(len(a) - len(b) + 1, 0)
     spend(_terms(turns * len(b) + 1, a, b, 0 if ell else turns))
     f = inverse(b[-1], ell) if ell else 1 / Fraction(b[-1])
@@ -547,7 +547,7 @@ def _hessenberg_polynomial(H: Rows, below: list[int], ell: int) -> Polynomial:
 
 
 def characteristic_polynomial(A: Matrix, ell: int = 0) -> Polynomial:
-    """The characteristic polynomial over Q, or modulo ℓ if one is given.
+    """The characteristic polynomial over Q, or modulo ℓ unless it is 0.
 
     For M = A, its transpose or its integer numerators, whichever has the least bound, the integers
     D·det(xI − M) are combined from their residues, one modulus after the other.
@@ -559,17 +559,17 @@ def characteristic_polynomial(A: Matrix, ell: int = 0) -> Polynomial:
         return characteristic_polynomial_modulo(A.modulo(ell), ell)
     choices = ((*scaled_bound(M), M) for M in (A, A.T, Matrix(A.rows, A.ncols)))
     beta, D, M = min(choices, key=itemgetter(0))
-    n, longest, product, found = A.nrows, budget.limbs([D]), 1, [0] * (A.nrows + 1)
+    n, longest, product, coefficients = A.nrows, budget.limbs([D]), 1, [0] * (A.nrows + 1)
     moduli = _residues(M)
     for _ in budget.counted(range(beta.bit_length() // BITS + 1)):
         ell, residues = next(moduli)
         a = budget.limbs([product]) + longest + LIMBS
         spend(budget.products(3 * n + 3, a, LIMBS) + budget.reductions(n + 2, a, LIMBS))
         f = inverse(product, ell)
-        pairs = zip(found, residues, strict=True)
-        found = [old + (D * c - old) * f % ell * product for old, c in pairs]
+        pairs = zip(coefficients, residues, strict=True)
+        coefficients = [old + (D * c - old) * f % ell * product for old, c in pairs]
         product *= ell
-    least = [c - product if 2 * c > product else c for c in found]
+    least = [c - product if 2 * c > product else c for c in coefficients]
     e = A.denominator // M.denominator
     spend(budget.fractions(n + 1, budget.limbs([product]) + longest + n * budget.limbs([e])))
     return [Fraction(c, D * e ** (n - k)) for k, c in enumerate(least)]
@@ -650,17 +650,17 @@ class SparseMatrix(Matrix):
     entries: list[Entry]
 
     def __init__(self, nrows: int, ncols: int, entries: list[Entry], denominator: int = 1) -> None:
-        found = {"nrows": nrows, "ncols": ncols, "entries": entries, "denominator": denominator}
-        self.__dict__.update(found)
+        parts = {"nrows": nrows, "ncols": ncols, "entries": entries, "denominator": denominator}
+        self.__dict__.update(parts)
 
     @cached_property
     def rows(self) -> Rows:
         """The rows with all zeros."""
         spend(budget.table(self.nrows, self.ncols))
-        found = [[0] * self.ncols for _ in range(self.nrows)]
+        table = [[0] * self.ncols for _ in range(self.nrows)]
         for i, j, entry in self.entries:
-            found[i][j] = entry
-        return found
+            table[i][j] = entry
+        return table
 
     @cached_property
     def limbs(self) -> int:

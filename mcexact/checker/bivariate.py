@@ -30,10 +30,10 @@ from .arithmetic import (
     inverse,
     poly_divide,
     poly_modulo,
+    poly_product,
     stack,
     stripped,
 )
-from .arithmetic import poly_product as times
 from .budget import counted
 from .parametric_system import Layers, ParametricSystem
 from .reading import (
@@ -100,7 +100,7 @@ def divide(f: Bivariate, g: Bivariate, q: Polynomial | None = None) -> tuple[Biv
         for k in range(len(g) - 1):
             if top and g[k]:
                 place = len(rest) - len(g) + 1 + k
-                rest[place] = _less(rest[place], times(top, g[k]))
+                rest[place] = _less(rest[place], poly_product(top, g[k]))
                 rest[place] = modulo([rest[place]], q)[0]
     return quotient[::-1], rest if any(rest) else []
 
@@ -134,7 +134,7 @@ def degree(f: Bivariate) -> int:
 
 
 def characteristic(A: Layers, ell: int = 0) -> Bivariate:
-    """det(xI − A(t)) through its values at t = 0, 1, …, over Q, or modulo ℓ if one is given.
+    """det(xI − A(t)) through its values at t = 0, 1, …, over Q, or modulo ℓ unless it is 0.
 
     Open: see ``proofs/OPEN.md``.
     """
@@ -142,7 +142,7 @@ def characteristic(A: Layers, ell: int = 0) -> Bivariate:
 
 
 def determinant(A: Layers, ell: int = 0) -> Polynomial:
-    """The determinant of A(t) or of −A(t), over Q, or modulo ℓ if one is given.
+    """The determinant of A(t) or of −A(t), over Q, or modulo ℓ unless it is 0.
 
     Open: see ``proofs/OPEN.md``.
     """
@@ -199,7 +199,7 @@ def _values(rows: list[Rows], t: int, ell: int = 0) -> Rows:
 
 
 def product(P: Layers, Q: Layers, q: Polynomial | None = None) -> Layers:
-    """P·Q, reduced modulo q if it is given.
+    """P·Q, reduced modulo q unless it is None.
 
     Open: see ``proofs/OPEN.md``.
     """
@@ -278,13 +278,13 @@ def _degrees_of_roots(f: Bivariate) -> list[tuple[Fraction | float, int]]:
 
     The root 0 has the degree −∞.
     """
-    found: list[tuple[Fraction | float, int]] = []
+    slopes: list[tuple[Fraction | float, int]] = []
     k = len(f) - 1
     while k > 0:
         lines = ((Fraction(len(f[j]) - len(f[k]), k - j), k - j) for j in range(k) if f[j])
-        found.append(max(lines, default=(-math.inf, k)))
-        k -= found[-1][1]
-    return found
+        slopes.append(max(lines, default=(-math.inf, k)))
+        k -= slopes[-1][1]
+    return slopes
 
 
 def _at_point(f: Residues, t: int, ell: int) -> Polynomial:
@@ -345,20 +345,20 @@ def integer_resultant(f: Bivariate, g: Bivariate, moduli: list[int]) -> list[int
     a, b = budget.limbs([first, c]) * (len(g) - 1), budget.limbs([second, d]) * (len(f) - 1)
     budget.spend(budget.products(8, a + b + 1, a + b + 1))
     size = first ** (len(g) - 1) * second ** (len(f) - 1)
-    factor, product, found = c ** (len(g) - 1) * d ** (len(f) - 1), 1, [0]
+    factor, product, coefficients = c ** (len(g) - 1) * d ** (len(f) - 1), 1, [0]
     for ell in budget.counted(moduli):
         part = resultant(residues(f, ell), residues(g, ell), ell)
         part = [factor * entry % ell for entry in part]
-        length, shift = max(len(part), len(found)), inverse(product, ell)
-        found, part = ([*p, *[0] * (length - len(p))] for p in (found, part))
+        length, shift = max(len(part), len(coefficients)), inverse(product, ell)
+        coefficients, part = ([*p, *[0] * (length - len(p))] for p in (coefficients, part))
         longest = budget.limbs([product, ell]) * 2
         budget.spend(budget.products(4 * length, longest, longest))
-        pairs = zip(found, part, strict=True)
-        found = [old + (new - old) * shift % ell * product for old, new in pairs]
+        pairs = zip(coefficients, part, strict=True)
+        coefficients = [old + (new - old) * shift % ell * product for old, new in pairs]
         product *= ell
     enough = product > 2 * size
     require(enough, "modulus", "witness.moduli", f"expected a product above 2^{size.bit_length()}")
-    return stripped([entry - product if 2 * entry > product else entry for entry in found])
+    return stripped([entry - product if 2 * entry > product else entry for entry in coefficients])
 
 
 def _multiple(f: Bivariate) -> tuple[int, int]:

@@ -63,8 +63,8 @@ def check_box_fixed(claim: Json, witness: Json, box: Box) -> None:
     )
     discs = discs_of_gains(exterior, "witness.exterior", box)
     alone = Pencil(box.A, box.radii.A, box.n, [each.A for each in box.tied])
-    given = enumerate(items(gains, "witness.gains"))
-    pencils = [augmented(entry, f"witness.gains[{k}]", box) for k, entry in given]
+    entries = enumerate(items(gains, "witness.gains"))
+    pencils = [augmented(entry, f"witness.gains[{k}]", box) for k, entry in entries]
     frames = []
     for k, entry in enumerate(items(listed, "witness.frames")):
         where = f"witness.frames[{k}]"
@@ -125,12 +125,12 @@ def check_box_controllable(claim: Json, witness: Json, box: Box) -> None:
     B, C = [inputs(box, channels)], [Matrix.unit_rows(box.n, 0, box.n)]
     measured = replace(box, names=[""], B=B, C=C, radii=radii, tied=tuple(tied))
     discs = discs_of_gains(exterior, "witness.exterior", measured)
-    found = []
+    inverses = []
     for k, entry in enumerate(items(frames, "witness.frames")):
         where = f"witness.frames[{k}]"
         R, w = fields(entry, where, "R", "w")
-        found.append(right_inverse(R, w, where, Pencil(Z, D, box.n, moved)))
-    require_covered(cover, "witness.cover", discs, box.outside(bound), found)
+        inverses.append(right_inverse(R, w, where, Pencil(Z, D, box.n, moved)))
+    require_covered(cover, "witness.cover", discs, box.outside(bound), inverses)
 
 
 def box_controllable_statement(claim: Json, box: Box) -> str:
@@ -154,8 +154,8 @@ def check_box_stable(claim: Json, witness: Json, box: Box) -> None:
     Theorems ``box_stable.box_stable_continuous``, ``box_stable.box_stable_discrete``.
     """
     limit, gain_radii = fields(claim, "claim", "bound", "gain_radii")
-    given = read_bound(limit, box)
-    bound = Fraction(int(box.time == "discrete")) if given is None else given
+    rate = read_bound(limit, box)
+    bound = Fraction(int(box.time == "discrete")) if rate is None else rate
     keys = ("nominal", "points", "growth", "segments", "frames")
     nominal, listed, growth, used, frames = fields(witness, "witness", *keys)
     loops.check_stability({"bound": limit, "stable": True}, nominal, box)
@@ -166,16 +166,16 @@ def check_box_stable(claim: Json, witness: Json, box: Box) -> None:
         _require_growth(growth, pencil, ends[-1] if ends else Fraction(0))
     else:
         require(growth is None, "growth", "witness.growth", "expected null in discrete time")
-    found = []
+    regular = []
     for k, entry in enumerate(items(frames, "witness.frames")):
         where = f"witness.frames[{k}]"
         V, w = fields(entry, where, "V", "w")
-        found.append(left_inverse(V, w, where, pencil))
+        regular.append(left_inverse(V, w, where, pencil))
     for k, number in enumerate(items(used, "witness.segments", len(segments))):
         where = f"witness.segments[{k}]"
-        if integer(number, where) >= len(found):
-            malformed(where, f"expected a position below {len(found)}")
-        require(found[number](*segments[k]), "segment", where, "not regular by this frame")
+        if integer(number, where) >= len(regular):
+            malformed(where, f"expected a position below {len(regular)}")
+        require(regular[number](*segments[k]), "segment", where, "not regular by this frame")
 
 
 def segments_of(time: str, bound: Fraction, ends: list[Fraction]) -> list[Disc]:
@@ -244,10 +244,10 @@ def lie_inside(claim: Json, box: System | FunctionSystem, members: str) -> str:
     bound = int(box.time == "discrete") if limit is None else limit
     gains = ""
     if radii is not None:
-        given = canonical_json(read_controller(radii, "claim.gain_radii"))
+        text = canonical_json(read_controller(radii, "claim.gain_radii"))
         programs = box.programs if isinstance(box, Box | FunctionLoop) else None
         near = radii_in_words(gain_pairs(programs, radii), "their radii")
-        which = f"those of the controller {near}, the radii being those with {with_digest(given)}"
+        which = f"those of the controller {near}, the radii being those with {with_digest(text)}"
         gains = f", and for all controllers whose entries differ from {which}"
     return f"{members}{gains}, every eigenvalue of A has {inside(bound, box)}"
 
@@ -255,7 +255,7 @@ def lie_inside(claim: Json, box: System | FunctionSystem, members: str) -> str:
 def gain_pairs(programs: Json, radii: Json) -> list[Pair]:
     """The radii of the gains of a controller; those of set-points are in no loop."""
     known, spread = (read_controller(value, "controller")["agents"] for value in (programs, radii))
-    nominal, found = list[Matrix](), list[Matrix]()
+    nominal, changes = list[Matrix](), list[Matrix]()
     for pair in zip(known, spread, strict=True):
         for label in MAPS:
             M, D = (_signals(agent.get(label, {})) for agent in pair)
@@ -263,8 +263,8 @@ def gain_pairs(programs: Json, radii: Json) -> list[Pair]:
                 some = M.get(signal) or D[signal]
                 zeros = Matrix.zeros(some.nrows, some.ncols)
                 nominal.append(M.get(signal, zeros))
-                found.append(D.get(signal, zeros))
-    return pairs_of(nominal, found)
+                changes.append(D.get(signal, zeros))
+    return pairs_of(nominal, changes)
 
 
 def _signals(program: Json) -> dict[tuple[str, str], Matrix]:

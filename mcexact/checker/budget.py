@@ -1,9 +1,19 @@
-"""The work that a check may take, counted before it is done, alike on every machine.
+"""The work that a check may take, counted before it is done, and the same on every machine.
 
-One unit is about the product of two limbs (30 bits) in a loop, or one byte of a matrix that is
-built.  A document of N bytes is granted ``GRANTED`` + ``PER_BYTE`` · N units, ``MORE`` times as
-many if its plant has a parameter, unless ``Limits.work`` says otherwise; a check that would take
-more is INCOMPLETE.  Units say nothing of the claim.
+A certificate is untrusted input: a few hundred bytes can describe a computation of years.  A limit
+on seconds alone would make the verdict depend on the machine.  Therefore every step that can be
+long is charged before it starts, by a formula in the sizes of its numbers and matrices:
+
+- One unit is about the product of two limbs (of 30 bits) in a loop, or one byte of a matrix that
+  is built; 30 ns on a processor of 2025.  The functions at the end of this module give the units
+  of products, reductions, inverses, fractions and tables.
+- A document of N bytes is granted ``GRANTED`` + ``PER_BYTE`` · N units, ``MORE`` times as many if
+  its plant has a parameter, unless ``Limits.work`` sets another limit.
+- `spend` charges the budget of the check under way, a context variable, so that arithmetic need not
+  pass it along.  It raises `Refused`, and the verdict is INCOMPLETE, which says nothing about the
+  claim.
+- The message names a budget that should suffice.  For this estimate loops run through `counted`,
+  which records how many turns are left.
 """
 
 import math
@@ -16,15 +26,15 @@ from typing import Any, TypeVar
 GRANTED = 4 * 10**7
 PER_BYTE = 4000
 MORE = 4
-"""Plants with a parameter are small, and long to compute with."""
+"""A plant with a parameter takes few bytes, and long computations."""
 LIMB = 30
 """The bits of a limb."""
 STEP = 400
-"""What a step takes besides its numbers, as it does where there are none."""
+"""The units of a step without its numbers, also where it has no numbers."""
 LOOK = 50
-"""What it takes to look how long a rational is."""
+"""The units for the length of one rational."""
 MOST = 10**30
-"""More than any machine can do; no more is named."""
+"""More than any machine can do: the largest budget that a message names."""
 
 Item = TypeVar("Item")
 
@@ -83,7 +93,7 @@ class Budget:
         return self.usual * self.times
 
     def grant(self, size: int) -> None:
-        """Allow what is granted for so many bytes."""
+        """Add the units that are granted for a document of ``size`` bytes."""
         self.usual += PER_BYTE * size
 
     def _total(self, whole: int) -> int:
@@ -99,14 +109,14 @@ class Budget:
         return reached + whole
 
     def _named(self, total: int) -> int:
-        """A budget that should do where so many units were counted."""
+        """A budget that should suffice for a check of ``total`` units, rounded up to two digits."""
         total = min(max(4 * total, self.granted), MOST)
         digit = int(10 ** max(len(str(total)) - 2, 0))
         return -(-total // digit) * digit
 
 
 def _duration(units: int) -> str:
-    """The time that so many units take at 30 ns each, as on a processor of 2025."""
+    """The time that these units take at 30 ns each, as on a processor of 2025."""
     seconds = 3 * units // 10**8
     for limit, size, name in ((120, 1, "s"), (7200, 60, "min"), (10**6, 3600, "h")):
         if seconds < limit:
@@ -119,7 +129,7 @@ _current: ContextVar[Budget | None] = ContextVar("budget", default=None)
 
 @contextmanager
 def limited(budget: Budget, size: int = 0) -> Iterator[None]:
-    """Charge what is done inside, perhaps after a document of so many bytes was read."""
+    """Charge the steps inside to a budget, after granting it the units for ``size`` bytes."""
     budget.grant(size)
     token = _current.set(budget)
     try:
@@ -129,22 +139,25 @@ def limited(budget: Budget, size: int = 0) -> Iterator[None]:
 
 
 def current(work: int | None) -> Budget:
-    """The budget of the check under way, or else a new one of so many units.
+    """The budget of the check under way, or else a new one of ``work`` units.
 
-    None stands for what is granted, which grows with the bytes that are read.
+    If ``work`` is None, the budget is what is granted for the bytes that are read.
     """
     return _current.get() or Budget(work)
 
 
 def spend(units: int, after: int = 0) -> None:
-    """Charge a step that follows to the current budget; perhaps tell what those after it take."""
+    """Charge the next step to the current budget.
+
+    ``after`` estimates the units of the steps after it, for the budget that a message names.
+    """
     budget = _current.get()
     if budget is not None:
         budget.spend(units, after)
 
 
 def counted(items: Sequence[Item]) -> Iterator[Item]:
-    """The items of a loop of similar turns, for the estimate of what all of them take."""
+    """Yield the items of a loop of similar turns, and record the turns for `Budget.spend`."""
     budget = _current.get()
     if budget is None:
         yield from items
@@ -164,33 +177,33 @@ def counted(items: Sequence[Item]) -> Iterator[Item]:
 
 
 def limbs(numbers: Iterable[int]) -> int:
-    """The limbs of the longest number; looking takes a unit for each."""
+    """The limbs of the longest number."""
     return max(map(int.bit_length, numbers), default=0) // LIMB + 1
 
 
 def limbs_of(p: Collection[Any]) -> int:
-    """The limbs of the longest numerator or denominator of rationals; looking takes units, too."""
+    """The limbs of the longest numerator or denominator of rationals; charges for the search."""
     spend(LOOK * len(p))
     return max((limbs((c.numerator, c.denominator)) for c in p), default=1)
 
 
 def products(number: int, a: int, b: int) -> int:
-    """So many products of numbers of a and b limbs, which Python splits if they are long."""
+    """The units of ``number`` products of numbers of a and b limbs; Python splits long ones."""
     return number * (20 + a * b * 8 // max(8, math.isqrt(min(a, b)))) // 20
 
 
 def reductions(number: int, a: int, b: int = 0) -> int:
-    """So many products of numbers of a limbs, or two of them, each divided by a number of b."""
+    """The units of ``number`` products or pairs of products of a limbs, each divided by b limbs."""
     return number * (32 + a * (b or a)) // 8
 
 
 def inversions(number: int, a: int) -> int:
-    """So many inverses modulo a number of a limbs."""
+    """The units of ``number`` inverses modulo a number of a limbs."""
     return number * (20 + 50 * a + a * a)
 
 
 def fractions(number: int, a: int) -> int:
-    """So many sums or products of rationals of a limbs, with the gcd, or their texts."""
+    """The units of ``number`` sums, products or texts of rationals of a limbs, with their gcd."""
     return number * (600 + 60 * a + a * a) // 12
 
 

@@ -54,13 +54,13 @@ def cells_of(cuts: Json, place: str, plant: FunctionSystem) -> list[Cell]:
         if low is None or high is None:
             malformed(f"parameters.{name}.range", "expected two ends")
         whole.append((low, high))
-    left, found = [whole], []
+    left, leaves = [whole], []
     for k, cut in enumerate(items(cuts, place)):
         require(bool(left), "cuts", f"{place}[{k}]", "no cell is left")
         cell = left.pop()
         budget.spend(100 * len(cell) + budget.fractions(4, budget.limbs_of([*chain(*cell)])))
         if cut is None:
-            found.append(cell)
+            leaves.append(cell)
             continue
         if integer(cut, f"{place}[{k}]") >= len(cell):
             malformed(f"{place}[{k}]", f"expected null or a position below {len(cell)}")
@@ -68,7 +68,7 @@ def cells_of(cuts: Json, place: str, plant: FunctionSystem) -> list[Cell]:
         middle = (low + high) / 2
         left += [[*cell[:cut], half, *cell[cut + 1 :]] for half in ((middle, high), (low, middle))]
     require(not left, "cuts", place, f"{len(left)} cells are left")
-    return found
+    return leaves
 
 
 def box_of_cell(plant: FunctionSystem, cell: Cell) -> Box:
@@ -152,7 +152,7 @@ def _largest(p: Terms, widths: list[Fraction]) -> Fraction:
 def _shifted(p: Terms, center: list[Fraction]) -> Terms:
     """The terms in powers of the differences from a center."""
     for k, c in enumerate(center):
-        found: Terms = {}
+        terms: Terms = {}
         budget.spend(20 * len(p))
         if not any(e[k] for e in p):
             continue
@@ -161,8 +161,8 @@ def _shifted(p: Terms, center: list[Fraction]) -> Terms:
             budget.spend(budget.fractions((4 + len(e) // 8) * (e[k] + 1), longest))
             for j in range(e[k] + 1):
                 key = (*e[:k], j, *e[k + 1 :])
-                found[key] = found.get(key, Fraction(0)) + factor * comb(e[k], j) * c ** (e[k] - j)
-        p = found
+                terms[key] = terms.get(key, Fraction(0)) + factor * comb(e[k], j) * c ** (e[k] - j)
+        p = terms
     return p
 
 
@@ -179,8 +179,10 @@ def _matrix(rows: list[list[Fraction]], ncols: int) -> Matrix:
 
 def ranges_text(plant: FunctionSystem) -> str:
     """The words with which a statement about all values in the ranges begins."""
-    told = [f"of the parameter {t} from {low} to {high}" for t, (low, high) in plant.ranges.items()]
-    return f"for all real values {' and '.join(told)}"
+    ranges = [
+        f"of the parameter {t} from {low} to {high}" for t, (low, high) in plant.ranges.items()
+    ]
+    return f"for all real values {' and '.join(ranges)}"
 
 
 # Closed loops at the values of a cell; ``proofs/boxes.md``.
@@ -188,7 +190,7 @@ def ranges_text(plant: FunctionSystem) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class FunctionLoop(FunctionSystem):
-    """The closed loop of ``inside`` with a controller, of so many states; the tables are its."""
+    """The closed loop of ``inside`` with a controller; it has the tables of ``inside``."""
 
     inside: FunctionSystem
     programs: Json
@@ -272,10 +274,12 @@ def moved(steps: Json, plant: FunctionSystem) -> FunctionSystem:
     A, *ports = map(numbered, plant.tables)
     alone = [[i] for i in range(plant.m)]
     start = System(plant.time, plant.names, A, ports[0::2], ports[1::2], alone, words=plant.words)
-    made = read_subject(steps, start, before)
-    pairs = [M for pair in zip(made.B, made.C, strict=True) for M in pair]
-    tables = [entries(M) for M in (made.A, *pairs)]
-    return plant.remade(tables, names=made.names, neighbors=made.neighbors, words=made.words)
+    subject = read_subject(steps, start, before)
+    pairs = [M for pair in zip(subject.B, subject.C, strict=True) for M in pair]
+    tables = [entries(M) for M in (subject.A, *pairs)]
+    return plant.remade(
+        tables, names=subject.names, neighbors=subject.neighbors, words=subject.words
+    )
 
 
 def along_line(plant: FunctionSystem, step: dict[str, Json], place: str) -> ParametricSystem:
@@ -403,6 +407,6 @@ def subject_of(steps: Json, plant: System | FunctionSystem, kind: str) -> System
     if isinstance(plant, FunctionSystem):
         if kind == "parametric_box_stable":
             return looped(steps, plant)
-        made = moved(steps, plant)
-        return made if kind in OF_SEVERAL else one_parameter(made)
+        subject = moved(steps, plant)
+        return subject if kind in OF_SEVERAL else one_parameter(subject)
     return system_of(steps, plant, kind)

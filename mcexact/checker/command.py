@@ -23,8 +23,6 @@ from functools import partial
 from typing import IO, NoReturn
 
 from . import reading, sentences_loops, sentences_parameters
-from . import sentences as sentences_analysis
-from . import sentences as sentences_sharing
 from .budget import Budget, current, limited, spend
 from .cells import constructed, subject_of
 from .discs import at_values
@@ -63,14 +61,8 @@ from .system import System, counted
 
 # Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them.
 
-TOPICS = (
-    sentences_analysis,
-    sentences_sharing,
-    sentences_loops,
-    sentences_loops,
-    sentences_parameters,
-)
-"""The modules of the rules that do not belong to one kind."""
+RULE_MODULES = (sentences_loops, sentences_parameters)
+"""The modules that enter their rules into `RULES` when they are imported, besides `sentences`."""
 MANIFEST_FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"
 FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
@@ -150,8 +142,8 @@ def _bytes(manifest: str, name: str, limits: Limits) -> bytes:
 
 def _parts(document: Json) -> tuple[Json, ...]:
     """Read the digests by name, the sentences, the subject, and what is about nearby plants."""
-    given, more = ("format", "certificates", "sentences"), ("subject", "nearby")
-    version, listed, sentences, base, near = fields(document, "manifest", *given, optional=more)
+    required, more = ("format", "certificates", "sentences"), ("subject", "nearby")
+    version, listed, sentences, base, near = fields(document, "manifest", *required, optional=more)
     if string(version, "format") != MANIFEST_FORMAT:
         malformed("format", f"expected {MANIFEST_FORMAT!r}, found {shown(version)}")
     if not isinstance(listed, dict) or not items(sentences, "sentences"):
@@ -245,9 +237,9 @@ class Evidence:
 
     def _premise(self, name: str, document: Json, digest: str) -> Premise:
         """A certificate that was found VALID."""
-        given, steps = document["system"], document["subject"]
-        given = self.expected.named(given) if type(given) is str else given
-        known, kind = replace(plant_of(given), words=f"the plant {digest}"), document["kind"]
+        description, steps = document["system"], document["subject"]
+        description = self.expected.named(description) if type(description) is str else description
+        known, kind = replace(plant_of(description), words=f"the plant {digest}"), document["kind"]
         nearby = name in self.nearby
         if not (self.expected.system or nearby):
             values = digest_of_values(known, digest)
@@ -257,8 +249,8 @@ class Evidence:
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
         system = subject_of(steps, known, kind)
         sentence = KINDS[kind].statement(document["claim"], system)
-        said = f"For {system.words}: {sentence}"
-        return Premise(name, document, plant, system, plant, said, path, nearby=nearby)
+        statement = f"For {system.words}: {sentence}"
+        return Premise(name, document, plant, system, plant, statement, path, nearby=nearby)
 
     def judged(self, sentence: dict[str, Json], place: str) -> Verdict:
         """The verdict on one sentence."""
@@ -277,13 +269,13 @@ class Evidence:
                 if name not in self.premises:
                     raise Refused(open_, "premise", name, "this certificate is not VALID")
             for name, pointer, value in because:
-                found = pointed(self.premises[name].document, pointer, name)
-                require(same(found, value), "value", name, f"another value at {shown(pointer)}")
+                entry = pointed(self.premises[name].document, pointer, name)
+                require(same(entry, value), "value", name, f"another value at {shown(pointer)}")
             require(bool(self.own()), "premise", "because", "no certificate is about the plant")
             spend(2 * len(cited) * len(because) + 100 * len(self.premises))
             pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
-            told = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
-            words = RULES[key].implied(told, [*self.premises.values()])
+            premises = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
+            words = RULES[key].implied(premises, [*self.premises.values()])
             words += f" [{theorem}]" if theorem else ""
             spend(len(words))
             if not RULES[key].claims:
@@ -341,9 +333,9 @@ def as_options(text: str) -> str:
     return text.replace("(Limits.", "(--max-")
 
 
-def line_of(found: Found, paths: Sequence[str]) -> str:
+def line_of(result: Found, paths: Sequence[str]) -> str:
     """A verdict as one line, with the name of its file behind it if there are several."""
-    about, verdict = found
+    about, verdict = result
     name = about.get("manifest") or about["file"]
     return as_options(verdict.line(ascii(name) if len(paths) > 1 else ""))
 
@@ -362,15 +354,17 @@ def misuse(paths: Sequence[str], manifest: str | None, asking: Asking, bounded: 
     return ""
 
 
-def _told(path: str, read: Callable[..., Expectation], limits: Limits, clock: Clock) -> Expectation:
+def _expectation(
+    path: str, read: Callable[..., Expectation], limits: Limits, clock: Clock
+) -> Expectation:
     """The expectation that one file adds; a file that cannot be read is the error `NotAsked`."""
     try:
-        found = clock.within(lambda: attempt(lambda: read(read_file(path, limits), limits)))
+        expectation = clock.within(lambda: attempt(lambda: read(read_file(path, limits), limits)))
     except OutOfTime:
-        found = clock.verdict()
-    if isinstance(found, Verdict):
-        raise NotAsked(path, found)
-    return found
+        expectation = clock.verdict()
+    if isinstance(expectation, Verdict):
+        raise NotAsked(path, expectation)
+    return expectation
 
 
 def _certificate(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
@@ -408,9 +402,9 @@ def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]
             yield {"file": path} if own else {**about, "manifest": path}, verdict
     implied, rest = numbers["text", True], numbers["text", False]
     valid, other = numbers["file", True], numbers["file", False]
-    told = f"{implied} sentences implied, {rest} not, {counted(remarks, 'remark')}"
-    told += f"; {valid} certificates valid, {other} not"
-    yield {"file": path}, Verdict("COUNTED", told)
+    numbers_text = f"{implied} sentences implied, {rest} not, {counted(remarks, 'remark')}"
+    numbers_text += f"; {valid} certificates valid, {other} not"
+    yield {"file": path}, Verdict("COUNTED", numbers_text)
 
 
 def verdicts(
@@ -433,7 +427,7 @@ def verdicts(
     wanted, new = Expectation(), Expectation
     for path, read in zip(asking, (new.about, new.controlled, new.saying), strict=True):
         if path is not None:
-            wanted = _told(path, partial(read, wanted), limits, clock)
+            wanted = _expectation(path, partial(read, wanted), limits, clock)
     listed = [(path, os.path.basename(path) == NAME) for path in paths]
     listed += [] if manifest is None else [(manifest, True)]
     manifests = [path for path, many in listed if many] if paths and any(asking) else []
@@ -448,9 +442,9 @@ def verdicts(
         yield from clock.limited(look(path, asked, limits), {"file": path})
 
 
-def status_of(found: Sequence[Found]) -> int:
+def status_of(results: Sequence[Found]) -> int:
     """The exit status of a run with these verdicts."""
-    return next(status for status in PRECEDENCE if status in {0, *(v.status for _, v in found)})
+    return next(status for status in PRECEDENCE if status in {0, *(v.status for _, v in results)})
 
 
 def count(text: str) -> int:
@@ -496,10 +490,10 @@ def _parser() -> argparse.ArgumentParser:
     parser = Parser("checker", None, __doc__, main.__doc__, allow_abbrev=False)
     parser.add_argument("files", nargs="*", metavar="FILE", help="certificates; - is the input")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
-    for name, value, read, told in OPTIONS:
+    for name, value, read, usage in OPTIONS:
         default = getattr(Limits, name.removeprefix("max-"), None)
-        told += f" (default: {default:,})" if default else ""
-        parser.add_argument(f"--{name}", metavar=value, type=read, default=default, help=told)
+        usage += f" (default: {default:,})" if default else ""
+        parser.add_argument(f"--{name}", metavar=value, type=read, default=default, help=usage)
     return parser
 
 
@@ -544,20 +538,20 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     # A character that the terminal's encoding lacks must not raise an error.
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
-    found, clock = [], Clock(options.timeout)
+    results, clock = [], Clock(options.timeout)
     try:
         with memory(options.max_memory), clock.running():
             for each in verdicts(files, manifest, asking, limits, clock):
-                found.append(each)
+                results.append(each)
                 if not options.json:
                     _say(line_of(each, [*files, manifest] if manifest else files))
     except NotAsked as error:
         _complain(str(error))
-        found = [error.found]
+        results = [error.found]
     if options.json:
-        rows = [about | asdict(verdict) for about, verdict in found]
+        rows = [about | asdict(verdict) for about, verdict in results]
         _say(json.dumps({"format": FORMAT, "verdicts": rows}, indent=1))
-    return status_of(found)
+    return status_of(results)
 
 
 def _say(text: str) -> None:

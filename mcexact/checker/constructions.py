@@ -9,9 +9,9 @@ linear map of signals, which `discs` uses again to bound loops of uncertain plan
 
 import json
 
+from . import evidence
 from .arithmetic import Matrix, beside, diagonal, stack
 from .budget import spend, table
-from .evidence import closed_loop as evidence_closed_loop
 from .evidence import inputs, outputs, read_gains
 from .reading import (
     Json,
@@ -54,8 +54,8 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
 
     Open: see ``proofs/OPEN.md``.
     """
-    (given,) = fields(step, place, "controller")
-    controller, m = read_controller(given, place, system), system.m
+    (value,) = fields(step, place, "controller")
+    controller, m = read_controller(value, place, system), system.m
     agents = controller["agents"]
     fits = controller["time"] == system.time and [a["name"] for a in agents] == system.names
     require(fits, "subject", place, "expected a controller for these agents and this time")
@@ -86,7 +86,7 @@ def signals_of(
     m = system.m
     width = {what: [agent[key] for agent in agents] for what, key in STATES}
     width |= {"X": [system.n], "y": [C_j.nrows for C_j in system.C]}
-    used = {signal for maps in programs for found in maps for signal, _ in found}
+    used = {signal for maps in programs for terms in maps for signal, _ in terms}
     spend(30 * m * len(used))
     order: list[Signal] = [("X", 0, 0), *((what, j, 0) for j in range(m) for what in "xz")]
     for what, j in ((what, j) for j in range(m) for what in "xy"):
@@ -138,7 +138,7 @@ def _terms(system: System, agents: list[Json], i: int, place: str) -> list[Terms
     """The signals that the three maps of agent i use, with their coefficients."""
     N_i, result = system.neighbors[i] if system.neighbors else [i], []
     for label in MAPS:
-        used, found = agents[i].get(label, {}), []
+        used, terms = agents[i].get(label, {}), []
         for what, key in (("x", "shared"), ("y", "outputs")):
             for name, M in used.get(key, {}).items():
                 j = system.names.index(name)
@@ -147,10 +147,10 @@ def _terms(system: System, agents: list[Json], i: int, place: str) -> list[Terms
                 right = j in N_i and (not age or system.time == "discrete")
                 message = f"agent {i + 1} does not get this from {j + 1}"
                 require(right, "subject", f"{place}.{label}", message)
-                found.append(((what, j, age), M))
+                terms.append(((what, j, age), M))
         if "private" in used:
-            found.append((("z", i, 0), used["private"]))
-        result.append(found)
+            terms.append((("z", i, 0), used["private"]))
+        result.append(terms)
     return result
 
 
@@ -299,9 +299,9 @@ def feedback(system: System, step: dict[str, Json], place: str) -> System:
     """
     (listed,) = fields(step, place, "gains")
     F = read_gains(listed, place, system)
-    given = with_digest(canonical_json(by_channel(system, F)))
-    words = f"under the decentralized gains F with {given}"
-    return suffixed(system, words, A=evidence_closed_loop(system, F))
+    digest = with_digest(canonical_json(by_channel(system, F)))
+    words = f"under the decentralized gains F with {digest}"
+    return suffixed(system, words, A=evidence.closed_loop(system, F))
 
 
 def full_output(system: System, step: dict[str, Json], place: str) -> System:
@@ -384,8 +384,8 @@ def error(system: System, step: dict[str, Json], place: str) -> System:
     for i, N_i in enumerate(N):
         seen = [e[i] - e[j] for j in N_i if j != i]
         C.append(stack([system.C[i] @ e[i], *seen], n * system.m))
-    given = with_digest(canonical_json(by_channel(system, F)))
-    words = f"the open-loop error system under the state feedback F with {given}"
+    digest = with_digest(canonical_json(by_channel(system, F)))
+    words = f"the open-loop error system under the state feedback F with {digest}"
     return prefixed(words, system, A=A, B=[e_i.T for e_i in e], C=C)
 
 

@@ -53,7 +53,7 @@ def magnitude(re: int, im: int) -> int:
 
 
 def extractions(number: int, a: int) -> int:
-    """The units of so many absolute values of pairs of numbers of a limbs."""
+    """The units of ``number`` absolute values of complex numbers of a limbs."""
     return budget.reductions(4 * number, 2 * a)
 
 
@@ -209,7 +209,7 @@ ZERO = Fraction(0)
 
 
 class Cell(NamedTuple):
-    """A disc around re + i·im of this radius, or a square of half this side."""
+    """A disc around re + i·im with radius ``size``, or a square with half side ``size``."""
 
     re: Fraction
     im: Fraction
@@ -233,7 +233,7 @@ class Cell(NamedTuple):
         return bound > size and re**2 + im**2 < (bound - size) ** 2
 
     def meets(self, disc: Disc) -> bool:
-        """Whether it has a point in common with a disc."""
+        """Whether the cell and a disc have a common point."""
         re, im, radius = disc
         x, y, reach = abs(re - self.re), abs(im - self.im), radius + self.size
         if max(x, y) > reach:
@@ -252,7 +252,7 @@ class Cell(NamedTuple):
         return [Cell(re + x, im + y, h, True) for x in (h, -h) for y in (h, -h)]
 
     def regular(self, on_disc: Regular) -> bool:
-        """Whether a pencil is regular on the disc around it."""
+        """Whether a pencil is regular on a disc that contains the cell."""
         return on_disc(self.re, self.im, self.size * ROOT_2 if self.square else self.size)
 
 
@@ -320,19 +320,19 @@ class Box(System):
     members: str = ""
 
     def independent(self) -> Box:
-        """A box without ties that contains all members."""
+        """A box with independent entries that contains all members."""
         radii = self.radii
         for each in self.tied:
             radii = _combined(radii, _sizes(each), 1)
         return replace(self, radii=radii, tied=())
 
     def outside(self, bound: Bound) -> Callable[[Cell], bool]:
-        """Whether modes may be in a cell, or are those of another one by conjugation."""
+        """The test of a cell that needs no proof: it is allowed, or below the real axis."""
         return lambda cell: cell.outside(self.time, bound)
 
 
 def at_values(plant: System) -> System:
-    """The plant itself, which is named so where its values are uncertain."""
+    """The plant without its radii; if it has some, its words say that its values are nominal."""
     if plant.uncertainty is None:
         return plant
     return replace(plant, words=f"{plant.words} at its nominal values")
@@ -401,7 +401,7 @@ def ends(system: System, radii: System) -> tuple[System, System]:
 
 
 def _of_sizes(step: Json) -> Json:
-    """A construction that was applied already, with the absolute values of its gains."""
+    """The same construction, with the absolute values of its gains."""
     if "gains" not in step:
         return step
     sizes = [{**F, "entries": [[*map(abs, row)] for row in F["entries"]]} for F in step["gains"]]
@@ -409,7 +409,7 @@ def _of_sizes(step: Json) -> Json:
 
 
 def _combined(first: System, second: System, factor: int) -> System:
-    """The entries of the first system and so many times those of the second one."""
+    """The first system, with ``factor`` times the entries of the second one added."""
     parts = ((first.A, *first.B, *first.C), (second.A, *second.B, *second.C))
     return _of_parts(first, [M + N.times(factor) for M, N in zip(*parts, strict=True)])
 
@@ -420,7 +420,7 @@ def _sizes(system: System) -> System:
 
 
 def _of_parts(system: System, parts: list[Matrix]) -> System:
-    """The system with these A, B_i and C_i, of which there may be fewer than channels."""
+    """The system with these matrices A, B_1, …, C_1, … in place of its own."""
     A, *ports = parts
     return replace(system, A=A, B=ports[: len(system.B)], C=ports[len(system.B) :])
 
@@ -440,17 +440,17 @@ def discs_of_gains(value: Json, place: str, box: Box) -> list[list[Disc]]:
 
     Theorem ``boxes.fixed_in_exterior``.
     """
-    found = []
+    lists = []
     for k, entry in enumerate(items(value, place)):
         where = f"{place}[{k}]"
         F, Y, T, listed = fields(entry, where, "F", "Y", "T", "discs")
         A, D, tied = box.A, box.radii.A, [each.A for each in box.tied]
         if F is not None:
             (A, D), tied = with_gains(F, f"{where}.F", box.independent()), []
-        found.append(exterior_discs(Y, T, listed, where, A, D, tied))
-    if not found:
+        lists.append(exterior_discs(Y, T, listed, where, A, D, tied))
+    if not lists:
         malformed(place, "expected the discs of one matrix or more")
-    return found
+    return lists
 
 
 def with_gains(value: Json, place: str, box: Box) -> tuple[Matrix, Matrix]:
@@ -540,22 +540,22 @@ def loop_pencil(box: Box, gain_radii: Json) -> Pencil:
 
 def _read_radii(value: Json, plant: System, agents: list[Json]) -> list[list[Terms]]:
     """The radii of the programs' matrices, for signals that are in the loop."""
-    given = read_controller(value, PLACE, plant)
+    controller = read_controller(value, PLACE, plant)
     known = [{**agent, **dict.fromkeys(MAPS)} for agent in agents]
-    fits = given["time"] == plant.time
-    fits &= [{**agent, **dict.fromkeys(MAPS)} for agent in given["agents"]] == known
+    fits = controller["time"] == plant.time
+    fits &= [{**agent, **dict.fromkeys(MAPS)} for agent in controller["agents"]] == known
     require(fits, "claim", PLACE, "expected agents of the same sizes, which hold as long")
-    found = programs_of(plant, given["agents"], PLACE)
-    for M in (M for maps in found for terms in maps for _, M in terms):
+    programs = programs_of(plant, controller["agents"], PLACE)
+    for M in (M for maps in programs for terms in maps for _, M in terms):
         if any(entry < 0 for _, _, entry in entries_of(M)):
             malformed(PLACE, "expected radii from 0 on")
-    return found
+    return programs
 
 
 def _pencil(
     system: System, order: list[tuple[Signal, int]], programs: list[list[Terms]], one: int
 ) -> Matrix:
-    """The matrix Z, where identities are ``one`` times themselves."""
+    """The matrix Z of the loop's pencil, where identity matrices are times ``one``."""
     outputs = [(("y", j, 0), C_j.nrows) for j, C_j in enumerate(system.C)]
     inputs = [(("u", j, 0), B_j.ncols) for j, B_j in enumerate(system.B)]
     reads = rows_that_read([*order, *outputs, *inputs])

@@ -74,7 +74,7 @@ def outputs(system: System, channels: Iterable[int]) -> Matrix:
 
 
 def complement(system: System, channels: Iterable[int]) -> list[int]:
-    """The channels that are not among these."""
+    """The channels of the system that are not in the set."""
     return sorted(set(range(system.m)) - set(channels))
 
 
@@ -102,7 +102,7 @@ def read_gains(value: Json, place: str, system: System) -> list[Matrix]:
 
 
 def modulus(value: Json, place: str) -> int:
-    """A modulus ℓ ≥ 2; the code that uses it stops if it divides a denominator."""
+    """Read a modulus ℓ ≥ 2; a denominator that it divides stops the check later."""
     ell = integer(value, place, -math.inf)
     require(ell >= 2, "modulus", place, f"expected an integer from 2 on, found {shown(ell)}")
     return ell
@@ -248,7 +248,7 @@ def _inputs(system: System, sizes: list[int], ell: int) -> list[bytes]:
 
 
 def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
-    """The columns and values of the entries of each row."""
+    """For each row the columns of its entries, and their values."""
     spend(100 * (len(entries) + nrows))
     lines: list[list[tuple[int, int]]] = [[] for _ in range(nrows)]
     for i, j, x in entries:
@@ -259,7 +259,7 @@ def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
 def _products(
     lines: list[list[tuple[int, int]]], power: list[bytes], width: int, ell: int
 ) -> list[bytes]:
-    """The rows of a product with a matrix of so many columns, modulo ℓ."""
+    """The rows of the product of a sparse matrix with one of ``width`` columns, modulo ℓ."""
     tables, terms = multiples(ell), sum(map(len, lines))
     spend(len(lines) * (60 + width // 8) + terms * (40 + width // 4))
     return [
@@ -308,12 +308,12 @@ class SparseStep:
         self.units = 1000 + len(entries) * (1 if self.values else 4) + n * len(self.values) // 32
 
     def start(self, row: Sequence[int]) -> Sequence[int]:
-        """A row in the order of the entries here."""
+        """A row with its entries in ``order``, as `__call__` takes it."""
         placed = [row[j] for j in self.order]
         return bytes(placed) if self.ell <= SMALL else placed
 
     def __call__(self, u: Sequence[int]) -> Sequence[int]:
-        """The product with a row; ``units`` is what it takes."""
+        """The product of a row with M; it takes ``units`` of work, which the caller charges."""
         long = [sum(map(mul, gather(u), xs)) % self.ell for gather, xs in self.long]
         if isinstance(u, bytes):
             return self._added(u) + bytes(long)
@@ -324,7 +324,7 @@ class SparseStep:
         return [x % self.ell for x in total] + long
 
     def _added(self, u: bytes) -> bytes:
-        """The short columns: multiples of u, looked up, and added."""
+        """The product with the short columns, if ℓ is small: a sum of multiples of u."""
         tables = multiples(self.ell)
         products = b"".join(u.translate(tables[x]) for x in self.values)
         layers = (bytes(gather(products)[: len(xs)]) for gather, xs in self.layers)
@@ -341,13 +341,13 @@ def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entr
     if arithmetic.SHARE * most > n * n:
         return None
     spend(200 * (most + system.m))
-    found = {(i, j): x for i, j, x in residues(A, ell)}
+    entries = {(i, j): x for i, j, x in residues(A, ell)}
     for B, F, C in zip(system.B, gains, system.C, strict=True):
         inputs, outputs, gain = residues(B, ell), residues(C, ell), F.modulo(ell)
         for a, g, x in inputs:
             for h, b, y in outputs:
-                found[a, b] = (found.get((a, b), 0) + x * gain[g][h] * y) % ell
-    return [(i, j, x) for (i, j), x in found.items() if x]
+                entries[a, b] = (entries.get((a, b), 0) + x * gain[g][h] * y) % ell
+    return [(i, j, x) for (i, j), x in entries.items() if x]
 
 
 # An upper bound on the number of fixed modes, by one Krylov sequence; ``proofs/krylov.md``.
@@ -418,7 +418,7 @@ def _numbers(
 def _steps(
     system: System, gains: Sequence[Matrix], ell: int, b: Row, c: Row
 ) -> tuple[Callable[[Row], tuple[Row, int]], Row, int]:
-    """A function from u to u A_F and ub modulo ℓ, the u with ub = cb, and units not yet charged."""
+    """The step u ↦ (u A_F, u b) modulo ℓ, its first u = c, and the units that a caller charges."""
     n, entries = system.n, loop_entries(system, gains, ell)
     if entries is None:
         pairs = zip(krylov_loop(system, gains, ell), b, strict=True)
@@ -439,7 +439,7 @@ def _steps(
 
 
 def _residues(value: Json, place: str, ell: int) -> list[int]:
-    """A list of integers from 0 on, modulo ℓ."""
+    """Read a list of integers ≥ 0, and reduce them modulo ℓ."""
     numbers = [integer(entry, place) for entry in items(value, place)]
     spend(budget.reductions(len(numbers), budget.limbs(numbers), budget.limbs([ell])))
     return [number % ell for number in numbers]
@@ -481,27 +481,27 @@ def split(value: Json, place: str, system: System) -> list[tuple[str, System, Js
     at = {a: k for k, block in enumerate(states) for a in block}
     within = _channels(system, at, place, len(states))
     entered = set() if len(states) < 2 else _entered(system, at)
-    found: list[tuple[str, System, Json]] = []
+    parts: list[tuple[str, System, Json]] = []
     turns = zip(counted(states), within, listed, strict=True)
     for k, (block, acting, (where, proof)) in enumerate(turns):
         require(k not in entered, "order", where, "an earlier block acts on it")
-        found.append((where, _part(system, block, acting), proof))
-    return found
+        parts.append((where, _part(system, block, acting), proof))
+    return parts
 
 
 def _entered(system: System, at: dict[int, int]) -> set[int]:
-    """The blocks on which an earlier one acts."""
+    """The positions of the blocks on which an earlier block acts."""
     entries = arithmetic.entries_of(system.A)
     spend(8 * len(entries))
     return {at[a] for a, b, _ in entries if at[b] < at[a]}
 
 
 def _channels(system: System, at: dict[int, int], place: str, count: int) -> list[list[int]]:
-    """The channels that act within each block: that have inputs and outputs there."""
+    """For each block the channels that have inputs and outputs in it."""
     ports = list(enumerate(zip(system.B, system.C, strict=True)))
     if count == 1:
         return [[i for i, (B, C) in ports if not (B.is_zero() or C.is_zero())]]
-    found: list[list[int]] = [[] for _ in range(count)]
+    acting: list[list[int]] = [[] for _ in range(count)]
     for i, (B, C) in ports:
         moved = [at[a] for a, _, _ in arithmetic.entries_of(B)]
         seen = [at[b] for _, b, _ in arithmetic.entries_of(C)]
@@ -510,12 +510,12 @@ def _channels(system: System, at: dict[int, int], place: str, count: int) -> lis
             message = f"channel number {i + 1} leads to a later block"
             require(max(moved) <= min(seen), "order", place, message)
             if max(moved) == min(seen):
-                found[min(seen)].append(i)
-    return found
+                acting[min(seen)].append(i)
+    return acting
 
 
 def _part(system: System, block: list[int], acting: list[int]) -> System:
-    """The states of a block by themselves, with some channels."""
+    """The system of the states in a block, with the channels that act within it."""
     spend(40 * len(block))
     places = None if len(block) == system.n else {a: k for k, a in enumerate(block)}
     B = [arithmetic.within(system.B[i], places, None) for i in acting]
@@ -527,11 +527,11 @@ def _part(system: System, block: list[int], acting: list[int]) -> System:
 # Proofs that no more is fixed than the factors named; ``proofs/krylov.md``, ``evidence.md``.
 
 Loss = tuple[Polynomial, int]
-"""A factor, and the rank that is lost at its roots."""
+"""A factor, and by how much the rank of a pencil is less at its roots."""
 
 
 def by_blocks(witness: Json) -> bool:
-    """Whether the evidence is block by block, and not two characteristic polynomials of all."""
+    """Whether the evidence is block by block; else it is two characteristic polynomials."""
     return isinstance(witness, Mapping) and "blocks" in witness
 
 
@@ -545,11 +545,11 @@ class Blocks:
 
     @property
     def ell(self) -> int:
-        """The modulus for factors."""
+        """The modulus ℓ modulo which factors have to be coprime."""
         return modulus(self.number, "witness.modulus")
 
     def multiplicity(self, p: Polynomial, loss: int) -> int:
-        """How often a factor occurs; stop if it may have multiple roots."""
+        """The multiplicity of a factor: its loss of rank; stop if it may have multiple roots."""
         derivative = [k * c for k, c in enumerate(p)][1:]
         require_coprime(p, derivative, self.ell, "a factor and its derivative")
         return loss

@@ -119,10 +119,10 @@ class Expectation:
         line = LINE.fullmatch(text)
         if not line or not text.isascii() or len(text.splitlines()) != 1:
             malformed("file", f"expected a statement, its SHA-256, or {CLAIM}")
-        found = digest_of(line[2])
-        if line[1] not in (None, found):
-            malformed("file", f"the statement has not the digest before it, but {found}")
-        return replace(self, statement=found)
+        digest = digest_of(line[2])
+        if line[1] not in (None, digest):
+            malformed("file", f"the statement has not the digest before it, but {digest}")
+        return replace(self, statement=digest)
 
     def _claiming(self, value: Json) -> Expectation:
         """Expect, in addition, a claim of a kind, about the subject if one is expected already."""
@@ -143,39 +143,39 @@ class Expectation:
         self._require_system(value, "")
         return self.plant
 
-    def require_plant(self, found: str, values: str, ranged: bool = False) -> None:
+    def require_plant(self, digest: str, values: str, ranged: bool = False) -> None:
         """Stop unless the certificate is about the plant, or about a box around it.
 
-        ``found`` is the digest of the certificate's plant, ``values`` that of it without radii,
+        ``digest`` is the digest of the certificate's plant, ``values`` that of it without radii,
         which is the one that controllers are made for; of a plant whose parameters are ``ranged``
         they are made for some values.
         """
-        self._require_system(found, values)
+        self._require_system(digest, values)
         message = f"about the system of digest {values}, the controller is for {self.made_for}"
         fits = ranged or self.made_for in ("", values)
         require(fits, "controller", "system", message)
 
-    def _require_system(self, found: str, values: str) -> None:
-        message = f"about another system, of digest {found}, not {self.system}"
-        require(self.system in ("", found, values), "system", "system", message)
+    def _require_system(self, digest: str, values: str) -> None:
+        message = f"about another system, of digest {digest}, not {self.system}"
+        require(self.system in ("", digest, values), "system", "system", message)
 
-    def require_subject(self, steps: Json, found: str) -> None:
+    def require_subject(self, steps: Json, digest: str) -> None:
         """Stop unless the certificate has the subject, and the controller where one is given."""
         expected = self.subject
         if self.controller:
-            require(bool(found), "controller", "subject", "about no closed loop")
-            message = f"about another controller, of digest {found}, not {self.controller}"
-            require(found == self.controller, "controller", "subject", message)
+            require(bool(digest), "controller", "subject", "about no closed loop")
+            message = f"about another controller, of digest {digest}, not {self.controller}"
+            require(digest == self.controller, "controller", "subject", message)
             if expected is None and not self.statement:
                 expected = []
             if expected is not None and made_by(expected)[-1:] != [LOOP]:
                 expected = [*expected, *(step for step in steps[-1:] if made_by([step]) == [LOOP])]
         if expected is not None:
-            told = ", ".join(made_by(steps)) or "none"
-            message = f"another subject than asked for; its constructions are: {told}"
+            names = ", ".join(made_by(steps)) or "none"
+            message = f"another subject than asked for; its constructions are: {names}"
             require(same(steps, expected), "expected", "subject", message)
 
-    def require_said(self, kind: str, claim: Json, statement: str) -> None:
+    def require_statement(self, kind: str, claim: Json, statement: str) -> None:
         """Stop unless the certificate makes the statement, or the claim of its kind."""
         other = f"a claim of another kind, {kind}"
         require(self.kind in ("", kind), "expected", "kind", other)
@@ -334,10 +334,10 @@ class Verdict:
 
     def line(self, name: str = "") -> str:
         """The verdict as one line of text, with the name of what it is about behind it."""
-        told = [self.verdict, name, self.statement_digest, self.statement]
+        words = [self.verdict, name, self.statement_digest, self.statement]
         if self.status:
-            told = [self.verdict, name, self.code, f"{self.place}: {self.message}"]
-        return " ".join(part for part in told if part)
+            words = [self.verdict, name, self.code, f"{self.place}: {self.message}"]
+        return " ".join(part for part in words if part)
 
 
 def check_document(
@@ -366,11 +366,11 @@ def check_document(
         nonlocal known, controller
         text = data if isinstance(data, bytes) else _text(data)
         with limited(budget, len(text)):
-            kind, given, steps, claim, witness = _parts(parse(text, allowed))
-            if type(given) is str:
-                given = wanted.named(given)
+            kind, described_plant, steps, claim, witness = _parts(parse(text, allowed))
+            if type(described_plant) is str:
+                described_plant = wanted.named(described_plant)
                 budget.grant(wanted.size)
-            plant = plant_of(given)
+            plant = plant_of(described_plant)
             ranged = isinstance(plant, FunctionSystem)
             budget.times = MORE if ranged else budget.times
             known = digest(plant)
@@ -382,7 +382,7 @@ def check_document(
             wanted.require_subject(steps, controller)
             KINDS[kind].check(claim, witness, system)
             statement = f"For {described(system)}: {KINDS[kind].statement(claim, system)}"
-            wanted.require_said(kind, claim, statement)
+            wanted.require_statement(kind, claim, statement)
             return Verdict("VALID", statement, digest_of(statement))
 
     budget = current(allowed.work)
@@ -408,8 +408,8 @@ def attempt(work: Callable[[], T]) -> T | Verdict:
         # messages.
         sys.set_int_max_str_digits(0)
         return work()
-    except Refused as found:
-        return refusal(*found.args)
+    except Refused as refused:
+        return refusal(*refused.args)
     except MemoryError:
         return refusal("INCOMPLETE", "memory", "checker", "more memory than there is")
     except NotAUnit:
@@ -503,10 +503,10 @@ class Clock:
         message = f"not decided after {self.seconds:g} s (--timeout allows more)"
         return Verdict("INCOMPLETE", code="time", place="checker", message=message)
 
-    def limited(self, found: Iterator[Found], about: dict[str, str]) -> Iterator[Found]:
+    def limited(self, verdicts: Iterator[Found], about: dict[str, str]) -> Iterator[Found]:
         """Yield the same verdicts as long as there is time, then an INCOMPLETE one."""
         try:
-            while (item := self.within(lambda: next(found, None))) is not None:
+            while (item := self.within(lambda: next(verdicts, None))) is not None:
                 yield item
         except OutOfTime:
             yield about, self.verdict()

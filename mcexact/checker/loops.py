@@ -94,11 +94,11 @@ def require_dominant(S: Matrix, place: str) -> None:
 # A rate, a disc and the sector of a damping ratio, each as stability; ``proofs/stability.md``.
 
 LIMITS = ("damping", "largest_modulus")
-"""The keys of a claim in continuous time that limit eigenvalues besides the rate."""
+"""The keys of a claim in continuous time that limit eigenvalues in addition to the rate."""
 
 
 class Region(NamedTuple):
-    """Real parts below −bound (discrete: moduli below it), −Re λ > ζ|λ| and |λ| < R, if given."""
+    """Re λ < −bound (discrete: |λ| < bound); −Re λ > ζ|λ| and |λ| < R unless these are None."""
 
     time: str
     bound: Fraction
@@ -107,9 +107,9 @@ class Region(NamedTuple):
 
     @property
     def limits(self) -> list[str]:
-        """The keys of the limits that are given."""
-        given = zip(LIMITS, (self.damping, self.largest), strict=True)
-        return [key for key, limit in given if limit is not None]
+        """The keys of the limits that the claim has."""
+        values = zip(LIMITS, (self.damping, self.largest), strict=True)
+        return [key for key, limit in values if limit is not None]
 
     def contains(self, p: Polynomial) -> bool:
         """Whether all roots lie in the region.
@@ -128,24 +128,24 @@ class Region(NamedTuple):
 
         Theorem ``sector.damping_matrix``.
         """
-        found = {"bound": (M, self.time, self.bound)}
+        matrices = {"bound": (M, self.time, self.bound)}
         if self.damping is not None:
-            found["damping"] = lifted(M, self.damping), "continuous", Fraction(0)
+            matrices["damping"] = lifted(M, self.damping), "continuous", Fraction(0)
         if self.largest is not None:
-            found["largest_modulus"] = M, "discrete", self.largest
-        return found
+            matrices["largest_modulus"] = M, "discrete", self.largest
+        return matrices
 
 
 def read_region(bound: Json, damping: Json, largest: Json, system: System) -> Region:
     """The region of a claim; the limits are for continuous time."""
-    given, discrete = read_bound(bound, system), system.time == "discrete"
+    rate, discrete = read_bound(bound, system), system.time == "discrete"
     zeta = None if damping is None else rational(damping, "claim.damping")
     R = None if largest is None else rational(largest, "claim.largest_modulus")
     fits = zeta is None or (not discrete and 0 < zeta < 1)
     require(fits, "bound", "claim.damping", "expected a ratio between 0 and 1, continuous time")
     fits = R is None or (not discrete and R > 0)
     require(fits, "bound", "claim.largest_modulus", "expected a number > 0, continuous time")
-    return Region(system.time, Fraction(int(discrete)) if given is None else given, zeta, R)
+    return Region(system.time, Fraction(int(discrete)) if rate is None else rate, zeta, R)
 
 
 def turned(p: Polynomial, zeta: Fraction) -> Polynomial:
@@ -181,10 +181,10 @@ def lifted(M: Matrix, zeta: Fraction) -> Matrix:
 def within(claim: dict[str, Json], system: System) -> str:
     """The region of a claim, in words."""
     limit = claim["bound"]
-    told = [inside(int(system.time == "discrete") if limit is None else limit, system)]
+    phrases = [inside(int(system.time == "discrete") if limit is None else limit, system)]
     words = zip(LIMITS, ("damping ratio above", "modulus below"), strict=True)
-    told += [f"{word} {Fraction(claim[key])}" for key, word in words if key in claim]
-    return " and ".join(told)
+    phrases += [f"{word} {Fraction(claim[key])}" for key, word in words if key in claim]
+    return " and ".join(phrases)
 
 
 # Kind ``stability``: whether every eigenvalue lies in a region; ``proofs/stability.md``.
@@ -202,8 +202,8 @@ def check_stability(claim: Json, witness: Json, system: System) -> None:
     method, M = witness.get("method") if isinstance(witness, dict) else None, system.A
     if string(method, "witness.method", "polynomial", "lyapunov", "instability") == "polynomial":
         fields(witness, "witness", "method")
-        found = region.contains(characteristic_polynomial(M))
-        require(found == stable, "claim", "claim.stable", "the characteristic polynomial differs")
+        inside = region.contains(characteristic_polynomial(M))
+        require(inside == stable, "claim", "claim.stable", "the characteristic polynomial differs")
     elif method == "lyapunov":
         require(stable, "claim", "claim.stable", "this evidence is for a stable loop")
         _, change, listed = fields(witness, "witness", "method", "transformation", "blocks")
@@ -221,8 +221,8 @@ def check_stability(claim: Json, witness: Json, system: System) -> None:
         require(start == M.nrows, "size", "witness.blocks", f"expected {M.nrows} states in all")
     else:
         require(not stable, "claim", "claim.stable", "this evidence is for an unstable loop")
-        given, sides = ("side",) * bool(region.limits), region.sides(M)
-        *_, direction = fields(witness, "witness", *given, "method", "P", "R2", "v")
+        side_key, sides = ("side",) * bool(region.limits), region.sides(M)
+        *_, direction = fields(witness, "witness", *side_key, "method", "P", "R2", "v")
         side = sides[string(witness.get("side", "bound"), "witness.side", *sides)]
         P = decreasing(witness, "witness", *side)
         v = matrix(direction, "witness.v", P.nrows, 1)
@@ -241,7 +241,7 @@ def _require_inside(entry: Json, place: str, key: str, side: tuple[Matrix, str, 
 
 
 def stability_statement(claim: Json, system: System) -> str:
-    """Where all eigenvalues lie, or that they do not."""
+    """The statement: in which region all eigenvalues lie, or that they do not."""
     return f"{denied(claim['stable'])}every eigenvalue of A has {within(claim, system)}"
 
 
@@ -260,25 +260,25 @@ def check_closed_loop_spectrum(claim: Json, witness: Json, system: System) -> No
 
 
 def closed_loop_spectrum_statement(claim: Json, system: System) -> str:
-    """The characteristic polynomial."""
+    """The statement: the characteristic polynomial of A."""
     return f"the characteristic polynomial of A is {polynomial_text(claim['polynomial'])}"
 
 
 def moduli(value: Json, place: str) -> list[int]:
     """Read integers ≥ 2 that are pairwise coprime."""
-    found, product = [], 1
+    numbers, product = [], 1
     for k, entry in enumerate(items(value, place)):
-        found.append(integer(entry, f"{place}[{k}]", 2))
-        longest, more = budget.limbs([product]), budget.limbs(found[-1:])
+        numbers.append(integer(entry, f"{place}[{k}]", 2))
+        longest, more = budget.limbs([product]), budget.limbs(numbers[-1:])
         budget.spend(budget.reductions(longest, more) + budget.fractions(1, more))
-        coprime = math.gcd(product, found[-1]) == 1
+        coprime = math.gcd(product, numbers[-1]) == 1
         require(coprime, "modulus", f"{place}[{k}]", "not coprime to those before it")
-        product *= found[-1]
-    return found
+        product *= numbers[-1]
+    return numbers
 
 
 def require_spectrum(A: Matrix, p: Polynomial, place: str, ells: list[int]) -> None:
-    """Stop unless det(xI − A) = p, given that the moduli suffice.
+    """Stop unless det(xI − A) = p, which is compared modulo enough integers.
 
     Theorem ``closed_loop_spectrum.closed_loop_spectrum``.
     """
@@ -293,8 +293,8 @@ def require_spectrum(A: Matrix, p: Polynomial, place: str, ells: list[int]) -> N
         a = budget.limbs([ell])
         budget.spend(budget.reductions(1, longest, a) + budget.fractions(1, a))
         require(math.gcd(D, ell) == 1, "modulus", "witness.moduli", "divides a denominator")
-        found = characteristic_polynomial(A, ell)
-        require(found == poly_modulo(p, ell), "spectrum", place, f"differs modulo {ell}")
+        residues = characteristic_polynomial(A, ell)
+        require(residues == poly_modulo(p, ell), "spectrum", place, f"differs modulo {ell}")
 
 
 # Kind ``distributed_observer``: separation, both spectra; ``proofs/distributed_observer.md``.
@@ -319,7 +319,7 @@ def check_distributed_observer(claim: Json, witness: Json, system: System) -> No
 
 
 def distributed_observer_statement(claim: Json, system: System) -> str:
-    """The separation of the errors, and both polynomials."""
+    """The statement: the errors separate, and both characteristic polynomials."""
     feedback, error = (polynomial_text(claim[key]) for key in ("feedback", "error"))
     limit = claim["bound"]
     return (

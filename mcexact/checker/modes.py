@@ -16,8 +16,6 @@ from fractions import Fraction
 from itertools import zip_longest
 
 from . import arithmetic, evidence, reading, structure
-from . import roots as location
-from . import roots as root_discs
 from .arithmetic import (
     NotAUnit,
     Polynomial,
@@ -44,7 +42,7 @@ from .reading import (
     rational,
     require,
 )
-from .roots import in_region
+from .roots import Disc, disc_set, in_region, in_stability_region, require_rate, root_discs
 from .structure import require_connected, require_reached
 from .system import FIXED, PENCIL, System, channel_set, denied, polynomial_text
 
@@ -152,7 +150,7 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
     reading.items(spaces, "witness.subspaces", len(reading.items(entries, "claim.factors")))
     n, product = system.n, [1]
     psi: Polynomial = []
-    found: list[tuple[Polynomial, int, bool, list[root_discs.Disc]]] = []
+    modes: list[tuple[Polynomial, int, bool, list[Disc]]] = []
     for k, entry in enumerate(entries):
         place, space = f"claim.factors[{k}]", f"witness.subspaces[{k}]"
         listed, names, flag, roots, times, *counts = fields(entry, place, *FACTOR)
@@ -169,16 +167,16 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
             require(same, "claim", place, f"the multiplicity in A is {a}")
         e = proof.multiplicity(p, n - r)
         require(at_most == e, "claim", place, f"the multiplicity is at most {e}")
-        stable = location.in_stability_region(p, system.time)
+        stable = in_stability_region(p, system.time)
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
-        discs = root_discs.root_discs(roots, f"{place}.roots", p)
-        found.append((p, n - r, stable, discs))
-    losses = [(p, loss) for p, loss, *_ in found]
+        discs = root_discs(roots, f"{place}.roots", p)
+        modes.append((p, n - r, stable, discs))
+    losses = [(p, loss) for p, loss, *_ in modes]
     if isinstance(proof, Blocks):
         proof.require_no_more(losses)
     else:
         proof.require_moved(psi)
-    stabilizable = all(stable for _, _, stable, _ in found)
+    stabilizable = all(stable for _, _, stable, _ in modes)
     agrees = reading.polynomial(whole, "claim.polynomial") == product
     agrees = agrees and reading.boolean(verdict, "claim.stabilizable") == stabilizable
     require(agrees, "claim", "claim", "not the product of the factors, or not where they are")
@@ -187,12 +185,12 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
     else:
         if isinstance(proof, TwoPolynomials):
             proof.require_ranks(completion, losses)
-        centers = [disc for *_, discs in found for disc in discs]
-        root_discs.require_rate(rate, "claim.best_rate", centers, system.time)
+        centers = [disc for *_, discs in modes for disc in discs]
+        require_rate(rate, "claim.best_rate", centers, system.time)
 
 
 def _proof(witness: Json, system: System) -> tuple[Blocks | TwoPolynomials, Json, Json]:
-    """The proof that no more is fixed, with the subspaces, and the completion if it has one."""
+    """Read the proof that no more is fixed, the subspaces, and the completion or None."""
     if by_blocks(witness):
         parts, number, spaces = fields(witness, "witness", "blocks", "modulus", "subspaces")
         return Blocks(parts, "witness", system, number), spaces, None
@@ -225,7 +223,7 @@ def _factor_text(factor: Json, system: System) -> str:
         f"{p} is {denied(factor['stable'])}{region}, has {exponent} in det(xI - A) and at most "
         f"{factor['multiplicity_at_most']} in the greatest common divisor of det(xI - A_F) over "
         f"all constant gains F, and one root in each of the discs "
-        f"{root_discs.disc_set(factor['roots'])}, where the least rank of {PENCIL} over all sets "
+        f"{disc_set(factor['roots'])}, where the least rank of {PENCIL} over all sets "
         "of channels, C the outputs of the set and B the inputs of the others, is "
         f"{factor['rank']}, reached by {channel_set(factor['channels'])}"
     )
@@ -259,7 +257,7 @@ def check_completeness(claim: Json, witness: Json, system: System) -> None:
 
 
 def completeness_statement(claim: Json, system: System) -> str:
-    """Whether the system is complete."""
+    """The statement: whether the system is complete."""
     means = f"its transfer graph is strongly connected and no mode is {FIXED}"
     return f"it is {denied(claim['complete'])}complete, which means that {means}"
 
@@ -315,7 +313,7 @@ def check_pencil_rank(claim: Json, witness: Json, system: System) -> None:
 
 
 def pencil_rank_statement(claim: Json, system: System) -> str:
-    """The rank of the pencil at the roots."""
+    """The statement: the rank of the pencil at the roots of the polynomial."""
     sets = f"C the outputs of the channels {channel_set(claim['subset'])} and B the inputs of the"
     which = f"the pencil {PENCIL}, {sets} others, has rank exactly {claim['rank']}"
     return f"{which} at every root of {polynomial_text(claim['polynomial'])}"
@@ -380,7 +378,7 @@ def check_assignability(claim: Json, witness: Json, system: System) -> None:
 
 
 def assignability_statement(claim: Json, system: System) -> str:
-    """How the characteristic polynomial of every loop splits."""
+    """The statement: the factors into which the characteristic polynomial of every loop splits."""
     blocks = ((block["channels"], block["dimension"]) for block in claim["blocks"])
     parts = ", ".join(f"{degree} for {channel_set(c)}" for c, degree in blocks)
     return (
@@ -466,7 +464,7 @@ def _by_blocks(witness: Json, system: System) -> int:
 
 
 def deficiency_statement(claim: Json, system: System) -> str:
-    """The largest loss of rank."""
+    """The statement: the largest loss of rank."""
     return (
         f"the largest {system.n} - rank {PENCIL}, over all complex x and all sets of channels, C "
         f"the outputs of the set and B the inputs of the others, is {claim['deficiency']}"

@@ -18,7 +18,6 @@ from fractions import Fraction
 from functools import reduce
 
 from . import bivariate, budget, evidence, reading
-from . import roots as root_discs
 from .arithmetic import (
     Matrix,
     Polynomial,
@@ -49,6 +48,7 @@ from .bivariate import (
 from .budget import counted
 from .parametric_system import Layers, ParametricSystem, Range, common_divisor
 from .reading import Json, fields, integer, items, matrices, names, positions, require
+from .roots import disc_set, require_real_or_not, root_discs
 from .system import FIXED, PENCIL, channel_set, polynomial_text
 
 # Values of a parameter in claims: where nothing is claimed, and their words.
@@ -65,7 +65,7 @@ def listed_value(value: Json, discs: Json, place: str, system: ParametricSystem)
     q = reading.polynomial(value, where, 1)
     defined = all(len(common_divisor(q, delta)) == 1 for delta in system.poles)
     require(defined, "pole", where, "an entry of the plant is undefined there")
-    root_discs.require_real_or_not(root_discs.root_discs(discs, f"{place}.roots", q), place)
+    require_real_or_not(root_discs(discs, f"{place}.roots", q), place)
     return q
 
 
@@ -77,13 +77,13 @@ def values_left_out(outside: Json, poles: Json, system: ParametricSystem) -> lis
 
     Open: see ``proofs/OPEN.md``.
     """
-    found = []
+    polynomials = []
     low, high = system.range
     for k, entry in enumerate(items(outside, "claim.outside")):
         place = f"claim.outside[{k}]"
         value, listed = fields(entry, place, "value", "roots")
-        found.append(reading.polynomial(value, f"{place}.value", 1))
-        for re, im, radius in root_discs.root_discs(listed, f"{place}.roots", found[-1]):
+        polynomials.append(reading.polynomial(value, f"{place}.value", 1))
+        for re, im, radius in root_discs(listed, f"{place}.roots", polynomials[-1]):
             left = low is not None and re + radius < low
             right = high is not None and re - radius > high
             apart = left or right or abs(im) > radius
@@ -91,10 +91,10 @@ def values_left_out(outside: Json, poles: Json, system: ParametricSystem) -> lis
     denominator = reduce(poly_product, system.poles)
     for k, entry in enumerate(items(poles, "witness.undefined")):
         place = f"witness.undefined[{k}]"
-        found.append(reading.polynomial(entry, place, 1))
-        gone = not poly_divide(denominator, found[-1])[1]
+        polynomials.append(reading.polynomial(entry, place, 1))
+        gone = not poly_divide(denominator, polynomials[-1])[1]
         require(gone, "pole", place, "it divides no denominator of the plant")
-    return found
+    return polynomials
 
 
 def where_text(claim: Json, system: ParametricSystem) -> str:
@@ -121,7 +121,7 @@ def ends_of(bounds: Range) -> str:
 
 def roots_text(entry: Json, t: str) -> str:
     """The roots of a value, and where they are."""
-    value, discs = polynomial_text(entry["value"], t), root_discs.disc_set(entry["roots"])
+    value, discs = polynomial_text(entry["value"], t), disc_set(entry["roots"])
     return f"the roots of {value}, one in each of the discs {discs}"
 
 
@@ -251,12 +251,12 @@ def zero_block(
     ``zero_blocks.zero_block_fixed``, ``zero_blocks.zero_block_pencil``.
     """
     keys = ("channels_T", "U", "W", "row_pivots", "column_pivots")
-    chosen, given, listed, rows, columns = fields(value, place, *keys)
+    chosen, layers, listed, rows, columns = fields(value, place, *keys)
     T, n = names(chosen, f"{place}.channels_T", system.names), system.n
     above = positions(rows, f"{place}.row_pivots", n)
     beside = positions(columns, f"{place}.column_pivots", n)
     require(len(above) + len(beside) > n, "rank", place, "the zero block is too small")
-    parts = items(given, f"{place}.U", len(p) - 1)
+    parts = items(layers, f"{place}.U", len(p) - 1)
     U = [polynomial_layers(part, f"{place}.U", n, len(above), q) for part in parts]
     W = polynomial_layers(listed, f"{place}.W", len(beside), n, q)
     pivots = [[layer.take(above) for layer in part] for part in U]
@@ -299,7 +299,7 @@ def _scalar(c: Polynomial, size: int) -> Layers:
 
 
 def require_multiple(block: Sequence[Matrix], size: int, place: str, q: Polynomial | None) -> None:
-    """Stop unless a block is c(t) times an identity matrix, c = 1 if q is given, else c ≠ 0."""
+    """Stop unless a block is c(t) times an identity matrix, c = 1 with q, c ≠ 0 without."""
     identity = Matrix.unit_rows(size, 0, size)
     factors = [layer.times(0) if not size else identity.times(_corner(layer)) for layer in block]
     same = bivariate.is_zero(bivariate.layered_difference(list(block), factors))
@@ -445,12 +445,12 @@ def check_parametric_rank(claim: Json, witness: Json, system: ParametricSystem) 
 def _require_kernel(
     value: Json, place: str, M: Layers, rank: int, q: Polynomial | None = None
 ) -> None:
-    """Stop unless M N = 0, modulo q if it is given, for an N of full rank that leaves ``rank``."""
-    given, listed = fields(value, place, "columns", "pivots")
+    """Stop unless M N = 0, modulo q if any, for an N of full rank that leaves ``rank``."""
+    columns, listed = fields(value, place, "columns", "pivots")
     ncols = M[0].ncols
     pivots = positions(listed, f"{place}.pivots", ncols)
     require(len(pivots) == ncols - rank, "rank", place, f"expected {ncols - rank} columns")
-    N = polynomial_layers(given, f"{place}.columns", ncols, len(pivots), q)
+    N = polynomial_layers(columns, f"{place}.columns", ncols, len(pivots), q)
     require_multiple([layer.take(pivots) for layer in N], len(pivots), f"{place}.pivots", q)
     gone = bivariate.is_zero(bivariate.product(M, N, q))
     require(gone, "identity", place, "the matrix does not annihilate it")

@@ -145,21 +145,21 @@ def degree(p: Terms, v: int) -> int:
 def coefficients(p: Terms, v: int) -> dict[int, Terms]:
     """The coefficients of the powers of a parameter, which are polynomials in the others."""
     spend(fractions(len(p), 1))
-    found: dict[int, Terms] = {}
+    by_power: dict[int, Terms] = {}
     for e, c in p.items():
-        found.setdefault(e[v], {})[(*e[:v], 0, *e[v + 1 :])] = c
-    return found
+        by_power.setdefault(e[v], {})[(*e[:v], 0, *e[v + 1 :])] = c
+    return by_power
 
 
 def _of_all(polynomials: Iterable[Terms], by: Arithmetic) -> Terms:
     """The greatest common divisor of some polynomials, the shortest first."""
     first, *others = sorted(polynomials, key=lambda p: (len(p), sorted(p)))
-    found = monic(first)
+    divisor = monic(first)
     for p in others:
-        if is_constant(found):
+        if is_constant(divisor):
             break
-        found = common_factor(p, found, by)
-    return found
+        divisor = common_factor(p, divisor, by)
+    return divisor
 
 
 def _primitive(p: Terms, v: int, by: Arithmetic) -> tuple[Terms, Terms]:
@@ -194,14 +194,14 @@ def _at(p: Terms, v: int, values: list[int]) -> Polynomial:
     """A multiple of p at values of all parameters but one, modulo the prime."""
     spend(fractions(len(p), limbs_of(p.values())) + reductions(40 * len(p) * len(values), 3))
     d = math.lcm(*(c.denominator for c in p.values()))
-    found = [0] * (degree(p, v) + 1)
+    polynomial = [0] * (degree(p, v) + 1)
     for exponents, c in p.items():
         term = int(c * d) % PRIME
         for i, (value, e) in enumerate(zip(values, exponents, strict=True)):
             if e and i != v:
                 term = term * pow(value, e, PRIME) % PRIME
-        found[exponents[v]] = (found[exponents[v]] + term) % PRIME
-    return stripped(found)
+        polynomial[exponents[v]] = (polynomial[exponents[v]] + term) % PRIME
+    return stripped(polynomial)
 
 
 # Entries with a parameter, such as "1/2 + 3*t^2", by the grammar of ``FORMAT.md``.
@@ -225,8 +225,8 @@ def function_text(value: Function, parameter: str) -> Json:
     """The canonical form of an entry: a rational, or a text."""
     top, bottom = value
     if max(len(top), len(bottom)) < 2:
-        found = sum(top, Fraction(0))
-        return found.numerator if found.denominator == 1 else str(found)
+        constant = sum(top, Fraction(0))
+        return constant.numerator if constant.denominator == 1 else str(constant)
     text = polynomial_text(top, parameter)
     if len(bottom) == 1:
         return text
@@ -267,8 +267,8 @@ class Reader(ABC, Generic[P]):
         text, place = self.value, self.place
         spend(200 + 10 * len(self.parameters))
         if type(text) is not str or system.NUMBER.fullmatch(text):
-            found = Fraction(system.number(text, place, self.limits))
-            return self.number(found), self.number(Fraction(1))
+            number = Fraction(system.number(text, place, self.limits))
+            return self.number(number), self.number(Fraction(1))
         if len(text) > LONGEST:
             malformed(place, f"expected at most {LONGEST} characters")
         end, text = 0, text.rstrip(" ")
@@ -433,8 +433,8 @@ def quotient_text(value: Quotient, parameters: tuple[str, ...]) -> Json:
         return 0
     constant = (0,) * len(parameters)
     if {*top, *bottom} == {constant}:
-        found = top[constant]
-        return found.numerator if found.denominator == 1 else str(found)
+        number = top[constant]
+        return number.numerator if number.denominator == 1 else str(number)
     text = terms_text(top, parameters)
     return text if {*bottom} == {constant} else f"({text})/({terms_text(bottom, parameters)})"
 
@@ -485,8 +485,8 @@ class _SeveralParameters(Reader[Terms]):
         turns = (len(a) + len(b)) * _keys(self.parameters)
         spend(fractions(turns, limbs_of([*a.values(), *b.values()])))
         one = -1 if sign == "-" else 1
-        found = {key: a.get(key, Fraction(0)) + one * b.get(key, 0) for key in {**a, **b}}
-        return {key: c for key, c in found.items() if c}
+        total = {key: a.get(key, Fraction(0)) + one * b.get(key, 0) for key in {**a, **b}}
+        return {key: c for key, c in total.items() if c}
 
     def lowest(self, top: Terms, bottom: Terms) -> Quotient:
         """A denominator of one term has common factors that are parameters; others are searched."""
@@ -556,8 +556,8 @@ class FunctionSystem:
 
     def terms(self, entry: Any) -> Quotient:
         """Numerator and denominator by the exponents of the parameters."""
-        found: Quotient = entry
-        return found
+        quotient_of_terms: Quotient = entry
+        return quotient_of_terms
 
     def remade(self, tables: list[Table], **parts: Any) -> FunctionSystem:
         """The same with other functions."""
@@ -672,11 +672,11 @@ def read_parametric(value: Json, limits: Limits | None = None) -> FunctionSystem
         {"name": name, "B": B, "C": C}
         for name, B, C in zip(own, forms[1::2], forms[2::2], strict=True)
     ]
-    said = {
+    domains = {
         name: {} if bounds == (None, None) else {"range": [_end(bound) for bound in bounds]}
         for name, bounds in ranges.items()
     }
-    document = {"time": string(time, "time", "continuous", "discrete"), "parameters": said}
+    document = {"time": string(time, "time", "continuous", "discrete"), "parameters": domains}
     document |= {"A": forms[0], "channels": channels}
     parts = {"time": time, "names": own, "ranges": ranges, "document": document}
     if len(ranges) > 1:
@@ -706,8 +706,8 @@ def _entries(parameters: tuple[str, ...]) -> tuple[Entries, Callable[[Any], Json
     )
 
 
-def _range(told: Json, place: str, limits: Limits | None) -> Range:
-    (ends,) = fields(told, place, optional=("range",))
+def _range(value: Json, place: str, limits: Limits | None) -> Range:
+    (ends,) = fields(value, place, optional=("range",))
     if ends is None:
         return None, None
     place += ".range"
@@ -759,8 +759,8 @@ def _form(table: Table, write: Callable[[Any], Json]) -> Json:
 def cleared_tables(tables: list[Table]) -> dict[str, Any]:
     """The parts of a plant that these matrices determine."""
     (A, *ports), denominators = zip(*map(_cleared, tables), strict=True)
-    found = {"A": A, "B": ports[0::2], "C": ports[1::2], "scale": denominators[0]}
-    return {"tables": tables, **found, "poles": [*denominators]}
+    matrices = {"A": A, "B": ports[0::2], "C": ports[1::2], "scale": denominators[0]}
+    return {"tables": tables, **matrices, "poles": [*denominators]}
 
 
 def least_denominator(denominators: list[Polynomial]) -> Polynomial:

@@ -1,7 +1,16 @@
 """Strict reading: bytes to JSON, and JSON to numbers, polynomials, matrices, positions and names.
 
-Every reader takes a value and its place in the document, for the message.  A value of the wrong
-form is MALFORMED; a rule says INVALID by :func:`require`.
+Whoever forges a certificate chooses its bytes, so this module accepts one form of every value and
+refuses all others: a key twice in an object, an unknown key, ``true`` in place of 1, a fraction not
+in lowest terms, and numbers longer than ``Limits`` allows, which are counted in the text before any
+of them is converted.  Every value is read where a rule needs it, by a reader that takes the value
+and its place in the document, for the message.
+
+There are three ways to stop, all by the exception `Refused`:
+
+- `malformed`: the document does not have the form that ``FORMAT.md`` prescribes.
+- `incomplete`: it may have that form, but exceeds a limit of this checker.
+- `require`: it has the form, and the evidence does not prove the claim; the verdict is INVALID.
 """
 
 import errno
@@ -101,8 +110,8 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Json] | None 
     try:
         return json.loads(text, parse_float=floats, parse_constant=refuse, object_pairs_hook=pairs)
     except json.JSONDecodeError as error:
-        said = error.msg.replace("Expecting", "expected")
-        malformed(f"line {error.lineno} column {error.colno}", f"not JSON: {said}")
+        message = error.msg.replace("Expecting", "expected")
+        malformed(f"line {error.lineno} column {error.colno}", f"not JSON: {message}")
     except RecursionError:
         malformed("file", "nested deeper than any certificate")
 
@@ -159,12 +168,12 @@ def by_name(value: Json, place: str, known: Sequence[str]) -> list[tuple[str, in
     """The entries of an object, perhaps left out, by some of these names, with their positions."""
     if value is None or value == {}:
         return []
-    given = fields(value, place, optional=tuple(known))
-    return [(known[j], j, entry) for j, entry in enumerate(given) if entry is not None]
+    entries = fields(value, place, optional=tuple(known))
+    return [(known[j], j, entry) for j, entry in enumerate(entries) if entry is not None]
 
 
 def items(value: Json, place: str, length: int | None = None) -> list[Json]:
-    """The members of a list, of a given length if one is prescribed."""
+    """The members of a list, which has ``length`` members unless this is None."""
     if type(value) is not list:
         malformed(place, f"expected a list, found {shown(value)}")
     if length is not None and len(value) != length:
@@ -195,7 +204,7 @@ def string(value: Json, place: str, *choices: str) -> str:
 
 
 def printable(value: Json, place: str, longest: int, allowed: str = "") -> str:
-    """A string of at most so many characters, all of which print or are allowed."""
+    """A string of at most ``longest`` characters, all of which print or are allowed."""
     hidden = {c for c in string(value, place)[:longest] if unicodedata.category(c) in HIDDEN}
     if len(value) > longest or hidden - set(allowed):
         malformed(place, f"expected at most {longest} characters that print, found {shown(value)}")

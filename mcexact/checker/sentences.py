@@ -1,4 +1,19 @@
-"""Rules of sentences: premises, analysis and sharing."""
+"""Rules of sentences: premises, analysis and sharing.
+
+A manifest lists the sentences that a command printed, each with the key of a rule and pointers into
+the certificates that it was read from.  The checker never parses such a sentence.  It applies its
+own rule of the same key (`RULES`) to the VALID certificates (`Premise`) and prints what they imply,
+in its own words; whether the two texts agree is for the reader to see.
+
+A `Rule` has a `Role` for each premise: a kind of certificate, and the constructions that lead from
+the system of the manifest to its subject.  Its function takes the premises in the order of the
+roles, stops unless the claims imply the sentence, and returns the statement.  Most sentences say
+what one certificate claims, and have a rule by `restate` or `either`.  A rule that draws a
+conclusion names its theorem: of ``proofs/`` or of the literature.
+
+This module has the rules about an analysis and about sharing; `sentences_loops` has those about
+loops and boxes, `sentences_parameters` those about all values of parameters.
+"""
 
 import json
 from collections.abc import Callable, Iterator
@@ -26,7 +41,7 @@ PLANT, HEARD = SYSTEM[:1], SYSTEM[1:]
 
 @dataclass(frozen=True)
 class Premise:
-    """A certificate that was found VALID.
+    """A VALID certificate, from which sentences follow.
 
     Attributes
     ----------
@@ -122,9 +137,9 @@ class Rule:
     """The premises that imply a sentence, the theorem, and the implied statement in words.
 
     ``say`` takes the premises in the order of the roles, and stops if their claims do not imply the
-    sentence. Without roles it takes all premises, those of the sentence first, and repeats what was
-    given.  ``claims`` is false of a remark, which says nothing that could be true or false of the
-    system: its verdict is REMARK and never IMPLIED.
+    sentence.  Without roles it takes all premises, those of the sentence first, and describes the
+    plant or a controller.  ``claims`` is false of a remark, which says nothing that could be true
+    or false of the system: its verdict is REMARK and never IMPLIED.
     """
 
     theorem: str
@@ -143,11 +158,11 @@ class Rule:
         if not self.roles:
             return self.say([each for each in [*cited, *known] if not each.nearby])
         casts = [list(self._cast(cited, heard)) for heard in (False, True)]
-        found = max(casts, key=len)
-        if len(found) < len(self.roles):
-            wanted = self.roles[len(found)].words()
+        cast = max(casts, key=len)
+        if len(cast) < len(self.roles):
+            wanted = self.roles[len(cast)].words()
             require(False, "premise", "because", f"expected {wanted}")
-        return self.say(*found)
+        return self.say(*cast)
 
     def _cast(self, cited: list[Premise], heard: bool) -> Iterator[Any]:
         """The premise for each role, up to the first role without a premise."""
@@ -232,15 +247,15 @@ SPECTRUM = Role(("closed_loop_spectrum",))
 SETPOINT = Role(("setpoint",), PLANT)
 
 
-def everywhere(found: Premise) -> bool:
+def everywhere(premise: Premise) -> bool:
     """Whether a certificate about a set of channels is about all of them."""
-    return bool(found["channels"] == found.system.names)
+    return bool(premise["channels"] == premise.system.names)
 
 
-def controls(found: Premise) -> bool:
+def controls(premise: Premise) -> bool:
     """Whether all channels together control the subject."""
-    found.expect(everywhere(found), "not about all channels together")
-    return bool(found["controllable"])
+    premise.expect(everywhere(premise), "not about all channels together")
+    return bool(premise["controllable"])
 
 
 # Titles, and remarks on what is not proved or was not decided; they claim nothing.
@@ -254,7 +269,7 @@ def plain(known: list[Premise]) -> System:
 
 
 @rule("heading page-heading information")
-def _given(known: list[Premise]) -> str:
+def _heading(known: list[Premise]) -> str:
     """The sizes of what the manifest is about, and the names of its channels."""
     plant = plain(known)
     p, q = sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)
@@ -281,12 +296,12 @@ def _inactive(known: list[Premise]) -> str:
 
 @rule("picture-neighbor-graph picture-heard")
 def _neighbors(known: list[Premise]) -> str:
-    """The edges of the neighbor graph: who receives messages from whom."""
+    """The edges of the neighbor graph: j → i if agent i receives messages from agent j."""
     plant = plain(known)
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
     sets, names = enumerate(plant.neighbors or []), plant.names
-    told = edge_set((names[j], names[i]) for i, N_i in sets for j in N_i if i != j)
-    return f"For {plant.words}: its neighbor graph has the edges {told}"
+    edges = edge_set((names[j], names[i]) for i, N_i in sets for j in N_i if i != j)
+    return f"For {plant.words}: its neighbor graph has the edges {edges}"
 
 
 # Fixed modes.
@@ -297,9 +312,9 @@ def followed(words: str) -> Callable[[Premise], str]:
     return lambda premise: f"{premise.statement}; {words}"
 
 
-def free(found: Premise) -> bool:
+def free(premise: Premise) -> bool:
     """Whether no mode is fixed."""
-    return not found["factors"]
+    return not premise["factors"]
 
 
 ANY_RATE = followed("every decay rate is reached by linear time-invariant control")
@@ -313,19 +328,19 @@ either("fixed-none latex-nothing-fixed", LISTED, FIXED, free)
 restate("fixed-modes", FIXED, lambda c: c["factors"], FIXED_DYNAMIC)
 
 
-def _blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
+def _blame(key: str, why: str, wanted: Callable[[int, int], bool]) -> None:
     """Enter the rule about the fixed modes whose sets have a wanted size, among m channels."""
 
     @rule(key, FIXED, theorem=PENCIL_MODES)
-    def _say(found: Premise) -> str:
-        texts, names = [], found.system.names
-        for factor in found.cited("claim", "factors"):
+    def _say(premise: Premise) -> str:
+        texts, names = [], premise.system.names
+        for factor in premise.cited("claim", "factors"):
             s, modes = factor["channels"], polynomial_text(factor["polynomial"])
             if wanted(len(s), len(names)):
                 sets = channel_set(name for name in names if name not in s), channel_set(s)
-                texts.append(f"the roots of {modes} are fixed, {told.format(*sets)}")
-        found.expect(bool(texts), "the claim is different")
-        return f"{found.about}: {'; '.join(texts)}"
+                texts.append(f"the roots of {modes} are fixed, {why.format(*sets)}")
+        premise.expect(bool(texts), "the claim is different")
+        return f"{premise.about}: {'; '.join(texts)}"
 
 
 _blame("fixed-mode", "not controlled by {} and not observed by {}", lambda size, m: 0 < size < m)
@@ -353,8 +368,8 @@ def _parts(spectrum: Premise, split: Premise) -> str:
     """Nothing is fixed, and strong components have parts of their own."""
     spectrum.expect(not spectrum["factors"], "a mode is fixed")
     blocks = [(b["dimension"], channel_set(b["channels"])) for b in split["blocks"]]
-    told = ", ".join(f"degree {size} by {names}" for size, names in blocks if size)
-    return f"{split.about}: the spectrum is assigned in parts: {told}"
+    parts = ", ".join(f"degree {size} by {names}" for size, names in blocks if size)
+    return f"{split.about}: the spectrum is assigned in parts: {parts}"
 
 
 def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
@@ -393,9 +408,9 @@ def _moved_exactly(spectrum: Premise, split: Premise) -> str:
 # Structure, a set of channels, one channel.
 
 
-def alone(found: Premise) -> bool:
+def alone(premise: Premise) -> bool:
     """Whether a certificate about a set of channels is about one."""
-    return len(found["channels"]) == 1
+    return len(premise["channels"]) == 1
 
 
 either("controllable", "uncontrollable", CONTROLLABLE, controls)
@@ -416,9 +431,9 @@ restate("subsystem-normal-rank subsystem-remnant", SUBSYSTEM, lambda c: True)
 either("subsystem-zeros", "subsystem-no-zeros", SUBSYSTEM, lambda c: c["invariant_polynomials"])
 
 
-def completeness(found: Premise) -> tuple[bool, bool]:
+def completeness(premise: Premise) -> tuple[bool, bool]:
     """Whether the transfer matrix is zero, and whether the rank drops below n anywhere."""
-    return found["transfer_zero"], len(found["remnant"]) > 1
+    return premise["transfer_zero"], len(premise["remnant"]) > 1
 
 
 restate("subsystem-complete", SUBSYSTEM, lambda c: completeness(c) == (False, False))
@@ -431,11 +446,11 @@ restate("subsystem-zero-and-drops", SUBSYSTEM, lambda c: completeness(c) == (Tru
 def _pencil(spectrum: Premise, ranks: list[Premise]) -> str:
     """The rank of one pencil at every root of the polynomial of A."""
     left, listed = polynomial(spectrum["polynomial"], spectrum.file), ranks[0]["subset"]
-    for found in ranks:
-        found.expect(found["subset"] == listed, "about another set of channels")
-        left = exponent(polynomial(found["polynomial"], found.file, 1), left)[1]
+    for premise in ranks:
+        premise.expect(premise["subset"] == listed, "about another set of channels")
+        left = exponent(polynomial(premise["polynomial"], premise.file, 1), left)[1]
     spectrum.expect(len(left) == 1, f"no rank is claimed at the roots of {polynomial_text(left)}")
-    least, s = min(found["rank"] for found in ranks), channel_set(listed)
+    least, s = min(premise["rank"] for premise in ranks), channel_set(listed)
     which = f"the pencil {PENCIL}, C the outputs of the channels {s} and B the inputs of the others"
     return f"{spectrum.about}: {which}, has rank {least} or more at every mode of A"
 
@@ -443,18 +458,18 @@ def _pencil(spectrum: Premise, ranks: list[Premise]) -> str:
 def gains(key: str, wanted: str, about: Callable[[Premise], bool]) -> None:
     """Enter the rules about gains for one channel, or for every channel."""
 
-    def asked(found: Premise) -> bool:
-        right = about(found) and found["property"] == wanted
-        found.expect(right, "another question was asked")
-        return bool(found["exists"])
+    def asked(premise: Premise) -> bool:
+        right = about(premise) and premise["property"] == wanted
+        premise.expect(right, "another question was asked")
+        return bool(premise["exists"])
 
     def lost(part: str, *sides: str) -> Holds:
         return lambda c: not asked(c) and part in c.witness and c.witness["side"] in sides
 
-    def reason(found: Premise) -> str:
-        p, q, side = (found.witness.get(part) for part in ("polynomial", "channel", "side"))
+    def reason(premise: Premise) -> str:
+        p, q, side = (premise.witness.get(part) for part in ("polynomial", "channel", "side"))
         why = f"the roots of {polynomial_text(p)} stay out of reach" if p else "it cannot spread"
-        return f"{found.statement}: not {side} through {json.dumps(q)}, for {why}"
+        return f"{premise.statement}: not {side} through {json.dumps(q)}, for {why}"
 
     restate(f"{key}-gains", GAINS, asked)
     restate(f"{key}-stuck", GAINS, lost("polynomial", *SIDES), words=reason)
@@ -481,27 +496,27 @@ def unreached(c: Premise, o: Premise) -> list[str]:
 
 
 @rule("setpoint", SETPOINT, CONTROLLABLE, OBSERVABLE, theorem=DAVISON)
-def _setpoint(found: Premise, c: Premise, o: Premise, *_: Premise) -> str:
+def _setpoint(premise: Premise, c: Premise, o: Premise, *_: Premise) -> str:
     """Integrators behind all outputs, and everything within reach."""
-    found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
+    premise.expect(premise["solvable"], "the rank of [A, B; C, 0] is not full")
     c.expect(controls(c) and controls(o), "not jointly controllable and observable")
-    return f"{found.about}: {HELD}"
+    return f"{premise.about}: {HELD}"
 
 
 @rule("setpoint-stable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=DAVISON)
-def _setpoint_beside(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
+def _setpoint_beside(premise: Premise, c: Premise, o: Premise, _: Premise) -> str:
     """Integrators behind all outputs, and what is out of reach is stable."""
-    found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
+    premise.expect(premise["solvable"], "the rank of [A, B; C, 0] is not full")
     c.expect(not unreached(c, o), "what is out of reach is not stable")
-    return f"{found.about}: {HELD}; every mode out of its reach is stable"
+    return f"{premise.about}: {HELD}; every mode out of its reach is stable"
 
 
 @rule("setpoint-unstable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=HAUTUS)
-def _setpoint_lost(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
+def _setpoint_lost(premise: Premise, c: Premise, o: Premise, _: Premise) -> str:
     """No loop is stable: a mode out of reach is not."""
     c.expect(bool(unreached(c, o)), "what is out of reach is stable")
     lost = f"out of reach are roots of {' and of '.join(unreached(c, o))}"
-    return f"{found.about}: no linear time-invariant loop is stable: {lost}"
+    return f"{premise.about}: no linear time-invariant loop is stable: {lost}"
 
 
 RANK_RULE = "setpoint.setpoint_rank"
@@ -528,7 +543,7 @@ for delayed in ("lifted", "held"):
 
 
 def enough(bound: Premise, *hypotheses: Premise) -> str:
-    """So many sub-states of every agent leave no mode fixed, by Theorem 2 or Remark 2."""
+    """No mode is fixed if every agent shares sub-states of this bound: Theorem 2 or Remark 2."""
     graph, c, o = hypotheses
     graph.expect(graph["strongly_connected"], "the neighbor graph is not strongly connected")
     c.expect(controls(c), "not jointly controllable")
@@ -566,8 +581,10 @@ def usual(least: Premise, share: str) -> bool:
 def _enter_least(share: str, key: str, some: str = "", none: str = "", never: str = "") -> None:
     """Enter the rules about the least dimensions for one way of sharing."""
 
-    def feasible(found: Premise, positive: bool) -> bool:
-        return usual(found, share) and found["feasible"] and any(found["dimensions"]) == positive
+    def feasible(premise: Premise, positive: bool) -> bool:
+        return (
+            usual(premise, share) and premise["feasible"] and any(premise["dimensions"]) == positive
+        )
 
     restate(f"{key} {some}", LEAST, partial(feasible, positive=True))
     restate(f"{key}-none {none}", LEAST, partial(feasible, positive=False))
@@ -584,9 +601,9 @@ either(ALLOCATED, "allocate-impossible", LEAST, lambda c: c["feasible"])
 def _enter_common(share: str, key: str, name: str) -> None:
     """Enter the rules about the least common dimension for one way of sharing."""
 
-    def asked(found: Premise) -> bool:
-        found.expect(found["share"] == share, "about the other way of sharing")
-        return bool(found["feasible"])
+    def asked(premise: Premise) -> bool:
+        premise.expect(premise["share"] == share, "about the other way of sharing")
+        return bool(premise["feasible"])
 
     key, common = f"common-dimension-{key}", Role(("common_dimension",), PLANT)
     restate(key, common, lambda c: asked(c) and c["dimension"], f"shared_dimensions.{name}")
@@ -626,7 +643,7 @@ def demands(least: Premise, agents: str, alone: bool = False) -> str:
     Of a mode those of none, some or all ``agents`` are meant, or those that are cut off; if
     ``alone``, only those of agents that receive messages from no other agent.
     """
-    system, told = least.system, []
+    system, lacking = least.system, []
     N = system.neighbors or [[i] for i in range(system.m)]
     sharing = f"sharing {SHARED[least['share']]} without delay"
     for cut in least.cited("witness", "cuts"):
@@ -641,9 +658,9 @@ def demands(least: Premise, agents: str, alone: bool = False) -> str:
             others = channel_set(system.names[j] for j in senders)
             lacks = f"{channel_set(cut['subset'])} receives from {others}"
             needed = f"at least {counted(cut.get('deficiency', 1), 'sub-state')} in all"
-            told.append(f"for {goal}, {sharing}, {lacks}, which must share {needed}: {why}")
-    least.expect(bool(told), "the evidence has no such cut")
-    return f"{least.about}: {'; '.join(told)}"
+            lacking.append(f"for {goal}, {sharing}, {lacks}, which must share {needed}: {why}")
+    least.expect(bool(lacking), "the evidence has no such cut")
+    return f"{least.about}: {'; '.join(lacking)}"
 
 
 rule("allocate-reason", LEAST)(partial(demands, agents="some"))

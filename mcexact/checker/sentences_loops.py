@@ -1,4 +1,14 @@
-"""Rules of sentences about loops and boxes."""
+"""Rules of sentences about loops and boxes.
+
+- Certified loops (``design``, ``certify``): where their eigenvalues lie, how many states the
+  controller has, which modes stay fixed, and that outputs tend to their set-points.  The controller
+  is a part of the subject, so that `controller` reads its programs from a certificate.
+- Plants near the plant of a loop whose own loop is not stable (`fails_near`): how far their entries
+  are from those of the plant is computed here, from both certificates.
+- Refusals (``refused-…``): the uncontrollable or unobservable modes, fixed modes, or set-points
+  without an equilibrium that make a request impossible.
+- Boxes and ranges of parameters (`of_plants`): sentences about all members.
+"""
 
 import json
 from fractions import Fraction
@@ -68,11 +78,11 @@ def controlled(loop: Premise) -> System:
 @rule("design-carrier design-carrier-for design-order design-order-integrators design-shared")
 def _sizes(known: list[Premise]) -> str:
     """How many states each agent has, shared and of its own."""
-    found, agents = controller(known)
+    loop, agents = controller(known)
     order = sum(agent["shared"] + agent["private"] for agent in agents)
     sizes = ((json.dumps(agent["name"]), agent["shared"], agent["private"]) for agent in agents)
-    told = "; ".join(f"{name}: {x} shared, {z} private" for name, x, z in sizes)
-    return f"{found.about}: the controller has {counted(order, 'state')} ({told})"
+    listed = "; ".join(f"{name}: {x} shared, {z} private" for name, x, z in sizes)
+    return f"{loop.about}: the controller has {counted(order, 'state')} ({listed})"
 
 
 @rule("design-observer-order")
@@ -87,13 +97,13 @@ def _observer_order(known: list[Premise]) -> str:
 @rule("design-longest-number")
 def _longest(known: list[Premise]) -> str:
     """The bits of the longest numerator or denominator in the controller."""
-    found, agents = controller(known)
+    loop, agents = controller(known)
     bits = [0]
     for program in (agent[label] for agent in agents for label in MAPS):
         numbers = [x for rows in signals(program).values() for row in rows for x in row]
         bits += [number.bit_length() for x in numbers for number in x.as_integer_ratio()]
     size = counted(max(bits), "bit")
-    return f"{found.about}: the longest numerator or denominator in the controller has {size}"
+    return f"{loop.about}: the longest numerator or denominator in the controller has {size}"
 
 
 def signals(program: Json) -> dict[tuple[str, str], list[list[Fraction]]]:
@@ -113,18 +123,18 @@ def entries(value: Json) -> list[list[Fraction]]:
 @rule("certify-states")
 def _states(known: list[Premise]) -> str:
     """The number of states of the loop."""
-    found, _ = controller(known)
-    return f"{found.about}: the loop has {counted(found.system.n, 'state')}"
+    loop, _ = controller(known)
+    return f"{loop.about}: the loop has {counted(loop.system.n, 'state')}"
 
 
 @rule("certify-decided certify-decided-blocks")
 def _decided(known: list[Premise]) -> str:
     """By which evidence it is decided where the eigenvalues of the loop lie."""
-    found, _ = controller([premise for premise in known if STABLE.fits(premise, False)] or known)
-    found.expect(found.kind == "stability", "expected a certificate of the kind stability")
-    blocks = [str(block["size"]) for block in found.witness.get("blocks", [])]
+    loop, _ = controller([premise for premise in known if STABLE.fits(premise, False)] or known)
+    loop.expect(loop.kind == "stability", "expected a certificate of the kind stability")
+    blocks = [str(block["size"]) for block in loop.witness.get("blocks", [])]
     sizes = f", blocks of {', '.join(blocks)} states" if blocks else ""
-    return f"{found.statement}, by the method {found.witness['method']}{sizes}"
+    return f"{loop.statement}, by the method {loop.witness['method']}{sizes}"
 
 
 # The loop.
@@ -135,8 +145,8 @@ def _is_stable(loop: Premise) -> bool:
     if loop.kind == "stability":
         return bool(loop["stable"])
     keys = ("polynomial",) if loop.kind == "closed_loop_spectrum" else ("feedback", "error")
-    found = [polynomial(loop[key], loop.file) for key in keys]
-    return all(in_stability_region(p, loop.system.time) for p in found)
+    polynomials = [polynomial(loop[key], loop.file) for key in keys]
+    return all(in_stability_region(p, loop.system.time) for p in polynomials)
 
 
 def decays(loop: Premise) -> str:
@@ -196,14 +206,14 @@ def integrates(system: System, i: int, agent: Json) -> bool:
     own = update.pop(("outputs", system.names[i]), [[Fraction(0)] * q] * k)
     reference = update.pop(("reference", ""), [[Fraction(0)] * q] * k)
     stay = update.pop(("private", ""), [[Fraction(0)] * k] * k)
-    found = set()
+    integrated = set()
     for z in range(k):
         kept = [int(system.time == "discrete" and j == z) for j in range(k)]
         alone = stay[z] == kept and not any(any(M[z]) for M in update.values())
         difference = own[z] == [-entry for entry in reference[z]]
         if alone and difference and sorted(own[z]) == [0] * (q - 1) + [1]:
-            found.add(own[z].index(Fraction(1)))
-    return found == set(range(q))
+            integrated.add(own[z].index(Fraction(1)))
+    return integrated == set(range(q))
 
 
 # A plant nearby whose loop fails.
@@ -217,22 +227,22 @@ def farthest(near: Premise, loop: Premise, *, of_radii: bool) -> Fraction:
     In radii of the plant of the loop, or else in absolute values of its entries.  Both plants have
     the same time, channels, neighbors and delays, and both loops the same controller.
     """
-    given, other = loop.plant, near.plant
-    for plant in (given, other):
+    own, other = loop.plant, near.plant
+    for plant in (own, other):
         near.expect(isinstance(plant, System), "a plant has parameters")
     parts = ("time", "names", "neighbors", "delays")
-    alike = all(getattr(given, part) == getattr(other, part) for part in parts)
+    alike = all(getattr(own, part) == getattr(other, part) for part in parts)
     near.expect(alike, "another time, or other channels, neighbors or delays")
     near.expect(same(near.document["subject"], loop.document["subject"]), "another loop")
-    values, others = ([each.A, *each.B, *each.C] for each in (given, other))
+    values, others = ([each.A, *each.B, *each.C] for each in (own, other))
     pairs = list(zip(values, others, strict=True))
     fits = all((M.nrows, M.ncols) == (N.nrows, N.ncols) for M, N in pairs)
     near.expect(fits, "matrices of other shapes")
-    units = read_radii(given.uncertainty, given.names, values) if of_radii else values
-    found = pairs_of(units, [absolute(N + M.times(-1)) for M, N in pairs])
-    near.expect(all(unit for moved, unit in found if moved), "an entry without a radius is moved")
-    budget.spend(budget.fractions(len(found), 2 * budget.limbs_of([x for p in found for x in p])))
-    return max((moved / unit for moved, unit in found if moved), default=Fraction(0))
+    units = read_radii(own.uncertainty, own.names, values) if of_radii else values
+    shifts = pairs_of(units, [absolute(N + M.times(-1)) for M, N in pairs])
+    near.expect(all(unit for moved, unit in shifts if moved), "an entry without a radius is moved")
+    budget.spend(budget.fractions(len(shifts), 2 * budget.limbs_of([x for p in shifts for x in p])))
+    return max((moved / unit for moved, unit in shifts if moved), default=Fraction(0))
 
 
 def fails_near(key: str, unit: str, *, of_radii: bool) -> None:
@@ -302,44 +312,46 @@ refuse("refused-sharing-in-vain-observe", NO_FIXED, "all")
 refuse("refused-no-connection", "transfer_graph.zero_transfer_cut", "cut off")
 
 
-def conditions(found: Premise) -> list[str]:
+def conditions(premise: Premise) -> list[str]:
     """The conditions on r = C x of an equilibrium, out of the left kernel of [A, B; C, 0]."""
-    left, n = found.witness["left"], found.system.n
+    left, n = premise.witness["left"], premise.system.n
     rows = [[Fraction(x, left["denominator"]) for x in row[n:]] for row in left["entries"]]
     return [f"({', '.join(map(str, row))}) r != 0" for row in rows if any(row)]
 
 
 @rule("refused-no-equilibrium", SETPOINT, theorem="setpoint.setpoint_unreachable")
-def no_equilibrium(found: Premise) -> str:
+def no_equilibrium(premise: Premise) -> str:
     """Some set-points have no equilibrium."""
-    lost = conditions(found)
-    found.expect(bool(lost), "no set-points are excluded")
-    return f"{found.about}: no equilibrium holds outputs r with {' or '.join(lost)}"
+    lost = conditions(premise)
+    premise.expect(bool(lost), "no set-points are excluded")
+    return f"{premise.about}: no equilibrium holds outputs r with {' or '.join(lost)}"
 
 
 @rule("refused-no-equilibrium-zero", SETPOINT, theorem="setpoint.setpoint_unreachable")
-def _no_equilibrium_zero(found: Premise) -> str:
+def _no_equilibrium_zero(premise: Premise) -> str:
     """Some set-points have no equilibrium, because of an invariant zero."""
-    found.expect(found["invariant_zero"] is True, "the defect is no invariant zero")
-    return f"{no_equilibrium(found)}; {int(found.system.time == 'discrete')} is an invariant zero"
+    premise.expect(premise["invariant_zero"] is True, "the defect is no invariant zero")
+    return (
+        f"{no_equilibrium(premise)}; {int(premise.system.time == 'discrete')} is an invariant zero"
+    )
 
 
 @rule("refused-mode-of-the-integrators", SETPOINT, theorem="setpoint.setpoint_output_part")
-def _mode_of_the_integrators(found: Premise) -> str:
+def _mode_of_the_integrators(premise: Premise) -> str:
     """A mode of the plant at the place of the integrators is not controlled."""
-    lost = not found["solvable"] and not conditions(found)
-    found.expect(lost, "every row of the evidence is about the outputs, or there is none")
-    place = int(found.system.time == "discrete")
-    return f"{found.about}: the mode {place} is not controlled by all channels together"
+    lost = not premise["solvable"] and not conditions(premise)
+    premise.expect(lost, "every row of the evidence is about the outputs, or there is none")
+    place = int(premise.system.time == "discrete")
+    return f"{premise.about}: the mode {place} is not controlled by all channels together"
 
 
 # What certificates about boxes imply: sentences about all members, or values in ranges.
 
 
-def all_modes(found: Premise) -> bool:
+def all_modes(premise: Premise) -> bool:
     """Whether all channels act on every mode."""
-    found.expect(everywhere(found), "not about all channels together")
-    return found["bound"] is None
+    premise.expect(everywhere(premise), "not about all channels together")
+    return premise["bound"] is None
 
 
 NOTHING = "boxes.regular_not_fixed"
@@ -382,13 +394,12 @@ def within(loops: Premise) -> str:
     plant, radii = loops.plant, loops["gain_radii"]
     nominal = [plant.A, *plant.B, *plant.C]
     spread = read_radii(plant.uncertainty, plant.names, nominal)
-    told = [f"in the plant by more than {least(pairs_of(nominal, spread))}"]
+    allowed = [f"in the plant by more than {least(pairs_of(nominal, spread))}"]
     if radii is not None:
         pairs = gain_pairs(loops.document["subject"][-1]["controller"], radii)
-        told.append(f"in the controller by more than {least(pairs)}")
-    return (
-        f"{loops.statement}; it holds if no entry changes {' and none '.join(told)} of its modulus"
-    )
+        allowed.append(f"in the controller by more than {least(pairs)}")
+    changes = " and none ".join(allowed)
+    return f"{loops.statement}; it holds if no entry changes {changes} of its modulus"
 
 
 restate("members-in-region", LOOPS, lambda c: True)

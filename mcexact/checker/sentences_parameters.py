@@ -1,4 +1,14 @@
-"""What certificates about a plant with a parameter imply, for all of its values."""
+"""Rules of sentences about all values of parameters.
+
+With one parameter a certificate names the polynomials at whose roots its claim differs, and values
+of which it claims nothing (``outside``).  A sentence that needs several certificates holds only for
+the values of which all of them speak: `concluded` repeats their claims and joins what they leave
+out.  Completeness, for example, needs the fixed modes and the rank of every entry of the transfer
+matrix.
+
+With several parameters a certificate is about a line in their space.  What holds at one of its
+points holds for almost all values, if it fails only where a polynomial vanishes (`almost`).
+"""
 
 from collections.abc import Callable
 from itertools import combinations, pairwise
@@ -21,7 +31,7 @@ DUAL_RANKS = Role(STEADY.kinds, (("dual",),), many=True)
 
 
 @rule("parametric-heading")
-def _given(known: list[Premise]) -> str:
+def _heading(known: list[Premise]) -> str:
     """The sizes of the plant, its parameter, and where an entry is undefined."""
     plant = known[0].meant
     known[0].expect(isinstance(plant, FunctionSystem), "the plant has no parameter")
@@ -30,9 +40,13 @@ def _given(known: list[Premise]) -> str:
             f"{name} between {ends_of(bounds)}" for name, bounds in plant.ranges.items()
         )
         return f"For {described(plant)}: its parameters are {ends}"
-    told = f"For {described(plant)}: its parameter is {plant.parameter}, between {ends_text(plant)}"
+    heading = (
+        f"For {described(plant)}: its parameter is {plant.parameter}, between {ends_text(plant)}"
+    )
     poles = dict.fromkeys(polynomial_text(q, plant.parameter) for q in plant.poles if len(q) > 1)
-    return f"{told}; an entry is undefined at the roots of {', '.join(poles)}" if poles else told
+    return (
+        f"{heading}; an entry is undefined at the roots of {', '.join(poles)}" if poles else heading
+    )
 
 
 # Modes: none for every value, none unless, some, some and others.
@@ -42,9 +56,9 @@ def of_modes(keys: str, role: Role, theorem: str, about: Callable[[Premise], boo
     """Enter four rules, by whether modes are lost for every value, and others at some."""
     for key, (whole, more) in zip(keys.split(), WAYS, strict=True):
 
-        def holds(found: Premise, whole: bool = whole, more: bool = more) -> bool:
-            found.expect(about(found), "about other channels")
-            return (bool(found["generic"]), bool(found["exceptional"])) == (whole, more)
+        def holds(premise: Premise, whole: bool = whole, more: bool = more) -> bool:
+            premise.expect(about(premise), "about other channels")
+            return (bool(premise["generic"]), bool(premise["exceptional"])) == (whole, more)
 
         restate(key, role, holds, theorem)
 
@@ -52,9 +66,9 @@ def of_modes(keys: str, role: Role, theorem: str, about: Callable[[Premise], boo
 WAYS = ((False, False), (False, True), (True, False), (True, True))
 
 
-def together(found: Premise) -> bool:
+def together(premise: Premise) -> bool:
     """Whether one channel is left, which has the ports of all."""
-    return bool(found.system.m == 1)
+    return bool(premise.system.m == 1)
 
 
 def ways(stem: str) -> str:
@@ -62,24 +76,24 @@ def ways(stem: str) -> str:
     return " ".join(f"parametric-{stem}-{way}" for way in ("always", "unless", "some", "more"))
 
 
-of_modes(ways("modes"), MODES, "", lambda found: True)
+of_modes(ways("modes"), MODES, "", lambda premise: True)
 of_modes(ways("controllable"), CONTROLLED, HAUTUS, together)
 of_modes(ways("observable"), OBSERVED, HAUTUS, together)
 of_modes(ways("channel-controllable"), ALONE, HAUTUS, together)
 of_modes(ways("channel-observable"), SEEN, HAUTUS, together)
-restate("parametric-nothing-fixed", MODES, lambda found: not found["generic"])
-restate("parametric-fixed", MODES, lambda found: found["generic"])
-restate("parametric-another", MODES, lambda found: found["exceptional"])
+restate("parametric-nothing-fixed", MODES, lambda premise: not premise["generic"])
+restate("parametric-fixed", MODES, lambda premise: premise["generic"])
+restate("parametric-another", MODES, lambda premise: premise["exceptional"])
 
 
 # What several certificates imply together: only for values of which each one speaks.
 
 
-def concluded(found: list[Premise], told: str) -> str:
+def concluded(premises: list[Premise], conclusion: str) -> str:
     """The claims of the certificates, and the conclusion for the values that all are about."""
-    outside = {str(entry["value"]): entry for each in found for entry in each["outside"]}
-    where = where_text({"outside": [*outside.values()]}, found[0].meant)
-    return "; ".join([*(each.statement for each in found), f"so {where}, {told}"])
+    outside = {str(entry["value"]): entry for each in premises for entry in each["outside"]}
+    where = where_text({"outside": [*outside.values()]}, premises[0].meant)
+    return "; ".join([*(each.statement for each in premises), f"so {where}, {conclusion}"])
 
 
 def except_at(values: list[Json], t: str) -> str:
@@ -93,17 +107,17 @@ def except_at(values: list[Json], t: str) -> str:
 Lost = dict[tuple[str, str], list[Json]]
 
 
-def edges(found: list[Premise]) -> Lost:
+def edges(premises: list[Premise]) -> Lost:
     """The edges for almost every value, each with the polynomials at whose roots it vanishes."""
     decided: Lost = {}
-    for each in found:
+    for each in premises:
         each.expect(each["matrix"]["name"] == "transfer", "not about the inputs of a channel")
         j, i = each["matrix"]["from"], each["matrix"]["to"]
         decided[j, i] = [value["value"] for value in each["exceptional"]]
-    names = found[0].system.names
+    names = premises[0].system.names
     missing = [(j, i) for j in names for i in names if (j, i) not in decided]
-    found[0].expect(not missing, f"nothing is said of the edges {edge_set(missing[:3])}")
-    ranks = {(e["matrix"]["from"], e["matrix"]["to"]): e["rank"] for e in found}
+    premises[0].expect(not missing, f"nothing is said of the edges {edge_set(missing[:3])}")
+    ranks = {(e["matrix"]["from"], e["matrix"]["to"]): e["rank"] for e in premises}
     return {edge: lost for edge, lost in decided.items() if ranks[edge]}
 
 
@@ -121,29 +135,31 @@ def connected(names: list[str], kept: list[tuple[str, str]]) -> bool:
 
 def _graph(keys: str, lost: bool) -> None:
     @rule(keys, RANKS)
-    def _say(found: list[Premise]) -> str:
+    def _say(premises: list[Premise]) -> str:
         """The edges for almost every value, and what is proved of each."""
-        kept = edges(found)
-        found[0].expect(any(kept.values()) == lost, "the claim is different")
+        kept = edges(premises)
+        premises[0].expect(any(kept.values()) == lost, "the claim is different")
         values = [*{str(q): q for gone in kept.values() for q in gone}.values()]
-        less = except_at(values, found[0].meant.parameter)
-        return concluded(found, f"the transfer graph has the edges {edge_set(kept)}{less}")
+        less = except_at(values, premises[0].meant.parameter)
+        return concluded(premises, f"the transfer graph has the edges {edge_set(kept)}{less}")
 
 
 _graph("parametric-graph-always", False)
 _graph("parametric-graph-lost", True)
 
 
-def require_apart(values: list[Json], found: Premise) -> None:
+def require_apart(values: list[Json], premise: Premise) -> None:
     """Stop if two polynomials have a common root, at which the edges of both would vanish."""
-    known = [reading.polynomial(q, found.file, 1) for q in values]
+    known = [reading.polynomial(q, premise.file, 1) for q in values]
     for p, q in combinations(known, 2):
-        found.expect(len(common_divisor(p, q)) == 1, "edges vanish at some roots of a value alone")
+        premise.expect(
+            len(common_divisor(p, q)) == 1, "edges vanish at some roots of a value alone"
+        )
 
 
-def complete(spectrum: Premise, found: list[Premise]) -> list[Json] | None:
+def complete(spectrum: Premise, premises: list[Premise]) -> list[Json] | None:
     """The polynomials at whose roots the plant is not complete; None if it is for no value."""
-    kept, names = edges(found), spectrum.system.names
+    kept, names = edges(premises), spectrum.system.names
     if spectrum["generic"] or not connected(names, list(kept)):
         return None
     where = [value["value"] for value in spectrum["exceptional"]]
@@ -156,13 +172,13 @@ def complete(spectrum: Premise, found: list[Premise]) -> list[Json] | None:
     return where
 
 
-def _complete(key: str, holds: Callable[[list[Json] | None], bool], told: str) -> None:
+def _complete(key: str, holds: Callable[[list[Json] | None], bool], conclusion: str) -> None:
     @rule(key, MODES, RANKS)
-    def _say(spectrum: Premise, found: list[Premise]) -> str:
+    def _say(spectrum: Premise, premises: list[Premise]) -> str:
         """No fixed mode and a strongly connected transfer graph."""
-        where, t = complete(spectrum, found), spectrum.meant.parameter
+        where, t = complete(spectrum, premises), spectrum.meant.parameter
         spectrum.expect(holds(where), "the claim is different")
-        return concluded([spectrum, *found], told + except_at(where or [], t))
+        return concluded([spectrum, *premises], conclusion + except_at(where or [], t))
 
 
 _complete("parametric-complete-always", lambda where: where == [], "it is complete")
@@ -174,47 +190,47 @@ _complete("parametric-complete-never", lambda where: where is None, "it is not c
 
 
 def _indices(stem: str, role: Role) -> None:
-    def said(found: list[Premise]) -> bool:
+    def changing(premises: list[Premise]) -> bool:
         """Whether the ranks of all numbers of blocks are known, and whether they change."""
-        n = found[0].system.n
-        found.sort(key=lambda each: int(each["matrix"].get("blocks", 0)))
-        for k, each in enumerate(found, 1):
+        n = premises[0].system.n
+        premises.sort(key=lambda each: int(each["matrix"].get("blocks", 0)))
+        for k, each in enumerate(premises, 1):
             matrix = each["matrix"]
             right = matrix["name"] == "controllability" and matrix["blocks"] == k
             each.expect(right, f"not about {k} blocks")
             each.expect(matrix["channels"] == each.system.names, "not about all channels")
-        last = [_ranks(each) for each in found[-2:]]
-        settled = len(found) >= n or (len(last) == 2 and last[0] == last[1])
-        found[0].expect(settled, "the ranks may grow with more blocks")
-        return any(each["exceptional"] for each in found)
+        last = [_ranks(each) for each in premises[-2:]]
+        settled = len(premises) >= n or (len(last) == 2 and last[0] == last[1])
+        premises[0].expect(settled, "the ranks may grow with more blocks")
+        return any(each["exceptional"] for each in premises)
 
     for way, lost in (("always", False), ("unless", True)):
 
         @rule(f"parametric-{stem}-indices-{way}", role)
-        def _say(found: list[Premise], lost: bool = lost) -> str:
+        def _say(premises: list[Premise], lost: bool = lost) -> str:
             """The ranks block by block, and the numbers of columns that each input adds to them."""
-            found[0].expect(said(found) == lost, "the claim is different")
-            ranks = [0, *(each["rank"] for each in found)]
+            premises[0].expect(changing(premises) == lost, "the claim is different")
+            ranks = [0, *(each["rank"] for each in premises)]
             growth = [b - a for a, b in pairwise(ranks)]
             indices = [sum(g > j for g in growth) for j in range(growth[0])]
-            listed = {str(e["value"]): e["value"] for each in found for e in each["exceptional"]}
-            less = except_at([*listed.values()], found[0].meant.parameter)
-            return concluded(found, f"the {stem} indices are {indices}{less}")
+            listed = {str(e["value"]): e["value"] for each in premises for e in each["exceptional"]}
+            less = except_at([*listed.values()], premises[0].meant.parameter)
+            return concluded(premises, f"the {stem} indices are {indices}{less}")
 
 
-def _ranks(found: Premise) -> Json:
-    listed = sorted([[str(c) for c in e["value"]], e["rank"]] for e in found["exceptional"])
-    return found["rank"], listed, sorted([str(c) for c in e["value"]] for e in found["outside"])
+def _ranks(premise: Premise) -> Json:
+    listed = sorted([[str(c) for c in e["value"]], e["rank"]] for e in premise["exceptional"])
+    return premise["rank"], listed, sorted([str(c) for c in e["value"]] for e in premise["outside"])
 
 
 _indices("controllability", RANKS)
 _indices("observability", DUAL_RANKS)
 
 
-def solvable(found: Premise) -> bool:
+def solvable(premise: Premise) -> bool:
     """Whether the rank is full for almost every value."""
-    found.expect(found["matrix"]["name"] == "setpoint", "not about equilibria")
-    return bool(found["rank"] == found.system.n + sum(M[0].nrows for M in found.system.C))
+    premise.expect(premise["matrix"]["name"] == "setpoint", "not about equilibria")
+    return bool(premise["rank"] == premise.system.n + sum(M[0].nrows for M in premise.system.C))
 
 
 ALWAYS, UNLESS, NEVER = (f"parametric-setpoint-{way}" for way in ("always", "unless", "never"))
@@ -239,35 +255,37 @@ LINES, LINE_RANKS = on_a_line(MODES), on_a_line(RANKS)
 RANK_ON_LINE = on_a_line(STEADY)
 
 
-def almost(found: list[Premise], told: str) -> str:
+def almost(premises: list[Premise], conclusion: str) -> str:
     """The claims about lines, and the conclusion for almost all values."""
-    parameters = ", ".join(found[0].meant.ranges)
-    every = f"so for almost all complex values of the parameters {parameters}, {told}"
-    return "; ".join([*(each.statement for each in found), every])
+    parameters = ", ".join(premises[0].meant.ranges)
+    every = f"so for almost all complex values of the parameters {parameters}, {conclusion}"
+    return "; ".join([*(each.statement for each in premises), every])
 
 
 def of_lines(stem: str, role: Role, theorem: str, about: Callable[[Premise], bool]) -> None:
     """Enter the rule that repeats what modes are on a line."""
 
-    def holds(found: Premise) -> bool:
-        found.expect(about(found), "about other channels")
+    def holds(premise: Premise) -> bool:
+        premise.expect(about(premise), "about other channels")
         return True
 
     restate(f"parametric-line-{stem}", on_a_line(role), holds, theorem)
 
 
-def almost_no_mode(key: str, role: Role, told: str, theorem: str = "") -> None:
+def almost_no_mode(key: str, role: Role, conclusion: str, theorem: str = "") -> None:
     """Enter the rule that nothing is lost for almost all values if nothing is at one point."""
 
     @rule(key, on_a_line(role), theorem=theorem)
-    def _say(found: Premise) -> str:
+    def _say(premise: Premise) -> str:
         """No mode at some point of a line."""
-        found.expect(not found["generic"], "the claim is different")
-        found.expect(key == "parametric-almost-nothing-fixed" or together(found), "other channels")
-        return almost([found], told)
+        premise.expect(not premise["generic"], "the claim is different")
+        premise.expect(
+            key == "parametric-almost-nothing-fixed" or together(premise), "other channels"
+        )
+        return almost([premise], conclusion)
 
 
-of_lines("modes", MODES, "", lambda found: True)
+of_lines("modes", MODES, "", lambda premise: True)
 of_lines("controllable", CONTROLLED, "", together)
 of_lines("observable", OBSERVED, "", together)
 of_lines("channel-controllable", ALONE, "", together)
@@ -287,7 +305,7 @@ almost_no_mode(
 
 def named(matrix: str) -> Holds:
     """Whether a certificate is about the rank of such a matrix."""
-    return lambda found: found["matrix"]["name"] == matrix
+    return lambda premise: premise["matrix"]["name"] == matrix
 
 
 restate("parametric-line-graph", RANK_ON_LINE, named("transfer"))
@@ -300,32 +318,32 @@ restate(
 )
 
 
-def some_edges(found: list[Premise]) -> list[tuple[str, str]]:
+def some_edges(premises: list[Premise]) -> list[tuple[str, str]]:
     """The edges that are proved at a point."""
-    for each in found:
+    for each in premises:
         each.expect(each["matrix"]["name"] == "transfer", "not about the inputs of a channel")
-    pairs = [(each["matrix"]["from"], each["matrix"]["to"]) for each in found if each["rank"]]
+    pairs = [(each["matrix"]["from"], each["matrix"]["to"]) for each in premises if each["rank"]]
     return [*dict.fromkeys(pairs)]
 
 
 @rule("parametric-almost-graph", LINE_RANKS)
-def _almost_edges(found: list[Premise]) -> str:
+def _almost_edges(premises: list[Premise]) -> str:
     """The edges that a point of a line has; others may be edges as well."""
-    edges_known = some_edges(found)
-    found[0].expect(bool(edges_known), "no edge is proved")
-    return almost(found, f"the transfer graph has the edges {edge_set(edges_known)}")
+    edges_known = some_edges(premises)
+    premises[0].expect(bool(edges_known), "no edge is proved")
+    return almost(premises, f"the transfer graph has the edges {edge_set(edges_known)}")
 
 
 @rule("parametric-almost-complete", LINES, LINE_RANKS)
-def _almost_complete(spectrum: Premise, found: list[Premise]) -> str:
+def _almost_complete(spectrum: Premise, premises: list[Premise]) -> str:
     """No mode is fixed at a point, and the edges of other points connect all channels."""
     spectrum.expect(not spectrum["generic"], "the claim is different")
-    spectrum.expect(connected(spectrum.meant.names, some_edges(found)), "the claim is different")
-    return almost([spectrum, *found], "it is complete")
+    spectrum.expect(connected(spectrum.meant.names, some_edges(premises)), "the claim is different")
+    return almost([spectrum, *premises], "it is complete")
 
 
 @rule("parametric-almost-setpoint", RANK_ON_LINE, theorem=RANK_RULE)
-def _almost_steady(found: Premise) -> str:
+def _almost_steady(premise: Premise) -> str:
     """Full rank at a point of a line."""
-    found.expect(solvable(found), "the claim is different")
-    return almost([found], "the rank is as large")
+    premise.expect(solvable(premise), "the claim is different")
+    return almost([premise], "the rank is as large")

@@ -23,7 +23,7 @@ from .system import FIXED, System, by_channel, canonical_json, edge_set
 # Branch trees of covering programs; ``proofs/shared_dimensions.md``.
 
 Upper = Sequence[int | None]
-"""The most that each variable can be; None where there is no limit."""
+"""The upper bound of each variable; None where there is no limit."""
 
 
 @dataclass(frozen=True)
@@ -248,7 +248,7 @@ def check_communication(claim: Json, witness: Json, system: System) -> None:
     make, step = extended, {"share": share, "dimensions": sizes}
     if sizes is None:
         make, step = augmented_outputs, {}
-    subject, found = make(system, step, "claim"), []
+    subject, needs = make(system, step, "claim"), []
     for place, entry in ((f"witness.cuts[{k}]", e) for k, e in enumerate(items(cuts, "cuts"))):
         factor, subspace = fields(entry, place, "polynomial", "subspace")
         p = reading.polynomial(factor, f"{place}.polynomial", 1)
@@ -259,7 +259,7 @@ def check_communication(claim: Json, witness: Json, system: System) -> None:
         rows = [carried(system, share, sizes, j) for j in range(system.m)]
         sends = [j for j, S in enumerate(rows) if any(not (S @ part).is_zero() for part in U)]
         spend(4 * len(ends) * (2 + len(sends) + len(T)))
-        found.append(({v for v, (j, i) in enumerate(ends) if j in sends and i not in T}, 1))
+        needs.append(({v for v, (j, i) in enumerate(ends) if j in sends and i not in T}, 1))
     value = modes.claimed_cost(claim, "added", absence)
     if value is not None:
         chosen = [link(e, "claim.added", system) for e in items(added, "claim.added")]
@@ -270,15 +270,15 @@ def check_communication(claim: Json, witness: Json, system: System) -> None:
         final = make(arcs(system, {"added": added}, "claim.added"), step, "claim")
         modes.require_absence(absence, final, bound)
     labels = [[system.names[j], system.names[i]] for j, i in ends]
-    Program(costs, found, "arc", labels, value).require_bound(tree, [1] * len(ends))
+    Program(costs, needs, "arc", labels, value).require_bound(tree, [1] * len(ends))
 
 
 def communication_statement(claim: Json, system: System) -> str:
     """Which links suffice, at which cost, and that nothing cheaper does."""
     share, added = claim["share"], claim["added"]
-    given = share if share == "outputs" else shared(system, share, claim["dimensions"])
+    signals = share if share == "outputs" else shared(system, share, claim["dimensions"])
     freedom = modes.no_fixed_mode(claim["bound"], system)
-    goal = f"{given} with neighbors, without delay, leaves {freedom}"
+    goal = f"{signals} with neighbors, without delay, leaves {freedom}"
     graph = "the graph without edges" if system.neighbors is None else "its neighbor graph"
     listed = f"the candidate links, with their costs, {edge_set(claim['candidates'])}"
     if not claim["feasible"]:
@@ -288,22 +288,22 @@ def communication_statement(claim: Json, system: System) -> str:
 
 
 def link(value: Json, place: str, system: System) -> tuple[int, int]:
-    """A link [from, to], as positions of channels."""
+    """Read a link [from, to] as a pair of positions of channels."""
     j, i = (names([end], place, system.names)[0] for end in items(value, place, 2))
     return j, i
 
 
 def candidates(value: Json, system: System) -> list[tuple[int, int, Fraction]]:
     """The candidate links, which the graph lacks, with their costs."""
-    place, N, found = "claim.candidates", neighbors_of(system, "claim"), []
+    place, N, links = "claim.candidates", neighbors_of(system, "claim"), []
     for *ends, price in (items(entry, place, 3) for entry in items(value, place)):
-        found.append((*link(ends, place, system), rational(price, place)))
-    keys = [(j, i) for j, i, _ in found]
+        links.append((*link(ends, place, system), rational(price, place)))
+    keys = [(j, i) for j, i, _ in links]
     spend(len(keys) * (100 + system.m))
     if keys != sorted(set(keys)) or any(j in N[i] for j, i in keys):
         malformed(place, "expected links that the graph lacks, sorted, none twice")
-    require(all(c > 0 for *_, c in found), "claim", place, "expected positive costs")
-    return found
+    require(all(c > 0 for *_, c in links), "claim", place, "expected positive costs")
+    return links
 
 
 def carried(system: System, share: str, sizes: Json, j: int) -> Matrix:

@@ -111,7 +111,7 @@ def check_controllability(claim: Json, witness: Json, system: System) -> None:
 
 
 def controllability_statement(claim: Json, system: System) -> str:
-    """How much of the state the channels control."""
+    """The statement: the dimension that the channels control, and the uncontrollable polynomial."""
     return (
         f"the channels {channel_set(claim['channels'])} together control a subspace of dimension "
         f"exactly {claim['dimension']}; it is {denied(claim['controllable'])}controllable through "
@@ -121,7 +121,7 @@ def controllability_statement(claim: Json, system: System) -> str:
 
 
 def _by_rank(system: System, T: list[int], number: Json) -> int:
-    """The dimension that the inputs of T reach modulo ℓ."""
+    """A lower bound for the dimension that T controls: a rank modulo ℓ."""
     return krylov_ranks(system, T, modulus(number, "witness.modulus"), system.n)[-1]
 
 
@@ -142,7 +142,7 @@ def _by_blocks(system: System, T: list[int], parts: Json, measured: Json) -> int
 
 
 def _picking(places: list[int], ncols: int) -> Matrix:
-    """The rows of the identity for these places."""
+    """The rows of the identity matrix at these positions, as a sparse matrix."""
     spend(100 * len(places))
     return SparseMatrix(len(places), ncols, [(k, place, 1) for k, place in enumerate(places)])
 
@@ -211,7 +211,7 @@ def check_controllability_indices(claim: Json, witness: Json, system: System) ->
 
 
 def controllability_indices_statement(claim: Json, system: System) -> str:
-    """The ranks, and the indices that follow from them."""
+    """The statement: the ranks block by block, and the indices that follow from them."""
     index = "none" if claim["index"] is None else claim["index"]
     return (
         "the ranks of [B, A B, ..., A^(k-1) B], B the inputs of the channels "
@@ -276,19 +276,19 @@ def check_complementary_subsystem(claim: Json, witness: Json, system: System) ->
         require(reached == least, "rank", "witness", f"rank {reached} modulo l, not {least}")
     require_reached(replace(system, A=A1.take(cols=range(a)), B=[B1]), 0, ell, a)
     remnant = reduce(poly_product, f[: max(len(f) - (k - n), 0)], [Fraction(1)])
-    given = polynomial(rest, "claim.remnant"), boolean(zero, "claim"), boolean(verdict, "claim")
+    claimed = polynomial(rest, "claim.remnant"), boolean(zero, "claim"), boolean(verdict, "claim")
     implied = remnant, k == n, k > n and len(remnant) == 1
-    require(given == implied, "claim", "claim", "does not follow from the invariant polynomials")
+    require(claimed == implied, "claim", "claim", "does not follow from the invariant polynomials")
 
 
 def complementary_subsystem_statement(claim: Json, system: System) -> str:
-    """The Smith form of the pencil, and what follows from it."""
-    found = ", ".join(map(polynomial_text, claim["invariant_polynomials"]))
+    """The statement: the Smith form of the pencil, and what follows from it."""
+    polynomials = ", ".join(map(polynomial_text, claim["invariant_polynomials"]))
     return (
         f"the pencil {PENCIL}, C the outputs of the channels {channel_set(claim['subset'])} and B "
         f"the inputs of the others, has normal rank {claim['normal_rank']}; its invariant "
-        f"polynomials of degree at least 1 are {found or 'none'}; the greatest common divisor of "
-        f"its minors of order {system.n}, the remnant polynomial, is "
+        f"polynomials of degree at least 1 are {polynomials or 'none'}; the greatest common "
+        f"divisor of its minors of order {system.n}, the remnant polynomial, is "
         f"{polynomial_text(claim['remnant'])}; C (xI - A)^-1 B is {denied(claim['transfer_zero'])}"
         f"zero; the complementary subsystem is {denied(claim['complete'])}complete"
     )
@@ -316,8 +316,8 @@ def check_exceptional_gains(claim: Json, witness: Json, system: System) -> None:
     M, B = matrix(rows, "claim.M", n, n), evidence.inputs(system, range(system.m))
     ell, parts = evidence.modulus(modulus, "witness.modulus"), (system.A, M, B, blocks)
     whole = reading.polynomial(p, "claim.polynomial")
-    found = roots.root_discs(discs, "claim.roots", whole)
-    roots.require_real_or_not(found, "claim.roots")
+    disjoint = roots.root_discs(discs, "claim.roots", whole)
+    roots.require_real_or_not(disjoint, "claim.roots")
     place = "witness.factors"
     factors = [_lost_at(entry, place, *parts) for entry in items(listed, place)]
     require(reduce(poly_product, factors, [Fraction(1)]) == whole, "product", "claim", "no product")
@@ -397,7 +397,7 @@ def check_neighbor_graph(claim: Json, witness: Json, system: System) -> None:
 
 
 def neighbor_graph_statement(claim: Json, system: System) -> str:
-    """Whether the neighbor graph is strongly connected."""
+    """The statement: whether the neighbor graph is strongly connected."""
     return f"its neighbor graph is {denied(claim['strongly_connected'])}strongly connected"
 
 
@@ -423,7 +423,7 @@ def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:
 # Kind ``transfer_graph``: which channels reach which; ``proofs/transfer_graph.md``.
 
 PAIRS = 100
-"""What a pair of channels costs where every pair is looked at."""
+"""The units for one pair of channels where a step looks at every pair."""
 
 
 def check_transfer_graph(claim: Json, witness: Json, system: System) -> None:
@@ -451,14 +451,14 @@ def check_transfer_graph(claim: Json, witness: Json, system: System) -> None:
     pair = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
     require(not missing, "arc", "witness.zeros", f"nothing proves that {pair!a} is not an edge")
     claimed = [names(p, "claim.components", system.names) for p in items(parts, "claim.components")]
-    found = components(system.m, arcs)
-    require(claimed == found, "claim", "claim.components", "these are not the strong components")
+    strong = components(system.m, arcs)
+    require(claimed == strong, "claim", "claim.components", "these are not the strong components")
     connected = boolean(verdict, "claim.strongly_connected")
-    require(connected == (len(found) <= 1), "claim", "claim.strongly_connected", "does not follow")
+    require(connected == (len(strong) <= 1), "claim", "claim.strongly_connected", "does not follow")
 
 
 def transfer_graph_statement(claim: Json, system: System) -> str:
-    """The edges, the strong components and whether there is one at most."""
+    """The statement: the edges, the strong components, and whether there is at most one."""
     return (
         "its transfer graph, in which j -> i means that C_i (xI - A)^-1 B_j is not zero, has "
         f"exactly the edges {edge_set(claim['arcs'])}, the strong components "
@@ -568,7 +568,7 @@ def check_setpoint(claim: Json, witness: Json, system: System) -> None:
 
 
 def setpoint_statement(claim: Json, system: System) -> str:
-    """Whether the rank is full, and else what follows from the defect."""
+    """The statement: whether the rank is full, and otherwise what follows from the defect."""
     shift, place = (" - I", 1) if system.time == "discrete" else ("", 0)
     which = f"[A{shift}, B; C, 0], B and C those of all channels, has rank exactly {claim['rank']}"
     rows = f"{which}, which is {denied(claim['solvable'])}its number of rows"
@@ -608,8 +608,8 @@ def check_single_channel_gains(claim: Json, witness: Json, system: System) -> No
         require_reached(replace(closed, B=[matrix(b, "witness.generator", n, 1)]), 0, ell, n)
     indices = [items(part, "claim.indices", k) for part in items(numbers, "claim", len(Q))]
     rows = [items(part, "witness.annihilators", k) for part in items(rows, "witness", len(Q))]
-    for q, found, part in zip(Q, indices, rows, strict=True):
-        for side, number, row in zip(sides, found, part, strict=True):
+    for q, pair, part in zip(Q, indices, rows, strict=True):
+        for side, number, row in zip(sides, pair, part, strict=True):
             target, nu = _seen(closed, side), integer(number, "claim.indices")
             require_reached(target, q, ell, nu)
             w = matrix(row, "witness.annihilators", 1, n)
@@ -621,7 +621,7 @@ def check_single_channel_gains(claim: Json, witness: Json, system: System) -> No
 
 
 def single_channel_gains_statement(claim: Json, system: System) -> str:
-    """What gains do for every channel named, or that none do."""
+    """The statement: through which channels some gains control or observe, or that none do."""
     wanted, listed = claim["property"], claim["channels"]
     sides = SIDES if wanted == "both" else (wanted,)
     goal = f"{' and '.join(f'{GAIN_PAIRS[side]} {side}' for side in sides)} for every q"

@@ -72,7 +72,7 @@ def number(value: Json, place: str, limits: Limits | None = None) -> Fraction | 
 
 
 def too_long(value: int, digits: int) -> bool:
-    """Whether an integer that is not negative has more than so many digits."""
+    """Whether an integer ≥ 0 has more than a number of digits."""
     return value.bit_length() > 3 * digits and value >= 10**digits
 
 
@@ -98,20 +98,20 @@ def read_matrix(
         rows = listed if plain else [_numbers(items(x, place, c), place, limits) for x in listed]
     if nrows not in (None, r) or ncols not in (None, c):
         malformed(place, f"expected another shape, found {r} by {c}")
-    given = [*chain(*rows), *cells.values()]
-    whole = set(map(type, given)) <= {int}
-    different = {1} if whole else {entry.denominator for entry in given}
+    numbers = [*chain(*rows), *cells.values()]
+    whole = set(map(type, numbers)) <= {int}
+    different = {1} if whole else {entry.denominator for entry in numbers}
     budget.spend(budget.fractions(len(different), sum(budget.limbs([d]) for d in different)))
     d = math.lcm(*different)
-    size = budget.limbs(given if whole else [entry.numerator for entry in given])
+    size = budget.limbs(numbers if whole else [entry.numerator for entry in numbers])
     size += budget.limbs([d])
     budget.build(r if rows else 1, c if rows else len(cells), size, size)
     if isinstance(value, dict):
         known = sorted(
             (i, j, e.numerator * (d // e.denominator)) for (i, j), e in cells.items() if e
         )
-        found = SparseMatrix(r, c, known, d)
-        return arithmetic.listed(found) or Matrix(found.rows, c, d)
+        sparse = SparseMatrix(r, c, known, d)
+        return arithmetic.listed(sparse) or Matrix(sparse.rows, c, d)
     if whole:
         return Matrix(rows, c)
     return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
@@ -144,10 +144,10 @@ def in_json(numerator: int, denominator: int) -> Json:
 
 def form_of(M: Matrix) -> Json:
     """The canonical form of a matrix: its rows, or the entries of a large one that is sparse."""
-    found = arithmetic.listed(M)
-    if found is None and (M.nrows or not M.ncols):
+    sparse = arithmetic.listed(M)
+    if sparse is None and (M.nrows or not M.ncols):
         return rows_of(M)
-    entries = [] if found is None else found.entries
+    entries = [] if sparse is None else sparse.entries
     budget.spend(budget.fractions(len(entries), M.limbs))
     triples = [[i, j, in_json(x, M.denominator)] for i, j, x in entries]
     return {"shape": [M.nrows, M.ncols], "entries": triples}
@@ -176,21 +176,21 @@ def radii_form(
     system file also a part of every entry, or the digits with which it is typed.
     """
     ways = WAYS if limits else WAYS[2:]
-    given = fields(value, "uncertainty", optional=ways)
+    choices = fields(value, "uncertainty", optional=ways)
     if len(value) != 1:
         expected = " or ".join(map(shown, ways))
         malformed("uncertainty", f"expected exactly one key, {expected}")
     if "absolute" in value:
-        found = _absolute(value["absolute"], names, nominal, limits)
+        radii = _absolute(value["absolute"], names, nominal, limits)
     elif "relative" in value:
-        part = Fraction(number(given[0], "uncertainty.relative", limits))
+        part = Fraction(number(choices[0], "uncertainty.relative", limits))
         if part < 0:
             malformed("uncertainty.relative", "expected a number from 0 on")
-        found = [_multiple(M, part) for M in nominal]
+        radii = [_multiple(M, part) for M in nominal]
     else:
-        string(given[1], "uncertainty.digits", "as typed")
-        found = [_half_units(part) for part in _matrices_of(typed)]
-    form = _form(found, names)
+        string(choices[1], "uncertainty.digits", "as typed")
+        radii = [_half_units(part) for part in _matrices_of(typed)]
+    form = _form(radii, names)
     if limits:
         _require_short(form, limits)
     return form
@@ -214,7 +214,7 @@ def read_radii(form: Json, names: list[str], nominal: list[Matrix]) -> list[Matr
 
 def pairs_of(nominal: list[Matrix], radii: list[Matrix]) -> list[Pair]:
     """The radius of each entry that is uncertain or not 0."""
-    found = list[Pair]()
+    pairs = list[Pair]()
     for M, D in zip(nominal, radii, strict=True):
         values = {(i, j): abs(x) for i, j, x in entries_of(M)}
         spread = {(i, j): radius for i, j, radius in entries_of(D)}
@@ -222,8 +222,8 @@ def pairs_of(nominal: list[Matrix], radii: list[Matrix]) -> list[Pair]:
         budget.spend(100 + 200 * len(places) + 4 * budget.fractions(len(places), longest))
         for place in places:
             radius = Fraction(spread.get(place, 0), D.denominator)
-            found.append((radius, Fraction(values.get(place, 0), M.denominator)))
-    return found
+            pairs.append((radius, Fraction(values.get(place, 0), M.denominator)))
+    return pairs
 
 
 def radii_in_words(pairs: list[Pair], whose: str) -> str:
@@ -251,19 +251,19 @@ def radii_in_words(pairs: list[Pair], whose: str) -> str:
 def _absolute(
     value: Json, names: list[str], nominal: list[Matrix], limits: Limits | None
 ) -> list[Matrix]:
-    """The matrices of radii that are given, and zeros for those that are left out."""
+    """The matrices of radii, with zeros for those that the document leaves out."""
     place = "uncertainty.absolute"
     A, *ports = fields(value, place, optional=("A", "B", "C"))
-    given, places = [A], [f"{place}.A"]
+    forms, places = [A], [f"{place}.A"]
     for key, port in zip("BC", ports, strict=True):
         where = f"{place}.{key}"
-        given += fields({} if port is None else port, where, optional=tuple(names))
+        forms += fields({} if port is None else port, where, optional=tuple(names))
         places += [where] * len(names)
     return [
         Matrix.zeros(M.nrows, M.ncols)
         if part is None
         else _positive(read_matrix(part, where, M.nrows, M.ncols, limits), where)
-        for part, where, M in zip(given, places, nominal, strict=True)
+        for part, where, M in zip(forms, places, nominal, strict=True)
     ]
 
 
@@ -275,7 +275,7 @@ def _positive(M: Matrix, place: str) -> Matrix:
 
 
 def _multiple(M: Matrix, part: Fraction) -> Matrix:
-    """So many times the absolute value of every entry."""
+    """The matrix of ``part`` times the absolute value of each entry."""
     entries, p, q = entries_of(M), part.numerator, part.denominator
     a, b = M.limbs, budget.limbs_of([part])
     budget.spend(100 * len(entries) + budget.products(len(entries) + 1, a, b))
@@ -319,8 +319,8 @@ def _form(radii: list[Matrix], names: list[str]) -> Json:
     parts: dict[str, Json] = {"A": forms[0]}
     for key, port in (("B", B), ("C", C)):
         parts[key] = {name: form for name, form in zip(names, port, strict=True) if form}
-    found = {key: part for key, part in parts.items() if part}
-    return {"absolute": found} if found else None
+    nonzero = {key: part for key, part in parts.items() if part}
+    return {"absolute": nonzero} if nonzero else None
 
 
 # The plant, read from a certificate or from a system file, and its digest.
@@ -398,9 +398,9 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
     return plant if heard is None and waits is None else _with_graph(plant, heard, waits)
 
 
-def _check_unused(plant: System, given: list[Json], limits: Limits) -> None:
+def _check_unused(plant: System, unused: list[Json], limits: Limits) -> None:
     """Read the parts of a system file on which no claim depends: they are not in the digest."""
-    name, source, sample_time, D = given
+    name, source, sample_time, D = unused
     for key, text in (("name", name), ("source", source)):
         printable("" if text is None else text, key, 10_000, allowed="\n\t")
     period = None if sample_time is None else number(sample_time, "sample_time", limits)
@@ -420,10 +420,10 @@ def _with_graph(plant: System, heard: Json, waits: Json) -> System:
     sets = []
     for i, row in enumerate(fields(heard, "neighbors", optional=known)):
         listed = [] if row is None else items(row, "neighbors")
-        found = [plant.place_of(name, "neighbors") for name in listed]
-        if len(set(found)) < len(found):
+        senders = [plant.place_of(name, "neighbors") for name in listed]
+        if len(set(senders)) < len(senders):
             malformed("neighbors", f"{shown(known[i])} lists a neighbor twice")
-        sets.append(sorted({i, *found}))
+        sets.append(sorted({i, *senders}))
     delays = {}
     for i, row in enumerate(fields({} if waits is None else waits, "delays", optional=known)):
         for _, j, steps in reading.by_name(row, "delays", known):
@@ -595,8 +595,8 @@ class Described(Protocol):
 def described(system: Described) -> str:
     """The system a claim is about: what it was made from, its states, its channels, its time."""
     channels = f"channels {channel_set(system.names)}" if system.m else "no channels"
-    told = f"{counted(system.n, 'state')}, {system.ports or channels}, {system.time} time"
-    return f"{system.words} ({told})"
+    sizes = f"{counted(system.n, 'state')}, {system.ports or channels}, {system.time} time"
+    return f"{system.words} ({sizes})"
 
 
 # Controllers in canonical form, from a certificate or a controller file, and their digest.
@@ -629,11 +629,11 @@ def read_controller(
     for i, (*_, shared_update, private_update, control, hold) in enumerate(agents):
         steps = {name: integer(d, place) for name, _, d in reading.by_name(hold, place, known)}
         program: dict[str, Json] = {"hold": {name: d for name, d in steps.items() if d}}
-        given = (shared_update, x[i]), (private_update, z[i]), (control, p[i])
-        for label, (parts, nrows) in zip(MAPS, given, strict=True):
+        updates = (shared_update, x[i]), (private_update, z[i]), (control, p[i])
+        for label, (parts, nrows) in zip(MAPS, updates, strict=True):
             where = f"{place}.{label}"
             *by_agent, private, reference = fields(parts, where, optional=USED)
-            found: dict[str, Json] = {}
+            maps: dict[str, Json] = {}
             read: list[Matrix] = []
             for key, entries, widths in zip(USED, by_agent, (q, x), strict=False):
                 used = [
@@ -641,14 +641,14 @@ def read_controller(
                     for name, j, M in reading.by_name(entries, where, known)
                 ]
                 read += [M for _, M in used]
-                found[key] = {name: M for name, M in used if not M.is_zero()}
+                maps[key] = {name: M for name, M in used if not M.is_zero()}
             for key, entry, width in (("private", private, z[i]), ("reference", reference, q[i])):
                 if entry is not None:
                     read.append(read_matrix(entry, where, nrows, width, limits))
-                    found[key] = None if read[-1].is_zero() else read[-1]
+                    maps[key] = None if read[-1].is_zero() else read[-1]
             if len({M.nrows for M in read}) > 1:
                 malformed(where, "expected matrices of one number of rows")
-            program[label] = {key: part for key, part in found.items() if part}
+            program[label] = {key: part for key, part in maps.items() if part}
         kept = {key: part for key, part in program.items() if part}
         programs.append({"name": known[i], "shared": x[i], "private": z[i], **kept})
     return {"time": string(time, place, "continuous", "discrete"), "agents": programs}
@@ -662,6 +662,6 @@ def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:
         version, plant, *parts = fields(document, "controller", *keys)
         if version != FORMAT:
             malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
-        given = dict(zip(("time", "agents"), parts, strict=True))
-        controller = read_controller(given, "controller", limits=limits)
+        loop = dict(zip(("time", "agents"), parts, strict=True))
+        controller = read_controller(loop, "controller", limits=limits)
         return digest_of(canonical_json(controller)), string(plant, "system")

@@ -23,7 +23,7 @@ HARMLESS: dict[str, str] = {
     ),
     "boxes.py: check_box_fixed: number is not None and integer(number, where) >= len(pencils)": RAISES,
     "boxes.py: check_box_stable: growth is None": UNREAD,
-    "boxes.py: check_box_stable: integer(number, where) >= len(found)": RAISES,
+    "boxes.py: check_box_stable: integer(number, where) >= len(regular)": RAISES,
     "boxes.py: segments_of: all((a < b for a, b in pairwise(points)))": (
         "a way along the border that also goes back leaves no gap before the last point"
     ),
@@ -83,22 +83,22 @@ HARMLESS: dict[str, str] = {
     ),
     "system.py: read_controller_file: version != FORMAT": USERS,
     "kinds.py: saying: not line or not text.isascii() or len(text.splitlines()) != 1": USERS,
-    "kinds.py: saying: line[1] not in (None, found)": USERS,
+    "kinds.py: saying: line[1] not in (None, digest)": USERS,
     "kinds.py: _claiming: 'claim' not in value": USERS,
     "kinds.py: _claiming: not isinstance(claim, dict)": USERS,
     "kinds.py: named: not DIGEST.fullmatch(value)": USERS,
-    "kinds.py: _require_system: self.system in ('', found, values)": USERS,
+    "kinds.py: _require_system: self.system in ('', digest, values)": USERS,
     "kinds.py: require_plant: ranged or self.made_for in ('', values)": USERS,
-    "kinds.py: require_subject: bool(found)": USERS,
-    "kinds.py: require_subject: found == self.controller": USERS,
+    "kinds.py: require_subject: bool(digest)": USERS,
+    "kinds.py: require_subject: digest == self.controller": USERS,
     "kinds.py: require_subject: same(steps, expected)": USERS,
-    "kinds.py: require_said: self.kind in ('', kind)": USERS,
-    "kinds.py: require_said: self.statement in ('', digest_of(statement))": USERS,
-    "kinds.py: require_said: self.claim is None or same(claim, self.claim)": USERS,
+    "kinds.py: require_statement: self.kind in ('', kind)": USERS,
+    "kinds.py: require_statement: self.statement in ('', digest_of(statement))": USERS,
+    "kinds.py: require_statement: self.claim is None or same(claim, self.claim)": USERS,
     "system.py: _check_unused: period is not None and (period <= 0 or plant.time != 'discrete')": USERS,
     "system.py: _require_no_feedthrough: D is not None and (not read_matrix(D, place, None, None, limits).is_zero())": USERS,
     "system.py: read_system_file: not isinstance(document, dict) or document.get('format') != 'mcexact-system/1'": USERS,
-    "discs.py: discs_of_gains: not found": RAISES,
+    "discs.py: discs_of_gains: not lists": RAISES,
     "discs.py: loop_pencil: gain_radii is None": (
         "the statement says of which controller the gains differ, and is refused if there is none"
     ),
@@ -129,7 +129,7 @@ HARMLESS: dict[str, str] = {
     "loops.py: check_stability: block.stop <= M.nrows": RAISES,
     "constructions.py: read_subject: not isinstance(step, dict) or type(step.get('construction')) is not str": RAISES,
     "system.py: read_matrix: integer(i, place) >= r or integer(j, place) >= c or (i, j) in cells": LARGE,
-    "system.py: _with_graph: len(set(found)) < len(found)": CANONICAL,
+    "system.py: _with_graph: len(set(senders)) < len(senders)": CANONICAL,
     "structure.py: read_arcs: type(end) is not str or end not in known": RAISES,
     "structure.py: require_arcs: k < system.n": (
         "a power beyond n shows an edge as well; the condition bounds the work"
