@@ -6,6 +6,9 @@ word-size primes where this suffices for a proof, and arithmetic over Q for the 
 certificates.  Floating point only proposes what is then verified exactly: integer solutions of
 covering programs, Lyapunov matrices, and proofs about boxes.
 
+Functions import numpy, scipy and networkx where they use them: most questions about one system need
+none of these, and would wait for them up to half a second.
+
 =================  ============================================================================
 `covering`         covering integer programs with a proof of optimality
 `lyapunov`         Lyapunov matrices and quadratic forms

@@ -107,8 +107,8 @@ def _starts(
     system: MultiChannelSystem, ell: int, rng: random.Random, through: str | None
 ) -> list[Start]:
     """Channels with inputs and outputs, with a combination of each; no two alike."""
-    live = (system.active if through is None else (system.index(through),)) or (0,)
-    chosen = rng.sample(live, min(STARTS, len(live)))
+    acting = (system.active if through is None else (system.index(through),)) or (0,)
+    chosen = rng.sample(acting, min(STARTS, len(acting)))
     starts: list[Start] = []
     for k in range(STARTS):
         q = chosen[k % len(chosen)]
@@ -392,14 +392,14 @@ def measured_system(
     controlled through that first channel.
     """
     driven = [_driven(system.B(i)) for i in T]
-    live = [k for k, states in enumerate(driven) if states]
+    acting = [k for k, states in enumerate(driven) if states]
     chosen: list[set[int]] = [set() for _ in T]
     states = list(range(system.n))
     random.Random(system.n).shuffle(states)
-    for share, (before, k) in enumerate(pairwise(live)):
-        chosen[k] = {*driven[k], driven[before][0], *states[share :: len(live) - 1]}
-    if live:
-        chosen[live[0]] = set(range(system.n))
+    for share, (before, k) in enumerate(pairwise(acting)):
+        chosen[k] = {*driven[k], driven[before][0], *states[share :: len(acting) - 1]}
+    if acting:
+        chosen[acting[0]] = set(range(system.n))
     measured = tuple(tuple(sorted(states)) for states in chosen)
     part = MultiChannelSystem(
         system.A,

@@ -80,7 +80,7 @@ class CoveringProgram:
         """A value of a variable beyond which no cut needs more."""
         return max((cut.demand for cut in self.cuts), default=0)
 
-    def stuck(self, what: str) -> McexactError:
+    def unsolved(self, what: str) -> McexactError:
         """The error to raise if the floating-point search did not lead to a proof."""
         if max(self.costs) > _SAFE_RATIO * min(self.costs):
             return LimitReached(
@@ -158,7 +158,7 @@ def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, 
             objective = [1.0 if i == variable else 0.0 for i in range(len(program.costs))]
             values = _integer_optimum(program, objective, fixed, at_most=best)
             if program.cost(values) != best:
-                raise program.stuck("a tie of a covering program was broken at another cost")
+                raise program.unsolved("a tie of a covering program was broken at another cost")
         fixed.append(values[variable])
     return values
 
@@ -195,7 +195,7 @@ def _integer_optimum(
         options={"mip_rel_gap": 0.0},
     )
     if optimum.x is None:
-        raise program.stuck(f"the integer program could not be solved: {optimum.message}")
+        raise program.unsolved(f"the integer program could not be solved: {optimum.message}")
     values = tuple(round(float(x)) for x in optimum.x)
     if not all(sum(values[i] for i in cut.support) >= cut.demand for cut in program.cuts):
         raise InternalError("the integer program's answer does not satisfy its own cuts")
@@ -282,7 +282,7 @@ def _node(
     widths = [0 if u is None else u - l for l, u in zip(lower, upper, strict=True)]
     widest = max(range(len(widths)), key=widths.__getitem__)
     if not widths[widest]:
-        raise program.stuck("the relaxation is integral but cheaper than the optimum")
+        raise program.unsolved("the relaxation is integral but cheaper than the optimum")
     return {"variable": widest, "at_most": lower[widest] + (widths[widest] - 1) // 2}
 
 
@@ -325,7 +325,7 @@ def _relaxation(
         method="highs-ds",
     )
     if optimum.x is None:
-        raise program.stuck(f"the linear relaxation could not be solved: {optimum.message}")
+        raise program.unsolved(f"the linear relaxation could not be solved: {optimum.message}")
     return np.asarray(optimum.x), -np.asarray(optimum.ineqlin.marginals)
 
 

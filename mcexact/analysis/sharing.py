@@ -430,10 +430,10 @@ def deficiency(system: MultiChannelSystem) -> Deficiency:
 
     Notes
     -----
-    Exact.  ρ is the largest dimension of a kernel of λI − A_F for gains F that make each of them
-    least.  From above: A_F + B_0 C_0 with ρ columns and rows has no eigenvalue of A.  From below: a
-    shrunk subspace of deficiency ρ.  For large systems the fixed spectrum proves both where its
-    evidence is by blocks.
+    Exact.  ρ is the largest dimension of a null space of λI − A_F for gains F that make each of
+    them least.  From above: A_F + B_0 C_0 with ρ columns and rows has no eigenvalue of A.  From
+    below: a shrunk subspace of deficiency ρ.  For large systems the fixed spectrum proves both
+    where its evidence is by blocks.
 
     Examples
     --------

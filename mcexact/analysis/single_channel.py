@@ -129,14 +129,16 @@ def _indices(
     """Controllability and observability indices modulo ℓ, or None if one does not exist."""
     controllable, observable = [], []
     for q in channels:
-        reached = reach_index(M, modular.B.take(cols=list(modular.inputs[q])), bound)
-        if reached is None:
+        controllability_index = reach_index(M, modular.B.take(cols=list(modular.inputs[q])), bound)
+        if controllability_index is None:
             return None
-        seen = reach_index(M.T, modular.C.take(rows=list(modular.outputs[q])).T, M.nrows)
-        if seen is None:
+        observability_index = reach_index(
+            M.T, modular.C.take(rows=list(modular.outputs[q])).T, M.nrows
+        )
+        if observability_index is None:
             return None
-        controllable.append(reached)
-        observable.append(seen)
+        controllable.append(controllability_index)
+        observable.append(observability_index)
     return tuple(controllable), tuple(observable)
 
 

@@ -90,9 +90,9 @@ def exact_primes(system: MultiChannelSystem, rng: random.Random) -> Iterator[int
     for i, _, _ in system.A.nonzero():
         rows[i] += 1
     for channel in system.channels:
-        seen = sum(1 for _ in channel.C.nonzero())
+        outputs = sum(1 for _ in channel.C.nonzero())
         for i in {i for i, _, _ in channel.B.nonzero()}:
-            rows[i] += seen
+            rows[i] += outputs
     bits = largest_prime(system.n, max(rows, default=0)).bit_length() - 1
     for ell in primes(rng.getrandbits(64), bits):
         if all(d % ell for d in denominators):

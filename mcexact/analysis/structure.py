@@ -152,7 +152,7 @@ def strong_components(m: int, edges: Sequence[Edge]) -> tuple[tuple[int, ...], .
     >>> strong_components(3, [(0, 1), (1, 0), (1, 2)])
     ((0, 1), (2,))
     """
-    import networkx  # a fifth of a second, which most questions about one system save
+    import networkx
 
     graph = networkx.DiGraph()
     graph.add_nodes_from(range(m))

@@ -161,11 +161,11 @@ def _wong_sequence(
     m = modular.system.m
     # The output row of channel i by which the sequence reached i; None: not reached.
     reached: list[int | None] = [None] * m
-    seen = (modular.C @ echelon.null_space).rows()
+    outputs = (modular.C @ echelon.null_space).rows()
     level = []
     for i in range(m):
         for r in modular.outputs[i]:
-            if any(seen[r]):
+            if any(outputs[r]):
                 reached[i] = r - modular.outputs[i].start
                 level.append(i)
                 break

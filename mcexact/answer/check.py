@@ -41,7 +41,7 @@ from mcexact.derived.constructions import (
     lifted_system,
     looped,
     merged,
-    moved,
+    rearranged,
     restricted,
     setpoint_system,
 )
@@ -446,7 +446,7 @@ def constructed(system: Any, subject: Sequence[Mapping[str, Any]]) -> Any:
             step, *subject = subject
             system = along_line(system, step["point"], step["direction"], step["parameter"])
         loop = [each["construction"] for each in subject[-1:]] == ["closed_loop"]
-        apply = looped if loop else moved
+        apply = looped if loop else rearranged
         return apply(system, lambda plain: constructed(plain, subject)) if subject else system
     for construction in subject:
         system = _CONSTRUCTIONS[construction["construction"]](system, construction)

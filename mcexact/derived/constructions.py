@@ -15,8 +15,9 @@ docstrings.
 - `setpoint_system`: an integrator for every output.
 - `error_system`: the estimation errors of the distributed observer.
 
-For a system with parameters, `moved` applies those constructions whose entries are entries of the
-plant, 0 or 1 (`MOVING`); `along_line` puts the parameters on a line; `looped` closes a loop.
+For a system with parameters, `rearranged` applies those constructions whose entries are entries of
+the plant, 0 or 1 (`REARRANGING`); `along_line` puts the parameters on a line; `looped` closes a
+loop.
 Delays in a file may be large, so systems with shared sub-states have at most 20,000 states.
 """
 
@@ -447,7 +448,7 @@ def augmented_outputs(
 
 # Systems with parameters: constructions that only rearrange entries, and lines.
 
-MOVING = frozenset(
+REARRANGING = frozenset(
     {
         "arcs",
         "augmented_outputs",
@@ -498,7 +499,7 @@ class DerivedParametricSystem(ParametricSystem):
         return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
 
 
-def moved(
+def rearranged(
     system: ParametricSystem, construct: Callable[[MultiChannelSystem], MultiChannelSystem]
 ) -> ParametricSystem:
     """Apply constructions that only rearrange entries to a system with parameters.
@@ -508,7 +509,7 @@ def moved(
     system : ParametricSystem
         It has the neighbor graph without edges.
     construct : function of a MultiChannelSystem
-        Applies constructions, all of `MOVING`.
+        Applies constructions, all of `REARRANGING`.
 
     Returns
     -------
@@ -530,8 +531,8 @@ def moved(
     --------
     >>> from mcexact.derived.constructions import dual
     >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, "t^2"]]], parameters=["t"])
-    >>> found = moved(plant, dual)
-    >>> print(found.A[1, 0], "|", found.channels[0].B[1, 0], "|", found.subject)
+    >>> turned = rearranged(plant, dual)
+    >>> print(turned.A[1, 0], "|", turned.channels[0].B[1, 0], "|", turned.subject)
     t | t^2 | ({'construction': 'dual'},)
     """
     zero, one = (RationalFunction.constant(k, system.parameters) for k in (0, 1))
@@ -554,7 +555,7 @@ def moved(
     )
     made = construct(start)
     for step in made.subject:
-        if step["construction"] not in MOVING:
+        if step["construction"] not in REARRANGING:
             raise UsageError(f"{step['construction']} does not apply to systems with parameters")
     result = object.__new__(DerivedParametricSystem)
     ParametricSystem.__init__(
@@ -843,7 +844,7 @@ def extended_system(
     """
     if isinstance(system, ParametricSystem):
         links = () if graph is None else graph.edges()
-        return moved(
+        return rearranged(
             system,
             lambda bare: extended_system(
                 add_links(bare, links) if links else bare, dimensions, share

@@ -109,7 +109,7 @@ def test_checker_package_and_oracle_make_the_same(number: int) -> None:
 
 def test_every_construction_that_moves_entries_is_examined() -> None:
     assert {step["construction"] for steps in SEVERAL.values() for step in steps} == set(MOVING)
-    assert constructions.MOVING == set(MOVING)
+    assert constructions.REARRANGING == set(MOVING)
 
 
 OTHERS: dict[str, Any] = {
@@ -254,11 +254,11 @@ def test_the_package_refuses_them_as_well(
 def test_there_is_one_line_before_all_other_constructions() -> None:
     with pytest.raises(UsageError, match="on a line already"):
         along_line(LINE, {"s": 1}, {"s": 1}, "r")
-    turned = constructions.moved(TWO, dual)
+    turned = constructions.rearranged(TWO, dual)
     line = along_line(turned, {"a": 1, "b": 0}, {"a": "1/2", "b": -1})
     assert [step["construction"] for step in line.subject] == ["line", "dual"]
-    assert line.A == constructions.moved(LINE, dual).A
-    alone = constructions.moved(TWO, lambda plain: restricted(plain, ["1"]))
+    assert line.A == constructions.rearranged(LINE, dual).A
+    alone = constructions.rearranged(TWO, lambda plain: restricted(plain, ["1"]))
     with pytest.raises(InputError, match="undefined there"):
         along_line(alone, {"a": 1, "b": 0}, {"a": 0, "b": 1})
 
@@ -303,4 +303,4 @@ def test_a_certificate_is_about_what_was_constructed() -> None:
     for steps in (found["subject"][:1], [], found["subject"][::-1]):
         assert checked({**found, "subject": steps}).verdict in ("INVALID", "MALFORMED")
     with pytest.raises(UsageError, match="feedback does not apply"):
-        constructions.moved(plant, lambda bare: feedback(bare, [[[1, 1]], [[1]], [[1]]]))
+        constructions.rearranged(plant, lambda bare: feedback(bare, [[[1, 1]], [[1]], [[1]]]))

@@ -207,7 +207,7 @@ def test_what_is_not_implied_is_refused_with_its_reason(name: str, tmp_path: Pat
 def test_channels_that_are_merged_in_part_do_not_stand_for_all(tmp_path: Path) -> None:
     from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
     from mcexact.answer.protocol import document
-    from mcexact.derived.constructions import full_output, merged, moved
+    from mcexact.derived.constructions import full_output, merged, rearranged
 
     plant = ParametricSystem(
         [[1, "t"], [0, 2]], [[[0], [1]], [[1], [0]], [[0], [0]]], [[[1, 0]]] * 3, parameters=["t"]
@@ -216,7 +216,7 @@ def test_channels_that_are_merged_in_part_do_not_stand_for_all(tmp_path: Path) -
     def part(plain: MultiChannelSystem) -> MultiChannelSystem:
         return full_output(merged(plain, [["1", "2"], ["3"]]), 0)
 
-    made = document(parametric_fixed_spectrum(moved(plant, part)))
+    made = document(parametric_fixed_spectrum(rearranged(plant, part)))
     known: dict[str, Any] = {"joint_controllability": json.loads(json.dumps(made))}
     keys = ["parametric-controllable-always", "parametric-controllable-unless"]
     listed = [sentence(key, "joint_controllability", evidence=known) for key in keys]

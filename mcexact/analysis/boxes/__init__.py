@@ -3,7 +3,7 @@
 ===========  ==================================================================================
 `pencils`    radii of plants and derived systems, pencils, and the exact test of a disc
 `cover`      discs that contain the eigenvalues of all members, and trees of squares over them
-`cells`      ranges of parameters, cut into cells, and the box around each
+`cells`      proofs about families: boxes, and ranges of parameters cut into cells
 `members`    fixed modes, controllability and set-points of every member
 `loops`      closed loops of every member
 `failure`    nearby members that fail, by small changes with which a pencil loses rank

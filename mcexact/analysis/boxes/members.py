@@ -70,7 +70,7 @@ from mcexact.answer.boxes import (
 from mcexact.answer.evidence import ExteriorDiscs, RootDisc
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.structure import SetpointSolvability
-from mcexact.derived.constructions import dual, moved, setpoint_system
+from mcexact.derived.constructions import dual, rearranged, setpoint_system
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float
 from mcexact.exact.roots import StabilityRegion
@@ -938,7 +938,7 @@ def box_observability(
     """
     try:
         if isinstance(system, ParametricSystem):
-            return box_controllability(moved(system, dual), channels, bound=bound)
+            return box_controllability(rearranged(system, dual), channels, bound=bound)
         InputError.require(system, MultiChannelSystem, "system")
         return box_controllability(dual(system), channels, bound=bound)
     except LimitReached as error:

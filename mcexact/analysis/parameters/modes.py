@@ -50,7 +50,7 @@ from mcexact.derived.constructions import (
     extended_system,
     full_output,
     merged,
-    moved,
+    rearranged,
     restricted,
 )
 from mcexact.derived.modular import PolynomialSystem, drawn_gains, generator
@@ -100,14 +100,14 @@ class MovingGains:
         self,
         system: PolynomialSystem,
         psi: Bivariate,
-        moved: Bivariate,
+        psi_1: Bivariate,
         gains: list[Matrix],
         ell: int,
     ) -> None:
-        self.psi, self.moved, self.gains, self.ell = psi, moved, gains, ell
+        self.psi, self.psi_1, self.gains, self.ell = psi, psi_1, gains, ell
         self.loop = bivariate.characteristic_modulo(system.closed(gains), ell)
         left = bivariate.residues_in_x(psi, ell)
-        right = bivariate.residues_in_x(moved, ell)
+        right = bivariate.residues_in_x(psi_1, ell)
         self.first = bivariate.resultant_modulo(left, right, ell)
         self.other = bivariate.resultant_modulo(left, self.loop, ell)
 
@@ -147,7 +147,7 @@ class MovingGains:
         degree can be less than those of its factors allow.
         """
         if self.first.degree() < bivariate.resultant_degree_bound(
-            self.psi, difference(self.moved, self.psi)
+            self.psi, difference(self.psi_1, self.psi)
         ):
             return None
         divisors, rest = [], self.first
@@ -157,7 +157,7 @@ class MovingGains:
                 continue
             if q in outside and q.degree() > _SHORT:
                 return None
-            first, second = (bivariate.reduced(f, q) for f in (self.psi, self.moved))
+            first, second = (bivariate.reduced(f, q) for f in (self.psi, self.psi_1))
             divisors.append((q, bivariate.gcd(first, second, q)))
             for _ in divisors[-1][1][1:]:
                 rest = divmod(rest, bottom)[0]
@@ -359,17 +359,17 @@ class _Search:
         rest = [q for q in values if q not in self.system.poles]
         outside = [] if not self._has_range else [q for q in rest if not self._in_range(q)]
         decided = [self._decided(q) for q in rest if q not in outside]
-        moved = self._moved(decided, [*undefined, *outside])
+        moving = self._moving_gains(decided, [*undefined, *outside])
         exceptional = [each for each in decided if each.modes]
         # Small gains can agree at a value where nothing happens: it needs no entry.
-        needed = [each for each in decided if not each.modes and moved.is_needed(each.q)]
+        needed = [each for each in decided if not each.modes and moving.is_needed(each.q)]
         named = [each.q for each in [*exceptional, *needed]] + [q._rational for q in undefined]
-        common = moved.common(named, [q._rational for q in outside])
+        common = moving.common(named, [q._rational for q in outside])
         if common is None and not exactly:
             return None
         evidence = MovedModes(
-            gains=(tuple(self.gains[0]), tuple(self.gains[1]), tuple(moved.gains)),
-            modulus=moved.ell,
+            gains=(tuple(self.gains[0]), tuple(self.gains[1]), tuple(moving.gains)),
+            modulus=moving.ell,
             moduli=self._moduli() if common is None else (),
             common=tuple(CommonDivisor(_polynomial(q), polynomials(h)) for q, h in common or ()),
             generic=tuple(block for _, block in self.generic),
@@ -478,7 +478,7 @@ class _Search:
                 left = without(left, g, q)
         return divisors
 
-    def _moved(self, decided: list[_Candidate], others: list[Polynomial]) -> MovingGains:
+    def _moving_gains(self, decided: list[_Candidate], others: list[Polynomial]) -> MovingGains:
         """A prime ℓ, and gains that move, modulo ℓ, all modes that are not fixed."""
         stream = primes(self.rng.getrandbits(64), _BITS)
         values = [*(each.q for each in decided), *(q._rational for q in others)]
@@ -488,12 +488,12 @@ class _Search:
             if not self._is_defined(known, ell):
                 continue
             gains = self.system.drawn_gains(lambda ell=ell: self.rng.randrange(ell))
-            moved = MovingGains(self.system, self.psi[0], self.psi[1], gains, ell)
+            moving = MovingGains(self.system, self.psi[0], self.psi[1], gains, ell)
             if all(
-                moved.is_complete(each.q, [*(mode for mode, _, _ in each.modes), *each.divisors])
+                moving.is_complete(each.q, [*(mode for mode, _, _ in each.modes), *each.divisors])
                 for each in decided
-            ) and moved.is_nothing_else(values):
-                return moved
+            ) and moving.is_nothing_else(values):
+                return moving
         raise InternalError("no drawn gains move all that is not fixed")
 
     def _moduli(self) -> tuple[int, ...]:
@@ -566,7 +566,7 @@ def parametric_controllability(
             subject = merged(subject, [subject.names])
         return full_output(subject, 0)
 
-    return parametric_fixed_spectrum(moved(system, alone))
+    return parametric_fixed_spectrum(rearranged(system, alone))
 
 
 # Dimensions of shared sub-states for every value of a parameter.

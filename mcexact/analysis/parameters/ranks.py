@@ -41,7 +41,7 @@ from mcexact.answer.parameters import (
     meets,
 )
 from mcexact.answer.several_parameters import A, Hypersurface, Line, RankHypersurfaces
-from mcexact.derived.constructions import along_line, dual, moved, points_of
+from mcexact.derived.constructions import along_line, dual, points_of, rearranged
 from mcexact.derived.modular import PolynomialSystem, generator
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact import bivariate, rational_functions
@@ -457,7 +457,7 @@ def rank_hypersurfaces(
     rng = generator(system, "rank_hypersurfaces")
     names, entries = (
         system.parameters,
-        _entries_on_lines(moved(system, dual) if observed else system),
+        _entries_on_lines(rearranged(system, dual) if observed else system),
     )
     rows, width = entries.matrix(matrix), entries.columns(matrix)
     parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
@@ -472,7 +472,7 @@ def rank_hypersurfaces(
             return answer.rank == rank
 
         def decide(line: ParametricSystem) -> ParametricRank:
-            return parametric_rank(moved(line, dual) if observed else line, matrix)
+            return parametric_rank(rearranged(line, dual) if observed else line, matrix)
 
         left = [h for h in candidates if h not in undefined]
         result = confirming_lines(system, decide, is_generic, left, rng)
@@ -609,7 +609,7 @@ def parametric_indices(
         One for each k; the last two say the same unless the last k is n, so that no rank grows
         further at any value.
     """
-    about = moved(system, dual) if observed else system
+    about = rearranged(system, dual) if observed else system
     return _growing(about, channels, lambda matrix: parametric_rank(about, matrix))
 
 
