@@ -15,13 +15,13 @@ from typing import Any
 
 
 def place_of(path: str | os.PathLike[str], advice: str = "") -> str:
-    """What messages call a file.
+    """Return the name by which messages call a file.
 
     Parameters
     ----------
     path : path
     advice : str, optional
-        The end of the message for something else.
+        The end of the message if the path is no name of a file.
 
     Raises
     ------
@@ -129,7 +129,7 @@ class UsageError(McexactError, ValueError):
 
 
 class Impossible(McexactError):
-    """What was requested does not exist, which is proved.
+    """It is proved that the requested object does not exist.
 
     Parameters
     ----------
@@ -239,15 +239,15 @@ class InternalError(McexactError):
     exit_status = 70
 
 
-# Arguments of callers: lists and choices, and what a message calls something else.
+# Checks of callers' arguments, and how messages show values.
 
 
-def told(value: object) -> str:
-    """What a message calls a value: a number or a short text itself, of others their type.
+def shown_value(value: object) -> str:
+    """A value as a message shows it: a number or a short text itself, the type of anything else.
 
     Examples
     --------
-    >>> told(3), told("fast"), told([1, 2]), told(None)
+    >>> shown_value(3), shown_value("fast"), shown_value([1, 2]), shown_value(None)
     ('3', "'fast'", 'list', 'None')
     """
     if value is None or isinstance(value, (bool, int, float)):
@@ -288,11 +288,13 @@ def several(value: Any, where: str, what: str = "names") -> tuple[Any, ...]:
     """
     if isinstance(value, (str, bytes, Mapping)) or not hasattr(value, "__iter__"):
         single = isinstance(value, (str, int, float)) and not isinstance(value, bool)
-        advice = f": write [{told(value)}]" if single else ""
-        raise InputError(f"expected a list of {what}, found {told(value)}{advice}", where=where)
+        advice = f": write [{shown_value(value)}]" if single else ""
+        raise InputError(
+            f"expected a list of {what}, found {shown_value(value)}{advice}", where=where
+        )
     if getattr(value, "ndim", 1) != 1:
         raise InputError(
-            f"expected a list of {what}, found {told(value)} with {value.ndim} dimensions",
+            f"expected a list of {what}, found {shown_value(value)} with {value.ndim} dimensions",
             where=where,
         )
     members: Iterable[Any] = value
@@ -319,7 +321,7 @@ def one_of(
     Raises
     ------
     UsageError
-        If it is another text, or no text; or an error of the kind that is given.
+        If it is another text, or no text; or an error of this `kind`.
 
     Examples
     --------
@@ -332,11 +334,11 @@ def one_of(
     if not (value is None or isinstance(value, str)) or value not in options:
         texts = [f'"{option}"' for option in options if option is not None]
         listed = " or ".join(filter(None, (", ".join(texts[:-1]), texts[-1])))
-        raise kind(f"expected {listed}, found {told(value)}", where=where)
+        raise kind(f"expected {listed}, found {shown_value(value)}", where=where)
 
 
 def telling(progress: Callable[[str], None] | None) -> Callable[[str], None]:
-    """Return the function that is told of each step, or one that does nothing.
+    """Return the function to call with each step, or one that does nothing if there is none.
 
     Parameters
     ----------
@@ -361,7 +363,7 @@ def telling(progress: Callable[[str], None] | None) -> Callable[[str], None]:
         return lambda _: None
     if not callable(progress):
         raise UsageError(
-            f"expected a function, such as print, found {told(progress)}", where="progress"
+            f"expected a function, such as print, found {shown_value(progress)}", where="progress"
         )
     return progress
 
@@ -384,4 +386,4 @@ def require_seconds(value: Any, where: str) -> None:
     """
     good = isinstance(value, Real) and not isinstance(value, bool)
     if not (good and 0 <= value < inf):
-        raise UsageError(f"expected a number of seconds, found {told(value)}", where=where)
+        raise UsageError(f"expected a number of seconds, found {shown_value(value)}", where=where)

@@ -1,4 +1,4 @@
-"""How results are shown in notebooks: HTML that is readable on light and dark paper, and LaTeX."""
+"""How results are shown in notebooks: HTML for light and dark backgrounds, and LaTeX."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def framed(body: str) -> str:
 
 
 def cell(value: Any) -> str:
-    """Return a value as a piece of HTML: what shows itself does, and other values are text."""
+    """Return a value as a piece of HTML, by its own method if it has one, otherwise as text."""
     if hasattr(value, "_html"):
         return str(value._html())
     if isinstance(value, bool):
@@ -113,7 +113,7 @@ def cell(value: Any) -> str:
 
 
 def table(caption: str, rows: Iterable[tuple[str, Any]]) -> str:
-    """Return labels and values as a piece of HTML, of very many the first ones."""
+    """Return labels and values as a piece of HTML; only the first ones if there are very many."""
     body = "".join(
         f"<tr><th>{escape(name)}</th><td>{cell(value)}</td></tr>" for name, value in first(rows)
     )
@@ -131,13 +131,13 @@ def grid(head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "") 
 
 
 def array(rows: Iterable[tuple[str, Any]]) -> str:
-    """Return labels and values as LaTeX, of very many the first ones."""
+    """Return labels and values as LaTeX; only the first ones if there are very many."""
     body = r" \\ ".join(rf"{words(name)} & {latex(value)}" for name, value in first(rows))
     return rf"\begin{{array}}{{ll}} {body} \end{{array}}"
 
 
 def first(rows: Iterable[tuple[str, Any]]) -> Iterator[tuple[str, Any]]:
-    """Yield the rows to show; the last one says that there are more."""
+    """Yield the rows to show; if some are left out, the last row says so."""
     for k, row in enumerate(rows):
         if k == MOST_ROWS:
             yield "…", "more, which `to_dict` or `explain` gives"
@@ -146,15 +146,15 @@ def first(rows: Iterable[tuple[str, Any]]) -> Iterator[tuple[str, Any]]:
 
 
 def latex(value: Any) -> str:
-    """Return a value as LaTeX: what shows itself does, and other values are text."""
+    """Return a value as LaTeX, by its own method if it has one, otherwise as text."""
     if hasattr(value, "_latex"):
         return str(value._latex())
-    said = ("yes" if value else "no") if isinstance(value, bool) else value
-    return words(said if isinstance(said, str) else repr(said))
+    text = ("yes" if value else "no") if isinstance(value, bool) else value
+    return words(text if isinstance(text, str) else repr(text))
 
 
 def words(text: str) -> str:
-    r"""Return a text for a formula, in which special characters are signs and powers are raised.
+    r"""Return a text for a formula, with special characters escaped and powers raised.
 
     LaTeX, MathJax and KaTeX set these alike; inside of ``\text`` MathJax knows no escapes.
 
@@ -184,7 +184,7 @@ def escaped(text: str) -> str:
 
 
 def kept(size: int, most: int) -> list[int | None]:
-    """Return the positions to show of so many; of more than ``most`` None stands for a gap.
+    """Return the positions to show; of more than ``most``, None stands for those left out.
 
     Examples
     --------

@@ -55,8 +55,8 @@ from mcexact.errors import (
     one_of,
     require_seconds,
     several,
+    shown_value,
     telling,
-    told,
 )
 from mcexact.exact.rational import written
 from mcexact.exact.rational_functions import RationalFunction
@@ -242,7 +242,7 @@ class Asking(ShownByAccount):
     def _require_known(self, name: str) -> None:
         if not isinstance(name, str) or name not in self.questions:
             raise UsageError(
-                f"there is no question {told(name)}; expected {', '.join(self.questions)}"
+                f"there is no question {shown_value(name)}; expected {', '.join(self.questions)}"
             )
         self._require(self.questions[name].needs, f"the question {name!r} is about {{}}")
 

@@ -95,7 +95,7 @@ from mcexact.errors import (
     UsageError,
     one_of,
     several,
-    told,
+    shown_value,
 )
 from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.linear_algebra import characteristic_polynomial
@@ -934,7 +934,8 @@ def _prices(links: _Links, costs: Mapping[tuple[str, str], Entry]) -> tuple[Frac
 def _edge(plant: MultiChannelSystem, edge: tuple[str, str], where: str) -> Edge:
     if isinstance(edge, str) or not isinstance(edge, Sequence) or len(edge) != 2:
         raise InputError(
-            f"expected links as pairs (sender, receiver) of names, found {told(edge)}", where=where
+            f"expected links as pairs (sender, receiver) of names, found {shown_value(edge)}",
+            where=where,
         )
     sender, receiver = edge
     return plant.index(sender), plant.index(receiver)

@@ -39,7 +39,7 @@ from mcexact.derived.modular import (
     generator,
     residue_systems,
 )
-from mcexact.errors import InputError, InternalError, UsageError, one_of, told
+from mcexact.errors import InputError, InternalError, UsageError, one_of, shown_value
 from mcexact.exact.krylov import controllable_subspace
 from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix, block_diagonal, hstack
@@ -337,7 +337,7 @@ def single_channel_gains(
     InputError.require(system, MultiChannelSystem, "system")
     one_of(want, tuple(SIDES), "want")
     if index is not None and type(index) is not int:
-        raise UsageError(f"expected an integer, found {told(index)}", where="index")
+        raise UsageError(f"expected an integer, found {shown_value(index)}", where="index")
     if cyclic and want != "both":
         raise UsageError("a cyclic matrix is available only with both properties")
     channels = tuple(range(system.m)) if channel is None else tuple(system.indices([channel]))

@@ -45,10 +45,14 @@ class FloatingAnswers:
 
     def document(self) -> dict[str, Any]:
         """The answers as plain data of a JSON document."""
-        found = [
+        fixed_modes = [
             {"digits": digits, "runs_that_found_none": none} for digits, none in self.none_found
         ]
-        return {"rank": self.rank, "fixed_modes": found, "libraries": self.libraries.document()}
+        return {
+            "rank": self.rank,
+            "fixed_modes": fixed_modes,
+            "libraries": self.libraries.document(),
+        }
 
     @classmethod
     def from_document(cls, document: Mapping[str, Any]) -> FloatingAnswers:
@@ -122,7 +126,7 @@ def _diagonal() -> MultiChannelSystem:
 def _none_found(A: Any, B: Sequence[Any], C: Sequence[Any], digits: int) -> int:
     """The number of runs in which comparing rounded eigenvalues finds no fixed mode."""
     runs = (rounded_fixed_modes(A, B, C, digits=digits, seed=seed) for seed in range(SEEDS))
-    return sum(not found for found in runs)
+    return sum(not modes for modes in runs)
 
 
 def _arrays(system: MultiChannelSystem) -> tuple[Any, Sequence[Any], Sequence[Any]]:
@@ -138,12 +142,12 @@ def _arrays(system: MultiChannelSystem) -> tuple[Any, Sequence[Any], Sequence[An
 
 
 def demonstration_text(shown: Demonstration) -> str:
-    """What was recorded beside what is true, then what this machine says."""
+    """The recorded answers beside the exact ones, then the answers of this machine."""
     return f"{_recorded_text(shown)}\n{_text_here(shown)}"
 
 
 def _recorded_text(shown: Demonstration) -> str:
-    """What was recorded beside what is true: nothing here is computed in floating point."""
+    """The recorded answers beside the exact ones; nothing is computed in floating point."""
     powers = " * ".join(
         f"({factor})" + (f"^{multiplicity}" if multiplicity > 1 else "")
         for factor, multiplicity in shown.fixed
@@ -169,7 +173,7 @@ def _recorded_text(shown: Demonstration) -> str:
 
 
 def _text_here(shown: Demonstration) -> str:
-    """What floating point answers on this machine, if it is anything else."""
+    """The floating-point answers of this machine, if they differ from the recorded ones."""
     here, recorded = shown.here, shown.recorded
     now = [f"1. {_rank(here)}", *(f"2. {line}" for line in _rounded(here))]
     then = [f"1. {_rank(recorded)}", *(f"2. {line}" for line in _rounded(recorded))]

@@ -58,8 +58,8 @@ class Exhibit:
     @property
     def record(self) -> Record:
         """The recorded floating-point answer."""
-        found = recorded()["exhibits"][self.name]
-        return Record(found["floating"], libraries_of(found["libraries"]))
+        entry = recorded()["exhibits"][self.name]
+        return Record(entry["floating"], libraries_of(entry["libraries"]))
 
 
 @dataclass(frozen=True)
@@ -93,15 +93,15 @@ def shown(exhibit: Exhibit) -> Shown:
     return _shown(exhibit, crosscheck(exhibit.make()))
 
 
-def shown_in(found: CrossChecks) -> tuple[Shown, ...]:
+def shown_in(crosschecks: CrossChecks) -> tuple[Shown, ...]:
     """Return the exhibits about the system of a table of cross-checks."""
-    asked = found.system.digest()
-    return tuple(_shown(each, found) for each in exhibits() if each.make().digest() == asked)
+    asked = crosschecks.system.digest()
+    return tuple(_shown(each, crosschecks) for each in exhibits() if each.make().digest() == asked)
 
 
-def _shown(exhibit: Exhibit, found: CrossChecks) -> Shown:
-    rows = {row.question: row for row in found.rows}
-    return Shown(exhibit, rows[exhibit.question], found.libraries)
+def _shown(exhibit: Exhibit, crosschecks: CrossChecks) -> Shown:
+    rows = {row.question: row for row in crosschecks.rows}
+    return Shown(exhibit, rows[exhibit.question], crosschecks.libraries)
 
 
 def exhibits() -> tuple[Exhibit, ...]:
@@ -123,10 +123,10 @@ def exhibit(name: str) -> Exhibit:
     UsageError
         If no exhibit has this name.
     """
-    found = {each.name: each for each in exhibits()}
-    if name not in found:
-        raise UsageError(f"there is no exhibit {quoted(name)}{nearest(name, list(found))}")
-    return found[name]
+    by_name = {each.name: each for each in exhibits()}
+    if name not in by_name:
+        raise UsageError(f"there is no exhibit {quoted(name)}{nearest(name, list(by_name))}")
+    return by_name[name]
 
 
 def _from_gallery(name: str) -> Callable[[], MultiChannelSystem]:
@@ -298,11 +298,15 @@ _MADE = (
 _WORDS = {True: "agree", False: "DISAGREE", None: "no answer"}
 
 
-def crosscheck_view(found: CrossChecks) -> dict[str, Any]:
-    """Every row, and a plant nearby that has a fixed mode."""
-    near = found.nearest
+def crosscheck_view(crosschecks: CrossChecks) -> dict[str, Any]:
+    """The cross-checks as plain data: every row, and a plant nearby that has a fixed mode."""
+    near = crosschecks.nearest
     return {
-        "system": {"n": found.system.n, "m": found.system.m, "time": found.system.time},
+        "system": {
+            "n": crosschecks.system.n,
+            "m": crosschecks.system.m,
+            "time": crosschecks.system.time,
+        },
         "rows": [
             {
                 "question": row.question,
@@ -311,11 +315,11 @@ def crosscheck_view(found: CrossChecks) -> dict[str, Any]:
                 "exact": row.exact,
                 "agree": row.agree,
             }
-            for row in found.rows
+            for row in crosschecks.rows
         ],
-        "disagreements": [row.question for row in found.disagreements],
-        "libraries": found.libraries.document(),
-        "exhibits": exhibits_view(shown_in(found)),
+        "disagreements": [row.question for row in crosschecks.disagreements],
+        "libraries": crosschecks.libraries.document(),
+        "exhibits": exhibits_view(shown_in(crosschecks)),
         "fixed_mode_nearby": None
         if near is None
         else {
@@ -326,25 +330,26 @@ def crosscheck_view(found: CrossChecks) -> dict[str, Any]:
     }
 
 
-def crosscheck_tables(found: CrossChecks) -> tuple[Table, ...]:
-    """One row for each question, then how near the system is to having a fixed mode."""
+def crosscheck_tables(crosschecks: CrossChecks) -> tuple[Table, ...]:
+    """The cross-checks as tables: a row for each question, then how near a fixed mode is."""
     rows = tuple(
-        (row.question, row.floating, row.exact, _WORDS[row.agree], row.call) for row in found.rows
+        (row.question, row.floating, row.exact, _WORDS[row.agree], row.call)
+        for row in crosschecks.rows
     )
-    count = len(found.disagreements)
-    said = "no disagreement" if not count else f"{count} wrong in floating point"
+    count = len(crosschecks.disagreements)
+    verdict = "no disagreement" if not count else f"{count} wrong in floating point"
     tables = [
         Table(
-            f"{found.system.name or 'system'}: floating point beside exact, {said}",
+            f"{crosschecks.system.name or 'system'}: floating point beside exact, {verdict}",
             ("question", "floating point", "exact", "", "floating-point call, default tolerance"),
             rows,
-            note=f"in floating point: {found.libraries}",
+            note=f"in floating point: {crosschecks.libraries}",
         )
     ]
-    recorded = shown_in(found)
+    recorded = shown_in(crosschecks)
     if recorded:
         tables += exhibit_tables(recorded)
-    near = found.nearest
+    near = crosschecks.nearest
     if near is not None:
         lines = (
             ("changes of entries, at most", _part(near.distance)),
@@ -360,7 +365,7 @@ def _part(distance: Fraction) -> str:
 
 
 def exhibit_tables(shown: Sequence[Shown]) -> tuple[Table, ...]:
-    """What was recorded, what this machine says and what is true; then the machines, and why."""
+    """The exhibits as tables: recorded, local and exact answers; machines; causes."""
     machines = [("recorded", str(libraries)) for libraries in _recorded_by(shown)]
     machines += [("here", str(libraries)) for libraries in _answered_by(shown)]
     return (
@@ -421,10 +426,10 @@ def exhibits_page(shown: Sequence[Shown]) -> str:
 
 
 def _recorded_by(shown: Sequence[Shown]) -> list[Libraries]:
-    """What answered where these exhibits were recorded, each once."""
+    """The libraries with which these exhibits were recorded, each once."""
     return list(dict.fromkeys(each.exhibit.record.libraries for each in shown))
 
 
 def _answered_by(shown: Sequence[Shown]) -> list[Libraries]:
-    """What answered on this machine, once."""
+    """The libraries of this machine, once."""
     return list(dict.fromkeys(each.libraries for each in shown))

@@ -197,10 +197,10 @@ class CrossChecks(Shown):
     def explain(self) -> str:
         """Say in plain words where floating point is wrong, one question a line."""
         wrong = self.disagreements
-        told = [f"Floating point is wrong in {len(wrong)} of {len(self.rows)} questions."]
+        lines = [f"Floating point is wrong in {len(wrong)} of {len(self.rows)} questions."]
         for row in wrong:
-            told.append(f"{row.question}: {row.floating} ({row.call}); exact: {row.exact}")
-        return "\n".join(told)
+            lines.append(f"{row.question}: {row.floating} ({row.call}); exact: {row.exact}")
+        return "\n".join(lines)
 
     def _html(self) -> str:
         """Return a row in HTML for each question."""
@@ -329,12 +329,12 @@ def _answer(call: Callable[[], Any]) -> Any:
 
 
 def _row(
-    question: str, call: str, found: Any, truth: Any, words: Callable[[Any], str]
+    question: str, call: str, floating: Any, truth: Any, words: Callable[[Any], str]
 ) -> CrossCheck:
     """Compare a floating-point answer with the exact one."""
-    if isinstance(found, _NoAnswer):
-        return CrossCheck(question, call, str(found), words(truth), None)
-    return CrossCheck(question, call, words(found), words(truth), bool(found == truth))
+    if isinstance(floating, _NoAnswer):
+        return CrossCheck(question, call, str(floating), words(truth), None)
+    return CrossCheck(question, call, words(floating), words(truth), bool(floating == truth))
 
 
 def _yes(answer: Any) -> str:
@@ -411,9 +411,9 @@ def _fixed_modes(
 
     for digits in _DIGITS:
         rounded = _answer(partial(_rounded, floats, digits))
-        found = rounded if isinstance(rounded, _NoAnswer) else len(rounded)
+        count_of_rounded = rounded if isinstance(rounded, _NoAnswer) else len(rounded)
         call = f"numpy.round(numpy.linalg.eigvals(A + sum B_i F_i C_i), {digits}) of 5 draws"
-        rows.append(_row(f"fixed modes, {digits} digits", call, found, count, words))
+        rows.append(_row(f"fixed modes, {digits} digits", call, count_of_rounded, count, words))
     tried = verdicts.few_subsets(system.m)
     named = {frozenset(system.index(c) for c in f.channels) for f in spectrum.factors}
     modes = _answer(
@@ -433,18 +433,17 @@ def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
     """The transfer graph, and completeness decided from it and from the rounded fixed modes."""
     exact = transfer_graph(system)
     truth = frozenset((system.index(j), system.index(i)) for j, i in exact.arcs)
-    found = _answer(lambda: transfer_edges(floats.A, floats.B, floats.C))
+    arcs = _answer(lambda: transfer_edges(floats.A, floats.B, floats.C))
     edges = _row(
         "transfer graph",
         "numpy.allclose(scipy.signal.ss2tf(A, B_j, C_i, 0)[0], 0)",
-        found,
+        arcs,
         truth,
         lambda edges: f"{len(edges)} edges",
     )
     rounded = _answer(
         lambda: (
-            not _rounded(floats, _DIGITS[1])
-            and len(strong_components(system.m, sorted(found))) <= 1
+            not _rounded(floats, _DIGITS[1]) and len(strong_components(system.m, sorted(arcs))) <= 1
         )
     )
     return [
@@ -452,7 +451,7 @@ def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
         _row(
             "completeness",
             "networkx.is_strongly_connected(edges) and no mode fixed to 8 digits",
-            found if isinstance(found, _NoAnswer) else rounded,
+            arcs if isinstance(arcs, _NoAnswer) else rounded,
             completeness(system).complete,
             _yes,
         ),
@@ -462,11 +461,11 @@ def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
 def _stability(system: MultiChannelSystem, floats: _Floats) -> CrossCheck:
     """Whether A is stable."""
     region = StabilityRegion(system.time)
-    found = _answer(lambda: margins.is_within(floats.A, region))
+    verdict = _answer(lambda: margins.is_within(floats.A, region))
     call = (
         "abs(numpy.linalg.eigvals(A)).max() < 1"
         if region.discrete
         else "numpy.linalg.eigvals(A).real.max() < 0"
     )
     truth = region.contains_roots_of(characteristic_polynomial(system.A))
-    return _row("stability of A", call, found, truth, _yes)
+    return _row("stability of A", call, verdict, truth, _yes)

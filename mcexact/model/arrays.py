@@ -91,7 +91,7 @@ WHOLE = 2**53
 
 
 def require_sides(sides: Any, where: str) -> None:
-    """Refuse a shape that is not one of a matrix, before anything of that size is made.
+    """Refuse a shape that no matrix has, before an array of this size is allocated.
 
     Raises
     ------
@@ -113,13 +113,13 @@ def require_sides(sides: Any, where: str) -> None:
 def require_entries(values: Iterable[Any], limits: Limits) -> None:
     """Refuse arrays that have more entries than a file of numbers of 64 bits can have.
 
-    A compressed file can claim many more than it has bytes, and each takes time to convert; zeros
-    take none.
+    A compressed file can declare many more entries than it has bytes, and converting each takes
+    time, except zeros.
 
     Raises
     ------
     InputError
-        If there are too many, texts and numbers that are not 0.
+        If there are too many texts and numbers that are not 0.
     """
     import numpy as np
 
@@ -154,7 +154,7 @@ def exact_matrix(
     Raises
     ------
     InputError
-        If it is something else, or has a float that is not exact without a rounding.
+        If the table has another shape or other entries, or a float that needs a rounding.
     """
     if isinstance(value, Matrix):
         M = value
@@ -171,7 +171,7 @@ def exact_matrix(
 
 
 def _of_texts(rows: list[list[str]], where: str, limits: Limits) -> Matrix:
-    """Read numbers in the grammar of system files; each text is read once."""
+    """Read numbers in the grammar of system files; equal texts are read once."""
     width = common_width(rows, where)
     known: dict[str, int] = {}
     exact: list[Fraction] = []
@@ -210,8 +210,10 @@ def _of_numbers(value: Any, where: str, reading: Reading) -> Matrix:
         _require_integers(value, where)
         value = value.astype("i8")
     elif kind not in "iu":
-        found = {"c": "complex numbers", "O": "objects"}.get(kind, f"entries of type {value.dtype}")
-        raise InputError(f"expected real numbers, found {found}", where=where)
+        kind_in_words = {"c": "complex numbers", "O": "objects"}.get(
+            kind, f"entries of type {value.dtype}"
+        )
+        raise InputError(f"expected real numbers, found {kind_in_words}", where=where)
     if is_sparse_array(value):
         return as_matrix(value, where)
     cells = np.flatnonzero(value)
@@ -230,7 +232,7 @@ def _require_finite(entries: Any, where: str) -> None:
 
 
 def _require_integers(value: Any, where: str) -> None:
-    """Refuse floats that are not integers, or so large that some integers are no floats."""
+    """Refuse floats that are not integers, or so large that floats skip some integers."""
     import numpy as np
 
     entries = value.data if is_sparse_array(value) else value.ravel()
@@ -257,7 +259,7 @@ def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool
     Raises
     ------
     InputError
-        If there is no such array, and the nearest floats are not asked for.
+        If there is no such array, and `nearest` is false.
     """
     import numpy as np
 
@@ -301,7 +303,7 @@ class Parts:
         Arrays, sparse arrays, or lists of rows of texts: ``A``; ``B_1``, ``C_1`` and so on, or the
         stacked ``B`` and ``C`` with the sizes ``inputs`` and ``outputs``; and those of `TABLES`.
     texts : mapping
-        Those of `TEXTS`.
+        Texts, by the names in `TEXTS`.
     names : sequence of str, optional
         The names of the channels.
     """
@@ -317,7 +319,7 @@ def require_known(names: Iterable[str], what: str) -> None:
     Raises
     ------
     InputError
-        If there is one; a misspelled part must not be ignored.
+        If there is one: a misspelled name must not be ignored.
     """
     for name in names:
         if name not in KEYS and not NUMBERED.fullmatch(name):
@@ -381,15 +383,15 @@ def _channels(
     sizes: Sizes,
 ) -> tuple[list[Matrix], list[Matrix]]:
     """Read B_i and C_i, which are given one by one or stacked."""
-    found = {(m[1], int(m[2])) for name in parts.tables if (m := NUMBERED.fullmatch(name))}
-    if not found:
+    blocks = {(m[1], int(m[2])) for name in parts.tables if (m := NUMBERED.fullmatch(name))}
+    if not blocks:
         return _stacked(parts, matrix, n, _sizes(parts, matrix, sizes))
     if "B" in parts.tables or "C" in parts.tables:
         raise InputError("both stacked matrices and matrices of channels are given: keep one kind")
-    count = max(k for _, k in found)
+    count = max(k for _, k in blocks)
     for k in range(1, count + 1):
         for letter in "BC":
-            if (letter, k) not in found:
+            if (letter, k) not in blocks:
                 raise InputError(f"the matrix {letter}_{k} is missing; it may be empty")
     columns, rows = (
         [None] * count if each is None else each for each in _sizes(parts, matrix, sizes)
@@ -422,15 +424,15 @@ def _stacked(
 ) -> tuple[list[Matrix], list[Matrix]]:
     """Read B and C, which the channels share by their sizes."""
     split = []
-    for name, letter, given in zip(("inputs", "outputs"), "BC", sizes, strict=True):
+    for name, letter, counts in zip(("inputs", "outputs"), "BC", sizes, strict=True):
         if letter not in parts.tables:
             raise InputError(f"the matrix {letter} is missing: give {letter}, or {letter}_1, …")
-        if given is None:
+        if counts is None:
             raise InputError(
                 f"{letter} is stacked, and '{name}' is missing, the number of {name} of each "
                 f"channel; add it, or write 'mcexact convert FILE --{name} 1,1 -o plant.json'"
             )
-        split.append(list(given))
+        split.append(list(counts))
     B = matrix("B", n, sum(split[0]))
     C = matrix("C", sum(split[1]), n)
     return split_by_sizes(B, C, split[0], split[1])
@@ -542,7 +544,7 @@ class _Element:
 
 @dataclass(frozen=True)
 class _Array:
-    """A variable, or an array in a cell: name, class and shape; the elements after these."""
+    """A variable, or an array in a cell: name, class, shape, and the elements that follow these."""
 
     name: str
     kind: int
@@ -571,8 +573,8 @@ def read_mat(data: bytes, limits: Limits) -> Parts:
         raise InputError(f"the file is damaged: {error}") from None
 
 
-def _damaged(said: str, where: str | None = None) -> InputError:
-    return InputError(f"the file is damaged: {said}", where=where or None)
+def _damaged(fault: str, where: str | None = None) -> InputError:
+    return InputError(f"the file is damaged: {fault}", where=where or None)
 
 
 def _decompressed(data: bytes, limits: Limits) -> tuple[bytes, str]:
@@ -583,7 +585,7 @@ def _decompressed(data: bytes, limits: Limits) -> tuple[bytes, str]:
     (version,) = struct.unpack_from(f"{order}H", data, 124)
     if version >> 8 != 1:
         raise _damaged(f"expected version 1 in its header, found {version >> 8}")
-    found, size = [data[:_HEADER]], _HEADER
+    chunks, size = [data[:_HEADER]], _HEADER
     for element in _elements(data, order, _HEADER, len(data)):
         if element.kind == _COMPRESSED:
             stream = zlib.decompressobj()
@@ -597,9 +599,9 @@ def _decompressed(data: bytes, limits: Limits) -> tuple[bytes, str]:
                 raise _damaged("a compressed variable is incomplete")
         else:
             part = data[element.begin - 8 : element.end]
-        found.append(part + bytes(-len(part) % 8))
-        size += len(found[-1])
-    return b"".join(found), order
+        chunks.append(part + bytes(-len(part) % 8))
+        size += len(chunks[-1])
+    return b"".join(chunks), order
 
 
 def _elements(data: bytes, order: str, begin: int, end: int) -> Iterator[_Element]:
@@ -646,12 +648,12 @@ class _File:
         return Parts(tables, texts, names)
 
     def _variables(self) -> list[_Array]:
-        found = []
+        variables = []
         for element in _elements(self._data, self._order, _HEADER, len(self._data)):
             if element.kind != _ARRAY:
                 raise _damaged(f"it has an element of type {element.kind}")
-            found.append(self._array(element))
-        return found
+            variables.append(self._array(element))
+        return variables
 
     def _array(self, element: _Element, cell: str = "") -> _Array:
         """Read the header of an array of real entries, possibly in a cell, and check its shape."""
@@ -681,10 +683,10 @@ class _File:
         if len(cell.contents) != cell.count or any(e.kind != _ARRAY for e in cell.contents):
             raise _damaged("a cell array is incomplete", cell.name)
         wanted = {_TEXT} if cell.name == "names" else _NUMBERS
-        found = [self._array(element, cell.name) for element in cell.contents]
-        for each in found:
+        arrays = [self._array(element, cell.name) for element in cell.contents]
+        for each in arrays:
             _require_class(each, wanted)
-        return found
+        return arrays
 
     def _table(self, array: _Array) -> Any:
         """The numbers of an array."""
@@ -850,7 +852,7 @@ def mat_bytes(parts: Parts, rounding: Rounding | None, *, nearest: bool) -> byte
 
 
 def _is_whole(M: Matrix) -> bool:
-    """Whether every entry is an integer that a float is, whatever the rounding."""
+    """Whether every entry is an integer that a float represents exactly."""
     return M.denominator == 1 and all(abs(x) < WHOLE for _, _, x in M.nonzero())
 
 
@@ -1073,12 +1075,12 @@ def _entries(row: list[str]) -> list[str]:
 
 def _entry(text: str) -> str:
     """A number without the blanks around it."""
-    found = text.strip()
-    if "," in found or ";" in found:
+    number = text.strip()
+    if "," in number or ";" in number:
         raise InputError(
-            f"found {found[:40]!a}: write decimals with a point, and a comma between entries"
+            f"found {number[:40]!a}: write decimals with a point, and a comma between entries"
         )
-    return found
+    return number
 
 
 def _require_width(rows: list[list[str]]) -> None:
@@ -1103,18 +1105,18 @@ def _rows(data: bytes) -> list[list[str]]:
 
 def csv_texts(parts: Parts) -> dict[str, str]:
     """Write the tables of a system, exactly; the keys are the names of files."""
-    found = {f"{name}.csv": _table(M) for name, M in parts.tables.items() if name != "sample_time"}
+    texts = {f"{name}.csv": _table(M) for name, M in parts.tables.items() if name != "sample_time"}
     if not parts.tables["A"].nrows:  # matrices without rows or without columns are empty files
         channels = range(1, len(parts.names or ()) + 1)
-        found["inputs.csv"] = _lines([[str(parts.tables[f"B_{k}"].ncols) for k in channels]])
-        found["outputs.csv"] = _lines([[str(parts.tables[f"C_{k}"].nrows) for k in channels]])
+        texts["inputs.csv"] = _lines([[str(parts.tables[f"B_{k}"].ncols) for k in channels]])
+        texts["outputs.csv"] = _lines([[str(parts.tables[f"C_{k}"].nrows) for k in channels]])
     if parts.names is not None:
-        found["names.csv"] = _lines([[name] for name in parts.names])
+        texts["names.csv"] = _lines([[name] for name in parts.names])
     settings = dict(parts.texts)
     if "sample_time" in parts.tables:
         settings["sample_time"] = str(decimal_or_quotient(parts.tables["sample_time"][0, 0]))
-    found["system.csv"] = _lines([[key, settings[key]] for key in sorted(settings)])
-    return found
+    texts["system.csv"] = _lines([[key, settings[key]] for key in sorted(settings)])
+    return texts
 
 
 def write_csv_files(folder: str | os.PathLike[str], files: Mapping[str, str]) -> None:

@@ -108,8 +108,8 @@ class Box(Shown):
         B, C : sequences of m matrices, optional
         """
         zeros = _zeros(system)
-        given: list[Any] = [zeros[k] if M is None else M for k, M in enumerate((A, B, C))]
-        return cls(system, Radii(given[0], given[1], given[2]))
+        radii: list[Any] = [zeros[k] if M is None else M for k, M in enumerate((A, B, C))]
+        return cls(system, Radii(radii[0], radii[1], radii[2]))
 
     @classmethod
     def as_typed(cls, A: Any, B: Sequence[Any], C: Sequence[Any], **options: Any) -> Box:
@@ -142,12 +142,12 @@ class Box(Shown):
     @property
     def radii(self) -> Radii:
         """D_A, D_B and D_C."""
-        found = self.system.uncertainty
-        return Radii(*_zeros(self.system)) if found is None else found
+        uncertainty = self.system.uncertainty
+        return Radii(*_zeros(self.system)) if uncertainty is None else uncertainty
 
     @property
     def part(self) -> Fraction | None:
-        """The part of the modulus of each entry that its radius is; None if these differ.
+        """The ratio of radius to modulus that all entries have; None if the ratios differ.
 
         It is 0 where all entries and all radii are 0.
 
@@ -159,15 +159,15 @@ class Box(Shown):
         >>> Box.absolute(plant, A=[[1]]).part is Box.absolute(plant, C=[[[1]]]).part is None
         True
         """
-        found = set()
+        parts = set()
         for (_, D), M in zip(self.radii.matrices(), _matrices(self.system), strict=True):
             radii = {(i, j): Fraction(x, D.denominator) for i, j, x in D.nonzero()}
             values = {(i, j): Fraction(abs(x), M.denominator) for i, j, x in M.nonzero()}
             if not radii.keys() <= values.keys():
                 return None
-            found |= {radii.get(place, Fraction(0)) / x for place, x in values.items()}
-        found = found or {Fraction(0)}
-        return found.pop() if len(found) == 1 else None
+            parts |= {radii.get(place, Fraction(0)) / x for place, x in values.items()}
+        parts = parts or {Fraction(0)}
+        return parts.pop() if len(parts) == 1 else None
 
     @property
     def nominal(self) -> MultiChannelSystem:
@@ -189,7 +189,7 @@ class Box(Shown):
         return Box(self.system, self.radii * Fraction(factor))
 
     def contains(self, plant: MultiChannelSystem) -> bool:
-        """Whether a plant of the same shapes is a member; names and graph play no part."""
+        """Whether a plant of the same shapes is a member; names and graphs are not compared."""
         for (_, D), M, M0 in zip(
             self.radii.matrices(), _matrices(plant), _matrices(self.system), strict=True
         ):
@@ -223,15 +223,15 @@ class Box(Shown):
         return self.moved(lambda: Fraction(rng.randint(-_FINE, _FINE), _FINE))
 
     def moved(self, part: Callable[[], Fraction]) -> MultiChannelSystem:
-        """The member whose entries are moved by drawn parts of their radii, from −1 to 1."""
-        found = [
+        """The member with the nominal entries plus drawn multiples, −1 to 1, of their radii."""
+        matrices = [
             M0 + _spread(D, part)
             for (_, D), M0 in zip(self.radii.matrices(), _matrices(self.system), strict=True)
         ]
         return MultiChannelSystem(
-            found[0],
-            found[1 : self.m + 1],
-            found[self.m + 1 :],
+            matrices[0],
+            matrices[1 : self.m + 1],
+            matrices[self.m + 1 :],
             time=self.system.time,
             names=self.system.names,
             neighbors=self.system.neighbors,
@@ -248,8 +248,8 @@ class Box(Shown):
         yield "radii", self.radii
 
     def __repr__(self) -> str:
-        told = radii_in_words(self.system)
-        return f"Box(n={self.n}, m={self.m}, {self.system.time} time: {told})"
+        words = radii_in_words(self.system)
+        return f"Box(n={self.n}, m={self.m}, {self.system.time} time: {words})"
 
 
 def radii_in_words(system: MultiChannelSystem) -> str:
@@ -291,7 +291,7 @@ def _zeros(plant: MultiChannelSystem) -> tuple[Matrix, list[Matrix], list[Matrix
 
 
 def _spread(D: Matrix, part: Callable[[], Fraction]) -> Matrix:
-    """The radii, each times a part of its own."""
+    """The radii, each times a number drawn for it."""
     entries = [(i * D.ncols + j, x, part()) for i, j, x in D.nonzero()]
     values = [x * p for _, x, p in entries]
     common = lcm(1, *(value.denominator for value in values))

@@ -1,10 +1,10 @@
 """Controllers of agents, and their files.
 
-A `Controller` has one `AgentProgram` for each agent: linear equations for its shared sub-state
-x_i, its private state z_i and its input u_i.  Each right side is a `LinearMap` of measured
-outputs, shared sub-states, the private state and the reference.  Whose signals a program uses is
-thus part of the data, and `require_fits` compares it with the neighbor graph.  The controller
-file holds these maps by the names of the agents, with exact numbers.
+A `Controller` has one `AgentProgram` for each agent: linear equations for its shared sub-state x_i,
+its private state z_i and its input u_i.  Each right side is a `LinearMap` of measured outputs,
+shared sub-states, the private state and the reference.  So the data say whose signals a program
+uses, and `require_fits` compares this with the neighbor graph.  The controller file holds these
+maps by the names of the agents, with exact numbers.
 """
 
 from __future__ import annotations
@@ -254,12 +254,12 @@ class Controller(Shown):
         A controller can run on every plant with the same shapes, but it was designed for one of
         them, and for its nominal values where these are uncertain.
         """
-        found = system.digest_of_values()
-        if self.system in ("", found):
+        digest = system.digest_of_values()
+        if self.system in ("", digest):
             return ()
         return (
             f"the controller was made for another plant, of digest {self.system[:12]}…, "
-            f"not for this one, of digest {found[:12]}…",
+            f"not for this one, of digest {digest[:12]}…",
         )
 
     def require_fits(self, system: MultiChannelSystem, graph: NeighborGraph) -> None:
@@ -405,8 +405,10 @@ def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Contr
     for k, agent in enumerate(agents):
         expect_object(agent, f"agents[{k}]", keys, ("hold",))
     places = [f"agents[{k}].name" for k in range(len(agents))]
-    given = [expect_name(agent["name"], place) for agent, place in zip(agents, places, strict=True)]
-    names = checked_names(given, places)
+    labels = [
+        expect_name(agent["name"], place) for agent, place in zip(agents, places, strict=True)
+    ]
+    names = checked_names(labels, places)
     sizes = [expect_integer(a["shared"], f"agents[{k}].shared") for k, a in enumerate(agents)]
     programs = [
         _read_agent(agent, f"agents[{k}]", names, sizes, limits) for k, agent in enumerate(agents)
@@ -421,14 +423,16 @@ def _read_agent(
     """Read one program; ``sizes`` are the dimensions of all shared sub-states."""
     shared = sizes[names.index(agent["name"])]
     private = expect_integer(agent["private"], f"{where}.private")
-    shared_update, private_update, given = (
+    shared_update, private_update, input_map = (
         _read_map(agent[label], f"{where}.{label}", size, names, (sizes, private), limits)
         for label, size in zip(MAPS, (shared, private, None), strict=True)
     )
     hold = {}
     for name, steps in _by_agent(agent.get("hold", {}), f"{where}.hold", names).items():
         hold[name] = expect_integer(steps, f"{where}.hold[{quoted(names[name])}]")
-    return AgentProgram(agent["name"], shared, private, shared_update, private_update, given, hold)
+    return AgentProgram(
+        agent["name"], shared, private, shared_update, private_update, input_map, hold
+    )
 
 
 def _read_map(
@@ -446,25 +450,25 @@ def _read_map(
         return read_matrix(entry, place, nrows, ncols, limits)
 
     def by_agent(key: str, sizes: list[int] | None) -> dict[int, Matrix]:
-        found = _by_agent(value.get(key, {}), f"{where}.{key}", names)
+        entries = _by_agent(value.get(key, {}), f"{where}.{key}", names)
         return {
             j: matrix(M, f"{where}.{key}[{quoted(names[j])}]", sizes[j] if sizes else None)
-            for j, M in found.items()
+            for j, M in entries.items()
         }
 
-    found = LinearMap(
+    linear_map = LinearMap(
         by_agent("outputs", None),
         by_agent("shared", widths[0]),
         matrix(value["private"], f"{where}.private", widths[1]) if "private" in value else None,
         matrix(value["reference"], f"{where}.reference") if "reference" in value else None,
     )
-    heights = sorted({M.nrows for M in found.matrices()})
+    heights = sorted({M.nrows for M in linear_map.matrices()})
     if len(heights) > 1:
         raise InputError(
             f"expected matrices of one number of rows, found {heights[0]} and {heights[1]}",
             where=where,
         )
-    return found
+    return linear_map
 
 
 def _by_agent(value: Any, where: str, names: tuple[str, ...]) -> dict[int, Any]:
@@ -486,7 +490,7 @@ def controller_text(controller: Controller) -> str:
     """The text of a controller file: decimals where they are exact and short, a row on one line."""
     document = {"format": FORMAT, "system": controller.system, **_readable(controller.document())}
     text = json.dumps(document, indent=1, ensure_ascii=True)
-    return _LIST_OF_NUMBERS.sub(lambda found: f"[{' '.join(found[0][1:-1].split())}]", text) + "\n"
+    return _LIST_OF_NUMBERS.sub(lambda match: f"[{' '.join(match[0][1:-1].split())}]", text) + "\n"
 
 
 _LONG = 40

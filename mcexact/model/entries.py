@@ -279,14 +279,14 @@ class Entries:
     shape : (int, int)
     rows : list of lists, or None
         The entries row by row.
-    given : list
+    triples : list
         Without rows, the triples [row, column, value] of the entries that are not 0.
     """
 
     where: str
     shape: tuple[int, int]
     rows: list[list[Any]] | None
-    given: list[Any]
+    triples: list[Any]
 
     def listed(self) -> Iterator[tuple[int, int, int, Any]]:
         """Yield number, row, column and value of each triple.
@@ -298,7 +298,7 @@ class Entries:
         """
         r, c = self.shape
         seen: set[int] = set()
-        for k, entry in enumerate(self.given):
+        for k, entry in enumerate(self.triples):
             if type(entry) is not list or len(entry) != 3:
                 length = len(expect_list(entry, self.place(k)))
                 raise InputError(
@@ -308,9 +308,9 @@ class Entries:
             if type(i) is not int or type(j) is not int or i < 0 or j < 0:
                 i, j = (expect_integer(entry[axis], f"{self.place(k)}[{axis}]") for axis in (0, 1))
             if i >= r or j >= c:
-                found = f"[{shown_integer(i)}, {shown_integer(j)}]"
+                position = f"[{shown_integer(i)}, {shown_integer(j)}]"
                 raise InputError(
-                    f"expected a position inside {r} × {c}, found {found}", where=self.place(k)
+                    f"expected a position inside {r} × {c}, found {position}", where=self.place(k)
                 )
             if i * c + j in seen:
                 raise InputError(f"the position [{i}, {j}] is listed twice", where=self.place(k))
@@ -339,7 +339,7 @@ def unread_matrix(
     nrows, ncols : int or None
         The expected shape, if it is known.
     read : callable
-        Makes the matrix of its entries.
+        Makes the matrix from its `Entries`.
 
     Raises
     ------
@@ -385,7 +385,7 @@ def numbers(entries: Entries, limits: Limits = DEFAULT_LIMITS) -> Matrix:
 
 
 def _dense(rows: list[list[Any]], width: int, where: str, limits: Limits) -> Matrix:
-    """Read the numbers of all rows; what occurs again, as 0.0 does, is read once."""
+    """Read the numbers of all rows; a text that occurs often, such as 0.0, is read once."""
     known: dict[str, Fraction] = {}
 
     def number(entry: Any, i: int, j: int) -> Fraction | int:
@@ -393,10 +393,10 @@ def _dense(rows: list[list[Any]], width: int, where: str, limits: Limits) -> Mat
             return entry
         if isinstance(entry, str) and entry in known:
             return known[entry]
-        found = read_number(entry, f"{where}[{i}][{j}]", limits)
+        exact = read_number(entry, f"{where}[{i}][{j}]", limits)
         if isinstance(entry, str) and len(known) < REMEMBERED:
-            known[entry] = found
-        return found
+            known[entry] = exact
+        return exact
 
     if not all(set(map(type, row)) <= {int} for row in rows):
         rows = [[number(entry, i, j) for j, entry in enumerate(row)] for i, row in enumerate(rows)]
@@ -451,7 +451,7 @@ def matrix_json(M: Matrix | FunctionMatrix) -> Any:
     Raises
     ------
     LimitReached
-        The matrix is sparse, and too large for that.
+        If the matrix is sparse, and too large for a list of rows.
     """
     r, c = M.shape
     if not r and c:
@@ -501,10 +501,10 @@ def sparse_matrix_text(M: Matrix, between: str = ",") -> str:
     """The JSON text of a matrix by its shape and its entries that are not 0."""
     d = M.denominator
     if d == 1:
-        found = between.join([f"[{i},{j},{digits_of(x)}]" for i, j, x in M.nonzero()])
+        triples = between.join([f"[{i},{j},{digits_of(x)}]" for i, j, x in M.nonzero()])
     else:
-        found = between.join([f"[{i},{j},{_entry_text(x, d)}]" for i, j, x in M.nonzero()])
-    return f'{{"entries":[{found}],"shape":[{M.nrows},{M.ncols}]}}'
+        triples = between.join([f"[{i},{j},{_entry_text(x, d)}]" for i, j, x in M.nonzero()])
+    return f'{{"entries":[{triples}],"shape":[{M.nrows},{M.ncols}]}}'
 
 
 @lru_cache(maxsize=16)
@@ -612,10 +612,10 @@ def parse_expression(
         return _Reader(text, parameters, limits).whole()
     except ZeroDivisionError:
         raise InputError(f"division by 0 in {quoted(text)}", where=where) from None
-    except LimitReached as found:
-        raise InputError(f"{found} in {quoted(text)}", where=where) from None
-    except InputError as found:
-        raise InputError(str(found), where=where) from None
+    except LimitReached as error:
+        raise InputError(f"{error} in {quoted(text)}", where=where) from None
+    except InputError as error:
+        raise InputError(str(error), where=where) from None
 
 
 class _Reader:
@@ -627,14 +627,14 @@ class _Reader:
         self.position = self.depth = 0
 
     def _tokens(self, text: str) -> Sequence[str]:
-        found, end = [], 0
+        tokens, end = [], 0
         while end < len(text):
             match = _TOKEN.match(text, end)
             if match is None:
                 raise self._refusal("a number, a parameter or an operator", text[end:].lstrip())
-            found.append(match[0].lstrip(" "))
+            tokens.append(match[0].lstrip(" "))
             end = match.end()
-        return found
+        return tokens
 
     def _refusal(self, expected: str, found: str, advice: str = "") -> InputError:
         shown = quoted(found) if found else "its end"
@@ -646,15 +646,15 @@ class _Reader:
         return self.tokens[self.position] if self.position < len(self.tokens) else ""
 
     def take(self, *choices: str) -> str:
-        """The next token if it is one of these, which is then passed."""
-        found = self.next
-        if found in choices:
+        """Take the next token if it is one of these; otherwise return an empty text."""
+        token = self.next
+        if token in choices:
             self.position += 1
-            return found
+            return token
         return ""
 
     def whole(self) -> RationalFunction:
-        """All of the text."""
+        """Parse the whole text."""
         result = self.sum()
         if self.next:
             isolated = self.next[:1].isalpha() or self.next == "("
@@ -662,7 +662,7 @@ class _Reader:
         return result
 
     def sum(self) -> RationalFunction:
-        """Products, added and subtracted."""
+        """Parse a sum: products, added and subtracted."""
         self.depth += 1
         if self.depth > _DEEPEST:
             raise InputError(f"more than {_DEEPEST} parentheses inside each other")
@@ -674,7 +674,7 @@ class _Reader:
         return result
 
     def product(self) -> RationalFunction:
-        """Powers, multiplied and divided."""
+        """Parse a product: powers, multiplied and divided."""
         result = self.power()
         while sign := self.take("*", "/"):
             factor = self.power()
@@ -682,7 +682,7 @@ class _Reader:
         return result
 
     def power(self) -> RationalFunction:
-        """An atom, perhaps with an exponent."""
+        """Parse an atom, perhaps with an exponent."""
         result = self.atom()
         if not self.take("^"):
             return result
@@ -693,7 +693,7 @@ class _Reader:
         return result ** int(digits)
 
     def atom(self) -> RationalFunction:
-        """A number, a parameter, or a sum in parentheses."""
+        """Parse a number, a parameter, or a sum in parentheses."""
         token = self.next
         if self.take("("):
             result = self.sum()

@@ -61,7 +61,7 @@ def members(data: bytes, limits: Limits) -> dict[str, bytes]:
     InputError
         If it is damaged or encrypted, names a file twice, or is too large when decompressed.
     """
-    found: dict[str, bytes] = {}
+    contents: dict[str, bytes] = {}
     size = 0
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -73,7 +73,7 @@ def members(data: bytes, limits: Limits) -> dict[str, bytes]:
                         f"the file {quoted(member.filename)} of the archive is compressed in a way "
                         "that is not read: expected 'deflate' or none"
                     )
-                if member.filename in found:
+                if member.filename in contents:
                     raise InputError(f"the archive has two files {quoted(member.filename)}")
                 with archive.open(member) as stream:
                     content = stream.read(limits.bytes + 1 - size)
@@ -83,13 +83,13 @@ def members(data: bytes, limits: Limits) -> dict[str, bytes]:
                         f"expected at most {limits.bytes} bytes when decompressed (Limits.bytes), "
                         "found more"
                     )
-                found[member.filename] = content
+                contents[member.filename] = content
     except InputError:
         raise
     except Exception as error:  # of zipfile, which raises all kinds for a damaged archive
-        said = ascii(str(error))[1:-1][:200] or type(error).__name__
-        raise InputError(f"the archive is damaged: {said}") from None
-    return found
+        fault = ascii(str(error))[1:-1][:200] or type(error).__name__
+        raise InputError(f"the archive is damaged: {fault}") from None
+    return contents
 
 
 # System files in YAML: the keys of the JSON format, and numbers as typed.
@@ -105,7 +105,7 @@ def read_yaml(data: bytes, limits: Limits) -> Any:
 
     A plain scalar that is a value of JSON is this value, a number as typed; every other scalar is a
     text, also ``yes`` and ``1e3_0``.  Anchors, tags and numbers such as ``010`` are refused: that
-    is 8 in YAML 1.1, and 10 in YAML 1.2.  A file that is JSON is read as JSON, which YAML 1.2 is.
+    is 8 in YAML 1.1, and 10 in YAML 1.2.  A file of JSON, which is valid YAML 1.2, is read as JSON.
 
     Raises
     ------
@@ -128,15 +128,15 @@ def read_yaml(data: bytes, limits: Limits) -> Any:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = f" at line {mark.line + 1}, column {mark.column + 1}" if mark else ""
-        said = getattr(error, "problem", None) or str(error).partition("\n")[0]
-        raise InputError(f"not YAML: {said}{place}") from None
+        problem = getattr(error, "problem", None) or str(error).partition("\n")[0]
+        raise InputError(f"not YAML: {problem}{place}") from None
 
 
 def _plain(yaml: Any, text: str, limits: Limits) -> Any:
     """The plain data of the only document, made in one pass over the events of the parser.
 
-    Anchors, which can stand for more than fits into memory, and depth are refused where they begin.
-    The parser in C is ten times as fast, and not everywhere.
+    Anchors, which can expand beyond the memory, and deep nesting are refused where they begin.  The
+    parser in C is used where it is installed, since it is ten times as fast.
     """
     open_: list[_Open] = [_Open([])]
     for event in yaml.parse(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
@@ -151,15 +151,15 @@ def _plain(yaml: Any, text: str, limits: Limits) -> Any:
                 raise InputError(f"expected at most {limits.depth} nested levels (Limits.depth)")
             open_.append(_Open([] if isinstance(event, yaml.SequenceStartEvent) else JsonObject()))
         elif isinstance(event, yaml.CollectionEndEvent):
-            made = open_.pop().made
-            open_[-1].put(made)
+            closed = open_.pop().container
+            open_[-1].put(closed)
         elif isinstance(event, yaml.AliasEvent):
             raise _anchored(line)
-        elif isinstance(event, yaml.DocumentStartEvent) and open_[0].made:
+        elif isinstance(event, yaml.DocumentStartEvent) and open_[0].container:
             raise InputError(f"not YAML: expected a single document, found another at line {line}")
-    if not open_[0].made:
+    if not open_[0].container:
         raise InputError("expected an object, found an empty file")
-    return open_[0].made[0]
+    return open_[0].container[0]
 
 
 def _require_plain(event: Any, line: int) -> None:
@@ -178,13 +178,13 @@ def _anchored(line: int) -> InputError:
 class _Open:
     """A list or an object that is being read, and the key whose value comes next."""
 
-    made: Any
+    container: Any
     key: str | None = None
 
     def add(self, text: str, plain: bool, line: int) -> None:
         """Take a scalar as a key or as a value."""
-        if isinstance(self.made, dict) and self.key is None:
-            if text in self.made:
+        if isinstance(self.container, dict) and self.key is None:
+            if text in self.container:
                 raise InputError(f"the key {text[:40]!a} is given twice")
             self.key = text
         else:
@@ -192,19 +192,19 @@ class _Open:
 
     def require_value(self, line: int) -> None:
         """Refuse a list or an object as a key."""
-        if isinstance(self.made, dict) and self.key is None:
+        if isinstance(self.container, dict) and self.key is None:
             raise InputError(f"expected a text as key at line {line}")
 
     def put(self, value: Any) -> None:
         """Take a value."""
         if self.key is None:
-            self.made.append(value)
+            self.container.append(value)
         else:
-            self.made[self.key], self.key = value, None
+            self.container[self.key], self.key = value, None
 
 
 def _value(text: str, line: int) -> Any:
-    """What a plain scalar stands for."""
+    """The value of a plain scalar."""
     if _NUMBER.fullmatch(text):
         return int(text) if _SHORT.fullmatch(text) else NumberText(text)
     if _LEADING_ZERO.fullmatch(text):
@@ -323,9 +323,9 @@ def _document(data: bytes, suffix: str, limits: Limits) -> Any:
 
 def _parts(data: bytes, suffix: str, limits: Limits) -> Parts | None:
     """The parts of a file of arrays; None for a text."""
-    for magic, said in _FOREIGN.items():
+    for magic, kind in _FOREIGN.items():
         if data.startswith(magic):
-            raise InputError(f"found {said}")
+            raise InputError(f"found {kind}")
     if data.startswith(b"{"):
         return None
     if data.startswith(arrays.MAGIC):
@@ -415,10 +415,10 @@ def load_parametric_system(
     ('gamma1', 'gamma2')
     """
     with InputError.inside(place_of(path)):
-        found = read_plant(read_input(path, limits), os.fspath(path), Reading(limits))
-        if not isinstance(found, ParametricSystem):
+        system = read_plant(read_input(path, limits), os.fspath(path), Reading(limits))
+        if not isinstance(system, ParametricSystem):
             raise InputError("found a system without parameters, which load_system reads")
-        return found
+        return system
 
 
 def save_system(
@@ -453,11 +453,11 @@ def save_system(
     UsageError
         If the end of the name is none of these.
     """
-    made = system_files(system, path, rounding=rounding, nearest=nearest)
-    if isinstance(made, bytes):
-        write_bytes(path, made)
+    contents = system_files(system, path, rounding=rounding, nearest=nearest)
+    if isinstance(contents, bytes):
+        write_bytes(path, contents)
     else:
-        write_csv_files(path, made)
+        write_csv_files(path, contents)
 
 
 def system_files(
@@ -490,16 +490,16 @@ def system_files(
     InputError.require(system, MultiChannelSystem, "system")
     if (rounding is not None or nearest) and suffix not in (".mat", ".npz"):
         raise UsageError("numbers are rounded in .mat and .npz files only: leave it out")
-    made: bytes | dict[str, str]
+    contents: bytes | dict[str, str]
     if suffix == ".mat":
-        made = mat_bytes(parts_of(system), rounding, nearest=nearest)
+        contents = mat_bytes(parts_of(system), rounding, nearest=nearest)
     elif suffix == ".npz":
-        made = npz_bytes(parts_of(system), rounding, nearest=nearest)
+        contents = npz_bytes(parts_of(system), rounding, nearest=nearest)
     elif is_folder(path):
-        made = csv_texts(parts_of(system))
+        contents = csv_texts(parts_of(system))
     else:
         return system_text(system).encode("ascii")
-    return made
+    return contents
 
 
 def require_suffix(path: str | os.PathLike[str]) -> None:

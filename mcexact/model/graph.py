@@ -42,7 +42,7 @@ def checked_delays(
     FloatRefused
         If a delay is a float.
     """
-    found: dict[tuple[int, int], int] = {}
+    delay_of: dict[tuple[int, int], int] = {}
     for k, late in enumerate(several(delays, "delays", "triples (i, j, d)")):
         triple = several(late, f"delays[{k}]", "the two positions and the delay")
         if len(triple) != 3:
@@ -53,7 +53,7 @@ def checked_delays(
         if isinstance(delay, bool) or not isinstance(delay, int) or delay < 0:
             kind = FloatRefused if isinstance(delay, float) else InputError
             raise kind(f"expected an integer >= 0, found {delay!r}", where=where)
-        if (i, j) in found:
+        if (i, j) in delay_of:
             raise InputError("expected one delay, found two", where=where)
         if delay and i == j:
             raise InputError("expected 0: an agent has its own signals without delay", where=where)
@@ -63,8 +63,8 @@ def checked_delays(
                 f"of {quoted(names[i])}, or remove the delay",
                 where=where,
             )
-        found[i, j] = delay
-    return tuple(sorted((i, j, d) for (i, j), d in found.items() if d))
+        delay_of[i, j] = delay
+    return tuple(sorted((i, j, d) for (i, j), d in delay_of.items() if d))
 
 
 def agent_position(value: object, m: int, where: str) -> int:
@@ -309,7 +309,7 @@ class NeighborGraph(Shown):
 
     def explain(self) -> str:
         """Say in plain words who receives whose messages, one agent a line."""
-        return "\n".join(f"Agent {name} receives {told}." for name, told in self._labeled())
+        return "\n".join(f"Agent {name} receives {sources}." for name, sources in self._labeled())
 
     def _labeled(self) -> Iterator[tuple[str, str]]:
         """Yield each agent, and from whom it receives messages, with delays."""

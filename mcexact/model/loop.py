@@ -1,4 +1,4 @@
-"""Closed loops of a plant, agents' states and messages under way, assembled in this file only.
+"""Closed loops: the states of plant and agents, and messages under way.  Only this file makes them.
 
 `ClosedLoop` eliminates outputs and inputs and gives the matrix of the loop.  `LoopPencil` keeps
 y_j and u_j as signals, so that each entry of the plant and of the controller stands in one place
@@ -60,7 +60,7 @@ class ClosedLoop:
     @cached_property
     def blocks(self) -> Mapping[tuple[str, int, int], tuple[int, int]]:
         """Position and size of the blocks ("x", 0, 0), ("x_", j, δ), ("z_", j, 0), ("y_", j, δ)."""
-        found: dict[tuple[str, int, int], tuple[int, int]] = {("x", 0, 0): (0, self.given.n)}
+        places: dict[tuple[str, int, int], tuple[int, int]] = {("x", 0, 0): (0, self.given.n)}
         position = self.given.n
         order: list[tuple[str, int, int, int]] = []
         for j, agent in enumerate(self.controller.agents):
@@ -70,9 +70,9 @@ class ClosedLoop:
             order += [("x_", j, delta, agent.shared) for delta in range(1, b + 1)]
             order += [("y_", j, delta, self.given.q(j)) for delta in range(1, a + 1)]
         for kind, j, delta, size in order:
-            found[kind, j, delta] = (position, size)
+            places[kind, j, delta] = (position, size)
             position += size
-        return found
+        return places
 
     @cached_property
     def matrix(self) -> Matrix:
@@ -165,15 +165,15 @@ class LoopPencil(ClosedLoop):
 
     @cached_property
     def blocks(self) -> Mapping[tuple[str, int, int], tuple[int, int]]:
-        """Those of the loop, and then ("y_", j, 0) and ("u_", j, 0)."""
-        found = dict(super().blocks)
-        position = sum(size for _, size in found.values())
+        """The blocks of the loop, then ("y_", j, 0) and ("u_", j, 0)."""
+        places = dict(super().blocks)
+        position = sum(size for _, size in places.values())
         signals = [("y_", j, self.given.q(j)) for j in range(self.given.m)]
         signals += [("u_", j, self.given.p(j)) for j in range(self.given.m)]
         for kind, j, size in signals:
-            found[kind, j, 0] = (position, size)
+            places[kind, j, 0] = (position, size)
             position += size
-        return found
+        return places
 
     @property
     def states(self) -> int:
@@ -189,7 +189,7 @@ class LoopPencil(ClosedLoop):
 
     @cached_property
     def matrix(self) -> Matrix:
-        """Z0."""
+        """The matrix Z0."""
         return self.with_entries(self.given, self.controller, 1)
 
     def with_entries(self, plant: MultiChannelSystem, controller: Controller, one: int) -> Matrix:
@@ -243,8 +243,8 @@ def closed_loop(
     >>> closed_loop(plant, Controller("continuous", "", (agent,))).matrix.numerators
     ((-2,),)
     """
-    system, found = with_links(system, graph)
-    if found.delays:
+    system, links = with_links(system, graph)
+    if links.delays:
         require_discrete(system)
-    controller.require_fits(system, found)
-    return ClosedLoop(system, controller, found)
+    controller.require_fits(system, links)
+    return ClosedLoop(system, controller, links)

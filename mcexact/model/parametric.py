@@ -1,10 +1,9 @@
 """Multi-channel systems whose entries depend on parameters.
 
-A `ParametricSystem` has rational functions of named parameters as entries, and perhaps a range
-for each parameter.  `at` gives the system of numbers at one value of every parameter,
-`with_values` fixes some of them, and `along` puts them on a line or another curve.  `generic`
-takes drawn integers, whose answers nearly always are those of almost all values; that is no
-proof.
+A `ParametricSystem` has rational functions of named parameters as entries, and perhaps a range for
+each parameter.  `at` gives the system of numbers at one value of every parameter, `with_values`
+fixes some of them, and `along` puts them on a line or another curve.  `generic` takes drawn
+integers; what is true there is nearly always true of almost all values, but that is no proof.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar
 
-from mcexact.errors import InputError, LimitReached, told
+from mcexact.errors import InputError, LimitReached, shown_value
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction, rational_text, written
 from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
@@ -33,7 +32,6 @@ from mcexact.model.system import (
     Channel,
     Construction,
     MultiChannelSystem,
-    SystemForms,
     channels_of,
 )
 from mcexact.model.text import canonical, checked_text, nearest, quoted
@@ -45,7 +43,7 @@ _TRIES = 200
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
+class ParametricSystem(ByChannel[FunctionMatrix]):
     """A multi-channel system whose entries are rational functions of parameters.
 
     Parameters
@@ -71,7 +69,7 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
     Attributes
     ----------
     ranges : tuple of (Fraction or None, Fraction or None)
-        What is assumed of each parameter.
+        The assumed range of each parameter.
 
     Raises
     ------
@@ -169,12 +167,13 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
     def poles(self) -> tuple[Polynomial, ...]:
         """With one parameter, the irreducible polynomials at whose roots an entry is undefined.
 
-        Of a system that was constructed from a plant these are the poles of the plant, since all
-        answers about the plant are about the same values, even without the entries that have them.
+        For a system constructed from a plant these are the poles of the plant, even if the
+        constructed system lacks the entries with these poles: all answers about the plant exclude
+        the same values.
         """
         parts = [self.plant.A, *(M for c in self.plant.channels for M in (c.B, c.C))]
-        found = {q for M in parts for q, _ in M.reduced[1].factor()}
-        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+        factors = {q for M in parts for q, _ in M.reduced[1].factor()}
+        return tuple(sorted(factors, key=lambda q: (q.degree, q.coefficients)))
 
     @property
     def plant(self) -> ParametricSystem:
@@ -202,11 +201,11 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         """
         if len(self.parameters) == 1 and not isinstance(values, Mapping):
             values = {self.parameters[0]: values}
-        given = values_by_name(values, self.parameters, "values")
-        missing = [name for name in self.parameters if name not in given]
+        value_of = values_by_name(values, self.parameters, "values")
+        missing = [name for name in self.parameters if name not in value_of]
         if missing:
             raise InputError(f"expected a value of the parameter {missing[0]!r}", where="values")
-        numbers = [as_fraction(given[name], where=f"values[{name}]") for name in self.parameters]
+        numbers = [as_fraction(value_of[name], where=f"values[{name}]") for name in self.parameters]
         zero = RationalFunction.constant(0, ())
         parts = self._mapped(lambda entry: entry.substituted(numbers, zero))
         return MultiChannelSystem(
@@ -238,13 +237,13 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         >>> print(plant.with_values({"a": "1/2"}).A[0, 0])
         b + 1/2
         """
-        given = values_by_name(values, self.parameters, "values")
+        value_of = values_by_name(values, self.parameters, "values")
         left = {
             name: bounds
             for name, bounds in zip(self.parameters, self.ranges, strict=True)
-            if name not in given
+            if name not in value_of
         }
-        return self.along(given, [*left], left) if left else self.at(given)
+        return self.along(value_of, [*left], left) if left else self.at(value_of)
 
     def along(
         self,
@@ -276,9 +275,9 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         >>> print(line.A[0, 0], "|", line.channels[0].C[0, 0])
         1 | -s^2 + s
         """
-        given, new = values_by_name(line, self.parameters, "line"), _checked_parameters(parameters)
+        curve, new = values_by_name(line, self.parameters, "line"), _checked_parameters(parameters)
         values = [
-            as_function(given.get(name, name), f"line[{name}]", new) for name in self.parameters
+            as_function(curve.get(name, name), f"line[{name}]", new) for name in self.parameters
         ]
         zero = RationalFunction.constant(0, new)
         parts = self._mapped(lambda entry: entry.substituted(values, zero))
@@ -318,11 +317,11 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         """A, all B_i and all C_i with a function applied to each entry."""
         places = ["A", *(f"channels[{i}].{part}" for part in "BC" for i in range(self.m))]
         parts = [self.A, *(c.B for c in self.channels), *(c.C for c in self.channels)]
-        found = []
+        mapped = []
         for place, part in zip(places, parts, strict=True):
             with InputError.inside(place):
-                found.append(part.mapped(function))
-        return found
+                mapped.append(part.mapped(function))
+        return mapped
 
     def _as_canonical_text(self) -> str:
         return canonical(self.document())
@@ -346,10 +345,10 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         }
 
     def __repr__(self) -> str:
-        told = ", ".join(self.parameters_in_words)
+        parameters = ", ".join(self.parameters_in_words)
         shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")
         return (
-            f"ParametricSystem(n={self.n}, m={self.m}, {self.time} time, parameters: {told}, "
+            f"ParametricSystem(n={self.n}, m={self.m}, {self.time} time, parameters: {parameters}, "
             f"channels: {shown})"
         )
 
@@ -377,32 +376,33 @@ def _checked_parameters(parameters: Sequence[Any]) -> tuple[str, ...]:
     return tuple(sorted(known))
 
 
-def values_by_name(given: Mapping[Any, Any], known: tuple[str, ...], where: str) -> dict[str, Any]:
+def values_by_name(values: Mapping[Any, Any], known: tuple[str, ...], where: str) -> dict[str, Any]:
     """The values of a mapping whose keys are symbols or names of parameters."""
-    if not isinstance(given, Mapping):
+    if not isinstance(values, Mapping):
         raise InputError(
-            f"expected a mapping from parameters, such as {{{known[0]!r}: …}}, found {told(given)}",
+            f"expected a mapping from parameters, such as {{{known[0]!r}: …}}, "
+            f"found {shown_value(values)}",
             where=where,
         )
-    found = {str(key): value for key, value in given.items()}
-    for name in found:
+    by_name = {str(key): value for key, value in values.items()}
+    for name in by_name:
         if name not in known:
             raise InputError(
                 f"unknown parameter {quoted(name)}{nearest(name, known)}; "
                 f"the parameters are {', '.join(known)}",
                 where=where,
             )
-    return found
+    return by_name
 
 
 def _checked_ranges(
     assume: Mapping[Any, tuple[Any, Any]], known: tuple[str, ...]
 ) -> tuple[Range, ...]:
-    given = values_by_name(assume, known, "assume")
+    assumed = values_by_name(assume, known, "assume")
     ranges: list[Range] = []
     for name in known:
         where = f"assume[{name}]"
-        bounds = list(given.get(name, (None, None)))
+        bounds = list(assumed.get(name, (None, None)))
         if len(bounds) != 2:
             raise InputError(f"expected two ends, found {len(bounds)}", where=where)
         low, high = (None if end is None else as_fraction(end, where=where) for end in bounds)
@@ -417,7 +417,7 @@ def require_ascending(low: Fraction | None, high: Fraction | None, where: str) -
     Raises
     ------
     InputError
-        If it is; None has no bound.
+        If the first end is above the second; None stands for no bound.
     """
     if low is not None and high is not None and low > high:
         raise InputError(

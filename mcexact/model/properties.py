@@ -1,4 +1,4 @@
-"""What every plant within the radii of entries may be, or have."""
+"""The properties that can be proved of every plant within the radii of its entries."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ PROPERTIES: dict[str, Property] = {
     "box_controllability": "controllable",
     "box_observability": "observable",
 }
-"""What every plant within the radii is, or has, where these questions are answered by yes."""
+"""For each question about a box, the property of every plant that the answer yes proves."""
 
 
 def question_about(wanted: Property) -> str:

@@ -59,12 +59,10 @@ class Radii(Shown):
     def __init__(self, A: Any, B: Sequence[Any], C: Sequence[Any]) -> None:
         if len(B) != len(C):
             raise InputError(f"expected as many matrices as in B, {len(B)}, found {len(C)}")
-        found = as_table(A, "A").matrix()
-        object.__setattr__(self, "A", _nonnegative(found, "A"))
+        D_A = as_table(A, "A").matrix()
+        object.__setattr__(self, "A", _nonnegative(D_A, "A"))
         for key, matrices in (("B", B), ("C", C)):
-            read = [
-                as_table(M, f"{key}[{i}]", found.nrows).matrix() for i, M in enumerate(matrices)
-            ]
+            read = [as_table(M, f"{key}[{i}]", D_A.nrows).matrix() for i, M in enumerate(matrices)]
             checked = (_nonnegative(M, f"{key}[{i}]") for i, M in enumerate(read))
             object.__setattr__(self, key, tuple(checked))
 
@@ -106,19 +104,19 @@ class Radii(Shown):
         """
         if len(self.B) != len(B):
             raise InputError(f"expected radii of {len(B)} channels, found {len(self.B)}")
-        given = [A, *B, *C]
-        for (place, M), other in zip(self.matrices(), given, strict=True):
+        others = [A, *B, *C]
+        for (place, M), other in zip(self.matrices(), others, strict=True):
             require_shape(M, place, other.nrows, other.ncols)
 
     def document(self, names: Sequence[str]) -> dict[str, Any]:
         """The object ``uncertainty`` of the system of a certificate: the radii that are not 0."""
-        found: dict[str, Any] = {} if self.A.is_zero() else {"A": _listed(self.A)}
+        absolute: dict[str, Any] = {} if self.A.is_zero() else {"A": _listed(self.A)}
         for key, parts in (("B", self.B), ("C", self.C)):
-            said = {
+            by_name = {
                 name: _listed(M) for name, M in zip(names, parts, strict=True) if not M.is_zero()
             }
-            found |= {key: said} if said else {}
-        return {"absolute": found}
+            absolute |= {key: by_name} if by_name else {}
+        return {"absolute": absolute}
 
     def explain(self) -> str:
         """Say how many entries are uncertain."""
@@ -172,12 +170,12 @@ def typed_radius(entry: Any) -> Fraction:
     (Fraction(0, 1), Fraction(0, 1), Fraction(0, 1))
     """
     text = str(entry) if isinstance(entry, (str, Decimal)) else ""
-    found = _DECIMAL.fullmatch(text)
-    if found is None or (found["decimals"] is None and found["exponent"] is None):
+    decimal = _DECIMAL.fullmatch(text)
+    if decimal is None or (decimal["decimals"] is None and decimal["exponent"] is None):
         return Fraction(0)
     if not as_fraction(entry):
         return Fraction(0)
-    power = int(found["exponent"] or 0) - len(found["decimals"] or "")
+    power = int(decimal["exponent"] or 0) - len(decimal["decimals"] or "")
     return Fraction(10) ** power / 2
 
 
@@ -228,7 +226,7 @@ def read_radii(
     names : sequence of str
         The channels.
     A, B, C : matrices
-        What these are read as.
+        The matrices of the file, which are read already.
     limits : Limits
 
     Raises
@@ -236,8 +234,8 @@ def read_radii(
     InputError
         If it is malformed, a radius is negative or has too many digits, or a shape differs.
     """
-    found = _radii(value, document, names, A, B, C, limits)
-    for place, M in found.matrices():
+    radii = _radii(value, document, names, A, B, C, limits)
+    for place, M in radii.matrices():
         for i, j, x in M.nonzero():
             radius = Fraction(x, M.denominator)
             longest = max(radius.numerator, radius.denominator)
@@ -247,7 +245,7 @@ def read_radii(
                     "(Limits.digits), and no file with it would be read: shorten the radii",
                     where="uncertainty",
                 )
-    return found
+    return radii
 
 
 def _radii(
@@ -259,24 +257,24 @@ def _radii(
     C: Sequence[Matrix],
     limits: Limits,
 ) -> Radii:
-    """The radii that are given in one of three ways."""
+    """Read the radii from the one of three forms that the value has."""
     where = "uncertainty"
     if not isinstance(value, dict):
         raise InputError(
             f'expected an object such as {{"relative": "1/100"}}, found {kind_of(value)}',
             where=where,
         )
-    given = expect_object(value, where, (), ("relative", "digits", "absolute"))
-    if len(given) != 1:
+    form = expect_object(value, where, (), ("relative", "digits", "absolute"))
+    if len(form) != 1:
         raise InputError(
-            f"expected one of 'relative', 'digits' and 'absolute', found {len(given)}", where=where
+            f"expected one of 'relative', 'digits' and 'absolute', found {len(form)}", where=where
         )
-    if "relative" in given:
-        part = read_number(given["relative"], f"{where}.relative", limits)
+    if "relative" in form:
+        part = read_number(form["relative"], f"{where}.relative", limits)
         with InputError.inside(where):
             return Radii.relative(A, B, C, part)
-    if "digits" in given:
-        if expect_string(given["digits"], f"{where}.digits") != AS_TYPED:
+    if "digits" in form:
+        if expect_string(form["digits"], f"{where}.digits") != AS_TYPED:
             raise InputError(f'expected "{AS_TYPED}"', where=f"{where}.digits")
         channels = list(zip(document["channels"], B, C, strict=True))
         return Radii(
@@ -285,16 +283,18 @@ def _radii(
             [typed_radii(c["C"], "C", C_i.ncols) for c, _, C_i in channels],
         )
     place = f"{where}.absolute"
-    parts = expect_object(given["absolute"], place, (), ("A", "B", "C"))
+    parts = expect_object(form["absolute"], place, (), ("A", "B", "C"))
 
     def read(value: Any, at: str, like: Matrix) -> Matrix:
         return _nonnegative(read_matrix(value, at, *like.shape, limits), at)
 
     def ports(key: str, like: Sequence[Matrix]) -> list[Matrix]:
         at = f"{place}.{key}"
-        said = expect_object(parts.get(key, {}), at, (), names)
+        by_name = expect_object(parts.get(key, {}), at, (), names)
         return [
-            read(said[name], f"{at}[{quoted(name)}]", M) if name in said else Matrix.zeros(*M.shape)
+            read(by_name[name], f"{at}[{quoted(name)}]", M)
+            if name in by_name
+            else Matrix.zeros(*M.shape)
             for name, M in zip(names, like, strict=True)
         ]
 

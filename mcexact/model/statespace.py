@@ -320,12 +320,12 @@ def _tracks(loop: ClosedLoop) -> int:
 
 def _of_loop(loop: ClosedLoop) -> Parts:
     """The loop from disturbances of all inputs, and set-points if it has some, to all outputs."""
-    given, N = loop.given, loop.dimension
-    disturbed = given.input_matrix()
-    B = vstack([disturbed, Matrix.zeros(N - given.n, disturbed.ncols)], ncols=disturbed.ncols)
+    plant, N = loop.given, loop.dimension
+    disturbed = plant.input_matrix()
+    B = vstack([disturbed, Matrix.zeros(N - plant.n, disturbed.ncols)], ncols=disturbed.ncols)
     if _tracks(loop):
         B = hstack([B, loop.reference], nrows=N)
-    C = given.output_matrix() @ loop.pick("x")
+    C = plant.output_matrix() @ loop.pick("x")
     return loop.matrix, B, C, Matrix.zeros(C.nrows, B.ncols)
 
 
@@ -367,9 +367,9 @@ def _of_controller(loop: ClosedLoop) -> Parts:
     return loop.matrix.take(rows=states, cols=states), B, used.take(cols=states), D
 
 
-def _spread(M: Matrix | None, i: int, nrows: int, given: MultiChannelSystem) -> Matrix:
+def _spread(M: Matrix | None, i: int, nrows: int, plant: MultiChannelSystem) -> Matrix:
     """The coefficients of r_i as coefficients of all set-points."""
-    parts = [Matrix.zeros(nrows, given.q(j)) for j in range(given.m)]
+    parts = [Matrix.zeros(nrows, plant.q(j)) for j in range(plant.m)]
     if M is not None:
         parts[i] = M
     return hstack(parts, nrows=nrows)
@@ -459,16 +459,16 @@ def _program(
         time, _ = sampling(part.dt, "decimal")
         if time != system.time:
             raise InputError(f"the controller is in {time} time", where=where)
-        given: tuple[Any, ...] = (part.A, part.B, part.C, part.D)
+        parts: tuple[Any, ...] = (part.A, part.B, part.C, part.D)
     elif isinstance(part, tuple) and len(part) == 4:
-        given = part
+        parts = part
     elif isinstance(part, tuple):
         raise InputError(f"expected (A, B, C, D), found {len(part)} matrices", where=where)
     else:
-        given = ((), Matrix.zeros(0, q), Matrix.zeros(p, 0), part)
+        parts = ((), Matrix.zeros(0, q), Matrix.zeros(p, 0), part)
 
     def matrix(k: int, ncols: int | None = None) -> Matrix:
-        value, place = given[k], f"{where}.{'ABCD'[k]}"
+        value, place = parts[k], f"{where}.{'ABCD'[k]}"
         empty = hasattr(value, "__len__") and not len(value)
         if rounding is not None and not empty and not isinstance(value, Matrix):
             return matrix_from_float(value, rounding, where=place)
@@ -510,7 +510,7 @@ def c2d(system: MultiChannelSystem, step: Entry, *, decimals: int = DECIMALS) ->
     step : rational or float
         The time h between samples; 0.1 stands for 1/10.
     decimals : int
-        To which the matrix exponential is rounded.
+        The number of decimals to which the matrix exponential is rounded.
 
     Returns
     -------
@@ -520,9 +520,9 @@ def c2d(system: MultiChannelSystem, step: Entry, *, decimals: int = DECIMALS) ->
                 ⎡ A  B ⎤     ⎡ A_h  B_h ⎤
             exp ⎣ 0  0 ⎦ h = ⎣ 0     I  ⎦
 
-        Outputs, names and neighbors stay.  ``source`` states the rounding.  Whatever is decided
-        about this plant is decided about the rounded one.  Radii of entries are not carried over,
-        which ``source`` states, too: every entry of A_h and B_h depends on many of A and B.
+        Outputs, names and neighbors stay.  ``source`` states the rounding.  Every decision about
+        the result is about the rounded plant.  Radii of entries are not carried over, which
+        ``source`` states, too: every entry of A_h and B_h depends on many of A and B.
 
     Raises
     ------
@@ -552,19 +552,19 @@ most 0.51e-12
         raise UsageError(f"expected 0 to 1000 decimals, found {decimals!r}", where="decimals")
     n, B = system.n, system.input_matrix()
     upper = hstack([system.A, B]) * h
-    found = exponential(vstack([upper, Matrix.zeros(B.ncols, n + B.ncols)]), decimals)
+    sampled = exponential(vstack([upper, Matrix.zeros(B.ncols, n + B.ncols)]), decimals)
     rows, inputs, start = range(n), list[Matrix](), n
     for i in range(system.m):
-        inputs.append(found.take(rows=rows, cols=range(start, start + system.p(i))))
+        inputs.append(sampled.take(rows=rows, cols=range(start, start + system.p(i))))
         start += system.p(i)
-    told = (
+    note = (
         f"sampled every {rational_text(h)} with inputs held; every entry of A and B differs from "
         f"the exact one by at most 0.51e-{decimals}"
     )
     if system.uncertainty is not None:
-        told += "; the values were sampled, and the radii of uncertain entries not carried over"
+        note += "; the values were sampled, and the radii of uncertain entries not carried over"
     return MultiChannelSystem(
-        found.take(rows=rows, cols=range(n)),
+        sampled.take(rows=rows, cols=range(n)),
         inputs,
         [system.C(i) for i in range(system.m)],
         time="discrete",
@@ -572,5 +572,5 @@ most 0.51e-12
         neighbors=system.neighbors,
         sample_time=h if system.sample_time is None else system.sample_time,
         name=system.name,
-        source=told if system.source is None else f"{system.source}; {told}",
+        source=note if system.source is None else f"{system.source}; {note}",
     )

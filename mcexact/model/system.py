@@ -1,14 +1,13 @@
-"""Multi-channel systems, their channels, and their forms.
+"""Multi-channel systems, their channels, and their display.
 
 `MultiChannelSystem` is the subject of the whole package: ẋ = A x + Σ B_i u_i, y_i = C_i x, or
 x(t+1) = …, with rational matrices and perhaps a neighbor graph and radii of entries.  It is
 immutable.  A plant comes from the user; a derived system also records its plant and the
 constructions that lead to it.
 
-`ByChannel` and `SystemForms` are what it has in common with `ParametricSystem`: sizes, channels
-by position or name, display, canonical JSON and its digest.  The digest identifies a plant in
-certificates; it does not depend on the form in which numbers are written, nor on ``name`` and
-``source``.
+`ByChannel` is what it has in common with `ParametricSystem`: sizes, channels by position or name,
+display, canonical JSON and its digest.  The digest identifies a plant in certificates; it does not
+depend on the form in which numbers are written, nor on ``name`` and ``source``.
 
 `with_graph` and `with_links` combine a system with the graph of an argument: the first requires a
 graph, the second takes the graph without edges if there is none.  `from_stacked` makes a system
@@ -27,7 +26,7 @@ from math import lcm
 from typing import Any, ClassVar, Generic, Self, SupportsIndex, TypeVar, overload
 
 from mcexact import shown
-from mcexact.errors import InputError, UsageError, several, told
+from mcexact.errors import InputError, UsageError, several, shown_value
 from mcexact.exact.matrix import Matrix, Rounding, hstack, matrix_from_float, vstack
 from mcexact.exact.rational import as_fraction, rational_text
 from mcexact.exact.rational_functions import FunctionMatrix
@@ -70,7 +69,7 @@ def position(name: str, names: Sequence[str]) -> int:
     """
     if not isinstance(name, str) or name not in names:
         raise UsageError(
-            f"there is no channel {told(name)}{nearest(str(name), names)}; "
+            f"there is no channel {shown_value(name)}{nearest(str(name), names)}; "
             f"the channels are {', '.join(map(quoted, names))}"
         )
     return names.index(name)
@@ -98,9 +97,9 @@ class ChannelMatrices(tuple[AnyMatrix, ...]):
     def __new__(
         cls, matrices: Iterable[AnyMatrix], names: tuple[str, ...]
     ) -> ChannelMatrices[AnyMatrix]:
-        made = super().__new__(cls, matrices)
-        made.names = names
-        return made
+        self = super().__new__(cls, matrices)
+        self.names = names
+        return self
 
     def __getnewargs__(self) -> tuple[Any, ...]:
         return tuple(self), self.names
@@ -132,9 +131,12 @@ class ChannelMatrices(tuple[AnyMatrix, ...]):
         return shown.framed(shown.grid(["channel", ""], zip(self.names, self, strict=True)))
 
 
-# What systems of numbers and systems with parameters have in common: sizes and channels.
+# What systems of numbers and systems with parameters have in common.
 
 M = TypeVar("M", Matrix, FunctionMatrix)
+
+FORMAT = "mcexact-system/1"
+_MOST_CHANNELS = 12
 
 
 @dataclass(frozen=True, repr=False)
@@ -153,8 +155,8 @@ class Channel(Shown, Generic[M]):
         yield from vars(self).items()
 
 
-class ByChannel(Generic[M]):
-    """The sizes and the channels of a system with a matrix A and channels."""
+class ByChannel(Shown, Generic[M]):
+    """The sizes, the channels and the display of a system with a matrix A and channels."""
 
     A: M
     channels: tuple[Channel[M], ...]
@@ -231,95 +233,6 @@ class ByChannel(Generic[M]):
         ('left', 'right')
         """
         return tuple(self.channels[i].name for i in sorted(set(channels)))
-
-
-def listed_matrices(value: Any, where: str) -> list[Any]:
-    """Return the matrices of all channels as a list.
-
-    Raises
-    ------
-    InputError
-        If it is one matrix, or no list.
-    """
-    if _is_one_matrix(value):
-        raise InputError(
-            "expected a list of matrices, one for each channel, found one matrix: write "
-            f"[{where}] for one channel, or from_stacked(A, B, C, sizes) for several",
-            where=where,
-        )
-    one = isinstance(value, (str, bytes, Mapping))
-    if one or not hasattr(value, "__iter__"):
-        raise InputError(
-            f"expected a list of matrices, one for each channel, found {type(value).__name__}",
-            where=where,
-        )
-    return list(value)
-
-
-def _is_one_matrix(value: Any) -> bool:
-    """Whether a value is a matrix, and no list of matrices: its rows hold numbers."""
-    if isinstance(value, (Matrix, FunctionMatrix)) or getattr(value, "ndim", 0) == 2:
-        return True
-    row = value[0] if isinstance(value, (list, tuple)) and value else None
-    return isinstance(row, (list, tuple)) and any(
-        isinstance(entry, str) or not hasattr(entry, "__iter__") for entry in row
-    )
-
-
-def channels_of(
-    n: int,
-    B: Sequence[Any],
-    C: Sequence[Any],
-    names: Sequence[str] | None,
-    table: Callable[[Any, str, int | None], Table[M]],
-) -> tuple[Channel[M], ...]:
-    """Make the channels of matrices, whose shapes are compared before their entries are read.
-
-    Parameters
-    ----------
-    n : int
-    B, C : sequences of matrix-like values
-    names : sequence of str, optional
-        By default "1", "2", ….
-    table : callable
-        The shape of a value with its place, and of one without rows its number of columns.
-
-    Raises
-    ------
-    InputError
-        If there are no channels, or a number, a name or a shape is not as expected.
-    """
-    B, C = listed_matrices(B, "B"), listed_matrices(C, "C")
-    m = len(B)
-    if m != len(C):
-        raise InputError(f"expected as many matrices as in B, {m}, found {len(C)}", where="C")
-    if not m:
-        raise InputError("expected at least one channel, found none", where="B")
-    labels = [str(i + 1) for i in range(m)] if names is None else several(names, "names")
-    if len(labels) != m:
-        raise InputError(f"expected {m} names, found {len(labels)}", where="names")
-    checked = checked_names(labels, [f"names[{i}]" for i in range(m)])
-    tables = [
-        (
-            require_shape(table(B[i], f"B[{i}]", None), f"B[{i}]", n, None),
-            require_shape(table(C[i], f"C[{i}]", n), f"C[{i}]", None, n),
-        )
-        for i in range(m)
-    ]
-    return tuple(
-        Channel(name, B_i.matrix(), C_i.matrix())
-        for name, (B_i, C_i) in zip(checked, tables, strict=True)
-    )
-
-
-# Forms of a multi-channel system: words, a table for notebooks, and plain data.
-
-FORMAT = "mcexact-system/1"
-_MOST_CHANNELS = 12
-
-
-class SystemForms(Shown):
-    """The display of systems of numbers and of functions."""
 
     def explain(self: Any) -> str:
         """Say in plain words what the system is: sizes, equations, channels and links."""
@@ -450,8 +363,8 @@ def _count(size: int, noun: str) -> str:
 def _sentences(system: Any) -> Iterator[str]:
     yield f"{_heading(system)}."
     if system.subject:
-        made = ", ".join(each["construction"] for each in system.subject)
-        yield f"It was made from a plant by: {made}."
+        constructions = ", ".join(each["construction"] for each in system.subject)
+        yield f"It was made from a plant by: {constructions}."
     left = "x(t+1)" if is_discrete(system.time) else "x'"
     yield f"{left} = A x + the sum of B_i u_i, y_i = C_i x; agent i measures y_i and sets u_i."
     for i, name in enumerate(system.names[:_MOST_CHANNELS]):
@@ -465,6 +378,85 @@ def _sentences(system: Any) -> Iterator[str]:
         yield system.neighbors.explain()
     if system.uncertainty is not None:
         yield f"Of the data, {system.uncertainty.explain()}."
+
+
+def listed_matrices(value: Any, where: str) -> list[Any]:
+    """Return the matrices of all channels as a list.
+
+    Raises
+    ------
+    InputError
+        If it is one matrix, or no list.
+    """
+    if _is_one_matrix(value):
+        raise InputError(
+            "expected a list of matrices, one for each channel, found one matrix: write "
+            f"[{where}] for one channel, or from_stacked(A, B, C, sizes) for several",
+            where=where,
+        )
+    one = isinstance(value, (str, bytes, Mapping))
+    if one or not hasattr(value, "__iter__"):
+        raise InputError(
+            f"expected a list of matrices, one for each channel, found {type(value).__name__}",
+            where=where,
+        )
+    return list(value)
+
+
+def _is_one_matrix(value: Any) -> bool:
+    """Whether a value is a matrix, and no list of matrices: its rows hold numbers."""
+    if isinstance(value, (Matrix, FunctionMatrix)) or getattr(value, "ndim", 0) == 2:
+        return True
+    row = value[0] if isinstance(value, (list, tuple)) and value else None
+    return isinstance(row, (list, tuple)) and any(
+        isinstance(entry, str) or not hasattr(entry, "__iter__") for entry in row
+    )
+
+
+def channels_of(
+    n: int,
+    B: Sequence[Any],
+    C: Sequence[Any],
+    names: Sequence[str] | None,
+    table: Callable[[Any, str, int | None], Table[M]],
+) -> tuple[Channel[M], ...]:
+    """Make the channels of matrices, whose shapes are compared before their entries are read.
+
+    Parameters
+    ----------
+    n : int
+    B, C : sequences of matrix-like values
+    names : sequence of str, optional
+        By default "1", "2", ….
+    table : callable
+        Makes a `Table` of a value, its place, and the number of columns that it has without rows.
+
+    Raises
+    ------
+    InputError
+        If there are no channels, or a number, a name or a shape is not as expected.
+    """
+    B, C = listed_matrices(B, "B"), listed_matrices(C, "C")
+    m = len(B)
+    if m != len(C):
+        raise InputError(f"expected as many matrices as in B, {m}, found {len(C)}", where="C")
+    if not m:
+        raise InputError("expected at least one channel, found none", where="B")
+    labels = [str(i + 1) for i in range(m)] if names is None else several(names, "names")
+    if len(labels) != m:
+        raise InputError(f"expected {m} names, found {len(labels)}", where="names")
+    checked = checked_names(labels, [f"names[{i}]" for i in range(m)])
+    tables = [
+        (
+            require_shape(table(B[i], f"B[{i}]", None), f"B[{i}]", n, None),
+            require_shape(table(C[i], f"C[{i}]", n), f"C[{i}]", None, n),
+        )
+        for i in range(m)
+    ]
+    return tuple(
+        Channel(name, B_i.matrix(), C_i.matrix())
+        for name, (B_i, C_i) in zip(checked, tables, strict=True)
+    )
 
 
 # Multi-channel systems.
@@ -487,7 +479,7 @@ _GRAPH_IN_USE = frozenset(
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class MultiChannelSystem(ByChannel[Matrix], SystemForms):
+class MultiChannelSystem(ByChannel[Matrix]):
     """A linear time-invariant system with m channels and rational matrices.
 
     In continuous time ẋ = A x + Σ B_i u_i, y_i = C_i x; in discrete time x(t+1) replaces ẋ. Agent i
@@ -715,8 +707,8 @@ class MultiChannelSystem(ByChannel[Matrix], SystemForms):
         """
         if names is None:
             names = self.names if B else ()
-        made = object.__new__(MultiChannelSystem)
-        made._fill(
+        system = object.__new__(MultiChannelSystem)
+        system._fill(
             A=require_square(A, "A"),
             channels=tuple(Channel(*each) for each in zip(names, B, C, strict=True)),
             time=self.time,
@@ -728,7 +720,7 @@ class MultiChannelSystem(ByChannel[Matrix], SystemForms):
             subject=(*self.subject, dict(construction)),
             _plant=self.plant,
         )
-        return made
+        return system
 
     def with_neighbors(self, graph: NeighborGraph | Mapping[str, Iterable[str]]) -> Self:
         """Return the same system with another neighbor graph, which its plant gets as well.
@@ -738,8 +730,8 @@ class MultiChannelSystem(ByChannel[Matrix], SystemForms):
         UsageError
             If the graph has other agents, or the construction of this system used another graph.
         """
-        found = graph_for(graph, self.names)
-        if found == self.neighbors:
+        neighbors = graph_for(graph, self.names)
+        if neighbors == self.neighbors:
             return self
         if any(c["construction"] in _GRAPH_IN_USE for c in self.subject):
             raise UsageError(
@@ -750,7 +742,7 @@ class MultiChannelSystem(ByChannel[Matrix], SystemForms):
         other = object.__new__(type(self))
         other._fill(**{name: getattr(self, name) for name in self.__dataclass_fields__})
         plant = None if self._plant is None else self._plant.with_neighbors(graph)
-        other._fill(neighbors=found, _plant=plant)
+        other._fill(neighbors=neighbors, _plant=plant)
         return other
 
     def with_uncertainty(self, uncertainty: Radii | None) -> Self:
@@ -765,10 +757,10 @@ class MultiChannelSystem(ByChannel[Matrix], SystemForms):
         """
         if self.subject:
             raise UsageError("radii belong to the plant, and not to a derived system")
-        found = None if uncertainty is None else self._fitting(uncertainty)
+        radii = None if uncertainty is None else self._fitting(uncertainty)
         other = object.__new__(type(self))
         other._fill(**{name: getattr(self, name) for name in self.__dataclass_fields__})
-        other._fill(uncertainty=found)
+        other._fill(uncertainty=radii)
         return other
 
     def _as_canonical_text(self) -> str:
@@ -793,9 +785,9 @@ class MultiChannelSystem(ByChannel[Matrix], SystemForms):
 
     def __repr__(self) -> str:
         shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")
-        made = "".join(f", {c['construction']}" for c in self.subject)
-        made += "" if self.uncertainty is None else f", {self.uncertainty.explain()}"
-        text = f"n={self.n}, m={self.m}, {self.time} time, channels: {shown}{made}"
+        extras = "".join(f", {c['construction']}" for c in self.subject)
+        extras += "" if self.uncertainty is None else f", {self.uncertainty.explain()}"
+        text = f"n={self.n}, m={self.m}, {self.time} time, channels: {shown}{extras}"
         return f"{fitting(f'MultiChannelSystem({text}', LINE - 1)})"
 
 

@@ -157,7 +157,7 @@ def unread_plant(
     ----------
     document : mapping
     read : callable
-        Makes a matrix of its entries.
+        Makes a matrix from its `Entries`.
     more : sequence of str
         The keys that a channel may have besides B, C and name.
 
@@ -321,11 +321,11 @@ def read_parametric_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> Pa
     ranges = {}
     if not isinstance(document["parameters"], dict) or not document["parameters"]:
         raise InputError("expected an object keyed by parameters, at least one", where="parameters")
-    for name, said in document["parameters"].items():
+    for name, value in document["parameters"].items():
         where = f"parameters[{checked_parameter(name, 'parameters')}]"
-        found = expect_object(said, where, (), ("range",))
-        if "range" in found:
-            ranges[name] = _range(found["range"], f"{where}.range", limits)
+        options = expect_object(value, where, (), ("range",))
+        if "range" in options:
+            ranges[name] = _range(options["range"], f"{where}.range", limits)
     parameters = tuple(sorted(document["parameters"]))
     read = partial(_functions, parameters=parameters, limits=limits)
     A, names, B, C = unread_plant(document, read, ())

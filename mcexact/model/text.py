@@ -174,10 +174,10 @@ class _NumberTexts(dict[str, NumberText]):
     """The number texts of one document; a text that occurs again, such as 0.0, is stored once."""
 
     def __missing__(self, text: str) -> NumberText:
-        found = NumberText(text)
+        number = NumberText(text)
         if len(self) < REMEMBERED:
-            self[text] = found
-        return found
+            self[text] = number
+        return number
 
 
 class JsonObject(dict[str, Any]):
@@ -221,7 +221,7 @@ def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
 
 
 def _from_pipe(path: str | os.PathLike[str], limits: Limits) -> bytes:
-    """Read a named pipe, which without a program that writes to it would be waited for without end.
+    """Read a named pipe; if no program writes to it, reading would wait forever.
 
     Raises
     ------
@@ -231,7 +231,8 @@ def _from_pipe(path: str | os.PathLike[str], limits: Limits) -> bytes:
     pipe = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     with open(pipe, "rb", buffering=0) as stream:
         end, first = time.monotonic() + WAIT_FOR_WRITER, b""
-        # Nothing is read as long as nobody writes, and None while somebody may.
+        # A read returns no bytes while no program has opened the pipe to write, and None until it
+        # writes.
         while first is not None and not (first := stream.read(_BLOCK)):
             if time.monotonic() > end:
                 raise InputError(
@@ -240,14 +241,14 @@ def _from_pipe(path: str | os.PathLike[str], limits: Limits) -> bytes:
                 )
             time.sleep(0.01)
         os.set_blocking(pipe, True)
-        found = [first or b""]
-        while sum(map(len, found)) <= limits.bytes and (block := stream.read(_BLOCK)):
-            found.append(block)
-    return b"".join(found)
+        blocks = [first or b""]
+        while sum(map(len, blocks)) <= limits.bytes and (block := stream.read(_BLOCK)):
+            blocks.append(block)
+    return b"".join(blocks)
 
 
 def _advice(text: str, error: json.JSONDecodeError) -> str:
-    """What people write that JSON does not have, by what stands where a parser stops."""
+    """Advice about syntax that JSON does not have, recognized by the text where a parser stops."""
     position = error.pos
     if text[position : position + 1] == "/":
         return '; a quotient is a text, "1/3", and there are no comments'
@@ -262,12 +263,12 @@ def _too_large(limits: Limits) -> InputError:
 
 
 def require_start(data: bytes | str, hint: str) -> None:
-    """Refuse what does not begin as a JSON object or list, with a hint for files of other programs.
+    """Refuse a text that does not begin as JSON; the hint is about files of other programs.
 
     Raises
     ------
     InputError
-        If the first character that is not blank is none of these; an empty file is left to `parse`.
+        If the first character that is not blank begins no JSON; an empty file is left to `parse`.
     """
     text = data.encode() if isinstance(data, str) else data
     start = text.lstrip(b" \t\r\n")[:1]
@@ -277,7 +278,7 @@ def require_start(data: bytes | str, hint: str) -> None:
 
 
 def _is_scalar(text: bytes) -> bool:
-    """Whether a text is a value of JSON, such as null, which is no system but JSON."""
+    """Whether a text is a scalar of JSON, such as null: it is no system, but it is JSON."""
     try:
         json.loads(text.decode("utf-8"), parse_int=str, parse_float=str)
     except (ValueError, RecursionError):
@@ -321,9 +322,9 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
     except RecursionError:
         raise _too_deep(limits) from None
     except json.JSONDecodeError as error:
-        said = "expected a value" if error.msg == "Expecting value" else error.msg
+        problem = "expected a value" if error.msg == "Expecting value" else error.msg
         place = f"line {error.lineno}, column {error.colno}"
-        raise InputError(f"not JSON: {said} at {place}{_advice(text, error)}") from None
+        raise InputError(f"not JSON: {problem} at {place}{_advice(text, error)}") from None
     for depth, level in enumerate(_levels(document), start=1):
         if depth > limits.depth:
             raise _too_deep(limits)
@@ -348,7 +349,7 @@ def require_short_numbers(data: bytes | str, limits: Limits = DEFAULT_LIMITS) ->
     plain = _ESCAPED_DIGIT.sub(r"\1", text)
     if limits.digits > _SHORT and not _LONG.search(plain):
         return
-    if any(len(found[0]) > limits.digits for found in _DIGITS.finditer(plain)):
+    if any(len(digits[0]) > limits.digits for digits in _DIGITS.finditer(plain)):
         raise InputError(f"expected at most {limits.digits} digits in a row (Limits.digits)")
 
 
@@ -369,15 +370,15 @@ def _integer(text: str) -> int | NumberText:
 
 
 def _object(pairs: list[tuple[str, Any]]) -> JsonObject:
-    found = JsonObject(pairs)
-    if len(found) != len(pairs):
+    result = JsonObject(pairs)
+    if len(result) != len(pairs):
         seen: set[str] = set()
         for key, _ in pairs:
             if key in seen:
-                found.repeated = key
+                result.repeated = key
                 break
             seen.add(key)
-    return found
+    return result
 
 
 def _too_deep(limits: Limits) -> InputError:
@@ -447,8 +448,8 @@ def expect_integer(value: Any, where: str) -> int:
     Raises
     ------
     InputError
-        If the value is negative, or is no integer; true and false are none, although Python's
-        Booleans are.
+        If the value is negative, or is no integer; true and false are not integers here, although
+        Python's Booleans are.
     """
     if isinstance(value, NumberText) and _DIGITS.fullmatch(value):
         return int(Decimal(value))  # however long it is
@@ -475,7 +476,7 @@ def expect_string(value: Any, where: str, what: str = "a string") -> str:
     Raises
     ------
     InputError
-        If the value is anything else; a number is none, although its text is kept as typed.
+        If the value is anything else; a number is no string, although its text is kept as typed.
     """
     if not isinstance(value, str) or isinstance(value, NumberText):
         raise InputError(f"expected {what}, found {kind_of(value)}", where=where)
@@ -507,23 +508,23 @@ def expect_format(document: Any, expected: str) -> dict[str, Any]:
         raise OtherFormat(
             f'expected a JSON object with "format": "{expected}", found {kind_of(document)}'
         )
-    found = document.get("format")
-    if found == expected:
+    actual = document.get("format")
+    if actual == expected:
         return document
-    if found is None:
+    if actual is None:
         raise OtherFormat(f'the key \'format\' is missing; expected "format": "{expected}"')
     wanted = _KINDS.get(expected.partition("/")[0], "another file")
-    if isinstance(found, str):
-        stem = found.partition("/")[0]
+    if isinstance(actual, str):
+        stem = actual.partition("/")[0]
         if stem == expected.partition("/")[0]:
             raise InputError(
-                f'expected "{expected}", found version {quoted(found)}, '
+                f'expected "{expected}", found version {quoted(actual)}, '
                 "which this program does not know",
                 where="format",
             )
         if stem in _KINDS:
             raise OtherFormat(f"expected {wanted}, found {_KINDS[stem]}", where="format")
-    raise OtherFormat(f'expected "{expected}", found {quoted(found)}', where="format")
+    raise OtherFormat(f'expected "{expected}", found {quoted(actual)}', where="format")
 
 
 _KINDS = {

@@ -22,7 +22,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any, Protocol
 
-from mcexact.errors import InputError, LimitReached, UsageError, several, told
+from mcexact.errors import InputError, LimitReached, UsageError, several, shown_value
 from mcexact.exact.matrix import Matrix, Rounding, from_float, matrix_to_float, to_float
 from mcexact.exact.rational import as_fraction, is_inexact
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
@@ -690,7 +690,7 @@ def signal_of(
             place = f"{name}[{k}]"
             if not _is_listed(change) or len(change) != 2:
                 raise InputError(
-                    f"expected a pair (time, numbers), found {told(change)}", where=place
+                    f"expected a pair (time, numbers), found {shown_value(change)}", where=place
                 )
             time, values = change
             [start] = numbers_of([time], rounding, place)

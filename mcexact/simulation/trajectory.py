@@ -22,7 +22,7 @@ from fractions import Fraction
 from itertools import chain, pairwise
 from typing import Any
 
-from mcexact.errors import InputError, LimitReached, UsageError, told
+from mcexact.errors import InputError, LimitReached, UsageError, shown_value
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Rounding, largest_entry, matrix_to_float, to_float
 from mcexact.exact.rational import number
@@ -697,7 +697,7 @@ def _grid(
     if discrete and end is not None and (end != int(end) or end < 0):
         raise UsageError(f"expected a number of steps, found {end}", where="horizon")
     if points is not None and (isinstance(points, bool) or not isinstance(points, int)):
-        raise InputError(f"expected an integer, found {told(points)}", where="points")
+        raise InputError(f"expected an integer, found {shown_value(points)}", where="points")
     if not discrete and ((end is not None and end <= 0) or (points is not None and points < 1)):
         raise UsageError("expected a horizon above 0 and at least one interval")
     last = max((change.time for change in drive.changes), default=Fraction(0))

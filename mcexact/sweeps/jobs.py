@@ -106,14 +106,14 @@ def decide(job: Job) -> Outcome:
     start = time.perf_counter()
     try:
         system = job.system()
-        made, left = _decided(job.questions, system)
+        certificates, left = _decided(job.questions, system)
     except Exception as error:
         return failure(error)
     return left | {
         "system": {"n": system.n, "m": system.m, "time": system.time},
         "digest": system.digest(),
         "seconds": round(time.perf_counter() - start, 6),
-        "certificates": made,
+        "certificates": certificates,
     }
 
 
@@ -121,7 +121,7 @@ def _decided(
     questions: Iterable[str], system: MultiChannelSystem
 ) -> tuple[dict[str, str], Outcome]:
     """Certificates of the answers, and the error if a question about a box is left open."""
-    made, left = dict[str, str](), list[str]()
+    certificates, left = dict[str, str](), list[str]()
     for name in questions:
         try:
             answer = KNOWN[name].decide(system)
@@ -131,8 +131,8 @@ def _decided(
             answer = failing_member(system, PROPERTIES[name])
             left += [] if answer is not None else [str(error)]
         if answer is not None:
-            made[name] = protocol.encode(answer)
-    return made, failure(LimitReached("; ".join(left))) if left else {}
+            certificates[name] = protocol.encode(answer)
+    return certificates, failure(LimitReached("; ".join(left))) if left else {}
 
 
 def failure(error: BaseException) -> Outcome:
@@ -167,8 +167,8 @@ def entries(
     """
     for number, source in enumerate(sources):
         try:
-            made: Job | McexactError = job(source, number, questions, limits, read)
+            entry: Job | McexactError = job(source, number, questions, limits, read)
         except (InputError, LimitReached) as error:
-            made = error
-        name = made.name if isinstance(made, Job) else getattr(source, "name", str(source))
-        yield number, name, made
+            entry = error
+        name = entry.name if isinstance(entry, Job) else getattr(source, "name", str(source))
+        yield number, name, entry

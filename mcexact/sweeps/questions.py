@@ -29,8 +29,8 @@ def chosen(names: Iterable[str]) -> tuple[str, ...]:
     asked = {names} if isinstance(names, str) else set(several(names, "questions"))
     unknown = sorted(asked - set(KNOWN))
     if unknown or not asked:
-        found = repr(unknown[0]) if unknown else "none"
-        raise UsageError(f"expected questions out of {', '.join(KNOWN)}; found {found}")
+        problem = repr(unknown[0]) if unknown else "none"
+        raise UsageError(f"expected questions out of {', '.join(KNOWN)}; found {problem}")
     return tuple(name for name in KNOWN if name in asked)
 
 
@@ -56,7 +56,7 @@ def answered(name: str, certificate: Mapping[str, Any]) -> bool:
 
 
 def denied(name: str, certificate: Mapping[str, Any]) -> bool:
-    """Whether a certificate says that its plant lacks the property that a question is about.
+    """Whether a certificate proves that its plant lacks the property that a question is about.
 
     Parameters
     ----------

@@ -58,13 +58,13 @@ class Record(Shown):
     digest : str
         The digest of the system; empty if there is an error.
     answers : mapping from questions to mappings
-        ``claim``, as in the certificate, and ``statement``, which the checker verified; ``member``
-        is a plant within the radii that both are about, where it lacks what was asked.
+        ``claim``, as in the certificate, and ``statement``, which the checker verified; if the
+        property fails, both are about ``member``, a plant within the radii that lacks it.
     seconds : float or None
         The time for deciding and for making certificates.
     error : mapping or None
         ``status``, an exit status, and ``message``; ``other_format`` for a file of another format.
-        Beside answers it is about a question that is left open.
+        If there are answers as well, the error is about a question that is left open.
     certificates : mapping from questions to texts
         The verified certificates.  The file does not keep them, so a record read from it has none.
     """
@@ -85,21 +85,21 @@ class Record(Shown):
         return self.error is None or self.error["status"] not in _AGAIN
 
     def __repr__(self) -> str:
-        told = f"error {self.error['status']}" if self.error is not None else self._asked()
-        return fitting(f"Record({self.number}, {self.name!r}, {told}", LINE - 1) + ")"
+        state = f"error {self.error['status']}" if self.error is not None else self._asked()
+        return fitting(f"Record({self.number}, {self.name!r}, {state}", LINE - 1) + ")"
 
     def _asked(self) -> str:
         return f"{self.digest[:12]}…, answers: {', '.join(self.answers)}"
 
     def explain(self) -> str:
-        """Say what was found, in the statements that the checker verified, one a line."""
-        said = [str(answer["statement"]) for answer in self.answers.values()]
+        """Say the answers in the statements that the checker verified, one a line."""
+        sentences = [str(answer["statement"]) for answer in self.answers.values()]
         if self.error is not None:
-            said.append(f"{self.name}: {self.error['message']}")
-        return "\n".join(said)
+            sentences.append(f"{self.name}: {self.error['message']}")
+        return "\n".join(sentences)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
-        """Yield the columns of a table, and what they hold; those that are empty are left out."""
+        """Yield the columns of a table with their contents; empty columns are left out."""
         for name, value in self.to_row().items():
             if isinstance(value, dict):
                 yield name, ", ".join(f"{key} {each}" for key, each in value.items())
@@ -109,8 +109,8 @@ class Record(Shown):
     def to_row(self) -> dict[str, Any]:
         """Return one flat row for a table: sizes, and the claims that fit into a cell.
 
-        The columns of a claim are ``question.claim``.  A polynomial is written as text; of another
-        list the row has the number of its items, as of ``fixed_spectrum.factors``.
+        The columns of a claim are ``question.claim``.  A polynomial is written as text; another
+        list, such as ``fixed_spectrum.factors``, as the number of its items.
 
         Examples
         --------
@@ -454,9 +454,9 @@ def _checked(name: str, text: str, expected: str, job: Job) -> dict[str, Any]:
     verdict = checked(text.encode("ascii"), "" if fails else expected)
     if verdict.verdict != "VALID":
         raise InternalError(f"the certificate for {name} is not accepted: {verdict.line()}")
-    found = {"claim": document["claim"], "statement": verdict.statement}
+    verified = {"claim": document["claim"], "statement": verdict.statement}
     if fails and Box(job.system()).contains(answer_of(document).about.plant):
-        return found | {"member": {"format": system_FORMAT, **document["system"]}}
+        return verified | {"member": {"format": system_FORMAT, **document["system"]}}
     if fails or not answered(name, document):
         raise InternalError(f"the certificate for {name} is about something else")
-    return found
+    return verified

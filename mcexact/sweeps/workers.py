@@ -32,8 +32,8 @@ class Workers:
 
     Notes
     -----
-    A thread waits for each process.  The processes are new interpreters and no forks: this process
-    has threads, of which the locks of a fork would remain locked.
+    A thread waits for each process.  The processes are new interpreters and no forks: a fork would
+    copy the locks that threads of this process hold, and nothing would release them.
     """
 
     def __init__(self, executor: Executor | None, count: int) -> None:

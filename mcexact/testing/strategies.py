@@ -30,31 +30,31 @@ from mcexact.model.system import MultiChannelSystem
 # Printing: Hypothesis shows a drawn system as code that can be pasted.
 
 
-def printed(draw: DrawFn, found: Drawn) -> Drawn:
+def printed(draw: DrawFn, drawn: Drawn) -> Drawn:
     """Return an equal drawn system, which Hypothesis prints as calls of constructors.
 
-    Hypothesis prints what ``st.builds`` made by the call that made it, so the values are built once
-    more here, from their arguments.
+    Hypothesis prints a value of ``st.builds`` as the call that makes it, so this function builds
+    the values once more, from their arguments.
     """
     known = {
         each.name: value
-        for each in fields(found)
-        if each.name != "system" and (value := getattr(found, each.name)) is not None
+        for each in fields(drawn)
+        if each.name != "system" and (value := getattr(drawn, each.name)) is not None
     }
-    made: Drawn = _built(draw, Drawn, system=_system(draw, found.system), **known)
-    return made
+    equal: Drawn = _built(draw, Drawn, system=_system(draw, drawn.system), **known)
+    return equal
 
 
 def printed_graph(draw: DrawFn, graph: NeighborGraph) -> NeighborGraph:
     """Return an equal graph, which Hypothesis prints as a call of its constructor."""
     delays = {"delays": graph.delays} if graph.delays else {}
     arguments = {"names": graph.names, "neighbors": graph.neighbors, **delays}
-    made: NeighborGraph = _built(draw, NeighborGraph, **arguments)
-    return made
+    equal: NeighborGraph = _built(draw, NeighborGraph, **arguments)
+    return equal
 
 
-def _built(draw: DrawFn, made: Any, **arguments: Any) -> Any:
-    return draw(st.builds(made, **{name: st.just(value) for name, value in arguments.items()}))
+def _built(draw: DrawFn, target: Any, **arguments: Any) -> Any:
+    return draw(st.builds(target, **{name: st.just(value) for name, value in arguments.items()}))
 
 
 def _system(draw: DrawFn, system: MultiChannelSystem) -> MultiChannelSystem:
@@ -69,8 +69,8 @@ def _system(draw: DrawFn, system: MultiChannelSystem) -> MultiChannelSystem:
         arguments["names"] = system.names
     if system.neighbors is not None:
         arguments["neighbors"] = printed_graph(draw, system.neighbors)
-    found: MultiChannelSystem = _built(draw, MultiChannelSystem, **arguments)
-    return found
+    equal: MultiChannelSystem = _built(draw, MultiChannelSystem, **arguments)
+    return equal
 
 
 def _rows(M: Matrix) -> Any:
@@ -139,7 +139,7 @@ def systems(
     Returns
     -------
     SearchStrategy of Drawn
-        Whatever is not known by construction is None.
+        An attribute that the construction does not determine is None.
     """
     return _systems(min_states, max_states, max_channels, time)
 
@@ -309,9 +309,9 @@ def _on_graphs(
 ) -> Drawn:
     if strongly_connected is False:  # one agent alone is strongly connected
         base = base.filter(lambda each: each.system.m > 1)
-    found = draw(base)
-    graph = draw(_graphs(found.system.names, strongly_connected, longest_delay))
-    return printed(draw, replace(found, system=found.system.with_neighbors(graph)))
+    drawn = draw(base)
+    graph = draw(_graphs(drawn.system.names, strongly_connected, longest_delay))
+    return printed(draw, replace(drawn, system=drawn.system.with_neighbors(graph)))
 
 
 def systems_on_graphs(
@@ -518,7 +518,7 @@ def _parametric(
         return [[draw(entry) for _ in range(c)] for _ in range(r)]
 
     n, m = draw(st.integers(1, max_states)), draw(st.integers(1, max_channels))
-    # Beyond these states no input reaches, which makes fixed modes of every degree.
+    # No input reaches the states after these, which gives fixed modes of every degree.
     reached = draw(st.one_of(st.just(n), st.integers(0, n)))
     A, unreached = matrix(n, n), [["0"]] * (n - reached)
     arguments = {
@@ -531,11 +531,11 @@ def _parametric(
     if ranges:
         drawn = {name: draw(st.sampled_from(_RANGES)) for name in parameters}
         arguments["assume"] = {name: bounds for name, bounds in drawn.items() if bounds}
-    # What is built is printed as the call that made it.
-    made: ParametricSystem = draw(
+    # Hypothesis prints the system as this call.
+    system: ParametricSystem = draw(
         st.builds(ParametricSystem, **{name: st.just(value) for name, value in arguments.items()})
     )
-    return made
+    return system
 
 
 def parametric_systems(
@@ -612,7 +612,7 @@ def assert_valid(
     AssertionError: INVALID system system: about another system, of digest ...
     """
     __tracebackhide__ = True
-    found = check(certificate, system, controller, expect)
-    if not found.valid:
-        raise AssertionError(found.explain())
-    return found.statement
+    verdict = check(certificate, system, controller, expect)
+    if not verdict.valid:
+        raise AssertionError(verdict.explain())
+    return verdict.statement

@@ -10,7 +10,7 @@ import pytest
 
 import mcexact
 from mcexact import Aims, MultiChannelSystem, NeighborGraph, StabilityRegion
-from mcexact.errors import FloatRefused, InputError, UsageError, one_of, several, told
+from mcexact.errors import FloatRefused, InputError, UsageError, one_of, several, shown_value
 
 ONES = [[[1]], [[1]]]
 PLANT = MultiChannelSystem([[1]], ONES, ONES, names=["pump", "valve"])
@@ -137,9 +137,9 @@ def test_a_choice_is_a_text_that_is_offered() -> None:
 
 
 def test_a_value_is_told_shortly() -> None:
-    found: list[Any] = [told(each) for each in (1, True, 0.5, "a" * 50, FRAME)]
+    found: list[Any] = [shown_value(each) for each in (1, True, 0.5, "a" * 50, FRAME)]
     assert found == ["1", "True", "0.5", ascii("a" * 40) + "…", "DataFrame"]
-    assert len(told(10**3000)) == 40
+    assert len(shown_value(10**3000)) == 40
 
 
 def test_a_float_is_still_refused_with_its_advice() -> None:

@@ -14,7 +14,7 @@ from functools import cache
 from importlib import resources
 from typing import Any, overload
 
-from mcexact.errors import UsageError, told
+from mcexact.errors import UsageError, shown_value
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_parametric_system, read_system
@@ -99,7 +99,7 @@ def require_name(name: str) -> str:
     known = (*names(), *parametric_names())
     if not isinstance(name, str) or name not in known:
         hint = nearest(str(name), known) or "; 'mcexact gallery' lists them"
-        raise UsageError(f"there is no system {told(name)} in the gallery{hint}")
+        raise UsageError(f"there is no system {shown_value(name)} in the gallery{hint}")
     return name
 
 

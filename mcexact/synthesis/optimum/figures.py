@@ -28,7 +28,7 @@ import numpy.typing as npt
 from scipy.linalg import eig, expm, lapack, rsf2csf
 
 from mcexact.derived.constructions import merged
-from mcexact.errors import UsageError, require_seconds, told
+from mcexact.errors import UsageError, require_seconds, shown_value
 from mcexact.exact.matrix import as_requested, to_float
 from mcexact.exact.rational import Entry
 from mcexact.exact.roots import StabilityRegion
@@ -466,7 +466,7 @@ class Aims:
         for name in ("margin", "largest_gain", "damping", "largest_modulus"):
             number = getattr(self, name)
             if isinstance(number, bool) or not isinstance(number, Real):
-                _require(number is None and name != "margin", name, "a number", told(number))
+                _require(number is None and name != "margin", name, "a number", shown_value(number))
         _require(0 < self.margin < 1, "margin", "a number above 0 and below 1", self.margin)
         if self.largest_gain is not None:
             good = 0 < self.largest_gain and isfinite(self.largest_gain)
