@@ -139,10 +139,10 @@ def serve(connection: Connection) -> None:
             piece = connection.recv_bytes()
             try:
                 work, arguments = _unpickled(piece)
-                said = pickle.dumps((True, work(*arguments)))
+                reply = pickle.dumps((True, work(*arguments)))
             except Exception as error:
-                said = _as_told(error)
-            connection.send_bytes(said)
+                reply = _error_reply(error)
+            connection.send_bytes(reply)
 
 
 def end_with_parent() -> None:
@@ -155,14 +155,14 @@ def end_with_parent() -> None:
             ctypes.CDLL(None).prctl(parent_death_signal, signal.SIGKILL)
 
 
-def _as_told(error: Exception) -> bytes:
+def _error_reply(error: Exception) -> bytes:
     """An error as it is sent; one that cannot be pickled by its text."""
     try:
-        said = pickle.dumps((False, error))
-        pickle.loads(said)
+        reply = pickle.dumps((False, error))
+        pickle.loads(reply)
     except Exception:
         return pickle.dumps((False, RuntimeError(f"{type(error).__name__}: {error}")))
-    return said
+    return reply
 
 
 def _started(one_thread: bool) -> tuple[subprocess.Popen[bytes], Connection]:

@@ -274,18 +274,18 @@ def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiC
     """
     InputError.require(system, MultiChannelSystem, "system")
     parts = several(parts, "parts", "lists of names")
-    found = sorted(system.indices(part) for part in parts)
-    if () in found:
+    groups = sorted(system.indices(part) for part in parts)
+    if () in groups:
         raise UsageError("expected at least one channel in every part, found none", where="parts")
-    given = [name for part in parts for name in part]
+    mentioned = [name for part in parts for name in part]
     for name in system.names:
-        if given.count(name) != 1:
+        if mentioned.count(name) != 1:
             raise UsageError(
                 "expected every channel in exactly one part, "
-                f"found {quoted(name)} {given.count(name)} times",
+                f"found {quoted(name)} {mentioned.count(name)} times",
                 where="parts",
             )
-    listed = [list(system.named(part)) for part in found]
+    listed = [list(system.named(part)) for part in groups]
     names = ["+".join(part) for part in listed]
     forms = [unicodedata.normalize("NFC", name) for name in names]
     for name, form in zip(names, forms, strict=True):
@@ -293,8 +293,8 @@ def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiC
             raise UsageError(f"two channels would have the name {quoted(name)}", where="parts")
     return system.derived(
         system.A,
-        [system.input_matrix(part) for part in found],
-        [system.output_matrix(part) for part in found],
+        [system.input_matrix(part) for part in groups],
+        [system.output_matrix(part) for part in groups],
         {"construction": "merged", "parts": listed},
         names=names,
     )
@@ -383,10 +383,10 @@ def add_links(
     >>> add_links(system, [(0, 1)]).neighbors.edges()
     ((0, 1),)
     """
-    system, found = with_graph(system, graph)
+    system, graph = with_graph(system, graph)
     added = list(added)
-    joined = found.with_edges(added)
-    edges = sorted({(j, i) for j, i in added if j not in found.neighborhood(i)})
+    joined = graph.with_edges(added)
+    edges = sorted({(j, i) for j, i in added if j not in graph.neighborhood(i)})
     return system.derived(
         system.A,
         [channel.B for channel in system.channels],
@@ -436,13 +436,13 @@ def augmented_outputs(
         to it
     """
     InputError.require(system, MultiChannelSystem, "system")
-    system, found = with_graph(system, graph)
+    system, graph = with_graph(system, graph)
     return system.derived(
         system.A,
         [channel.B for channel in system.channels],
-        [system.output_matrix(found.neighborhood(i)) for i in range(system.m)],
+        [system.output_matrix(graph.neighborhood(i)) for i in range(system.m)],
         {"construction": "augmented_outputs"},
-        neighbors=found,
+        neighbors=graph,
     )
 
 
@@ -495,8 +495,8 @@ class DerivedParametricSystem(ParametricSystem):
             RationalFunction(e.parameters, e.denominator, e.denominator**0).substituted(line, zero)
             for e in entries
         }
-        found = {q.monic() for each in below for q, _ in each.polynomials()[0].factor()}
-        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+        factors = {q.monic() for each in below for q, _ in each.polynomials()[0].factor()}
+        return tuple(sorted(factors, key=lambda q: (q.degree, q.coefficients)))
 
 
 def rearranged(
@@ -553,23 +553,23 @@ def rearranged(
         names=system.names,
         neighbors={},
     )
-    made = construct(start)
-    for step in made.subject:
+    image = construct(start)
+    for step in image.subject:
         if step["construction"] not in REARRANGING:
             raise UsageError(f"{step['construction']} does not apply to systems with parameters")
     result = object.__new__(DerivedParametricSystem)
     ParametricSystem.__init__(
         result,
-        entries(made.A),
-        [entries(channel.B) for channel in made.channels],
-        [entries(channel.C) for channel in made.channels],
+        entries(image.A),
+        [entries(channel.B) for channel in image.channels],
+        [entries(channel.C) for channel in image.channels],
         parameters=system.parameters,
         assume=dict(zip(system.parameters, system.ranges, strict=True)),
-        time=made.time,
-        names=made.names,
+        time=image.time,
+        names=image.names,
     )
     object.__setattr__(result, "origin", system.plant)
-    object.__setattr__(result, "steps", (*system.subject, *made.subject))
+    object.__setattr__(result, "steps", (*system.subject, *image.subject))
     return result
 
 
@@ -628,12 +628,12 @@ def along_line(
     if not any(slope.values()):
         raise InputError("expected a direction that is not 0", where="direction")
     line = _line(system, start, slope, parameter)
-    made = system.along(line, [parameter])
+    restriction = system.along(line, [parameter])
     if system.subject:
         # also where an entry was left out that is undefined on the line
         system.plant.along(line, [parameter])
     result = object.__new__(DerivedParametricSystem)
-    for key, value in vars(made).items():
+    for key, value in vars(restriction).items():
         object.__setattr__(result, key, value)
     step = {
         "construction": LINE,
@@ -722,16 +722,16 @@ def checked_dimensions(system: MultiChannelSystem, dimensions: Sequence[int]) ->
     InputError
         If their number is not m, or one is negative or not an integer.
     """
-    found = several(dimensions, "dimensions", "integers")
-    if len(found) != system.m:
+    sizes = several(dimensions, "dimensions", "integers")
+    if len(sizes) != system.m:
         raise InputError(
-            f"expected {system.m} dimensions, one for each agent, found {len(found)}",
+            f"expected {system.m} dimensions, one for each agent, found {len(sizes)}",
             where="dimensions",
         )
-    for i, size in enumerate(found):
+    for i, size in enumerate(sizes):
         if isinstance(size, bool) or not isinstance(size, int) or size < 0:
             raise InputError(f"expected an integer >= 0, found {size!r}", where=f"dimensions[{i}]")
-    return found
+    return sizes
 
 
 def selector(start: int, size: int, total: int) -> Matrix:
@@ -851,9 +851,9 @@ def extended_system(
             ),
         )
     InputError.require(system, MultiChannelSystem, "system")
-    system, found = with_graph(system, graph)
+    system, graph = with_graph(system, graph)
     construction = {"construction": "extended", "share": share, "dimensions": dimensions}
-    return exchanged(system, found, construction, lambda i, j: 0)
+    return exchanged(system, graph, construction, lambda i, j: 0)
 
 
 def exchanged(
@@ -1032,10 +1032,10 @@ def lifted_system(
     ((3, 0, 0, 0, 0, 0), (0, 0, 0, 0, 0, 1), (0, 0, 0, 1, 0, 0))
     """
     InputError.require(system, MultiChannelSystem, "system")
-    system, found = with_graph(system, graph)
+    system, graph = with_graph(system, graph)
     require_discrete(system)
     construction = {"construction": "lifted", "share": share, "dimensions": dimensions}
-    return exchanged(system, found, construction, found.delay)
+    return exchanged(system, graph, construction, graph.delay)
 
 
 def held_system(
@@ -1095,11 +1095,11 @@ def held_system(
     ((5, 0, 0, 0), (0, 0, 0, 1))
     """
     InputError.require(system, MultiChannelSystem, "system")
-    system, found = with_graph(system, graph)
+    system, graph = with_graph(system, graph)
     require_discrete(system)
-    late = [found.longest_delay(j) for j in range(system.m)]
+    late = [graph.longest_delay(j) for j in range(system.m)]
     construction = {"construction": "held", "dimensions": dimensions}
-    return exchanged(system, found, construction, lambda i, j: late[j])
+    return exchanged(system, graph, construction, lambda i, j: late[j])
 
 
 # The open-loop error system of the distributed observer.
@@ -1152,7 +1152,7 @@ def error_system(
     (((3, 0), (1, -1)), ((0, 5),))
     """
     InputError.require(system, MultiChannelSystem, "system")
-    system, found = with_graph(system, graph)
+    system, graph = with_graph(system, graph)
     n, m = system.n, system.m
     exact = checked_gains(system, gains, [n] * m)
     driven = [system.B(j) @ exact[j] for j in range(m)]
@@ -1161,14 +1161,14 @@ def error_system(
     pick = [selector(i * n, n, n * m).T for i in range(m)]
     C = []
     for i in range(m):
-        others = [j for j in found.neighborhood(i) if j != i]
+        others = [j for j in graph.neighborhood(i) if j != i]
         C.append(vstack([system.C(i) @ pick[i], *(pick[i] - pick[j] for j in others)]))
     return system.derived(
         A,
         [each.T for each in pick],
         C,
         {"construction": "error", "gains": tuple(exact)},
-        neighbors=found,
+        neighbors=graph,
     )
 
 
@@ -1253,7 +1253,7 @@ def looped(system: ParametricSystem, construct: Construct) -> ParametricLoop:
         names=system.names,
         neighbors={},
     )
-    made = construct(still)
-    if made.subject[-1:] == () or made.subject[-1]["construction"] != "closed_loop":
+    loop = construct(still)
+    if loop.subject[-1:] == () or loop.subject[-1]["construction"] != "closed_loop":
         raise UsageError("expected a closed loop")
-    return ParametricLoop(system, construct, (*system.subject, *made.subject), made.n)
+    return ParametricLoop(system, construct, (*system.subject, *loop.subject), loop.n)

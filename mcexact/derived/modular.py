@@ -224,9 +224,9 @@ def channel_sequences(
     B, C = [channel.B for channel in system.channels], [channel.C for channel in system.channels]
     if stays_sparse(system.A, B, C):
         sparse = SparseLoop(system.A, B, C, ell)
-        found = sparse.sequences(sparse.closed(gains), starts)
-        if found is not None:
-            yield from found
+        sequences = sparse.sequences(sparse.closed(gains), starts)
+        if sequences is not None:
+            yield from sequences
             return
     if system.n >= _KRYLOV_SIZE and ell.bit_length() <= quick_bits(system):
         yield from krylov.loop_sequences(system.A, B, C, gains, ell, starts)
@@ -257,11 +257,11 @@ def lifted(M: ModularMatrix) -> Matrix:
 def lifted_gains(modular: ModularSystem, gains: Gains) -> tuple[Matrix, ...]:
     """The gains as integer matrices with the symmetric residues; equal ones are one object."""
     sized = list(zip(gains, modular.system.sizes, strict=True))
-    made = {
+    matrices = {
         (F, (p, q)): from_numerators([integers(row, modular.modulus) for row in F], 1, q)
         for F, (p, q) in set(sized)
     }
-    return tuple(map(made.__getitem__, sized))
+    return tuple(map(matrices.__getitem__, sized))
 
 
 # Systems with one parameter, whose matrices are multiplied by their denominators.

@@ -81,20 +81,20 @@ def parameter_grid(
     """
     InputError.require(plant, ParametricSystem, "plant")
     InputError.require(values, Mapping, "values")
-    given = {
+    grid = {
         str(name): [as_fraction(x) for x in several(listed, "values", "numbers")]
         for name, listed in values.items()
     }
-    if given.keys() != set(plant.parameters):
-        wrong = sorted(given.keys() ^ set(plant.parameters))
+    if grid.keys() != set(plant.parameters):
+        wrong = sorted(grid.keys() ^ set(plant.parameters))
         raise UsageError(
             f"expected values for the parameters {', '.join(plant.parameters)}, "
-            f"and {wrong[0]!r} is {'no parameter' if wrong[0] in given else 'without any'}"
+            f"and {wrong[0]!r} is {'no parameter' if wrong[0] in grid else 'without any'}"
         )
-    _require_few(math.prod(map(len, given.values())), "combinations of values")
+    _require_few(math.prod(map(len, grid.values())), "combinations of values")
 
     def variants() -> Iterator[Variant]:
-        for point in itertools.product(*(given[name] for name in plant.parameters)):
+        for point in itertools.product(*(grid[name] for name in plant.parameters)):
             at = dict(zip(plant.parameters, point, strict=True))
             name = ", ".join(f"{key}={written(x)}" for key, x in at.items())
             yield Variant(name, lambda at=at: plant.at(at))  # type: ignore[misc]
@@ -151,10 +151,10 @@ def neighbor_graph_variants(
             graph = NeighborGraph(names, [[j for j, i in edges if i == k] for k in range(m)])
             if strongly_connected and not graph.is_strongly_connected():
                 continue
-            told = ", ".join(f"{names[j]}→{names[i]}" for j, i in edges) or "no links"
-            yield Variant(told, lambda graph=graph: made(graph))  # type: ignore[misc]
+            links = ", ".join(f"{names[j]}→{names[i]}" for j, i in edges) or "no links"
+            yield Variant(links, lambda graph=graph: with_graph(graph))  # type: ignore[misc]
 
-    def made(graph: NeighborGraph) -> MultiChannelSystem:
+    def with_graph(graph: NeighborGraph) -> MultiChannelSystem:
         system = plant.with_neighbors(graph)
         return system if information == "own" else as_plant(augmented_outputs(system))
 
@@ -207,7 +207,7 @@ def sensor_variants(plant: MultiChannelSystem, *, unused: bool = False) -> Itera
     owners = [*range(plant.m), *([-1] if unused else [])]
     _require_few(len(owners) ** len(sensors), "ways of giving sensors to channels")
 
-    def made(chosen: tuple[int, ...]) -> MultiChannelSystem:
+    def with_sensors(chosen: tuple[int, ...]) -> MultiChannelSystem:
         rows = [[k for k, owner in enumerate(chosen) if owner == i] for i in range(plant.m)]
         return MultiChannelSystem(
             plant.A,
@@ -221,11 +221,11 @@ def sensor_variants(plant: MultiChannelSystem, *, unused: bool = False) -> Itera
 
     def variants() -> Iterator[Variant]:
         for chosen in itertools.product(owners, repeat=len(sensors)):
-            told = ", ".join(
+            placement = ", ".join(
                 f"{sensor} unused" if owner < 0 else f"{sensor} at {plant.names[owner]}"
                 for sensor, owner in zip(sensors, chosen, strict=True)
             )
-            yield Variant(told, lambda chosen=chosen: made(chosen))  # type: ignore[misc]
+            yield Variant(placement, lambda chosen=chosen: with_sensors(chosen))  # type: ignore[misc]
 
     return variants()
 
@@ -248,12 +248,12 @@ def tolerance_variants(plant: MultiChannelSystem, parts: Iterable[Any]) -> Itera
     Fraction(1, 1)
     """
     InputError.require(plant, MultiChannelSystem, "system")
-    given = [as_fraction(part) for part in several(parts, "parts", "numbers")]
+    sizes = [as_fraction(part) for part in several(parts, "parts", "numbers")]
 
-    def made(part: Fraction) -> MultiChannelSystem:
+    def within(part: Fraction) -> MultiChannelSystem:
         return Box.relative(plant, part).system
 
-    return (Variant(f"within {written(part)}", partial(made, part)) for part in given)
+    return (Variant(f"within {written(part)}", partial(within, part)) for part in sizes)
 
 
 def _require_few(count: int, what: str) -> None:

@@ -110,7 +110,7 @@ def _distance_to_instability(M: Array, time: str, eigenvalues: NDArray[np.comple
         )
 
     starts = {abs(float(positions[k])) for k in order[: 2 * _STARTS]}
-    found = min(least(start) for start in starts | {0.0})
+    distance = min(least(start) for start in starts | {0.0})
     for start in sorted(starts, key=least)[:_STARTS]:
         width = 0.5 if discrete else max(0.5, abs(start) / 2)
         search = minimize_scalar(
@@ -119,8 +119,8 @@ def _distance_to_instability(M: Array, time: str, eigenvalues: NDArray[np.comple
             method="bounded",
             options={"maxiter": 12},
         )
-        found = min(found, float(search.fun))
-    return found
+        distance = min(distance, float(search.fun))
+    return distance
 
 
 def smallest_singular_value(M: Array, z: complex) -> float:
@@ -135,11 +135,11 @@ def smallest_singular_value(M: Array, z: complex) -> float:
         if not np.all(np.diag(factored[0])):
             return 0.0
         v = np.ones(N, dtype=np.complex128) / np.sqrt(N)
-        growth = 0.0
+        length = 0.0
         for _ in range(8):
             w = lu_solve(factored, lu_solve(factored, v), trans=2)
-            growth = float(np.linalg.norm(w))
-            if not np.isfinite(growth) or growth == 0.0:
+            length = float(np.linalg.norm(w))
+            if not np.isfinite(length) or length == 0.0:
                 return 0.0
-            v = w / growth
-    return float(1 / np.sqrt(growth))
+            v = w / length
+    return float(1 / np.sqrt(length))

@@ -51,13 +51,13 @@ def pencil_fixed_modes(
     >>> pencil_fixed_modes(np.diag([1.0, 2.0]), B, C, [frozenset()])
     ((2+0j),)
     """
-    n, found = A.shape[0], []
+    n, modes = A.shape[0], []
     chosen = list(subsets)
     for value in np.linalg.eigvals(A):
         ranks = (np.linalg.matrix_rank(pencil(A, B, C, s, value)) for s in chosen)
         if any(rank < n for rank in ranks):
-            found.append(complex(value))
-    return tuple(sorted(found, key=lambda each: (each.real, each.imag)))
+            modes.append(complex(value))
+    return tuple(sorted(modes, key=lambda each: (each.real, each.imag)))
 
 
 def pencil(
@@ -130,8 +130,8 @@ def rounded_fixed_modes(
             gain = generator.standard_normal((B_i.shape[1], C_i.shape[0]))
             closed_loop += B_i @ gain @ C_i
         rounded = np.round(np.linalg.eigvals(closed_loop), digits)
-        found = {complex(value) + 0 for value in rounded}
-        common = found if common is None else common & found
+        spectrum = {complex(value) + 0 for value in rounded}
+        common = spectrum if common is None else common & spectrum
     return tuple(sorted(common or (), key=lambda value: (value.real, value.imag)))
 
 

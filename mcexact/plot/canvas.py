@@ -65,10 +65,10 @@ def several_axes(ax: Any, count: int, width: float = 4.6, height: float = 3.6) -
     """
     if ax is None:
         return list(empty_figure(width * count, height).subplots(1, count, squeeze=False)[0])
-    found = list(getattr(ax, "flat", ax) if isinstance(ax, Iterable) else [ax])
-    if len(found) != count:
-        raise UsageError(f"expected {count} axes, found {len(found)}", where="ax")
-    return found
+    axes = list(getattr(ax, "flat", ax) if isinstance(ax, Iterable) else [ax])
+    if len(axes) != count:
+        raise UsageError(f"expected {count} axes, found {len(axes)}", where="ax")
+    return axes
 
 
 def elapsed_label(time: str) -> str:

@@ -43,7 +43,7 @@ class Point:
     multiplicity: int | None = None
 
 
-def points_of(found: Any) -> tuple[Point, ...]:
+def points_of(source: Any) -> tuple[Point, ...]:
     """Return the eigenvalues that an object has.
 
     Parameters
@@ -63,9 +63,9 @@ def points_of(found: Any) -> tuple[Point, ...]:
     >>> points_of([1j])
     (Point(place=1j, radius=Fraction(0, 1), multiplicity=None),)
     """
-    polynomial = found if isinstance(found, Polynomial) else getattr(found, "polynomial", None)
+    polynomial = source if isinstance(source, Polynomial) else getattr(source, "polynomial", None)
     if isinstance(polynomial, Polynomial):
-        known = getattr(found, "discs", ())
+        known = getattr(source, "discs", ())
         parts = [(known, 1)]
         if len(known) != polynomial.degree:
             factors = polynomial.factor()
@@ -80,10 +80,10 @@ def points_of(found: Any) -> tuple[Point, ...]:
             for disc in discs
         ]
         return tuple(sorted(points, key=lambda each: (each.place.real, each.place.imag)))
-    if isinstance(found, Iterable):
-        return tuple(Point(complex(each)) for each in found)
+    if isinstance(source, Iterable):
+        return tuple(Point(complex(each)) for each in source)
     raise UsageError(
-        f"expected a polynomial, something that has one, or numbers; found {type(found).__name__}"
+        f"expected a polynomial, something that has one, or numbers; found {type(source).__name__}"
     )
 
 

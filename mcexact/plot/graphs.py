@@ -107,8 +107,8 @@ def structure(system: Any, fixed: Any, transfer: Any, ax: Any = None) -> Any:
         width, height = graph_size(system.m)
         ax = empty_figure(width * len(panels), height).subplots(1, len(panels), squeeze=False)
     axes = several_axes(ax, len(panels))
-    for axis, (title, found) in zip(axes, panels, strict=True):
-        graph(found, axis, marked=marked, senders=senders, title=title)
+    for axis, (title, directed) in zip(axes, panels, strict=True):
+        graph(directed, axis, marked=marked, senders=senders, title=title)
     return axes[0].figure
 
 
@@ -120,7 +120,7 @@ def graph_size(channels: int) -> tuple[float, float]:
     return side, side
 
 
-def names_and_edges(found: Any) -> tuple[list[str], list[Edge]]:
+def names_and_edges(source: Any) -> tuple[list[str], list[Edge]]:
     """Return the names of a graph, and its edges between different names.
 
     Raises
@@ -128,19 +128,19 @@ def names_and_edges(found: Any) -> tuple[list[str], list[Edge]]:
     UsageError
         If the object has no graph.
     """
-    if hasattr(found, "arcs") and hasattr(found, "about"):
-        names, edges = found.about.names, found.arcs
-    elif hasattr(found, "edges") and hasattr(found, "names"):
-        names = found.names
-        edges = [(names[j], names[i]) for j, i in found.edges()]
-    elif getattr(found, "neighbors", None) is not None:
-        return names_and_edges(found.neighbors)
-    elif isinstance(found, tuple) and len(found) == 2:
-        names, edges = found
+    if hasattr(source, "arcs") and hasattr(source, "about"):
+        names, edges = source.about.names, source.arcs
+    elif hasattr(source, "edges") and hasattr(source, "names"):
+        names = source.names
+        edges = [(names[j], names[i]) for j, i in source.edges()]
+    elif getattr(source, "neighbors", None) is not None:
+        return names_and_edges(source.neighbors)
+    elif isinstance(source, tuple) and len(source) == 2:
+        names, edges = source
     else:
         raise UsageError(
             "expected a graph, a system with neighbors, or names and edges; found "
-            f"{type(found).__name__}"
+            f"{type(source).__name__}"
         )
     return list(names), [(start, end) for start, end in edges if start != end]
 
@@ -334,13 +334,13 @@ def _width(programs: Any, kind: str, j: int) -> int:
 
 def _blocks(each: Any, i: int) -> Mapping[tuple[str, int], Any]:
     """The matrices of a map of the i-th agent, keyed by the signal and its agent."""
-    found = {("y", j): M for j, M in each.outputs.items()}
-    found |= {("x", j): M for j, M in each.shared.items()}
+    matrices = {("y", j): M for j, M in each.outputs.items()}
+    matrices |= {("x", j): M for j, M in each.shared.items()}
     if each.private is not None:
-        found["z", i] = each.private
+        matrices["z", i] = each.private
     if each.reference is not None:
-        found["r", i] = each.reference
-    return found
+        matrices["r", i] = each.reference
+    return matrices
 
 
 def _cells(programs: Any, rows: Labels, columns: Labels) -> list[list[float]]:

@@ -81,8 +81,8 @@ def parameter_modes(
     axis.axhline(0, color=GRAY, linewidth=0.6, zorder=0.5)
     axis.set_xlim(low, high)
     letter = plain_label(t)
-    said = f"fixed modes against {letter}" if title is None else title
-    return finished(axis, said, letter, "real part of the modes")
+    heading = f"fixed modes against {letter}" if title is None else title
+    return finished(axis, heading, letter, "real part of the modes")
 
 
 def hypersurfaces(
@@ -170,13 +170,13 @@ def _roots(p: Sequence[Any], where: Any, scale: Any) -> Any:
     """The real parts of the roots in x of a polynomial at values of the parameter, divided."""
     import numpy as np
 
-    found = np.full((len(where), len(p) - 1), np.nan)
+    parts = np.full((len(where), len(p) - 1), np.nan)
     values = [np.polynomial.polynomial.polyval(where, _floats(c)) for c in p]
     for k, coefficients in enumerate(zip(*values, strict=True)):
         if scale[k]:
             roots = np.polynomial.polynomial.polyroots(coefficients)
-            found[k] = np.sort(roots.real) / scale[k]
-    return found
+            parts[k] = np.sort(roots.real) / scale[k]
+    return parts
 
 
 # Uncertainty: the radii that are proved, and those at which some plant fails.

@@ -87,8 +87,8 @@ def responses(run: Run, ax: Any = None, *, envelope: Bounds | None = None) -> An
     upper, lower = several_axes(ax, 2)
     outputs, references = run.values("outputs"), run.values("reference")
     _draw_curves(upper, run, outputs, "outputs")
-    given = [values for values in references.values() if any(values)]
-    if given and len(outputs) <= NAMED:
+    nonzero = [values for values in references.values() if any(values)]
+    if nonzero and len(outputs) <= NAMED:
         for k, values in enumerate(references.values()):
             label = "set-points" if k == 0 else None
             _draw(upper, run, values, f"C{k}", label, linestyle="--", linewidth=1)
@@ -356,8 +356,8 @@ def steps(curves: LoopCurves, ax: Any = None) -> Any:
         axis.plot(curves.times, values, label=label, drawstyle=_style(curves))
     axis.axhline(1.0, color=GRAY, linewidth=0.8)
     axis.set_xlim(left=0)
-    told = "output after a step of its set-point"
-    return finished(axis, across=elapsed_label(curves.region.time), up=told, columns=4)
+    caption = "output after a step of its set-point"
+    return finished(axis, across=elapsed_label(curves.region.time), up=caption, columns=4)
 
 
 def _style(curves: LoopCurves) -> str:

@@ -152,37 +152,37 @@ def definition(note: Notebook) -> None:
     """No F moves Λ_fixed: its polynomial is the greatest common divisor over drawn loops."""
     numbers = Numbers(11)
     for plant in note.each(drawn_plants(8, states=4), drawn_plants(3, states=4, fixed=True)):
-        found = fixed_spectrum(plant)
+        spectrum = fixed_spectrum(plant)
         loops = [characteristic_polynomial(closed_by(plant, numbers.gains(plant))) for _ in "1234"]
         note.check(
             "the fixed polynomial divides the polynomial of every loop",
-            all(found.polynomial.divides(each) for each in loops),
+            all(spectrum.polynomial.divides(each) for each in loops),
         )
         shared = reduce(Polynomial.gcd, loops, characteristic_polynomial(plant.A))
         note.check(
             "four drawn loops share nothing else",
-            shared.squarefree_part() == found.polynomial.squarefree_part(),
+            shared.squarefree_part() == spectrum.polynomial.squarefree_part(),
         )
-        note.certify(found)
+        note.certify(spectrum)
         own = characteristic_polynomial(plant.A).squarefree_part()
-        if not found.empty:
-            note.refute("empty", found.polynomial.degree > 0)
-            moved = own // own.gcd(found.polynomial)
+        if not spectrum.empty:
+            note.refute("empty", spectrum.polynomial.degree > 0)
+            moved = own // own.gcd(spectrum.polynomial)
             if moved.degree:
-                note.refute("spectrum-of-A", not moved.divides(found.polynomial))
+                note.refute("spectrum-of-A", not moved.divides(spectrum.polynomial))
 
 
 def proposition_2(note: Notebook) -> None:
     """Proposition 2: a fixed mode has a subset with a rank below n; the example has six subsets."""
     for plant in note.each(drawn_plants(10, states=4, fixed=True, first=11)):
-        found = fixed_spectrum(plant)
-        note.check("a planted fixed mode is found", not found.empty)
-        for factor in found.factors:
+        spectrum = fixed_spectrum(plant)
+        note.check("a planted fixed mode is found", not spectrum.empty)
+        for factor in spectrum.factors:
             rank = pencil_rank(plant, factor.channels, factor.polynomial)
             note.check("its pencil has rank below n", rank.rank < plant.n)
             note.check("for a proper nonempty subset", 0 < len(factor.channels) < plant.m)
             note.certify(rank)
-        note.certify(found)
+        note.certify(spectrum)
     example = three_channels()
     for name, system in (
         (PAPER, example),
@@ -190,25 +190,25 @@ def proposition_2(note: Notebook) -> None:
     ):
         note.on(name, system)
         ranks = [pencil_rank(system, s, 1) for s in SUBSETS_OF_THREE]
-        found = fixed_spectrum(system)
+        spectrum = fixed_spectrum(system)
         note.check(
             "1 is fixed just when one of the six pencils has rank below 3",
-            any(each.rank < 3 for each in ranks) != found.empty,
+            any(each.rank < 3 for each in ranks) != spectrum.empty,
         )
-        note.certify(found, *ranks)
+        note.certify(spectrum, *ranks)
     name, plant = split_spectrum()
     note.on(f"{name} but outputs")
     shared = augmented_outputs(plant)
-    ranks, found = [pencil_rank(shared, s, 0) for s in SUBSETS_OF_THREE], fixed_spectrum(shared)
-    note.refute("at-most-n", found.empty and min(each.rank for each in ranks) == shared.n)
-    note.certify(found, *ranks)
+    ranks, spectrum = [pencil_rank(shared, s, 0) for s in SUBSETS_OF_THREE], fixed_spectrum(shared)
+    note.refute("at-most-n", spectrum.empty and min(each.rank for each in ranks) == shared.n)
+    note.certify(spectrum, *ranks)
     # The subset has two channels, and every single one has full rank.
     for plant in note.each(_two_of_three()):
-        found = fixed_spectrum(plant)
-        mode = found.factors[0].polynomial
+        spectrum = fixed_spectrum(plant)
+        mode = spectrum.factors[0].polynomial
         single = [pencil_rank(plant, [name], mode) for name in plant.names]
         note.refute("single-channels", all(each.rank >= plant.n for each in single))
-        note.certify(found, *single)
+        note.certify(spectrum, *single)
 
 
 def _two_of_three() -> Iterator[Instance]:
@@ -227,11 +227,11 @@ def empty_and_all(note: Notebook) -> None:
     for plant in note.each(plants(8)):
         for mode, _ in characteristic_polynomial(plant.A).factor():
             for s in ((), plant.names):
-                found = pencil_rank(plant, s, mode)
+                answer = pencil_rank(plant, s, mode)
                 note.check(
-                    "the pencil of ∅ or of all channels has rank at least n", found.rank >= plant.n
+                    "the pencil of ∅ or of all channels has rank at least n", answer.rank >= plant.n
                 )
-                note.certify(found)
+                note.certify(answer)
     plant = note.at((f"{PAPER}, sharing outputs", augmented_outputs(three_channels())))
     rank = pencil_rank(plant, ["2"], 1)
     note.refute("other-subsets", rank.rank < plant.n)
@@ -241,7 +241,7 @@ def empty_and_all(note: Notebook) -> None:
 def transfer(note: Notebook) -> None:
     """The transfer graph: an edge j → i iff some C_i A^k B_j is not 0, k < n."""
     for plant in note.each(plants(14)):
-        found = transfer_graph(plant)
+        graph = transfer_graph(plant)
         powers = [Matrix.identity(plant.n)]
         for _ in range(plant.n - 1):
             powers.append(powers[-1] @ plant.A)
@@ -253,44 +253,44 @@ def transfer(note: Notebook) -> None:
         }
         note.check(
             "its edges are the nonzero blocks",
-            set(found.arcs) - {(c, c) for c in plant.names} == edges,
+            set(graph.arcs) - {(c, c) for c in plant.names} == edges,
         )
-        note.certify(found)
+        note.certify(graph)
     note.on(PAPER)
     plant = three_channels()
-    found = transfer_graph(plant)
-    backwards = {(i, j) for j, i in found.arcs}
-    note.refute("backwards", set(found.arcs) != backwards)
+    graph = transfer_graph(plant)
+    backwards = {(i, j) for j, i in graph.arcs}
+    note.refute("backwards", set(graph.arcs) != backwards)
     direct = {
         (plant.names[j], plant.names[i])
         for j in range(plant.m)
         for i in range(plant.m)
         if not (plant.C(i) @ plant.B(j)).is_zero()
     }
-    note.refute("direct", set(found.arcs) - {(c, c) for c in plant.names} != direct)
+    note.refute("direct", set(graph.arcs) - {(c, c) for c in plant.names} != direct)
 
 
 def corfmat_morse(note: Notebook) -> None:
     """Without fixed modes and strongly connected: some F serves each single channel."""
     for plant in note.each(plants(14)):
         whole = completeness(plant)
-        found = single_channel_gains(plant)
+        gains = single_channel_gains(plant)
         note.check(
-            "gains for every channel exist just when it is complete", found.exists == whole.complete
+            "gains for every channel exist just when it is complete", gains.exists == whole.complete
         )
-        note.certify(whole, found)
+        note.certify(whole, gains)
     for name, plant in (_in_series(), *deficient_plants(2, share="states")):
         note.on(name, plant)
-        found, fixed, graph = (
+        gains, fixed, graph = (
             single_channel_gains(plant),
             fixed_spectrum(plant),
             transfer_graph(plant),
         )
         if fixed.empty:
-            note.refute("any-transfer-graph", not graph.strongly_connected and not found.exists)
+            note.refute("any-transfer-graph", not graph.strongly_connected and not gains.exists)
         else:
-            note.refute("fixed-modes", graph.strongly_connected and not found.exists)
-        note.certify(found, fixed, graph)
+            note.refute("fixed-modes", graph.strongly_connected and not gains.exists)
+        note.certify(gains, fixed, graph)
 
 
 def free_assignment(note: Notebook) -> None:
@@ -330,8 +330,8 @@ def _in_series() -> Instance:
 def partition(note: Notebook) -> None:
     """Not strongly connected: the spectrum is one symmetric set for each strong component."""
     plant = note.at(_in_series())
-    found = transfer_graph(plant)
-    note.check("there are two strong components", len(found.components) == 2)
+    graph = transfer_graph(plant)
+    note.check("there are two strong components", len(graph.components) == 2)
     note.check("nothing is fixed", fixed_spectrum(plant).empty)
     design = design_decentralized(plant, rate=2, aims=THEOREM)
     note.check("one set for each component", len(design.parts["blocks"]) == 2)
@@ -348,7 +348,7 @@ def partition(note: Notebook) -> None:
     parts = {part.channels: part.dimension for part in split.blocks}
     note.refute("equal-sizes", sorted(parts.values()) == [1, 2])
     note.certify(split)
-    note.certify(found, fixed_spectrum(plant), design.loop.proof)
+    note.certify(graph, fixed_spectrum(plant), design.loop.proof)
 
 
 def wang_davison(note: Notebook) -> None:
@@ -357,17 +357,17 @@ def wang_davison(note: Notebook) -> None:
         drawn_plants(8, states=3, channels=2, first=21),
         drawn_plants(5, states=3, channels=2, fixed=True, first=21),
     ):
-        found = fixed_spectrum(plant)
-        note.certify(found)
+        spectrum = fixed_spectrum(plant)
+        note.certify(spectrum)
         fast = 1000
         try:
             design = design_decentralized(plant, rate=fast, aims=THEOREM)
         except Impossible as refused:
-            note.check("refused because something is fixed", not found.empty)
-            note.refute("always", not found.empty)
+            note.check("refused because something is fixed", not spectrum.empty)
+            note.refute("always", not spectrum.empty)
             note.certify(refused.certificate)
         else:
-            note.check("a rate of 1000 is reached because nothing is fixed", found.empty)
+            note.check("a rate of 1000 is reached because nothing is fixed", spectrum.empty)
             note.certify(design.loop.proof)
 
 
@@ -375,30 +375,30 @@ def wang_davison_discrete(note: Notebook) -> None:
     """In discrete time the fixed modes that hinder a rate are those other than 0."""
     plant = note.at(fixed_zero())
     note.print(plant)
-    found = fixed_spectrum(plant)
-    note.check("0 is the only fixed mode", found.polynomial == Polynomial.x())
+    spectrum = fixed_spectrum(plant)
+    note.check("0 is the only fixed mode", spectrum.polynomial == Polynomial.x())
     design = design_decentralized(plant, radius="1/100", aims=THEOREM)
     inside = StabilityRegion.of("discrete", radius="1/100")
     reached = inside.contains_roots_of(design.loop.polynomial or Polynomial.of(0))
     note.check("every eigenvalue of the loop is below 1/100", reached)
-    note.refute("zero-hinders", reached and not found.empty)
-    note.certify(found, design.loop.proof)
+    note.refute("zero-hinders", reached and not spectrum.empty)
+    note.certify(spectrum, design.loop.proof)
     for plant in note.each(deficient_plants(2, share="states", time="discrete")):
-        found = fixed_spectrum(plant)
-        if found.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x()):
+        spectrum = fixed_spectrum(plant)
+        if spectrum.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x()):
             note.refute("nothing-hinders")
-        note.certify(found)
+        note.certify(spectrum)
     for plant in note.each(drawn_plants(6, states=3, channels=2, time="discrete", first=21)):
-        found = fixed_spectrum(plant)
-        nonzero = found.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x())
+        spectrum = fixed_spectrum(plant)
+        nonzero = spectrum.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x())
         try:
-            made = design_decentralized(plant, radius="1/100", aims=THEOREM)
+            slow = design_decentralized(plant, radius="1/100", aims=THEOREM)
         except Impossible as refused:
             note.check("refused because a nonzero mode is fixed", nonzero)
             note.certify(refused.certificate)
         else:
             note.check("reached because no nonzero mode is fixed", not nonzero)
-            note.certify(made.loop.proof)
+            note.certify(slow.loop.proof)
 
 
 DECENTRALIZED: dict[str, Procedure] = {
@@ -423,9 +423,9 @@ def dynamic(note: Notebook) -> None:
     for time in TIMES:
         plant = note.at((f"{PAPER}, {time} time", three_channels(time)))
         shared = augmented_outputs(plant)
-        found = fixed_spectrum(shared)
-        note.check("1 is fixed when outputs are shared", found.polynomial(1) == 0)
-        note.certify(found)
+        spectrum = fixed_spectrum(shared)
+        note.check("1 is fixed when outputs are shared", spectrum.polynomial(1) == 0)
+        note.certify(spectrum)
         # Private states are shared sub-states that nobody else receives.
         alone = dict.fromkeys(plant.names, ())
         base = MultiChannelSystem(
@@ -437,8 +437,8 @@ def dynamic(note: Notebook) -> None:
             neighbors=alone,
         )
         for orders in ([1, 0, 2], [2, 2, 2]):
-            made = extended_system(base, orders, "states")
-            loop = closed_by(made, numbers.gains(made))
+            extended = extended_system(base, orders, "states")
+            loop = closed_by(extended, numbers.gains(extended))
             note.check(
                 f"1 stays with private states of dimensions {orders}",
                 characteristic_polynomial(loop)(1) == 0,
@@ -461,9 +461,9 @@ def sharing_states(note: Notebook) -> None:
         note.check("the loop is stable", closed_loop_spectrum(design.loop.matrix, each.time).stable)
         note.certify(design.loop.proof)
     note.on(PAPER)
-    found = fixed_spectrum(extended_system(plant, [plant.n] * plant.m, "states"))
-    note.check("with n_i = n and no outputs nothing is fixed", found.empty)
-    note.certify(found)
+    spectrum = fixed_spectrum(extended_system(plant, [plant.n] * plant.m, "states"))
+    note.check("with n_i = n and no outputs nothing is fixed", spectrum.empty)
+    note.certify(spectrum)
     nothing = fixed_spectrum(augmented_outputs(plant))
     note.refute("outputs-alone", not nothing.empty)
     note.certify(nothing)
@@ -478,13 +478,13 @@ def example(note: Notebook) -> None:
     note.print(plant)
     rank = pencil_rank(system, ["2"], 1)
     note.check("rank [I − A, B_1, B_3; C_{N_2}, 0, 0] is 2", rank.rank == 2)
-    found = fixed_spectrum(system)
-    note.check("the fixed polynomial is x − 1", found.polynomial == Polynomial.from_roots([1]))
+    spectrum = fixed_spectrum(system)
+    note.check("the fixed polynomial is x − 1", spectrum.polynomial == Polynomial.from_roots([1]))
     note.check(
         "no linear time-invariant distributed control with outputs alone stabilizes it",
-        not found.stabilizable,
+        not spectrum.stabilizable,
     )
-    note.certify(rank, found)
+    note.certify(rank, spectrum)
     note.check("A, B_i and C_i are as printed", _as_printed(plant))
     others = [pencil_rank(system, s, 1) for s in SUBSETS_OF_THREE if s != ("2",)]
     note.refute("other-subsets", all(each.rank >= plant.n for each in others))
@@ -542,20 +542,21 @@ def shared_outputs(note: Notebook) -> None:
     """(23): agent i receives the outputs y_j of its neighbors."""
     numbers = Numbers(12)
     for plant in note.each(plants(10, connected=None)):
-        made = augmented_outputs(plant)
+        shared = augmented_outputs(plant)
         x = numbers.column(plant.n)
         y = outputs(plant, x)
         graph = plant.neighbors
         right = graph is not None and all(
-            made.C(i) @ x == stacked([y[j] for j in graph.neighborhood(i)]) for i in range(plant.m)
+            shared.C(i) @ x == stacked([y[j] for j in graph.neighborhood(i)])
+            for i in range(plant.m)
         )
         note.check("ȳ_i is column{y_j, j ∈ N_i}", right)
-        note.check("A and B_i are the plant's", made.A == plant.A)
-        note.certify(fixed_spectrum(made))
+        note.check("A and B_i are the plant's", shared.A == plant.A)
+        note.certify(fixed_spectrum(shared))
     plant = note.at((PAPER, three_channels()))
-    made, x = augmented_outputs(plant), numbers.column(plant.n)
+    shared, x = augmented_outputs(plant), numbers.column(plant.n)
     y = outputs(plant, x)
-    seen = made.C(1) @ x
+    seen = shared.C(1) @ x
     note.check("N_2 = {2, 3}", seen == stacked([y[1], y[2]]))
     note.refute("followers", seen != stacked([y[1], y[0]]))
     note.refute("without-own", seen != y[2])

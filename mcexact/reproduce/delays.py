@@ -90,11 +90,11 @@ def shifts(note: Notebook) -> None:
     for d in range(1, 6):
         note.on(f"d = {d}")
         values = Matrix.column(range(1, d + 1))
-        moved = Matrix.column([0, *range(1, d)])
-        note.check("S_d (a_1, …, a_d) is (0, a_1, …, a_{d−1})", shift(d) @ values == moved)
+        shifted = Matrix.column([0, *range(1, d)])
+        note.check("S_d (a_1, …, a_d) is (0, a_1, …, a_{d−1})", shift(d) @ values == shifted)
         note.check("after d steps nothing is left", shift(d).power(d).is_zero())
         if d > 1:
-            note.refute("backwards", shift(d).T @ values != moved)
+            note.refute("backwards", shift(d).T @ values != shifted)
             note.refute("d-1", not shift(d).power(d - 1).is_zero())
 
 
@@ -103,28 +103,28 @@ def lifted(note: Notebook) -> None:
     numbers = Numbers(15)
     for instance, sizes in with_dimensions(drawn_links()):
         plant = note.at(instance)
-        made = lifted_system(plant, sizes)
+        system = lifted_system(plant, sizes)
         graph = graph_of(plant)
         d = [graph.longest_delay(i) for i in range(plant.m)]
         delays = {(i, j): d_ij for i, j, d_ij in graph.delays}
         size = plant.n + sum(sizes[i] + d[i] * (sizes[i] + plant.q(i)) for i in range(plant.m))
-        note.check("it has ñ = n + Σ (n_i + d_i n_i + d_i q_i) states", made.n == size)
+        note.check("it has ñ = n + Σ (n_i + d_i n_i + d_i q_i) states", system.n == size)
         note.check(
             "agents see what comes late, step by step",
-            messages_agree(plant, made, sizes, "outputs+states", delays, numbers),
+            messages_agree(plant, system, sizes, "outputs+states", delays, numbers),
         )
-        note.certify(fixed_spectrum(made))
+        note.certify(fixed_spectrum(system))
     name, plant = three_delays()
     note.on(name, plant)
     graph, sizes, share = graph_of(plant), [1, 1, 1], "outputs+states"
-    made = lifted_system(plant, sizes)
+    system = lifted_system(plant, sizes)
     right = {(i, j): d for i, j, d in graph.delays}
-    note.check("delays as they are", messages_agree(plant, made, sizes, share, right, numbers))
+    note.check("delays as they are", messages_agree(plant, system, sizes, share, right, numbers))
     # As printed: the second entry of ỹ_1 arrives with the delay of the first, d_11 = 0.
     printed = {**right, (0, 1): 0}
-    note.refute("as-printed", not messages_agree(plant, made, sizes, share, printed, numbers))
+    note.refute("as-printed", not messages_agree(plant, system, sizes, share, printed, numbers))
     reversed_ = {(i, j): right.get((j, i), 0) for i, j in right}
-    note.refute("d_ji", not messages_agree(plant, made, sizes, share, reversed_, numbers))
+    note.refute("d_ji", not messages_agree(plant, system, sizes, share, reversed_, numbers))
 
 
 def three_delays() -> Instance:
@@ -177,8 +177,8 @@ def block_ranks(note: Notebook) -> None:
 def only_zero_is_lost(note: Notebook) -> None:
     """The lifted system is jointly observable, and its uncontrollable modes are at 0."""
     for plant in note.each(late(10)):
-        made = lifted_system(plant, [1] * plant.m)
-        sight, reach = joint_observability(made), joint_controllability(made)
+        system = lifted_system(plant, [1] * plant.m)
+        sight, reach = joint_observability(system), joint_controllability(system)
         note.check("jointly observable", sight.controllable)
         note.check(
             "uncontrollable modes are at 0",
@@ -200,10 +200,10 @@ def theorem_3(note: Notebook) -> None:
         late_drawn(5, fixed=True, first=71),
     ):
         bound = shared_dimension_bound(plant)
-        found = fixed_spectrum(lifted_system(plant, [bound.deficiency] * plant.m))
-        note.check("nothing but 0 is fixed", found.polynomial in (ONE, X))
-        note.certify(bound, found)
-        if found.polynomial == X:
+        spectrum = fixed_spectrum(lifted_system(plant, [bound.deficiency] * plant.m))
+        note.check("nothing but 0 is fixed", spectrum.polynomial in (ONE, X))
+        note.certify(bound, spectrum)
+        if spectrum.polynomial == X:
             note.refute("also-0")
     less_than_the_bound(note, "outputs+states", lifted_system, "outputs+states")
 
@@ -218,15 +218,15 @@ def _rest_assigned(note: Notebook, delay: int) -> None:
     # As many complex pairs with the sum 1 and the product 1/2 as there is room for.
     wanted = Polynomial.of("1/2", -1, 1) ** (free // 2) * Polynomial.of("-1/3", 1) ** (free % 2)
     design = design_extended(plant, network="lifted", dimensions=sizes, spectrum=wanted)
-    made = characteristic_polynomial(design.loop.matrix)
-    note.check("all but the fixed 0 are assigned, complex pairs too", made == wanted * X**fixed)
+    assigned = characteristic_polynomial(design.loop.matrix)
+    note.check("all but the fixed 0 are assigned, complex pairs too", assigned == wanted * X**fixed)
     system, numbers = lifted_system(plant, sizes), Numbers(26)
-    found = fixed_spectrum(system)
+    spectrum = fixed_spectrum(system)
     loops = [characteristic_polynomial(closed_by(system, numbers.gains(system))) for _ in "1234"]
     shared = reduce(Polynomial.gcd, loops)
     note.check("the rest is what four drawn loops have in common", shared == X**fixed)
-    note.refute("whole", found.polynomial == X)
-    note.certify(found, *design.certificates.values())
+    note.refute("whole", spectrum.polynomial == X)
+    note.certify(spectrum, *design.certificates.values())
 
 
 def free_of_the_lift(note: Notebook) -> None:
@@ -235,11 +235,11 @@ def free_of_the_lift(note: Notebook) -> None:
         _rest_assigned(note, delay)
     for plant in note.each(late(5)):
         size = max(1, shared_dimension_bound(plant).deficiency)
-        made = lifted_system(plant, [size] * plant.m)
-        found, graph = fixed_spectrum(made), transfer_graph(made)
+        system = lifted_system(plant, [size] * plant.m)
+        spectrum, graph = fixed_spectrum(system), transfer_graph(system)
         note.check("the transfer graph is strongly connected", graph.strongly_connected)
-        note.check("nothing but 0 is fixed", found.polynomial.squarefree_part() in (ONE, X))
-        note.certify(found, graph)
+        note.check("nothing but 0 is fixed", spectrum.polynomial.squarefree_part() in (ONE, X))
+        note.certify(spectrum, graph)
     plant = note.at(split_spectrum("discrete", 1))
     note.print(plant)
     bound, alone = shared_dimension_bound(plant), lifted_system(plant, [0] * plant.m)
@@ -253,10 +253,10 @@ def theorem_3_states(note: Notebook) -> None:
     """Theorem 3 for sub-states alone, with the bound of Remark 2."""
     for plant in note.each(late(8), late_drawn(5, fixed=True, first=71)):
         bound = shared_dimension_bound(plant, share="states")
-        made = lifted_system(plant, [bound.deficiency] * plant.m, "states")
-        found = fixed_spectrum(made)
-        note.check("nothing but 0 is fixed", found.polynomial in (ONE, X))
-        note.certify(bound, found)
+        system = lifted_system(plant, [bound.deficiency] * plant.m, "states")
+        spectrum = fixed_spectrum(system)
+        note.check("nothing but 0 is fixed", spectrum.polynomial in (ONE, X))
+        note.certify(bound, spectrum)
         weaker = shared_dimension_bound(plant).deficiency
         if weaker < bound.deficiency:
             short = fixed_spectrum(lifted_system(plant, [weaker] * plant.m, "states"))
@@ -282,15 +282,15 @@ def less_than_the_bound(
         )
         sizes = {0, bound.deficiency - 1, bound.deficiency}
         for size in sorted(sizes):
-            found = fixed_spectrum(construct(plant, [size] * plant.m, *options))
-            nonzero = found.polynomial.squarefree_part() not in (ONE, X)
+            spectrum = fixed_spectrum(construct(plant, [size] * plant.m, *options))
+            nonzero = spectrum.polynomial.squarefree_part() not in (ONE, X)
             if size == bound.deficiency:
                 note.check("nothing but 0 is fixed at the bound", not nonzero)
             elif size == 0:
                 note.refute("n_i=0", nonzero)
             if size == bound.deficiency - 1 and least.dimension == bound.deficiency:
                 note.refute("bound-1", nonzero)
-            note.certify(found)
+            note.certify(spectrum)
         note.certify(bound)
 
 
@@ -345,21 +345,21 @@ def held(note: Notebook) -> None:
     numbers = Numbers(16)
     for instance, sizes in with_dimensions(drawn_links()):
         plant = note.at(instance)
-        made = held_system(plant, sizes)
+        system = held_system(plant, sizes)
         graph = graph_of(plant)
         d = [graph.longest_delay(i) for i in range(plant.m)]
         delays = {(i, j): d[j] for i in range(plant.m) for j in graph.neighborhood(i)}
         size = plant.n + sum((1 + d[i]) * sizes[i] for i in range(plant.m))
-        note.check("it has n̂ = n + Σ (n_i + d_i n_i) states", made.n == size)
+        note.check("it has n̂ = n + Σ (n_i + d_i n_i) states", system.n == size)
         note.check(
             "agents see what is released, step by step",
-            messages_agree(plant, made, sizes, "states", delays, numbers),
+            messages_agree(plant, system, sizes, "states", delays, numbers),
         )
-        note.certify(fixed_spectrum(made))
+        note.certify(fixed_spectrum(system))
     name, plant = three_delays()
     note.on(name, plant)
     graph, sizes = graph_of(plant), [1, 1, 1]
-    made, d = held_system(plant, sizes), [graph.longest_delay(i) for i in range(plant.m)]
+    system, d = held_system(plant, sizes), [graph.longest_delay(i) for i in range(plant.m)]
     pairs = [(i, j) for i in range(plant.m) for j in graph.neighborhood(i)]
     links = {(i, j): graph.delay(i, j) for i, j in pairs}
     composed = {(i, j): (d[j] - links[i, j]) + links[i, j] for i, j in pairs}
@@ -371,11 +371,11 @@ def held(note: Notebook) -> None:
             arrived[d[j] :] == queue[: len(queue) - d[j]],
         )
     note.check(
-        "which are the messages", messages_agree(plant, made, sizes, "states", composed, numbers)
+        "which are the messages", messages_agree(plant, system, sizes, "states", composed, numbers)
     )
-    note.refute("not-held", not messages_agree(plant, made, sizes, "states", links, numbers))
+    note.refute("not-held", not messages_agree(plant, system, sizes, "states", links, numbers))
     own = {(i, j): 0 if i == j else d[j] for i, j in pairs}
-    note.refute("own-state", not messages_agree(plant, made, sizes, "states", own, numbers))
+    note.refute("own-state", not messages_agree(plant, system, sizes, "states", own, numbers))
 
 
 def _sent_and_held(
@@ -396,12 +396,12 @@ def _sent_and_held(
 def held_joint(note: Notebook) -> None:
     """The held system is jointly controllable and observable."""
     for plant in note.each(late(10)):
-        made = held_system(plant, [1] * plant.m)
-        note.joint(made)
+        system = held_system(plant, [1] * plant.m)
+        note.joint(system)
     plant = note.at(late_example(1))
-    found = joint_controllability(lifted_system(plant, [1, 1, 1]))
-    note.refute("without-holding", not found.controllable)
-    note.certify(found)
+    joint = joint_controllability(lifted_system(plant, [1, 1, 1]))
+    note.refute("without-holding", not joint.controllable)
+    note.certify(joint)
 
 
 def outputs_lose_controllability(note: Notebook) -> None:
@@ -428,9 +428,9 @@ def theorem_4(note: Notebook) -> None:
         late_drawn(5, fixed=True, first=71),
     ):
         bound = shared_dimension_bound(plant, share="states")
-        found = fixed_spectrum(held_system(plant, [bound.deficiency] * plant.m))
-        note.check("nothing is fixed", found.empty)
-        note.certify(bound, found)
+        spectrum = fixed_spectrum(held_system(plant, [bound.deficiency] * plant.m))
+        note.check("nothing is fixed", spectrum.empty)
+        note.certify(bound, spectrum)
         weaker = shared_dimension_bound(plant)
         if weaker.deficiency < bound.deficiency:
             short = fixed_spectrum(held_system(plant, [weaker.deficiency] * plant.m))
@@ -480,10 +480,10 @@ def free_assignment(note: Notebook) -> None:
     note.print(plant)
     bound = shared_dimension_bound(plant, share="states")
     graph = transfer_graph(held_system(plant, [0] * plant.m))
-    found = completeness(held_system(plant, [0] * plant.m))
+    whole = completeness(held_system(plant, [0] * plant.m))
     note.check("n_i = 0 meets the hypotheses of Theorem 4", bound.deficiency == 0)
-    note.refute("n_i=0", not graph.strongly_connected and not found.complete)
-    note.certify(bound, graph, found)
+    note.refute("n_i=0", not graph.strongly_connected and not whole.complete)
+    note.certify(bound, graph, whole)
 
 
 HOLDING: dict[str, Procedure] = {

@@ -60,15 +60,15 @@ def three_channels(time: str = "continuous", delay: int = 0) -> MultiChannelSyst
     >>> three_channels().neighbors.neighborhood(2)
     (0, 2)
     """
-    found = gallery.load("liu2020-3ch-no-communication")
-    ring = NeighborGraph.from_names(found.names, {"1": ["2"], "2": ["3"], "3": ["1"]})
+    plant = gallery.load("liu2020-3ch-no-communication")
+    ring = NeighborGraph.from_names(plant.names, {"1": ["2"], "2": ["3"], "3": ["1"]})
     delays = [(i, j, delay) for j, i in ring.edges()]
     return MultiChannelSystem(
-        found.A,
-        [channel.B for channel in found.channels],
-        [channel.C for channel in found.channels],
+        plant.A,
+        [channel.B for channel in plant.channels],
+        [channel.C for channel in plant.channels],
         time=time,
-        neighbors=NeighborGraph(found.names, ring.neighbors, delays),
+        neighbors=NeighborGraph(plant.names, ring.neighbors, delays),
         name="three channels",
     )
 
@@ -415,7 +415,7 @@ def union_of_graphs(plant: MultiChannelSystem, transfer: TransferGraph) -> Neigh
 
 def messages_agree(
     plant: MultiChannelSystem,
-    made: MultiChannelSystem,
+    system: MultiChannelSystem,
     sizes: Sequence[int],
     share: str,
     delays: Mapping[tuple[int, int], int],
@@ -430,7 +430,7 @@ def messages_agree(
     """
     graph, both = graph_of(plant), share == "outputs+states"
     x, shared = numbers.column(plant.n), [Matrix.zeros(size, 1) for size in sizes]
-    state = stacked([x, Matrix.zeros(made.n - plant.n, 1)])
+    state = stacked([x, Matrix.zeros(system.n - plant.n, 1)])
     sent: list[tuple[list[Matrix], list[Matrix]]] = []
 
     def past(late: int, which: int, j: int) -> Matrix:
@@ -445,18 +445,18 @@ def messages_agree(
             measured = sorted(late, key=lambda j: late[j] > 0) if both else [i]
             seen = [past(late[j] if both else 0, 0, j) for j in measured]
             seen += [past(late[j], 1, j) for j in late]
-            if made.C(i) @ state != stacked(seen):
+            if system.C(i) @ state != stacked(seen):
                 return False
         u = [numbers.column(plant.p(i)) for i in range(plant.m)]
         v = [numbers.column(size) for size in sizes]
-        state = driven(made, state, [stacked([u[i], v[i]]) for i in range(plant.m)])
+        state = driven(system, state, [stacked([u[i], v[i]]) for i in range(plant.m)])
         x, shared = driven(plant, x, u), v
     return True
 
 
 def errors_agree(
     plant: MultiChannelSystem,
-    made: MultiChannelSystem,
+    system: MultiChannelSystem,
     feedbacks: Sequence[Matrix],
     numbers: Numbers,
 ) -> bool:
@@ -469,22 +469,22 @@ def errors_agree(
     x = numbers.column(plant.n)
     estimates = [numbers.column(plant.n) for _ in range(plant.m)]
     v = [numbers.column(plant.n) for _ in range(plant.m)]
-    moved = driven(plant, x, [F @ x_j for F, x_j in zip(feedbacks, estimates, strict=True)])
+    plant_ahead = driven(plant, x, [F @ x_j for F, x_j in zip(feedbacks, estimates, strict=True)])
     errors = [x_i - x for x_i in estimates]
     ahead = [
-        driven(plant, x_i, [F @ x_i for F in feedbacks]) + v_i - moved
+        driven(plant, x_i, [F @ x_i for F in feedbacks]) + v_i - plant_ahead
         for x_i, v_i in zip(estimates, v, strict=True)
     ]
     epsilon = stacked(errors)
     for i in range(plant.m):
         others = [errors[i] - errors[j] for j in graph.neighborhood(i) if j != i]
-        if made.C(i) @ epsilon != stacked([plant.C(i) @ errors[i], *others]):
+        if system.C(i) @ epsilon != stacked([plant.C(i) @ errors[i], *others]):
             return False
-    return driven(made, epsilon, v) == stacked(ahead)
+    return driven(system, epsilon, v) == stacked(ahead)
 
 
 def integrators_agree(
-    plant: MultiChannelSystem, made: MultiChannelSystem, numbers: Numbers
+    plant: MultiChannelSystem, system: MultiChannelSystem, numbers: Numbers
 ) -> bool:
     """Whether (18) holds for r = 0: ẇ_i = y_i (discrete: w_i + y_i), and agent i sees w_i."""
     x = numbers.column(plant.n)
@@ -494,7 +494,7 @@ def integrators_agree(
     if is_discrete(plant.time):
         y = [a + b for a, b in zip(w, y, strict=True)]
     state = stacked([x, *w])
-    return outputs(made, state) == w and driven(made, state, u) == stacked(
+    return outputs(system, state) == w and driven(system, state, u) == stacked(
         [driven(plant, x, u), *y]
     )
 
@@ -528,26 +528,26 @@ def in_common(names: Sequence[str], plants: Mapping[str, MultiChannelSystem]) ->
     'the matrices of the example of IV-B; 3 states, 3 channels, continuous time; jointly \
 controllable and observable; over a strongly connected graph'
     """
-    found = [plants[name] for name in names if name in plants]
-    return "; ".join([*_origins(names), *_sizes(found), *_properties(found)])
+    chosen = [plants[name] for name in names if name in plants]
+    return "; ".join([*_origins(names), *_sizes(chosen), *_properties(chosen)])
 
 
 def _origins(names: Sequence[str]) -> list[str]:
     """How many instances come from where; a few named ones by their names."""
     by_origin: dict[str, list[str]] = {}
     for name in names:
-        origin = next((said for start, said in _ORIGINS if name.startswith(start)), "named")
+        origin = next((text for start, text in _ORIGINS if name.startswith(start)), "named")
         by_origin.setdefault("" if name.startswith(PAPER) else origin, []).append(name)
-    made = []
+    origins = []
     for origin, members in by_origin.items():
         if not origin:
             many = f", in {len(members)} instances" if len(members) > 1 else ""
-            made.append(f"the matrices of the example of IV-B{many}")
+            origins.append(f"the matrices of the example of IV-B{many}")
         elif origin == "named" and len(members) <= _MOST_NAMES:
-            made += members
+            origins += members
         else:
-            made.append(f"{len(members)} {origin}")
-    return made
+            origins.append(f"{len(members)} {origin}")
+    return origins
 
 
 def _sizes(plants: Sequence[MultiChannelSystem]) -> list[str]:
@@ -581,17 +581,17 @@ def _properties(plants: Sequence[MultiChannelSystem]) -> list[str]:
     graphs = [
         plant.neighbors.is_strongly_connected() for plant in plants if plant.neighbors is not None
     ]
-    told = _told(joint, "jointly controllable and observable")
+    words = _how_many(joint, "jointly controllable and observable")
     over = (
         "over a strongly connected graph" if len(graphs) == 1 else "over strongly connected graphs"
     )
-    return [*told, *_told(graphs, over)]
+    return [*words, *_how_many(graphs, over)]
 
 
-def _told(found: Sequence[bool], property_: str) -> list[str]:
+def _how_many(holds: Sequence[bool], property_: str) -> list[str]:
     """A property, with the number of instances that have it."""
-    if not found:
+    if not holds:
         return []
-    if all(found):
-        return [property_ if len(found) == 1 else f"all {property_}"]
-    return [f"{sum(found)} of {len(found)} {property_}"]
+    if all(holds):
+        return [property_ if len(holds) == 1 else f"all {property_}"]
+    return [f"{sum(holds)} of {len(holds)} {property_}"]

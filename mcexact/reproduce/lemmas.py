@@ -51,16 +51,16 @@ def lemma_1(note: Notebook) -> None:
     """Lemma 1: the error system is jointly controllable and observable."""
     numbers = Numbers(8)
     for plant in note.each(plants(10)):
-        made = error_system(plant, numbers.feedbacks(plant))
+        system = error_system(plant, numbers.feedbacks(plant))
         note.check(
             "[B̃_1 … B̃_m] is the identity",
-            hstack([made.B(i) for i in range(made.m)]) == Matrix.identity(made.n),
+            hstack([system.B(i) for i in range(system.m)]) == Matrix.identity(system.n),
         )
-        note.joint(made)
+        note.joint(system)
     plant = note.at((f"{PAPER}, without arcs", three_channels()))
-    found = joint_observability(error_system(without_arcs(plant), zeros(plant)))
-    note.refute("any-graph", not found.controllable)
-    note.certify(found)
+    observability = joint_observability(error_system(without_arcs(plant), zeros(plant)))
+    note.refute("any-graph", not observability.controllable)
+    note.certify(observability)
 
 
 def _graph_scalars(graph: NeighborGraph) -> MultiChannelSystem:
@@ -78,19 +78,19 @@ def _graph_scalars(graph: NeighborGraph) -> MultiChannelSystem:
 def _lifted_scalars(plant: MultiChannelSystem) -> tuple[list[Matrix], list[Matrix], Matrix]:
     """Ĥ_i = φ_i ⊗ I_n beside a zero K_i, as gains of the error system; φ; D = Σ b_i φ_ij c_ij."""
     scalars = _graph_scalars(graph_of(plant))
-    found = single_channel_gains(scalars, want="controllable")
-    if found.gains is None:
+    answer = single_channel_gains(scalars, want="controllable")
+    if answer.gains is None:
         raise ValueError("the neighbor graph is not strongly connected")
     wide = [
         hstack(
             [
                 Matrix.zeros(plant.n, plant.q(i)),
-                kronecker(found.gains[i], Matrix.identity(plant.n)),
+                kronecker(answer.gains[i], Matrix.identity(plant.n)),
             ]
         )
         for i in range(plant.m)
     ]
-    return wide, list(found.gains), feedback(scalars, found.gains).A
+    return wide, list(answer.gains), feedback(scalars, answer.gains).A
 
 
 def lemma_2(note: Notebook) -> None:
@@ -108,11 +108,13 @@ def lemma_2(note: Notebook) -> None:
         loop = feedback(error_system(still, zeros(still)), wide)
         note.check("Σ B̃_i Ĥ_i C̃_i is D ⊗ I", loop.A == kronecker(D, Matrix.identity(plant.n)))
         for q in plant.names:
-            found = controllability_indices(loop, [q])
-            note.check(f"channel {q} controls it with index m", found.index == plant.m)
-            note.certify(found)
+            indices = controllability_indices(loop, [q])
+            note.check(f"channel {q} controls it with index m", indices.index == plant.m)
+            note.certify(indices)
             if note.here == PAPER:
-                note.refute("smaller-index", found.index is not None and found.index > plant.m - 1)
+                note.refute(
+                    "smaller-index", indices.index is not None and indices.index > plant.m - 1
+                )
     plant = note.at((PAPER, three_channels()))
     lost = single_channel_gains(_graph_scalars(graph_of(without_arcs(plant))), want="controllable")
     note.refute("any-graph", not lost.exists)
@@ -124,22 +126,22 @@ def lemma_3(note: Notebook) -> None:
     for name, A, B, M in _pairs():
         note.on(name)
         n, r = B.shape
-        found = exceptional_gains(M, A, B)
+        exceptional = exceptional_gains(M, A, B)
         note.check(
             "finitely many g lose the first m blocks",
-            not found.index_set.polynomial.is_zero(),
+            not exceptional.index_set.polynomial.is_zero(),
         )
-        note.certify(found.index_set, found.controllability_set, found.indices)
-        g = next(g for g in range(1, 1000) if g not in found.index_set)
+        note.certify(exceptional.index_set, exceptional.controllability_set, exceptional.indices)
+        g = next(g for g in range(1, 1000) if g not in exceptional.index_set)
         indices = _indices(M + A * g, B)
-        within = indices.index is not None and indices.index <= found.index
+        within = indices.index is not None and indices.index <= exceptional.index
         note.check("another g keeps the index within m", within)
-        if found.index * r == n:
-            note.check("if mr = n another g keeps the index m", indices.index == found.index)
+        if exceptional.index * r == n:
+            note.check("if mr = n another g keeps the index m", indices.index == exceptional.index)
         note.certify(indices)
         if name == INDEX_THREE:
             after = [_indices(M + A * g, B) for g in (0, 1, 2, 3)]
-            note.check("(A, B) has index 3", found.index == 3)
+            note.check("(A, B) has index 3", exceptional.index == 3)
             note.refute("without-mr=n", all(each.index == 2 for each in after[1:]))
             note.refute("larger-index", all((each.index or 0) < 3 for each in after[1:]))
             note.refute("every-g", after[0].index is None)
@@ -168,27 +170,27 @@ def lemma_4(note: Notebook) -> None:
     """Lemma 4: for given K_i, H_i = g Ĥ_i with g outside finitely many values."""
     numbers = Numbers(10)
     for plant in note.each(plants(5)):
-        made = error_system(plant, numbers.feedbacks(plant))
+        system = error_system(plant, numbers.feedbacks(plant))
         wide, _, _ = _lifted_scalars(plant)
-        given = [
+        base = [
             hstack(
                 [
                     numbers.matrix(plant.n, plant.q(i)),
-                    Matrix.zeros(plant.n, made.q(i) - plant.q(i)),
+                    Matrix.zeros(plant.n, system.q(i) - plant.q(i)),
                 ]
             )
             for i in range(plant.m)
         ]
-        M = feedback(made, given).A
-        D = feedback(made, wide).A - made.A
-        sets = [exceptional_gains(M, D, made.B(i)).index_set for i in range(plant.m)]
+        M = feedback(system, base).A
+        D = feedback(system, wide).A - system.A
+        sets = [exceptional_gains(M, D, system.B(i)).index_set for i in range(plant.m)]
         note.certify(*sets)
         g = next(g for g in range(1, 1000) if all(g not in each for each in sets))
-        loop = feedback(made, [K + H * g for K, H in zip(given, wide, strict=True)])
+        loop = feedback(system, [K + H * g for K, H in zip(base, wide, strict=True)])
         for q in plant.names:
-            found = controllability_indices(loop, [q])
-            note.check(f"g = {g}: channel {q} controls with index m", found.index == plant.m)
-            note.certify(found)
+            answer = controllability_indices(loop, [q])
+            note.check(f"g = {g}: channel {q} controls with index m", answer.index == plant.m)
+            note.certify(answer)
     plant = note.at((PAPER, three_channels()))
     still = error_system(plant, zeros(plant))
     without = controllability_indices(still, [plant.names[0]])
@@ -249,15 +251,15 @@ def recipe(note: Notebook) -> None:
     note.check("the plant is jointly observable", joint_observability(plant).controllable)
     note.check("what is fed back is not", not lost.controllable)
     note.refute("literal", stuck.polynomial == Polynomial.from_roots([-2]))
-    found = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
-    note.check("(16) has gains, with index m", found.exists)
+    gains = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
+    note.check("(16) has gains, with index m", gains.exists)
     wanted = [-3 - k for k in range(plant.n * plant.m + plant.m - 1)]
     design = design_observer(plant, spectrum={"error": wanted}, gains=F)
     note.check(
         "and its errors get a spectrum without −2",
         design.parts["error_polynomial"] == Polynomial.from_roots(wanted),
     )
-    note.certify(lost, stuck, found, design.loop.proof)
+    note.certify(lost, stuck, gains, design.loop.proof)
 
 
 LEMMAS: dict[str, Procedure] = {
@@ -281,17 +283,17 @@ def through(A: Matrix, B: Matrix) -> MultiChannelSystem:
     return MultiChannelSystem(A, [B], [Matrix.zeros(0, A.nrows)])
 
 
-def serve(made: MultiChannelSystem, gains: Sequence[Matrix]) -> bool:
+def serve(system: MultiChannelSystem, gains: Sequence[Matrix]) -> bool:
     """Whether the loop is controllable and observable through every channel."""
-    loop = closed_by(made, gains)
-    pairs = [(loop, made.B(q)) for q in range(made.m)]
-    pairs += [(loop.T, made.C(q).T) for q in range(made.m)]
+    loop = closed_by(system, gains)
+    pairs = [(loop, system.B(q)) for q in range(system.m)]
+    pairs += [(loop.T, system.C(q).T) for q in range(system.m)]
     return all(joint_controllability(through(*pair)).controllable for pair in pairs)
 
 
 def _on_a_line(
     note: Notebook,
-    made: MultiChannelSystem,
+    system: MultiChannelSystem,
     start: Sequence[Matrix],
     along: Sequence[Matrix],
     *,
@@ -305,18 +307,18 @@ def _on_a_line(
     M + hD on the line, (M + hD, B) is controllable iff a multiple of it is, as D + g(M + D) with
     h = (1 + g)/g; in this form Lemma 3 finds all exceptions.
     """
-    M = closed_by(made, start)
-    D = closed_by(made, along) - made.A
-    for q in range(made.m):
-        port = made.C(q).T if dual else made.B(q)
+    M = closed_by(system, start)
+    D = closed_by(system, along) - system.A
+    for q in range(system.m):
+        port = system.C(q).T if dual else system.B(q)
         first, direction = (M.T, D.T) if dual else (M, D)
-        found = exceptional_gains(direction, first + direction, port)
-        failing = found.controllability_set if index is None else found.index_set
+        exceptional = exceptional_gains(direction, first + direction, port)
+        failing = exceptional.controllability_set if index is None else exceptional.index_set
         if index is not None:
-            note.check("drawn gains have index m", found.index == index)
+            note.check("drawn gains have index m", exceptional.index == index)
         what = "observable" if dual else "controllable"
-        said = f"on a line of gains, finitely many are not {what} through channel {q + 1}"
-        note.check(said, not failing.polynomial.is_zero())
+        claim = f"on a line of gains, finitely many are not {what} through channel {q + 1}"
+        note.check(claim, not failing.polynomial.is_zero())
         if q == 0:
             note.certify(failing)
 
@@ -325,24 +327,24 @@ def error_gains(note: Notebook) -> None:
     """The gains of (7), of Lemma 4 for given K_i, and those that make (16) observable."""
     numbers = Numbers(23, largest=9)
     for plant in note.each(plants(1)):
-        made = error_system(plant, zeros(plant))
-        drawn = [numbers.gains(made) for _ in range(DRAWN)]
-        note.check("all drawn gains serve every channel", all(serve(made, G) for G in drawn))
-        note.refute("few", all(serve(made, G) for G in drawn))
+        system = error_system(plant, zeros(plant))
+        drawn = [numbers.gains(system) for _ in range(DRAWN)]
+        note.check("all drawn gains serve every channel", all(serve(system, G) for G in drawn))
+        note.refute("few", all(serve(system, G) for G in drawn))
         none = [G * 0 for G in drawn[0]]
-        note.refute("all", not serve(made, none))
-        _on_a_line(note, made, drawn[0], drawn[1])
-        _on_a_line(note, made, drawn[0], drawn[1], dual=True)
+        note.refute("all", not serve(system, none))
+        _on_a_line(note, system, drawn[0], drawn[1])
+        _on_a_line(note, system, drawn[0], drawn[1], dual=True)
     for plant in note.each(plants(1)):
-        made = error_system(plant, numbers.feedbacks(plant))
-        parts = [_apart(G, plant.q(i)) for i, G in enumerate(numbers.gains(made))]
+        system = error_system(plant, numbers.feedbacks(plant))
+        parts = [_apart(G, plant.q(i)) for i, G in enumerate(numbers.gains(system))]
         K, H = [K for K, _ in parts], [H for _, H in parts]
         start = [k + h for k, h in zip(K, H, strict=True)]
-        _on_a_line(note, made, start, H, index=plant.m)
-        _on_a_line(note, made, start, numbers.gains(made), dual=True)
-        note.check("some gains do both", serve(made, start))
+        _on_a_line(note, system, start, H, index=plant.m)
+        _on_a_line(note, system, start, numbers.gains(system), dual=True)
+        note.check("some gains do both", serve(system, start))
         if note.here == PAPER:
-            reach = controllability_indices(through(closed_by(made, K), made.B(0)))
+            reach = controllability_indices(through(closed_by(system, K), system.B(0)))
             note.refute("H=0", reach.index is None)
             note.certify(reach)
 
@@ -358,22 +360,22 @@ def extended_gains(note: Notebook) -> None:
     """The gains F̄_i of (31), with n_i ≥ 1."""
     numbers = Numbers(24, largest=99)
     for plant in note.each(plants(3)):
-        made = extended_system(plant, [1] * plant.m)
-        drawn = [numbers.gains(made) for _ in range(DRAWN)]
-        note.check("all drawn gains serve every channel", all(serve(made, G) for G in drawn))
-        note.refute("few", all(serve(made, G) for G in drawn))
-        note.refute("all", not serve(made, [G * 0 for G in drawn[0]]))
-        _on_a_line(note, made, drawn[0], drawn[1])
-        _on_a_line(note, made, drawn[0], drawn[1], dual=True)
+        system = extended_system(plant, [1] * plant.m)
+        drawn = [numbers.gains(system) for _ in range(DRAWN)]
+        note.check("all drawn gains serve every channel", all(serve(system, G) for G in drawn))
+        note.refute("few", all(serve(system, G) for G in drawn))
+        note.refute("all", not serve(system, [G * 0 for G in drawn[0]]))
+        _on_a_line(note, system, drawn[0], drawn[1])
+        _on_a_line(note, system, drawn[0], drawn[1], dual=True)
 
 
 def complementary(note: Notebook) -> None:
     """All complementary subsystems of (16) are complete."""
     numbers = Numbers(25)
     for plant in note.each(plants(8)):
-        found = completeness(error_system(plant, numbers.feedbacks(plant)))
-        note.check("(16) is complete for all subsets of channels", found.complete)
-        note.certify(found)
+        answer = completeness(error_system(plant, numbers.feedbacks(plant)))
+        note.check("(16) is complete for all subsets of channels", answer.complete)
+        note.certify(answer)
     plant = three_channels()
     note.on(f"{PAPER}, without arcs", without_arcs(plant))
     lost = completeness(error_system(without_arcs(plant), numbers.feedbacks(plant)))
@@ -403,8 +405,8 @@ def one_agent(note: Notebook) -> None:
         F, K = numbers.matrix(B.ncols, plant.n), numbers.matrix(plant.n, C.nrows)
         loop = block([[plant.A, B @ F], [-(K @ C), plant.A + K @ C + B @ F]])
         x, e = numbers.column(plant.n), numbers.column(plant.n)
-        moved = loop @ vstack([x, x + e])
-        error = moved.take(rows=range(plant.n, 2 * plant.n)) - moved.take(rows=range(plant.n))
+        ahead = loop @ vstack([x, x + e])
+        error = ahead.take(rows=range(plant.n, 2 * plant.n)) - ahead.take(rows=range(plant.n))
         note.check("ė = (A + KC)e, whatever x is", error == (plant.A + K @ C) @ e)
         apart = characteristic_polynomial(plant.A + B @ F) * characteristic_polynomial(
             plant.A + K @ C
@@ -421,7 +423,9 @@ def one_agent(note: Notebook) -> None:
             note.refute("without-input", characteristic_polynomial(kept) != apart)
 
 
-def _moved(plant: MultiChannelSystem, F: Matrix, x: Matrix, errors: Sequence[Matrix]) -> Matrix:
+def _after_steps(
+    plant: MultiChannelSystem, F: Matrix, x: Matrix, errors: Sequence[Matrix]
+) -> Matrix:
     """The state after steps of x(t+1) = Ax + BF(x + e), with one e for each."""
     for e in errors:
         x = plant.A @ x + plant.input_matrix() @ (F @ (x + e))
@@ -436,13 +440,13 @@ def small_errors(note: Notebook) -> None:
         x = numbers.column(plant.n)
         errors = [numbers.column(plant.n) for _ in range(plant.n + 2)]
         deviations = {
-            size: _moved(plant, F, x, [e * size for e in errors])
-            - _moved(plant, F, x, [e * 0 for e in errors])
+            size: _after_steps(plant, F, x, [e * size for e in errors])
+            - _after_steps(plant, F, x, [e * 0 for e in errors])
             for size in (1, -3, 2, 1000)
         }
         note.check(
             "errors times g make g times the deviation",
-            all(found == deviations[1] * size for size, found in deviations.items()),
+            all(deviation == deviations[1] * size for size, deviation in deviations.items()),
         )
         note.refute("exact", not deviations[1].is_zero())
         note.refute("square", deviations[2] != deviations[1] * 4)

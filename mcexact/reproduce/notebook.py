@@ -124,8 +124,8 @@ def counted(chosen: Iterable[Statement]) -> dict[str, int]:
     >>> sum(counted(statements()).values())
     134
     """
-    found = Counter(each.status for each in chosen)
-    return {status: found[status] for status in STATUSES}
+    counts = Counter(each.status for each in chosen)
+    return {status: counts[status] for status in STATUSES}
 
 
 def statement_table() -> str:
@@ -432,20 +432,22 @@ class Notebook:
 
     def certify(self, *answers: Answer) -> None:
         """Record answers as certificates, verified by the independent checker."""
-        for made in answers:
-            text = protocol.encode(made)
-            said = checked(text.encode("ascii"))
+        for answer in answers:
+            text = protocol.encode(answer)
+            report = checked(text.encode("ascii"))
             number = len(self.certificates) + 1
-            name = f"{self.key}-{number:02d}-{made.kind}.json"
+            name = f"{self.key}-{number:02d}-{answer.kind}.json"
             self.certificates.append(
-                CheckedCertificate(name, made.kind, self.here, text, said.verdict, said.line())
+                CheckedCertificate(
+                    name, answer.kind, self.here, text, report.verdict, report.line()
+                )
             )
 
     def joint(self, system: MultiChannelSystem) -> None:
         """Decide whether all channels together control and observe a system, and write it down."""
-        for found in (joint_controllability(system), joint_observability(system)):
-            self.check("jointly controllable and observable", found.controllable)
-            self.certify(found)
+        for answer in (joint_controllability(system), joint_observability(system)):
+            self.check("jointly controllable and observable", answer.controllable)
+            self.certify(answer)
 
     def print(self, system: MultiChannelSystem) -> None:
         """Show A, all B_i, C_i and N_i of a system, which is the present instance."""
@@ -465,8 +467,8 @@ class Notebook:
                 for name, heard in zip(system.names, system.neighbors.neighbors, strict=True)
             ]
             where += f", with {', '.join(sets)}"
-        for name, found in named:
-            rows = [[str(entry) for entry in row] for row in found.rows()]
+        for name, matrix in named:
+            rows = [[str(entry) for entry in row] for row in matrix.rows()]
             self.matrices.append((where, name, rows))
 
     def show(self, picture: Picture) -> None:
@@ -489,9 +491,9 @@ class Notebook:
         for check in self.checks:
             if not check.holds:
                 return f"{check.instance}: this check failed: {check.text}"
-        for made in self.certificates:
-            if made.verdict != "VALID":
-                return f"{made.instance}: the certificate {made.name}: {made.theorem}"
+        for each in self.certificates:
+            if each.verdict != "VALID":
+                return f"{each.instance}: the certificate {each.name}: {each.theorem}"
         for attempt in self.refutations:
             if not attempt.refuted:
                 return f"{attempt.instance}: this is not refuted: {attempt.statement}"

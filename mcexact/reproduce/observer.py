@@ -100,7 +100,7 @@ def drawn_observer(plant: MultiChannelSystem, F: Sequence[Matrix], numbers: Numb
     return Observer(plant, F, q, K, H, channel, closed_loop(plant, controller))
 
 
-def equations_agree(made: Observer, numbers: Numbers) -> tuple[bool, bool, bool, bool]:
+def equations_agree(observer: Observer, numbers: Numbers) -> tuple[bool, bool, bool, bool]:
     """Evaluate (9), (10) and (11), and the errors' (12) and (13); with F_i = 0 (3) to (6).
 
     Returns
@@ -108,26 +108,26 @@ def equations_agree(made: Observer, numbers: Numbers) -> tuple[bool, bool, bool,
     tuple of bool
         Whether the loop of the programs obeys (9), (10), (11); and (12) and (13) for e_i = x_i − x.
     """
-    plant, q, channel = made.plant, made.q, made.channel
+    plant, q, channel = observer.plant, observer.q, observer.channel
     x, z = numbers.column(plant.n), numbers.column(plant.m - 1)
     x_ = [numbers.column(plant.n) for _ in range(plant.m)]
     state = stacked(
         [x, *(part for i in range(plant.m) for part in ([x_[i], z] if i == q else [x_[i]]))]
     )
-    moved = made.loop.matrix @ state
-    found = {name: moved.take(rows=range(at, at + size)) for name, (at, size) in _places(made)}
+    ahead = observer.loop.matrix @ state
+    parts = {name: ahead.take(rows=range(at, at + size)) for name, (at, size) in _places(observer)}
     y = outputs(plant, x)
-    extra_K, extra_H = made.assembled(channel.D)
-    K_bar, H_bar = made.assembled(channel.B)
-    fed = sum((plant.B(j) @ made.F[j] for j in range(plant.m)), Matrix.zeros(plant.n, plant.n))
+    extra_K, extra_H = observer.assembled(channel.D)
+    K_bar, H_bar = observer.assembled(channel.B)
+    fed = sum((plant.B(j) @ observer.F[j] for j in range(plant.m)), Matrix.zeros(plant.n, plant.n))
     e = [each - x for each in x_]
 
     def gains(i: int) -> tuple[Matrix, dict[int, Matrix]]:
         if i != q:
-            return made.K[i], made.H[i]
-        return made.K[i] + extra_K, {j: made.H[i][j] + extra_H[j] for j in made.H[i]}
+            return observer.K[i], observer.H[i]
+        return observer.K[i] + extra_K, {j: observer.H[i][j] + extra_H[j] for j in observer.H[i]}
 
-    plant_moves = driven(plant, x, [made.F[i] @ x_[i] for i in range(plant.m)])
+    plant_moves = driven(plant, x, [observer.F[i] @ x_[i] for i in range(plant.m)])
     estimates, errors = [], []
     for i in range(plant.m):
         K, H = gains(i)
@@ -138,7 +138,7 @@ def equations_agree(made: Observer, numbers: Numbers) -> tuple[bool, bool, bool,
             estimate = estimate + H_ij @ (x_[i] - x_[j])
             error = error + H_ij @ (e[i] - e[j])
         for j in range(plant.m):
-            error = error + plant.B(j) @ (made.F[j] @ (e[i] - e[j]))
+            error = error + plant.B(j) @ (observer.F[j] @ (e[i] - e[j]))
         estimates.append(estimate)
         errors.append(error)
     z_moves = channel.A @ z + K_bar @ (plant.C(q) @ x_[q]) - K_bar @ y[q]
@@ -147,18 +147,18 @@ def equations_agree(made: Observer, numbers: Numbers) -> tuple[bool, bool, bool,
         z_moves = z_moves + H_j @ (x_[q] - x_[j])
         z_of_errors = z_of_errors + H_j @ (e[q] - e[j])
     return (
-        found["x"] == plant_moves,
-        [found[f"x_{i}"] for i in range(plant.m)] == estimates and found["z"] == z_moves,
-        [found[f"x_{i}"] - found["x"] for i in range(plant.m)] == errors,
-        found["z"] == z_of_errors,
+        parts["x"] == plant_moves,
+        [parts[f"x_{i}"] for i in range(plant.m)] == estimates and parts["z"] == z_moves,
+        [parts[f"x_{i}"] - parts["x"] for i in range(plant.m)] == errors,
+        parts["z"] == z_of_errors,
     )
 
 
-def _places(made: Observer) -> list[tuple[str, tuple[int, int]]]:
+def _places(observer: Observer) -> list[tuple[str, tuple[int, int]]]:
     """Where x, the x_i and z are in the state of the loop."""
-    blocks = made.loop.blocks
-    places = [("x", blocks["x", 0, 0]), ("z", blocks["z_", made.q, 0])]
-    return places + [(f"x_{i}", blocks["x_", i, 0]) for i in range(made.plant.m)]
+    blocks = observer.loop.blocks
+    places = [("x", blocks["x", 0, 0]), ("z", blocks["z_", observer.q, 0])]
+    return places + [(f"x_{i}", blocks["x_", i, 0]) for i in range(observer.plant.m)]
 
 
 # The statements about the distributed observer and certainty equivalence.
@@ -208,10 +208,10 @@ def errors_without_feedback(note: Notebook) -> None:
     """II-B: (3) and (4) give the error system with F = 0."""
     numbers = Numbers(5)
     for plant in note.each(plants(10)):
-        made = error_system(plant, zeros(plant))
+        system = error_system(plant, zeros(plant))
         note.check(
             "x_i − x obeys the error system without F",
-            errors_agree(plant, made, zeros(plant), numbers),
+            errors_agree(plant, system, zeros(plant), numbers),
         )
     plant = note.at((PAPER, three_channels()))
     for each in note.each(plants(5)):
@@ -231,9 +231,9 @@ def errors_without_feedback(note: Notebook) -> None:
 def almost_any_choice(note: Notebook) -> None:
     """II-B: some K̃_i, H̃_ij make (7) controllable and observable through channel q."""
     for plant in note.each(plants(5)):
-        found = single_channel_gains(error_system(plant, zeros(plant)))
-        note.check("one choice of gains serves every q", found.exists)
-        note.certify(found)
+        gains = single_channel_gains(error_system(plant, zeros(plant)))
+        note.check("one choice of gains serves every q", gains.exists)
+        note.certify(gains)
     plant = note.at((PAPER, three_channels()))
     still = error_system(plant, zeros(plant))
     reach = joint_controllability(
@@ -241,19 +241,19 @@ def almost_any_choice(note: Notebook) -> None:
     )
     note.refute("no-gains", not reach.controllable)
     note.certify(reach)
-    found = single_channel_gains(error_system(without_arcs(plant), zeros(plant)))
-    note.refute("any-graph", not found.exists)
-    note.certify(found)
+    gains = single_channel_gains(error_system(without_arcs(plant), zeros(plant)))
+    note.refute("any-graph", not gains.exists)
+    note.certify(gains)
 
 
 def centralized_feedback(note: Notebook) -> None:
     """II-C: A + Σ B_i F_i gets any spectrum by one F split into the F_i."""
     for plant in note.each(plants(10)):
         wanted = default_polynomial(StabilityRegion.of("continuous", rate=1), plant.n)
-        found = state_feedback(plant, wanted)
-        B, F = plant.input_matrix(), vstack(list(found.gains), ncols=plant.n)
+        design = state_feedback(plant, wanted)
+        B, F = plant.input_matrix(), vstack(list(design.gains), ncols=plant.n)
         parts = sum(
-            (plant.B(i) @ found.gains[i] for i in range(plant.m)),
+            (plant.B(i) @ design.gains[i] for i in range(plant.m)),
             Matrix.zeros(plant.n, plant.n),
         )
         note.check("BF = Σ B_i F_i", B @ F == parts)
@@ -264,7 +264,7 @@ def centralized_feedback(note: Notebook) -> None:
         if note.here == PAPER:
             minus = characteristic_polynomial(plant.A - parts)
             note.refute("sign", minus != wanted)
-            alone = characteristic_polynomial(plant.A + plant.B(0) @ found.gains[0])
+            alone = characteristic_polynomial(plant.A + plant.B(0) @ design.gains[0])
             note.refute("one-agent", alone != wanted)
 
 
@@ -273,8 +273,8 @@ def errors_with_feedback(note: Notebook) -> None:
     numbers = Numbers(6)
     for plant in note.each(plants(14)):
         F = numbers.feedbacks(plant)
-        made = error_system(plant, F)
-        note.check("x_i − x obeys the error system", errors_agree(plant, made, F, numbers))
+        system = error_system(plant, F)
+        note.check("x_i − x obeys the error system", errors_agree(plant, system, F, numbers))
     for plant in note.each(plants(5)):
         observed = drawn_observer(plant, numbers.feedbacks(plant), numbers)
         _, _, errors, channel = equations_agree(observed, numbers)
@@ -293,13 +293,13 @@ def whole_loop(note: Notebook) -> None:
     """(9) to (11): the loop of the agents' programs splits as the paper says."""
     numbers = Numbers(19)
     for each in note.each(plants(5)):
-        made = drawn_observer(each, numbers.feedbacks(each), numbers)
-        plant_moves, observer, *_ = equations_agree(made, numbers)
+        drawn = drawn_observer(each, numbers.feedbacks(each), numbers)
+        plant_moves, observer, *_ = equations_agree(drawn, numbers)
         note.check("the plant obeys (9)", plant_moves)
         note.check("the agents' programs obey (10) and (11)", observer)
     note.on(PAPER)
-    made = drawn_observer(three_channels(), numbers.feedbacks(three_channels()), numbers)
-    alone = replace(made, channel=replace(made.channel, D=made.channel.D * 0))
+    drawn = drawn_observer(three_channels(), numbers.feedbacks(three_channels()), numbers)
+    alone = replace(drawn, channel=replace(drawn.channel, D=drawn.channel.D * 0))
     note.refute("D̄", not equations_agree(alone, numbers)[1])
     for name, _ in small():
         note.on(name)
@@ -322,20 +322,20 @@ def proposition_1(note: Notebook) -> None:
     numbers = Numbers(7)
     for plant in note.each(plants(8)):
         F = numbers.feedbacks(plant)
-        found = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
-        note.check("one choice of gains serves every q", found.exists)
+        gains = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
+        note.check("one choice of gains serves every q", gains.exists)
         note.check(
             "with controllability index m",
-            found.indices is not None and all(each[0] == plant.m for each in found.indices),
+            gains.indices is not None and all(each[0] == plant.m for each in gains.indices),
         )
-        note.certify(found)
+        note.certify(gains)
         if note.here == PAPER:
-            reached = [indices for indices in found.indices or () if indices[0] < plant.m]
-            note.refute("smaller-index", found.exists and not reached)
+            reached = [indices for indices in gains.indices or () if indices[0] < plant.m]
+            note.refute("smaller-index", gains.exists and not reached)
     plant = note.at((PAPER, three_channels()))
-    found = single_channel_gains(error_system(without_arcs(plant), numbers.feedbacks(plant)))
-    note.refute("any-graph", not found.exists)
-    note.certify(found)
+    gains = single_channel_gains(error_system(without_arcs(plant), numbers.feedbacks(plant)))
+    note.refute("any-graph", not gains.exists)
+    note.certify(gains)
 
 
 def theorem_1(note: Notebook) -> None:
@@ -345,8 +345,8 @@ def theorem_1(note: Notebook) -> None:
         design = designed(name)
         size = plant.n * plant.m + plant.m - 1
         wanted = Polynomial.from_roots([-2 - k % 2 for k in range(size)])
-        made = design.parts["error_polynomial"]
-        note.check("the error system has the prescribed polynomial", made == wanted)
+        assigned = design.parts["error_polynomial"]
+        note.check("the error system has the prescribed polynomial", assigned == wanted)
         note.certify(design.loop.proof)
     plant = note.at(small()[1])
     size = plant.n * plant.m + plant.m - 1
@@ -395,11 +395,11 @@ def remark_1(note: Notebook) -> None:
         )
         loop = designed(name).loop.closed
         for i in range(plant.m):
-            moved = loop.pick("x_", i) @ loop.matrix
+            ahead = loop.pick("x_", i) @ loop.matrix
             strangers = set(range(plant.m)) - set(graph.neighborhood(i))
-            unheard = all((moved @ loop.pick("x_", j).T).is_zero() for j in strangers)
+            unheard = all((ahead @ loop.pick("x_", j).T).is_zero() for j in strangers)
             note.check(f"x_{i + 1} moves without the x_j of agents that are no neighbors", unheard)
-            felt = moved @ loop.pick("x").T
+            felt = ahead @ loop.pick("x").T
             own = rank(vstack([plant.C(i), felt])) == rank(plant.C(i))
             note.check(f"and is moved by x through y_{i + 1} alone", own)
         if name == PAPER:

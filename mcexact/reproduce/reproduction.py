@@ -106,12 +106,16 @@ class Reproduction:
 
     def certificates(self) -> dict[str, str]:
         """The texts of all certificates, keyed by file names."""
-        return {made.name: made.text for row in self.rows for made in row.finding.certificates}
+        return {
+            certificate.name: certificate.text
+            for row in self.rows
+            for certificate in row.finding.certificates
+        }
 
 
 def procedures() -> dict[str, Procedure]:
     """The procedures of all examinations, by their keys."""
-    return {key: made for _, section in SECTIONS for key, made in section.items()}
+    return {key: procedure for _, section in SECTIONS for key, procedure in section.items()}
 
 
 def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
@@ -155,7 +159,9 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
 
 def examine(section: int, keys: tuple[str, ...]) -> tuple[Notebook, ...]:
     """Carry out the examinations of one section whose keys are given."""
-    return tuple(examined(key, made) for key, made in SECTIONS[section][1].items() if key in keys)
+    return tuple(
+        examined(key, procedure) for key, procedure in SECTIONS[section][1].items() if key in keys
+    )
 
 
 def assembled(findings: Iterable[Notebook]) -> Reproduction:
@@ -198,9 +204,9 @@ COMMON_BOUND = (
 """The answer to the paper's open question, proved by the examination `tight`."""
 
 
-def reproduction_page(found: Reproduction) -> str:
+def reproduction_page(reproduction: Reproduction) -> str:
     """The whole report as one page."""
-    shown = {row.examination.key: _shown(row) for row in found.rows}
+    shown = {row.examination.key: _shown(row) for row in reproduction.rows}
     sections = [
         {"name": name, "rows": [shown[key] for key in keys if key in shown]}
         for name, keys in SECTIONS
@@ -209,47 +215,46 @@ def reproduction_page(found: Reproduction) -> str:
         "reproduction",
         dated=False,
         title="The paper, reproduced",
-        holds=found.holds,
-        answer=[typeset(sentence) for sentence in answer(found)],
+        holds=reproduction.holds,
+        answer=[typeset(sentence) for sentence in answer(reproduction)],
         rows=list(shown.values()),
-        counts=[(name, str(size)) for name, size in counts(found).items()],
-        statements=[_listed(each, found) for each in found.statements],
+        counts=[(name, str(size)) for name, size in counts(reproduction).items()],
+        statements=[_listed(each, reproduction) for each in reproduction.statements],
         sections=[section for section in sections if section["rows"]],
     )
 
 
-def counts(found: Reproduction) -> dict[str, int]:
+def counts(reproduction: Reproduction) -> dict[str, int]:
     """How many statements have each status, by what the report calls it."""
-    return {STATUSES[key]: size for key, size in counted(found.statements).items()}
+    return {STATUSES[key]: size for key, size in counted(reproduction.statements).items()}
 
 
-def answer(found: Reproduction) -> list[str]:
+def answer(reproduction: Reproduction) -> list[str]:
     """The results in plain words."""
-    rows = found.rows
-    certificates = [made for row in rows for made in row.finding.certificates]
-    valid = sum(made.verdict == "VALID" for made in certificates)
+    rows = reproduction.rows
+    certificates = [certificate for row in rows for certificate in row.finding.certificates]
+    valid = sum(certificate.verdict == "VALID" for certificate in certificates)
     false = sum(len(row.examination.nearest_false) for row in rows)
     sentences = []
     if any(row.examination.key == "tight" and row.finding.holds for row in rows):
         sentences.append(COMMON_BOUND)
-    if not found.holds:
-        named = ", ".join(row.examination.title for row in found.failures)
-        failed = "fails" if len(found.failures) == 1 else "fail"
+    if not reproduction.holds:
+        named = ", ".join(row.examination.title for row in reproduction.failures)
+        failed = "fails" if len(reproduction.failures) == 1 else "fail"
         sentences.append(
-            f"{len(found.failures)} of {count(len(rows), 'examination')} {failed}: {named}."
+            f"{len(reproduction.failures)} of {count(len(rows), 'examination')} {failed}: {named}."
         )
     elif len(rows) == 1:
         sentences.append("The examination succeeds: all its checks hold.")
     else:
         sentences.append(f"All {len(rows)} examinations succeed: all their checks hold.")
-    told = [f"{size} {name}" for name, size in counts(found).items() if size]
-    sentences.append(
-        f"Of {count(len(found.statements), 'statement')} of the paper: {'; '.join(told)}."
-    )
+    statuses = [f"{size} {name}" for name, size in counts(reproduction).items() if size]
+    total = count(len(reproduction.statements), "statement")
+    sentences.append(f"Of {total} of the paper: {'; '.join(statuses)}.")
     corrected = [row.examination.title for row in rows if row.examination.erratum]
     if corrected:
         sentences.append(f"Corrections concern {'; '.join(corrected)}.")
-    if false and found.holds:
+    if false and reproduction.holds:
         sentences.append(
             f"{count(false, 'false statement')} next to those of the paper "
             + ("was refuted, by" if false == 1 else "were refuted, each by")
@@ -262,32 +267,43 @@ def answer(found: Reproduction) -> list[str]:
     return sentences
 
 
-def _listed(statement: Statement, found: Reproduction) -> dict[str, Any]:
+def _listed(statement: Statement, reproduction: Reproduction) -> dict[str, Any]:
     """The data of a statement that the page shows."""
-    titles = {row.examination.key: row.examination.title for row in found.rows}
+    titles = {row.examination.key: row.examination.title for row in reproduction.rows}
     return {
         **{name: getattr(statement, name) for name in _OF_STATEMENT},
         "says": typeset(statement.says),
         "note": typeset(statement.note),
-        "status": "an examination fails" if found.fails(statement) else STATUSES[statement.status],
-        "fails": found.fails(statement),
+        "status": "an examination fails"
+        if reproduction.fails(statement)
+        else STATUSES[statement.status],
+        "fails": reproduction.fails(statement),
         "links": [(key, typeset(titles[key])) for key in statement.examined if key in titles],
     }
 
 
 def _shown(row: Row) -> dict[str, Any]:
     """The data of a row that the page shows."""
-    said, finding = row.examination, row.finding
-    sample = next((made for made in finding.certificates if len(made.text) < _LARGEST_SAMPLE), None)
+    examination, finding = row.examination, row.finding
+    sample = next(
+        (
+            certificate
+            for certificate in finding.certificates
+            if len(certificate.text) < _LARGEST_SAMPLE
+        ),
+        None,
+    )
     return {
-        **{name: getattr(said, name) for name in (*_OF_EXAMINATION, "says", "part", "code")},
+        **{name: getattr(examination, name) for name in (*_OF_EXAMINATION, "says", "part", "code")},
         **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
-        "name": said.title,
-        "title": typeset(said.title),
-        "printed": ", ".join(f"({each})" for each in said.equations if said.kind == "numbered"),
-        "says": typeset(said.says),
-        "erratum": typeset(said.erratum),
-        "part": typeset(said.part),
+        "name": examination.title,
+        "title": typeset(examination.title),
+        "printed": ", ".join(
+            f"({each})" for each in examination.equations if examination.kind == "numbered"
+        ),
+        "says": typeset(examination.says),
+        "erratum": typeset(examination.erratum),
+        "part": typeset(examination.part),
         "status": typeset(row.status),
         "instances": typeset(finding.in_common),
         "matrices": [
@@ -297,7 +313,8 @@ def _shown(row: Row) -> dict[str, Any]:
         "checks": _with_formulas(finding.grouped_checks()),
         "refutations": _with_formulas(finding.grouped_refutations()),
         "certificates": [
-            (typeset(made.instance), made.name, made.verdict) for made in finding.certificates
+            (typeset(certificate.instance), certificate.name, certificate.verdict)
+            for certificate in finding.certificates
         ],
         "sample": sample,
     }
@@ -311,18 +328,18 @@ def _with_formulas(rows: Iterable[tuple[str, str, bool]]) -> list[tuple[str, str
     ]
 
 
-def reproduction_view(found: Reproduction) -> dict[str, Any]:
+def reproduction_view(reproduction: Reproduction) -> dict[str, Any]:
     """The rows as plain data."""
     return {
-        "holds": found.holds,
-        "counts": counts(found),
+        "holds": reproduction.holds,
+        "counts": counts(reproduction),
         "statements": [
             {
                 **{name: getattr(each, name) for name in _OF_STATEMENT},
                 "status": STATUSES[each.status],
-                "holds": not found.fails(each),
+                "holds": not reproduction.fails(each),
             }
-            for each in found.statements
+            for each in reproduction.statements
         ],
         "examinations": [
             {
@@ -338,20 +355,20 @@ def reproduction_view(found: Reproduction) -> dict[str, Any]:
                     for each in row.finding.refutations
                     if each.refuted
                 ],
-                "certificates": [made.name for made in row.finding.certificates],
+                "certificates": [certificate.name for certificate in row.finding.certificates],
             }
-            for row in found.rows
+            for row in reproduction.rows
         ],
     }
 
 
-def reproduction_latex(found: Reproduction) -> str:
+def reproduction_latex(reproduction: Reproduction) -> str:
     """The statements with their status as a table in LaTeX."""
     lines = [
         r"\begin{tabular}{rlp{8cm}l}",
         r" & equation & statement & what is known \\ \hline",
     ]
-    for each in found.statements:
+    for each in reproduction.statements:
         cells = (str(each.number), each.equation, each.says, STATUSES[each.status])
         lines.append(" & ".join(typeset_latex(cell) for cell in cells) + r" \\")
     return "\n".join([*lines, r"\end{tabular}"]) + "\n"
@@ -362,12 +379,16 @@ def reproduction_latex(found: Reproduction) -> str:
 _FEW = 5
 
 
-def reproduction_tables(found: Reproduction) -> list[Table]:
+def reproduction_tables(reproduction: Reproduction) -> list[Table]:
     """The answer and the count of statements by status; then all examinations, or a few in full."""
-    told = tuple((name, str(size)) for name, size in counts(found).items() if size)
-    first = Table(" ".join(answer(found)), ("status", "statements"), told)
-    if len(found.rows) <= _FEW:
-        return [first, _statements(found), *(each for row in found.rows for each in _in_full(row))]
+    statuses = tuple((name, str(size)) for name, size in counts(reproduction).items() if size)
+    first = Table(" ".join(answer(reproduction)), ("status", "statements"), statuses)
+    if len(reproduction.rows) <= _FEW:
+        return [
+            first,
+            _statements(reproduction),
+            *(each for row in reproduction.rows for each in _in_full(row)),
+        ]
     rows = tuple(
         (
             row.examination.title,
@@ -376,13 +397,13 @@ def reproduction_tables(found: Reproduction) -> list[Table]:
             row.status + (" (corrected)" if row.examination.erratum else ""),
             str(len(row.finding.certificates)),
         )
-        for row in found.rows
+        for row in reproduction.rows
     )
     columns = ("examined", "section", "holds", "what is known", "certificates")
     return [first, Table("The examinations.", columns, rows)]
 
 
-def _statements(found: Reproduction) -> Table:
+def _statements(reproduction: Reproduction) -> Table:
     """The statements that a few examinations are about."""
     rows = tuple(
         (
@@ -391,22 +412,23 @@ def _statements(found: Reproduction) -> Table:
             each.says,
             STATUSES[each.status] + (f". {each.note}" if each.note else ""),
         )
-        for each in found.statements
+        for each in reproduction.statements
     )
     return Table("The statements.", ("", "section", "statement", "what is known"), rows)
 
 
 def _in_full(row: Row) -> Iterator[Table]:
     """All checks and refutations of an examination."""
-    said, finding = row.examination, row.finding
-    title = f"{said.title}: {said.says} Examined on {finding.in_common}."
-    if said.proofs:
-        title += f" Machine-checked: {', '.join(said.proofs)}{f' ({said.part})' * bool(said.part)}."
-    if said.erratum:
-        title += f" Correction: {said.erratum}"
+    examination, finding = row.examination, row.finding
+    title = f"{examination.title}: {examination.says} Examined on {finding.in_common}."
+    if examination.proofs:
+        part = f" ({examination.part})" if examination.part else ""
+        title += f" Machine-checked: {', '.join(examination.proofs)}{part}."
+    if examination.erratum:
+        title += f" Correction: {examination.erratum}"
     for name, entries in (
         (title, finding.grouped_checks()),
-        (f"False statements next to {said.title}.", finding.grouped_refutations()),
+        (f"False statements next to {examination.title}.", finding.grouped_refutations()),
     ):
         what = ("what was checked", "holds") if name == title else ("false statement", "refuted")
         rows = tuple((text, "yes" if holds else "NO", on) for text, on, holds in entries)

@@ -55,17 +55,17 @@ def integrators(note: Notebook) -> None:
     numbers = Numbers(13)
     for name, plant in [*plants(5), *drawn_plants(2, time="discrete")]:
         note.on(f"{name}, {plant.time} time", plant)
-        made = setpoint_system(plant)
-        note.check("the states w_i integrate y_i", integrators_agree(plant, made, numbers))
-        note.certify(joint_observability(made))
+        system = setpoint_system(plant)
+        note.check("the states w_i integrate y_i", integrators_agree(plant, system, numbers))
+        note.certify(joint_observability(system))
     note.on(PAPER)
     plant = three_channels()
-    made = setpoint_system(plant)
+    system = setpoint_system(plant)
     x = numbers.column(plant.n)
-    state = stacked([x, Matrix.zeros(made.n - plant.n, 1)])
-    moved, y = (made.A @ state).take(rows=range(plant.n, made.n)), plant.output_matrix() @ x
-    note.refute("sign", moved == y and moved != y * -1)
-    note.refute("outputs", made.output_matrix() @ state != y)
+    state = stacked([x, Matrix.zeros(system.n - plant.n, 1)])
+    ahead, y = (system.A @ state).take(rows=range(plant.n, system.n)), plant.output_matrix() @ x
+    note.refute("sign", ahead == y and ahead != y * -1)
+    note.refute("outputs", system.output_matrix() @ state != y)
 
 
 def _held_plants() -> Iterator[Instance]:
@@ -86,13 +86,13 @@ def any_stabilizing_control(note: Notebook) -> None:
     """
     for name, plant in _held_plants():
         note.on(name, plant)
-        made = setpoint_system(plant)
-        q = made.n - plant.n
+        system = setpoint_system(plant)
+        q = system.n - plant.n
         wanted = Matrix.identity(q)
         region = StabilityRegion.of(plant.time, *_speed(plant.time))
-        F = state_feedback(made, default_polynomial(region, made.n))
-        loop = made.A + made.input_matrix() @ vstack(list(F.gains), ncols=made.n)
-        still = Matrix.identity(made.n) * steady_point(plant.time) - loop
+        F = state_feedback(system, default_polynomial(region, system.n))
+        loop = system.A + system.input_matrix() @ vstack(list(F.gains), ncols=system.n)
+        still = Matrix.identity(system.n) * steady_point(plant.time) - loop
         # ẇ = y − r (w(t+1) − w = y − r), and r enters nowhere else.
         rest = solve(still, vstack([Matrix.zeros(plant.n, q), wanted * -1]))
         C = plant.output_matrix()
@@ -131,49 +131,49 @@ def _designs(plant: MultiChannelSystem) -> Iterator[tuple[str, Design]]:
 def always_observable(note: Notebook) -> None:
     """(19): the plant with integrators is jointly observable if the plant is."""
     for plant in note.each(plants(8), (washed_out(), hidden_zero())):
-        found = joint_observability(setpoint_system(plant))
-        note.check("jointly observable through the w_i", found.controllable)
-        note.certify(found)
+        observability = joint_observability(setpoint_system(plant))
+        note.check("jointly observable through the w_i", observability.controllable)
+        note.certify(observability)
     plant = note.at(unseen())
-    found = joint_observability(setpoint_system(plant))
-    note.refute("any-plant", not found.controllable)
-    note.certify(found)
+    observability = joint_observability(setpoint_system(plant))
+    note.refute("any-plant", not observability.controllable)
+    note.certify(observability)
 
 
 def only_zero_matters(note: Notebook) -> None:
     """(20) holds at every s ≠ 0: uncontrollable modes are at 0."""
     for plant in note.each(plants(8), (washed_out(), hidden_zero())):
-        found = joint_controllability(setpoint_system(plant))
-        lost = found.uncontrollable_polynomial
+        controllability = joint_controllability(setpoint_system(plant))
+        lost = controllability.uncontrollable_polynomial
         note.check("what is out of reach is at 0", not any(lost.coefficients[:-1]))
-        note.certify(found)
+        note.certify(controllability)
         if note.here == washed_out()[0]:
             note.refute("also-0", lost == Polynomial.x())
     plant = note.at(unreached())
-    found = joint_controllability(setpoint_system(plant))
-    note.refute("any-plant", any(found.uncontrollable_polynomial.coefficients[:-1]))
-    note.certify(found)
+    controllability = joint_controllability(setpoint_system(plant))
+    note.refute("any-plant", any(controllability.uncontrollable_polynomial.coefficients[:-1]))
+    note.certify(controllability)
 
 
 def condition(note: Notebook) -> None:
     """(21) is joint controllability of (18)."""
     for plant in note.each(plants(10), (two_tanks(), washed_out(), hidden_zero())):
-        found = setpoint_solvability(plant)
+        solvability = setpoint_solvability(plant)
         B, C = plant.input_matrix(), plant.output_matrix()
         S = block([[plant.A, B], [C, Matrix.zeros(C.nrows, B.ncols)]])
-        note.check("the rank of [A B; C 0] is as reported", rank(S) == found.rank)
+        note.check("the rank of [A B; C 0] is as reported", rank(S) == solvability.rank)
         augmented = joint_controllability(setpoint_system(plant))
         note.check(
             "full rank just when (18) is jointly controllable",
-            found.solvable == augmented.controllable,
+            solvability.solvable == augmented.controllable,
         )
-        if not found.solvable:
+        if not solvability.solvable:
             lost = augmented.uncontrollable_polynomial
             note.check("otherwise the mode 0 of integrators is canceled", lost(0) == 0)
-        note.certify(found, augmented)
+        note.certify(solvability, augmented)
         if note.here == washed_out()[0]:
-            note.refute("always", not found.solvable)
-            note.refute("rank-n", found.rank >= plant.n and not augmented.controllable)
+            note.refute("always", not solvability.solvable)
+            note.refute("rank-n", solvability.rank >= plant.n and not augmented.controllable)
 
 
 def determinant_at_zero(note: Notebook) -> None:
@@ -182,12 +182,14 @@ def determinant_at_zero(note: Notebook) -> None:
         B, C = plant.input_matrix(), plant.output_matrix()
         inside = solve(plant.A, B)
         nonzero = inside is not None and determinant(C @ inside) != 0
-        found = setpoint_solvability(plant)
-        note.check("no pole at 0: solvable just when det C A⁻¹ B ≠ 0", found.solvable == nonzero)
-        note.certify(found)
+        solvability = setpoint_solvability(plant)
+        note.check(
+            "no pole at 0: solvable just when det C A⁻¹ B ≠ 0", solvability.solvable == nonzero
+        )
+        note.certify(solvability)
     plant = note.at(hidden_zero())
     note.print(plant)
-    found = setpoint_solvability(plant)
+    solvability = setpoint_solvability(plant)
     note.check("0 is a pole", characteristic_polynomial(plant.A)(0) == 0)
     # det [sI − A, B; −C, 0] = det(sI − A) det G(s), where the pole hides the zero.
     note.check(
@@ -203,8 +205,8 @@ def determinant_at_zero(note: Notebook) -> None:
         "det [sI − A, B; −C, 0] is s, so that det G is 1/(s + 1)²",
         [determinant(pencil) for pencil in pencils] == list(range(plant.n + 1)),
     )
-    note.refute("pole-at-0", not found.solvable)
-    note.certify(found)
+    note.refute("pole-at-0", not solvability.solvable)
+    note.certify(solvability)
 
 
 def distributed_setpoints(note: Notebook) -> None:
@@ -356,10 +358,10 @@ def lasting_error(
     # In columns below each other: (S' ⊗ I − I ⊗ M) Π = NΓ.
     left = kronecker(S.T, Matrix.identity(size)) - kronecker(Matrix.identity(S.nrows), M)
     right = vstack([drive.take(cols=[k]) for k in range(drive.ncols)])
-    found = solve(left, right)
-    if found is None:
+    solution = solve(left, right)
+    if solution is None:
         return None
-    columns = [found.take(rows=range(k * size, (k + 1) * size)) for k in range(S.nrows)]
+    columns = [solution.take(rows=range(k * size, (k + 1) * size)) for k in range(S.nrows)]
     reached = hstack(columns).take(rows=range(plant.n))
     return plant.output_matrix() @ reached - kronecker(unit, first)
 
@@ -386,11 +388,11 @@ def tracked(note: Notebook) -> None:
         radius = "1/2" if is_discrete(time) else None
         rate = None if is_discrete(time) else 1
         for what, model in signals.items():
-            made = with_internal_model(plant, model)
-            joint = joint_controllability(made), joint_observability(made)
-            both = all(found.controllable for found in joint)
+            system = with_internal_model(plant, model)
+            joint = joint_controllability(system), joint_observability(system)
+            both = all(answer.controllable for answer in joint)
             note.check(f"{what}: jointly controllable and observable", both)
-            design = design_extended(made, rate=rate, radius=radius, aims=THEOREM)
+            design = design_extended(system, rate=rate, radius=radius, aims=THEOREM)
             loop = design.loop.closed
             error = lasting_error(plant, loop, model, model)
             note.check(f"{what}: the error tends to 0", error is not None and error.is_zero())

@@ -87,20 +87,20 @@ def construction(note: Notebook) -> None:
     for (name, plant), sizes in with_dimensions(plants(10, connected=None)):
         for share in SHARING:
             note.on(f"{name}, {share}", plant)
-            made = extended_system(plant, sizes, share)
-            note.check("there are n + Σ n_i states", made.n == plant.n + sum(sizes))
+            system = extended_system(plant, sizes, share)
+            note.check("there are n + Σ n_i states", system.n == plant.n + sum(sizes))
             note.check(
                 "ẋ_i = v_i, and agents see what (25) says",
-                messages_agree(plant, made, sizes, share, {}, numbers),
+                messages_agree(plant, system, sizes, share, {}, numbers),
             )
-            note.certify(fixed_spectrum(made))
+            note.certify(fixed_spectrum(system))
     note.on(PAPER)
     plant, sizes = three_channels(), [1, 2, 1]
-    made = extended_system(plant, sizes)
+    system = extended_system(plant, sizes)
     backwards = plant.with_neighbors({"1": ["3"], "2": ["1"], "3": ["2"]})
     share = "outputs+states"
-    note.refute("followers", not messages_agree(backwards, made, sizes, share, {}, numbers))
-    note.refute("no-outputs", not messages_agree(plant, made, sizes, "states", {}, numbers))
+    note.refute("followers", not messages_agree(backwards, system, sizes, share, {}, numbers))
+    note.refute("no-outputs", not messages_agree(plant, system, sizes, "states", {}, numbers))
 
 
 def any_graph(note: Notebook) -> None:
@@ -108,12 +108,12 @@ def any_graph(note: Notebook) -> None:
     for name, plant in (*plants(5, connected=None), *plants(1, connected=False)):
         for share in SHARING:
             note.on(f"{name}, {share}", plant)
-            made = extended_system(plant, [1] * plant.m, share)
-            note.joint(made)
+            system = extended_system(plant, [1] * plant.m, share)
+            note.joint(system)
     plant = note.at(unreached())
-    found = joint_controllability(extended_system(plant, [1, 1]))
-    note.refute("any-plant", not found.controllable)
-    note.certify(found)
+    joint = joint_controllability(extended_system(plant, [1, 1]))
+    note.refute("any-plant", not joint.controllable)
+    note.certify(joint)
 
 
 EXTENDED: dict[str, Procedure] = {
@@ -141,14 +141,14 @@ class ChannelLaw:
 
 
 def drawn_laws(
-    made: MultiChannelSystem, private: Sequence[int], numbers: Numbers
+    system: MultiChannelSystem, private: Sequence[int], numbers: Numbers
 ) -> list[ChannelLaw]:
     """Controllers of all channels of a system, with states of these dimensions."""
     return [
         ChannelLaw(
-            numbers.matrix(made.p(i), made.q(i)),
-            numbers.matrix(made.p(i), k),
-            numbers.matrix(k, made.q(i)),
+            numbers.matrix(system.p(i), system.q(i)),
+            numbers.matrix(system.p(i), k),
+            numbers.matrix(k, system.q(i)),
             numbers.matrix(k, k),
         )
         for i, k in enumerate(private)
@@ -190,17 +190,17 @@ def _cut(matrix: Matrix, widths: Sequence[int], heard: Sequence[int], private: M
 
 def loops_agree(
     plant: MultiChannelSystem,
-    made: MultiChannelSystem,
+    system: MultiChannelSystem,
     laws: Sequence[ChannelLaw],
     controller: Controller,
     numbers: Numbers,
 ) -> bool:
     """Whether the network of agents moves as the extended system under its channel controllers."""
-    x_bar = numbers.column(made.n)
+    x_bar = numbers.column(system.n)
     z = [numbers.column(law.Q.nrows) for law in laws]
-    y_bar = outputs(made, x_bar)
+    y_bar = outputs(system, x_bar)
     ahead = driven(
-        made,
+        system,
         x_bar,
         [law.F @ y + law.G @ z_i for law, y, z_i in zip(laws, y_bar, z, strict=True)],
     )
@@ -225,12 +225,12 @@ def equivalence(note: Notebook) -> None:
     for (name, plant), sizes in with_dimensions(drawn):
         note.on(f"{name}, {plant.time} time", plant)
         private = [(size + 1) % 3 for size in sizes]
-        made = extended_system(plant, sizes)
-        laws = drawn_laws(made, private, numbers)
+        system = extended_system(plant, sizes)
+        laws = drawn_laws(system, private, numbers)
         controller = as_programs(plant, sizes, laws)
         note.check(
             "the agents' loop is that of the extended system",
-            loops_agree(plant, made, laws, controller, numbers),
+            loops_agree(plant, system, laws, controller, numbers),
         )
         entries = sum(part.nrows * part.ncols for law in laws for part in vars(law).values())
         note.check(
@@ -239,11 +239,11 @@ def equivalence(note: Notebook) -> None:
         )
     plant, sizes = three_channels(), [1, 2, 1]
     note.on(PAPER, plant)
-    made = extended_system(plant, sizes)
-    laws = drawn_laws(made, [1, 0, 2], numbers)
+    system = extended_system(plant, sizes)
+    laws = drawn_laws(system, [1, 0, 2], numbers)
     controller = as_programs(plant, sizes, laws)
     for name, changed in _changed(controller):
-        note.refute(name, not loops_agree(plant, made, laws, changed, numbers))
+        note.refute(name, not loops_agree(plant, system, laws, changed, numbers))
 
 
 def _changed(controller: Controller) -> Iterator[tuple[str, Controller]]:
@@ -329,15 +329,15 @@ def theorem_2(note: Notebook) -> None:
     """Theorem 2, with every n_i at the bound."""
     for plant in note.each(plants(8), drawn_plants(3, fixed=True, states=4, first=41)):
         bound = shared_dimension_bound(plant)
-        found = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
-        note.check(f"nothing is fixed with n_i = {bound.deficiency}", found.empty)
-        note.certify(neighbor_graph(plant), bound, found)
+        spectrum = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
+        note.check(f"nothing is fixed with n_i = {bound.deficiency}", spectrum.empty)
+        note.certify(neighbor_graph(plant), bound, spectrum)
     _less_than_the_bound(note, "outputs+states")
     plant = note.at(two_circles())
     bound = shared_dimension_bound(plant)
-    found = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
-    note.refute("any-graph", not found.empty)
-    note.certify(neighbor_graph(plant), bound, found)
+    spectrum = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
+    note.refute("any-graph", not spectrum.empty)
+    note.certify(neighbor_graph(plant), bound, spectrum)
 
 
 def _less_than_the_bound(note: Notebook, share: Share) -> None:
@@ -361,8 +361,8 @@ def _less_than_the_bound(note: Notebook, share: Share) -> None:
 def bound_zero(note: Notebook) -> None:
     """Without fixed modes the bound is at most 0, and no sub-state has to be shared."""
     for name, plant in (*drawn_plants(16, channels=2, first=51), still_pair()):
-        found = fixed_spectrum(plant)
-        if not found.empty:
+        spectrum = fixed_spectrum(plant)
+        if not spectrum.empty:
             continue
         note.on(name, plant)
         for share in SHARING:
@@ -370,7 +370,7 @@ def bound_zero(note: Notebook) -> None:
             note.check(f"no rank is below n ({share})", printed <= 0)
             note.check(f"no dimension is needed ({share})", bound.deficiency == 0)
             note.certify(bound)
-        note.certify(found)
+        note.certify(spectrum)
     plant = note.at(still_pair())
     note.print(plant)
     note.certify(*all_ranks(plant))
@@ -437,17 +437,17 @@ def tightness(note: Notebook) -> None:
     """
     plant = three_channels()
     note.on(PAPER, plant)
-    found = analyze(plant, also=LEAST.values())
+    analysis = analyze(plant, also=LEAST.values())
     for share, total in zip(SHARING, (1, 2), strict=True):
         stem = SHARES[share]
-        bound = found[f"shared_dimension_bound_{stem}"]
-        least = found[f"minimal_shared_dimensions_{stem}"]
+        bound = analysis[f"shared_dimension_bound_{stem}"]
+        least = analysis[f"minimal_shared_dimensions_{stem}"]
         note.check(f"{total} shared in all is the least ({share})", least.total == total)
         note.check("the bound asks for more", bound.total > total)
-        common = found[f"common_dimension_{stem}"]
+        common = analysis[f"common_dimension_{stem}"]
         note.check("as all share the same it is the least", common.dimension == bound.deficiency)
         note.certify(bound, least, common)
-    note.show(dimensions_picture(found.account))
+    note.show(dimensions_picture(analysis.account))
     for instance in (two_between(), four_agents()):
         plant = note.at(instance)
         bound, common = shared_dimension_bound(plant), common_dimension(plant)
@@ -474,13 +474,13 @@ def remark_2(note: Notebook) -> None:
     """Remark 2: sub-states alone, with its own bound."""
     for plant in note.each(plants(8), drawn_plants(2, fixed=True, states=4, first=41)):
         bound = shared_dimension_bound(plant, share="states")
-        made = extended_system(plant, [bound.deficiency] * plant.m, "states")
-        found, sight = fixed_spectrum(made), joint_observability(made)
-        note.check("nothing is fixed at the bound of the remark", found.empty)
+        system = extended_system(plant, [bound.deficiency] * plant.m, "states")
+        spectrum, sight = fixed_spectrum(system), joint_observability(system)
+        note.check("nothing is fixed at the bound of the remark", spectrum.empty)
         note.check("it is jointly observable", sight.controllable)
         weaker = shared_dimension_bound(plant)
         note.check("which is at least that of Theorem 2", bound.deficiency >= weaker.deficiency)
-        note.certify(bound, weaker, found, sight)
+        note.certify(bound, weaker, spectrum, sight)
         if weaker.deficiency < bound.deficiency:
             short = fixed_spectrum(extended_system(plant, [weaker.deficiency] * plant.m, "states"))
             if not short.empty:
@@ -504,14 +504,14 @@ def every_subset_receives(note: Notebook) -> None:
             {names[j] for j in graph.union([names.index(i) for i in s])} - set(s)
             for s in SUBSETS_OF_THREE
         )
-        found = neighbor_graph(plant.with_neighbors(graph))
+        answer = neighbor_graph(plant.with_neighbors(graph))
         note.check(
             "strongly connected just when every subset receives messages from outside",
-            found.strongly_connected == receives,
+            answer.strongly_connected == receives,
         )
         if receives not in both:
             both.add(receives)
-            note.certify(found)
+            note.certify(answer)
     note.check("both are among them", both == {True, False})
     plant = note.at(two_circles())
     hears = all(len(graph_of(plant).neighborhood(i)) > 1 for i in range(plant.m))
@@ -574,9 +574,9 @@ def corollary_1(note: Notebook) -> None:
     """Corollary 1, for n_i ≥ 1; with n_i = 0 the instance of the erratum splits."""
     for plant in note.each(plants(8)):
         size = max(1, shared_dimension_bound(plant).deficiency)
-        found = completeness(extended_system(plant, [size] * plant.m))
-        note.check("the extended system is complete", found.complete)
-        note.certify(found)
+        whole = completeness(extended_system(plant, [size] * plant.m))
+        note.check("the extended system is complete", whole.complete)
+        note.certify(whole)
     note.on(PAPER)
     plant, wanted = three_channels(), [-1, -1, -2, -2]
     design = design_extended(plant, spectrum=wanted)
@@ -597,11 +597,11 @@ def corollary_1(note: Notebook) -> None:
     plant = note.at(split_spectrum())
     note.print(plant)
     alone = extended_system(plant, [0, 0, 0])
-    graph, found = transfer_graph(alone), completeness(alone)
+    graph, whole = transfer_graph(alone), completeness(alone)
     note.check("nothing is fixed", fixed_spectrum(alone).empty)
     note.check("and the bound is 0", shared_dimension_bound(plant).deficiency == 0)
-    note.refute("n_i=0", len(graph.components) == 2 and not found.complete)
-    note.certify(fixed_spectrum(alone), graph, found)
+    note.refute("n_i=0", len(graph.components) == 2 and not whole.complete)
+    note.certify(fixed_spectrum(alone), graph, whole)
 
 
 def _chain(plant: MultiChannelSystem, own: dict[str, Polynomial]) -> Controller:
@@ -646,26 +646,26 @@ def through_any_channel(note: Notebook) -> None:
     """(31): one choice of gains F̄ serves every channel of the extended system."""
     for plant in note.each(plants(5)):
         size = max(1, shared_dimension_bound(plant).deficiency)
-        found = single_channel_gains(extended_system(plant, [size] * plant.m))
-        note.check("controllable and observable through every channel", found.exists)
-        note.certify(found)
+        gains = single_channel_gains(extended_system(plant, [size] * plant.m))
+        note.check("controllable and observable through every channel", gains.exists)
+        note.certify(gains)
     plant = note.at(split_spectrum())
     note.print(plant)
-    found = single_channel_gains(extended_system(plant, [0] * plant.m))
-    note.refute("n_i=0", not found.exists)
-    note.certify(found, shared_dimension_bound(plant))
+    gains = single_channel_gains(extended_system(plant, [0] * plant.m))
+    note.refute("n_i=0", not gains.exists)
+    note.certify(gains, shared_dimension_bound(plant))
 
 
 def total_dimension(note: Notebook) -> None:
     """The total dimension is k_q + Σ n_i, beside nm + m − 1 of the observer."""
     for plant in note.each(plants(1, states=2, channels=2)):
-        found = design_extended(plant, rate=1, aims=THEOREM)
-        orders = sum(each.order for each in found.parts["blocks"])
-        sizes = found.parts["dimensions"]
-        note.check("the order is k_q + Σ n_i", found.order == orders + sum(sizes.values()))
-        note.check("less than the observer's", found.order < found.parts["observer_order"])
-        note.certify(*found.certificates.values())
-        note.refute("observer", found.order != found.parts["observer_order"])
+        extended = design_extended(plant, rate=1, aims=THEOREM)
+        orders = sum(each.order for each in extended.parts["blocks"])
+        sizes = extended.parts["dimensions"]
+        note.check("the order is k_q + Σ n_i", extended.order == orders + sum(sizes.values()))
+        note.check("less than the observer's", extended.order < extended.parts["observer_order"])
+        note.certify(*extended.certificates.values())
+        note.refute("observer", extended.order != extended.parts["observer_order"])
     plant = note.at((PAPER, three_channels()))
     design = design_extended(plant, rate=1, aims=THEOREM)
     sizes = design.parts["dimensions"]

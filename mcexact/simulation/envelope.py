@@ -140,9 +140,9 @@ def _distance_from_rest(run: Trajectory) -> Matrix | None:
     for shared, private in zip(run.start.shared, run.start.private, strict=True):
         state += [*shared, *private]
     start = Matrix.column([*state, *[zero] * (N - len(state))])
-    given = loop.given
-    inputs = hstack([given.B(i) for i in range(given.m)], nrows=given.n)
-    pushed = vstack([inputs, Matrix.zeros(N - given.n, inputs.ncols)], ncols=inputs.ncols)
+    plant = loop.given
+    inputs = hstack([plant.B(i) for i in range(plant.m)], nrows=plant.n)
+    pushed = vstack([inputs, Matrix.zeros(N - plant.n, inputs.ncols)], ncols=inputs.ncols)
     constant = loop.reference @ vstack(run.drive.references.at(zero), ncols=1)
     constant = constant + pushed @ vstack(run.drive.disturbances.at(zero), ncols=1)
     place = Matrix.identity(N) * Fraction(steady_point(run.time))
@@ -161,12 +161,12 @@ def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Mat
         if spread is None:
             return ()
         at_start = rows @ distance
-        found = []
+        intervals = []
         for k in range(rows.nrows):
             size = sum((rows[k, j] * spread[j, k] for j in range(rows.ncols)), Fraction(0))
             first = _first(run, rows, k)
-            found.append((first - at_start[k, 0], root_above(size * V)))
-        return tuple(found)
+            intervals.append((first - at_start[k, 0], root_above(size * V)))
+        return tuple(intervals)
 
     bound = proof.region.edge
     return Envelope(proof, run.time, bound, bounds(loop.given.output_matrix() @ x), bounds(x))

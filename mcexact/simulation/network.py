@@ -685,8 +685,8 @@ def signal_of(
     changes = []
     if level is not None:
         changes.append(Change(Fraction(0), by_channel(level, sizes, rounding, where[0])))
-    for name, given, ramp in ((where[1], steps, False), (where[2], ramps, True)):
-        for k, change in enumerate(several(given, name, "pairs (time, numbers)")):
+    for name, pairs, ramp in ((where[1], steps, False), (where[2], ramps, True)):
+        for k, change in enumerate(several(pairs, name, "pairs (time, numbers)")):
             place = f"{name}[{k}]"
             if not _is_listed(change) or len(change) != 2:
                 raise InputError(

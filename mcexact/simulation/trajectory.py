@@ -429,12 +429,12 @@ class Trajectory(Shown):
         """Say in plain words what was run, and where it ended."""
         start, end = self.times[0], self.times[-1]
         unit = "step" if is_discrete(self.time) else "time"
-        told = [
+        sentences = [
             f"{len(self.agents)} agents ran from {unit} {start} to {end} in {self.arithmetic} "
             "arithmetic.",
             *(f"At the end {name} = {value}." for name, value in self.to_rows()[-1].items()),
         ]
-        return "\n".join([*told, *filter(None, (self.warning, self.note))])
+        return "\n".join([*sentences, *filter(None, (self.warning, self.note))])
 
     def _labeled(self) -> Iterator[tuple[str, str]]:
         """Yield the signals, each at the first and at the last time."""
@@ -640,14 +640,14 @@ def simulate(
     """
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, Controller, "controller")
-    given = system
-    system, found = with_links(system, graph)
+    plant = system
+    system, links = with_links(system, graph)
     discrete = is_discrete(system.time)
     numbers = arithmetic_named(arithmetic or ("exact" if discrete else "float"), digits)
     if rounding is None and numbers.name == "float":
         rounding = "dyadic"
-    network = Network(system, controller, found, numbers)
-    if found.delays and not discrete:
+    network = Network(system, controller, links, numbers)
+    if links.delays and not discrete:
         raise UsageError("delays are for discrete time; remove them from the graph")
     if not discrete and numbers.name == "exact":
         raise UsageError("in continuous time the solution is not rational; use multiprecision")
@@ -661,7 +661,7 @@ def simulate(
         signal_of(outputs, reference, steps, ramps, rounding, ("reference", "steps", "ramps")),
         signal_of(inputs, None, disturbances, (), rounding, ("", "disturbances", "")),
     )
-    loop = closed_loop(given, controller, graph)
+    loop = closed_loop(plant, controller, graph)
     grid = _grid(loop, drive, horizon, points, rounding)
     if discrete:
         snapshots = _stepped(network, grid.times, drive)

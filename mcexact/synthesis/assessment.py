@@ -131,8 +131,8 @@ class Assessment(Shown):
     @property
     def central(self) -> Figures | None:
         """The figures of the optimal controller of all agents together, for the same region."""
-        found = self.diagnosis.central
-        return None if found is None else found.figures
+        optimum = self.diagnosis.central
+        return None if optimum is None else optimum.figures
 
     @property
     def relative_cost(self) -> float:
@@ -154,11 +154,15 @@ class Assessment(Shown):
     @property
     def verdict(self) -> str:
         """One line that says whether to install the controller, and why."""
-        told = {"yes": "Worth installing", "with care": "Install with care", "no": "Do not install"}
+        words = {
+            "yes": "Worth installing",
+            "with care": "Install with care",
+            "no": "Do not install",
+        }
         reason = (self.warnings or (self._strengths(),))[0]
         exact = not self.certified or reason in (_REFUTED, _OPEN)
         marked = exact or reason.endswith(_COMPUTED)
-        return f"{told[self.install]}: {reason}{'' if marked else _COMPUTED}"
+        return f"{words[self.install]}: {reason}{'' if marked else _COMPUTED}"
 
     @property
     def _is_sensible(self) -> bool:
@@ -193,58 +197,58 @@ class Assessment(Shown):
         return []
 
     def _cares(self) -> list[str]:
-        seen, central, told = self.figures, self.central, list[str]()
+        seen, central, cares = self.figures, self.central, list[str]()
         if seen.margin <= 0:
             return []
         unknown = [name for name in ("margin", "peak", "cost") if isnan(getattr(seen, name))]
         if unknown:
-            told.append(
+            cares.append(
                 f"the {listed(unknown)} of the loop {'is' if len(unknown) == 1 else 'are'} not "
                 "known: the loop is too sensitive for double precision"
             )
         if self.certified and self.within_radii == "open":
-            told.append(_OPEN)
+            cares.append(_OPEN)
         if _NO_MARGIN <= seen.margin < MARGIN:
-            told.append(f"fragile, the margin at the plant's inputs is {shown(seen.margin)}")
+            cares.append(f"fragile, the margin at the plant's inputs is {shown(seen.margin)}")
         if not self.shape.met(seen.damping, seen.fastest):
-            told.append(
+            cares.append(
                 f"the least damping ratio is {shown(seen.damping)} and the largest modulus of an "
                 f"eigenvalue {shown(seen.fastest)}, not as aimed at"
             )
         if self.digits is None and self.certified:
-            told.append(
+            cares.append(
                 f"rounded to {MOST_DIGITS} digits, the programs lose {self.region} or the margin"
             )
         elif self.digits is not None and self.digits > _DIGITS:
-            told.append(
+            cares.append(
                 f"the programs need {self.digits} digits to keep {self.region} and the margin"
             )
         beside = central.peak if central and self._compares_peaks else np.inf
         if seen.peak > min(_PEAK, _TIMES_THE_PEAK * beside):
             other = f", {shown(beside)} with one controller for all" if isfinite(beside) else ""
-            told.append(f"the state can reach {shown(seen.peak)} from a start of size 1{other}")
+            cares.append(f"the state can reach {shown(seen.peak)} from a start of size 1{other}")
         if self.step_peak is not None and self.step_peak > _STEP_PEAK:
-            told.append(f"an output reaches {shown(self.step_peak)} after a unit step")
+            cares.append(f"an output reaches {shown(self.step_peak)} after a unit step")
         if self.relative_cost > _TIMES_THE_COST:
-            told.append(f"its cost is {shown(self.relative_cost)} times the one for all agents")
+            cares.append(f"its cost is {shown(self.relative_cost)} times the one for all agents")
         if central and seen.largest_gain > _TIMES_THE_GAIN * max(central.largest_gain, 1.0):
-            told.append(
+            cares.append(
                 f"the largest gain is {shown(seen.largest_gain)}, "
                 f"{shown(central.largest_gain)} with one controller for all agents"
             )
         if self.region.bound is not None and not self._is_sensible:
-            told.append(f"{self.region} is beyond what is sensible: {self.diagnosis}")
-        return told
+            cares.append(f"{self.region} is beyond what is sensible: {self.diagnosis}")
+        return cares
 
     def rows(self) -> list[tuple[str, str]]:
         """Return the figures as labels and texts."""
         seen, central, word = self.figures, self.central, self.region.word
 
         def compared(name: str) -> str:
-            told = _finite(getattr(seen, name))
+            text = _finite(getattr(seen, name))
             if central is None:
-                return told
-            return f"{told} (one controller for all agents: {shown(getattr(central, name))})"
+                return text
+            return f"{text} (one controller for all agents: {shown(getattr(central, name))})"
 
         per_agent = ", ".join(f"{name}: {order}" for name, order in self.orders.items())
         if len(self.orders) > 1 and len(set(self.orders.values())) == 1:
@@ -272,12 +276,12 @@ class Assessment(Shown):
 
     def _sensible(self) -> str:
         """The sensible rate, and what it is."""
-        told = self.diagnosis.sensible_bound
+        text = self.diagnosis.sensible_bound
         if self.diagnosis.sensible is None:
-            return told
+            return text
         pace = "least" if self.region.discrete else "largest"
         return (
-            f"{told} (the {pace} with which one controller for all agents has a margin of {MARGIN} "
+            f"{text} (the {pace} with which one controller for all agents has a margin of {MARGIN} "
             f"and at most {TIMES_THE_COST:g} times the least cost)"
         )
 
@@ -295,18 +299,18 @@ class Assessment(Shown):
         return [("without a controller", f"{self.region.measure} = {shown(alone.bound)}, {cost}")]
 
     def _relative(self) -> str:
-        told = _finite(self.relative_cost)
+        text = _finite(self.relative_cost)
         if not self.relative_cost < 1:
-            return told
-        return f"{told} (that one is not the cheapest with this {self.region.word})"
+            return text
+        return f"{text} (that one is not the cheapest with this {self.region.word})"
 
     def _digits(self) -> list[tuple[str, str]]:
         """The number of digits that suffice, if the region is certified."""
         if not self.certified:
             return []
-        told = f"more than {MOST_DIGITS}" if self.digits is None else str(self.digits)
-        told += ", where each number is rounded to the nearest"
-        return [("digits that suffice", told)]
+        text = f"more than {MOST_DIGITS}" if self.digits is None else str(self.digits)
+        text += ", where each number is rounded to the nearest"
+        return [("digits that suffice", text)]
 
     def to_dict(self) -> dict[str, Any]:
         """Return the assessment as plain data."""
@@ -404,7 +408,7 @@ def assess(
             f"{design.order} states together: where this is not wanted, {other} tries controllers "
             "of low order over the same links"
         )
-    found = assessed_loop(
+    assessment = assessed_loop(
         design.loop.closed,
         design.region,
         certified=design.stable,
@@ -414,8 +418,10 @@ def assess(
         shape=(aims or Aims()).shape,
     )
     if design.loop.closed.given.uncertainty is None:
-        return found
-    return replace(found, within_radii="open" if every_loop is None else every_loop.within_radii)
+        return assessment
+    return replace(
+        assessment, within_radii="open" if every_loop is None else every_loop.within_radii
+    )
 
 
 def assessed_loop(
@@ -444,14 +450,14 @@ def assessed_loop(
     shape : Shape
         The limits on the eigenvalues that were aimed at.
     """
-    given, places = loop.given, integrators_of(loop)
-    about, weighed = as_plant(given), Weights.of(given, weights)
+    plant, places = loop.given, integrators_of(loop)
+    about, weighed = as_plant(plant), Weights.of(plant, weights)
     if places:
-        about, weighed = integrated_plant(given), weighed.with_integrators(given)
+        about, weighed = integrated_plant(plant), weighed.with_integrators(plant)
     known = diagnosis or diagnosed(about, region, weighed)
     with quiet_floats():
         figures = sure_figures(loop, weighed, places)
-        alone = None if places else _uncontrolled(given, weighed)
+        alone = None if places else _uncontrolled(plant, weighed)
         if certified and alone is not None and alone.cost <= _HARDLY * figures.cost:
             notes = (*notes, _hardly(alone, figures, region))
         return Assessment(
@@ -461,7 +467,7 @@ def assessed_loop(
             figures,
             known,
             digits_that_suffice(loop, region, _kept(figures.margin)) if certified else None,
-            _links(loop.controller, given),
+            _links(loop.controller, plant),
             step_peak(loop) if places and certified else None,
             notes,
             shape,
@@ -486,20 +492,20 @@ def _uncontrolled(system: MultiChannelSystem, weights: Weights) -> Figures:
 def _hardly(alone: Figures, figures: Figures, region: StabilityRegion) -> str:
     """A warning that the loop is hardly better than the plant without a controller."""
     inside = alone.bound < to_float(region.limit)
-    told = f"it satisfies {region}, too" if inside else f"it does not satisfy {region}"
+    clause = f"it satisfies {region}, too" if inside else f"it does not satisfy {region}"
     return (
         f"without a controller the plant has {shown(alone.cost / figures.cost)} times this cost; "
-        f"{told}"
+        f"{clause}"
     )
 
 
 def _links(controller: Controller, system: MultiChannelSystem) -> tuple[Link, ...]:
     """The links that a controller uses."""
-    found = []
+    links = []
     for j, i in controller.edges():
         maps = [each.without_zeros() for each in controller.agents[i].maps()]
         outputs = any(j in each.outputs for each in maps) * system.q(j)
         shared = any(j in each.shared for each in maps) * controller.agents[j].shared
         if outputs + shared:
-            found.append(Link(system.names[j], system.names[i], outputs + shared))
-    return tuple(found)
+            links.append(Link(system.names[j], system.names[i], outputs + shared))
+    return tuple(links)

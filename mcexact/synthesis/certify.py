@@ -197,8 +197,8 @@ def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Stabili
         # The region that uses some of the `_PARTS_TRIED` parts of the margin of the eigenvalues.
         region = whole.tightened(spare * middle / _PARTS_TRIED, offset=1)
         try:
-            found = certify_stability(loop, region, method="lyapunov", separation=separation)
-            proved = found.stable
+            verdict = certify_stability(loop, region, method="lyapunov", separation=separation)
+            proved = verdict.stable
         except UsageError:
             proved = False
         if proved:
@@ -208,7 +208,7 @@ def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Stabili
     return best
 
 
-def enclosed_outside(found: StabilityVerdict) -> RootDisc | None:
+def enclosed_outside(verdict: StabilityVerdict) -> RootDisc | None:
     """Enclose an eigenvalue of a loop that is certified not to lie in its region.
 
     Parameters
@@ -228,13 +228,13 @@ def enclosed_outside(found: StabilityVerdict) -> RootDisc | None:
     >>> enclosed_outside(found)
     RootDisc(re='-2', im='0', radius='0')
     """
-    if found.stable or found.about.n > POLYNOMIAL_LIMIT:
+    if verdict.stable or verdict.about.n > POLYNOMIAL_LIMIT:
         return None
-    return eigenvalue_outside(found.about.A, found.region)
+    return eigenvalue_outside(verdict.about.A, verdict.region)
 
 
 def account_of_verdict(
-    found: StabilityVerdict,
+    verdict: StabilityVerdict,
     *,
     largest: bool = False,
     every_loop: BoxStability | None = None,
@@ -255,17 +255,17 @@ def account_of_verdict(
     failing : FailingPlant, optional
         A plant nearby whose loop is not stable.
     """
-    asked = {"region": found.region, "states": found.about.n, "largest": largest}
-    answers: dict[str, Answer] = {found.kind: found}
+    asked = {"region": verdict.region, "states": verdict.about.n, "largest": largest}
+    answers: dict[str, Answer] = {verdict.kind: verdict}
     if every_loop is not None:
         answers["box_stability"] = every_loop
         asked |= {"part_of_plant": Box(every_loop.about.plant).part, "part_of_gains": gains}
     if failing is not None and failing.refutation is not None:
         answers[FAILING] = failing.refutation
-        asked |= failing.facts(found.about.plant)
-    given = Given(found.about.plant, asked)
-    sentences = VERDICT.sentences(answers, given)
-    return Account(answers, given, sentences, found.about.subject[:-1], nearby=(FAILING,))
+        asked |= failing.facts(verdict.about.plant)
+    context = Given(verdict.about.plant, asked)
+    sentences = VERDICT.sentences(answers, context)
+    return Account(answers, context, sentences, verdict.about.subject[:-1], nearby=(FAILING,))
 
 
 # Roundings of a controller's entries with which the loop fails, decided exactly.
@@ -321,15 +321,15 @@ def unsafe_rounding(
 
 def _ends(controller: Controller, digits: int) -> list[tuple[Fraction, Fraction]]:
     """The numbers with so many digits next to each entry, in the order of the entries."""
-    found: list[tuple[Fraction, Fraction]] = []
+    ends: list[tuple[Fraction, Fraction]] = []
 
     def kept(M: Matrix) -> Matrix:
         for _, _, x in M.nonzero():
-            found.append(rounded_ends(Fraction(x, M.denominator), digits))
+            ends.append(rounded_ends(Fraction(x, M.denominator), digits))
         return M
 
     with_gains(controller, kept)
-    return found
+    return ends
 
 
 def _with_entries(controller: Controller, entries: Iterable[int | Fraction]) -> Controller:
@@ -387,13 +387,15 @@ def _slopes(loop: ClosedLoop, count: int, k: int, discrete: bool) -> Floats | No
 
 def _places(signals: LoopPencil, count: int) -> tuple[list[int], list[int]]:
     """The row and the column in the pencil of each entry of the controller."""
-    given = signals.given
+    plant = signals.given
     nothing = MultiChannelSystem(
-        given.A * 0, [M * 0 for M in given.B], [M * 0 for M in given.C], time=given.time
+        plant.A * 0, [M * 0 for M in plant.B], [M * 0 for M in plant.C], time=plant.time
     )
     numbered = _with_entries(signals.controller, range(1, count + 1))
-    found = sorted((x, i, j) for i, j, x in signals.with_entries(nothing, numbered, 0).nonzero())
-    return [i for _, i, _ in found], [j for _, _, j in found]
+    numbered_entries = sorted(
+        (x, i, j) for i, j, x in signals.with_entries(nothing, numbered, 0).nonzero()
+    )
+    return [i for _, i, _ in numbered_entries], [j for _, _, j in numbered_entries]
 
 
 # The number of digits that is enough, whichever way the entries are rounded.
@@ -461,20 +463,20 @@ def safe_digits(
     >>> found.safe, found.unsafe
     (3, 2)
     """
-    given: dict[str, Any] = {"rate": rate, "radius": radius}
+    bound: dict[str, Any] = {"rate": rate, "radius": radius}
     loop = closed_loop(system, controller, graph)
     region = StabilityRegion.of(system.time, rate, radius)
-    unsafe, found = 0, None
+    unsafe, failing = 0, None
     for digits in range(most, 0, -1):
-        found = unsafe_rounding(loop, digits, region)
-        if found is not None:
+        failing = unsafe_rounding(loop, digits, region)
+        if failing is not None:
             unsafe = digits
             break
     for digits in range(unsafe + 1, most + 1):
         try:
             gains = digit_radii(controller, digits)
-            proof = box_stability(system, controller, graph, gains=gains, **given)
+            proof = box_stability(system, controller, graph, gains=gains, **bound)
         except LimitReached:
             continue
-        return SafeDigits(digits, proof, unsafe or None, *(found or (None, None)))
-    return SafeDigits(None, None, unsafe or None, *(found or (None, None)))
+        return SafeDigits(digits, proof, unsafe or None, *(failing or (None, None)))
+    return SafeDigits(None, None, unsafe or None, *(failing or (None, None)))

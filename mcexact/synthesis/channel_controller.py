@@ -408,8 +408,8 @@ def channel_part(A: Matrix, B: Matrix, C: Matrix, rng: Random) -> ChannelPart:
     On X = ⟨A | B⟩ in echelon form A acts as (AX)[pivots]; then the same for the dual.  A
     controllable and observable triple is returned unchanged.
     """
-    found = controllable_subspace(A, B, rng)
-    A1, B1, C1 = (A @ found.X).take(found.pivots), B.take(found.pivots), C @ found.X
+    subspace = controllable_subspace(A, B, rng)
+    A1, B1, C1 = (A @ subspace.X).take(subspace.pivots), B.take(subspace.pivots), C @ subspace.X
     seen = controllable_subspace(A1.T, C1.T, rng)
     return ChannelPart((A1.T @ seen.X).take(seen.pivots).T, seen.X.T @ B1, C1.T.take(seen.pivots).T)
 
@@ -447,12 +447,12 @@ def drawn_gains(
     """
     rng = generator(system, "drawn_gains")
     modular = next(iter(residue_systems(system, rng)))
-    found = []
+    candidates = []
     for gains in _draws(system, rng, attempts):
         drawn = _measured(modular, gains, components, rng)
         if drawn.degree >= least:
-            found.append(drawn)
-    return sorted(found, key=lambda each: (-each.degree, each.order, each.size))
+            candidates.append(drawn)
+    return sorted(candidates, key=lambda each: (-each.degree, each.order, each.size))
 
 
 def _draws(system: MultiChannelSystem, rng: Random, attempts: int) -> Iterator[tuple[Matrix, ...]]:
@@ -631,10 +631,10 @@ def _gain(A: Matrix, B: Matrix, region: StabilityRegion) -> tuple[Matrix, Polyno
     for effort in _EFFORTS:
         for margin in _MARGINS:
             target = region.tightened(margin, offset=1)
-            found = riccati_feedback(states, inputs, target, effort=effort)
-            if found is None:
+            F = riccati_feedback(states, inputs, target, effort=effort)
+            if F is None:
                 break
-            G = dyadic_matrix(found, bits=_BITS)
+            G = dyadic_matrix(F, bits=_BITS)
             polynomial = characteristic_polynomial(A + B @ G)
             if region.contains_roots_of(polynomial):
                 return G, polynomial

@@ -104,8 +104,8 @@ def design_decentralized(
 which channel 2 does not control and channel 1 does not observe, and it is not fast enough
     """
     InputError.require(system, MultiChannelSystem, "system")
-    given = system, agent, spectrum, rate, radius, arithmetic, progress
-    request = request_for(*given, aims=aims, avoids_fixed_modes=True)
+    arguments = system, agent, spectrum, rate, radius, arithmetic, progress
+    request = request_for(*arguments, aims=aims, avoids_fixed_modes=True)
     network = decentralized_network(system)
 
     def attempt(asked: Request) -> Design:
@@ -212,8 +212,8 @@ receive from nobody
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress, aims=aims)
 
     def attempt(request: Request) -> Design:
-        given = dimensions, share, free_assignability, aims or Aims()
-        asked = _Asked(system, graph, request, *given)
+        options = dimensions, share, free_assignability, aims or Aims()
+        asked = _Asked(system, graph, request, *options)
         if network is None and asked.compares:
             return asked.cheaper()
         return asked.designed(network)
@@ -253,12 +253,12 @@ class _Asked:
         )
         family = Family(derived, sharing_of(derived.kind, self.share))
         proposals = searched_proposals(family, self.request, self.aims)
-        made = network_design("extended", derived, self.request, proposals)
+        design = network_design("extended", derived, self.request, proposals)
         if allocation is None:
-            return made
-        parts = {**made.parts, "allocation": allocation}
+            return design
+        parts = {**design.parts, "allocation": allocation}
         return replace(
-            made, certificates={**made.certificates, allocation.kind: allocation}, parts=parts
+            design, certificates={**design.certificates, allocation.kind: allocation}, parts=parts
         )
 
     def cheaper(self) -> Design:
@@ -269,37 +269,37 @@ class _Asked:
         Impossible, LimitReached
             That of the lifted network, if both fail.
         """
-        found: dict[SharedNetwork, Design] = {}
-        told, failed = list[str](), list[McexactError]()
+        designs: dict[SharedNetwork, Design] = {}
+        outcomes, failed = list[str](), list[McexactError]()
         for network in _WITH_DELAYS:
             self.request.tell(f"the {network} network")
             try:
-                made = self.designed(network)
+                design = self.designed(network)
             except (Impossible, LimitReached) as error:
                 failed.append(error)
-                told.append(f"{network}: {error}")
+                outcomes.append(f"{network}: {error}")
                 continue
-            found[network] = made
-            told.append(f"{network}: {_figures(made)}")
-        if not found:
+            designs[network] = design
+            outcomes.append(f"{network}: {_figures(design)}")
+        if not designs:
             raise failed[0]
-        best = min(found.values(), key=_price)
+        best = min(designs.values(), key=_price)
         note = f"of the networks with delays, the {best.parts['network']} one was kept"
-        return replace(best, notes=(*best.notes, f"{note} ({'; '.join(told)}; computed)"))
+        return replace(best, notes=(*best.notes, f"{note} ({'; '.join(outcomes)}; computed)"))
 
 
-def _price(made: Design) -> tuple[bool, float]:
+def _price(design: Design) -> tuple[bool, float]:
     """Whether a design is fragile, and its cost; without a search both are unknown."""
-    found = made.parts.get("optimum")
-    if found is None:
+    optimum = design.parts.get("optimum")
+    if optimum is None:
         return True, inf
-    return not found.figures.margin >= MARGIN, found.figures.cost
+    return not optimum.figures.margin >= MARGIN, optimum.figures.cost
 
 
-def _figures(made: Design) -> str:
+def _figures(design: Design) -> str:
     """The figures of a design in a few words."""
-    found = made.parts.get("optimum")
-    if found is None:
-        return f"the controller of the theorem, of order {made.order}"
-    seen = found.figures
-    return f"order {made.order}, margin {seen.margin:.3g}, cost {seen.cost:.3g}"
+    optimum = design.parts.get("optimum")
+    if optimum is None:
+        return f"the controller of the theorem, of order {design.order}"
+    seen = optimum.figures
+    return f"order {design.order}, margin {seen.margin:.3g}, cost {seen.cost:.3g}"

@@ -101,13 +101,13 @@ class Design(ShownByAccount):
         See `LoopMargins`; ``largest_gain`` is the largest absolute entry of the programs.
         """
         M = matrix_to_float(self.loop.matrix)
-        found = {"largest_gain": to_float(self.controller.largest_entry())}
+        figures = {"largest_gain": to_float(self.controller.largest_entry())}
         if all(map(isfinite, M.ravel())):
-            found |= vars(loop_margins(M, self.region.time))
+            figures |= vars(loop_margins(M, self.region.time))
             known = bound_of_eigenvalues(self.loop.matrix, discrete=self.region.discrete)
             if known is not None:
-                found["spectral"] = known
-        return {name: finite(figure) for name, figure in found.items()}
+                figures["spectral"] = known
+        return {name: finite(figure) for name, figure in figures.items()}
 
     @property
     def account(self) -> Account:
@@ -141,17 +141,17 @@ class Design(ShownByAccount):
             "order": self.order,
             "bits": self.controller.bit_length(),
         }
-        closed, found = self.loop.closed.system, dict(self.certificates)
+        closed, answers = self.loop.closed.system, dict(self.certificates)
         if around is not None and around.proof is not None:
-            found["box_stability"] = around.proof
+            answers["box_stability"] = around.proof
             facts |= {"part_of_plant": around.part, "part_of_gains": around.gains}
         failing = None if around is None else around.failing
         if failing is not None and failing.refutation is not None:
-            found[FAILING] = failing.refutation
+            answers[FAILING] = failing.refutation
             facts |= failing.facts(closed.plant)
-        given = Given(closed.plant, {**facts, **self.parts})
-        sentences = DESIGN.sentences(found, given)
-        return Account(found, given, sentences, closed.subject[:-1], nearby=(FAILING,))
+        context = Given(closed.plant, {**facts, **self.parts})
+        sentences = DESIGN.sentences(answers, context)
+        return Account(answers, context, sentences, closed.subject[:-1], nearby=(FAILING,))
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the loop's eigenvalues, robustness, decay, and effort or step responses.
@@ -201,8 +201,8 @@ class Design(ShownByAccount):
 
     def __repr__(self) -> str:
         bound = f", {self.region}" if self.region.bound is not None else ""
-        told = "certified" if self.stable else "certified to be unstable"
-        return f"Design({self.name}, {self.arithmetic}, order {self.order}{bound}, {told})"
+        verdict = "certified" if self.stable else "certified to be unstable"
+        return f"Design({self.name}, {self.arithmetic}, order {self.order}{bound}, {verdict})"
 
 
 def designed(
@@ -215,7 +215,7 @@ def designed(
     stable: bool = False,
 ) -> Design:
     """Make the design of the first proposal that passes the gate; see `first_certified`."""
-    made, loop = first_certified(
+    proposal, loop = first_certified(
         system, proposals, request.region, graph, stable=stable, tell=request.tell
     )
     certificates = {proof.kind: proof for proof in loop.proofs}
@@ -223,7 +223,13 @@ def designed(
         unstable = certify_stability(loop.closed.system)
         certificates[unstable.kind] = unstable
     return Design(
-        method, request.arithmetic, loop, request.region, certificates, made.parts, request.notes
+        method,
+        request.arithmetic,
+        loop,
+        request.region,
+        certificates,
+        proposal.parts,
+        request.notes,
     )
 
 

@@ -176,17 +176,17 @@ def best_agreeing(
         weights = agreed_weights(graph)
         if weights is None:
             return None
-        found = _optimal(system, region, gains)
-        if found is None:
+        optimal = _optimal(system, region, gains)
+        if optimal is None:
             return None
         central = central_optimum(system, Weights.unit(system), region)
         enough = np.inf if central is None else _ENOUGH * central.figures.cost
-        made = list[Agreeing]()
-        for each in _tried(system, graph, region, weights, *found):
-            made.append(each)
+        candidates = list[Agreeing]()
+        for each in _tried(system, graph, region, weights, *optimal):
+            candidates.append(each)
             if not each.is_fragile and not each.is_hasty and each.figures.cost <= enough:
                 break
-        return min(made, key=_rank, default=None)
+        return min(candidates, key=_rank, default=None)
 
 
 def _rank(each: Agreeing) -> tuple[bool, bool, float]:
@@ -230,16 +230,17 @@ def _optimal(
     noises = _NOISES if region.discrete else _NOISES[:1]
     filters = [estimator(replace(model, V=noise * model.V), shift) for noise in noises]
     # In discrete time the gain of the newest output becomes that of the prediction.
-    found = [model.A @ L if region.discrete else L for L in filters if L is not None]
+    injections = [model.A @ L if region.discrete else L for L in filters if L is not None]
     if gains is not None:
-        return tuple(gains), found
+        return tuple(gains), injections
     F = regulator(model, shift)
     if F is None:
         return None
     for digits in _DIGITS:
         short = _short(F, digits)
         if is_within(model.A + model.B @ short, region):
-            return split_by_channel(system, matrix_from_float(short, "decimal", where="F")), found
+            F = matrix_from_float(short, "decimal", where="F")
+            return split_by_channel(system, F), injections
     return None
 
 
@@ -292,14 +293,14 @@ def _gains(
     digits: int,
 ) -> tuple[Matrix, ...]:
     """The gains [K_i, H_ij …] = [−L_i/w_i, −D …] with the coupling D, rounded to some digits."""
-    found, start = [], 0
+    gains, start = [], 0
     for i in range(system.m):
         stop = start + system.q(i)
         others = len([j for j in graph.neighborhood(i) if j != i])
         parts = [-L[:, start:stop] / weights[i], *[-drawn] * others]
-        found.append(matrix_from_float(_short(np.hstack(parts), digits), "decimal", where="K"))
+        gains.append(matrix_from_float(_short(np.hstack(parts), digits), "decimal", where="K"))
         start = stop
-    return tuple(found)
+    return tuple(gains)
 
 
 def _proposal(
@@ -462,24 +463,26 @@ def _better(system: MultiChannelSystem, graph: NeighborGraph, request: Request) 
         "the observer": lambda: _observer(system, graph, request),
         "a controller of low order": lambda: design_extended(system, graph, **asked),
     }
-    found, told, failed = dict[str, Design](), list[str](), list[McexactError]()
+    designs, outcomes, failed = dict[str, Design](), list[str](), list[McexactError]()
     for name, design in ways.items():
         try:
-            found[name] = design()
+            designs[name] = design()
         except (Impossible, LimitReached) as error:
             failed.append(error)
-            told.append(f"{name}: {error}")
+            outcomes.append(f"{name}: {error}")
             continue
-        seen = plain_figures(found[name].loop.closed)
-        told.append(f"{name}: {seen.order} states, margin {seen.margin:.3g}, cost {seen.cost:.3g}")
-    if not found:
+        seen = plain_figures(designs[name].loop.closed)
+        outcomes.append(
+            f"{name}: {seen.order} states, margin {seen.margin:.3g}, cost {seen.cost:.3g}"
+        )
+    if not designs:
         raise failed[0]
-    best = min(found, key=lambda name: _price(found[name]))
-    note = f"{best} was kept ({'; '.join(told)}; computed)"
-    return replace(found[best], notes=(*request.notes, note))
+    best = min(designs, key=lambda name: _price(designs[name]))
+    note = f"{best} was kept ({'; '.join(outcomes)}; computed)"
+    return replace(designs[best], notes=(*request.notes, note))
 
 
-def _price(made: Design) -> tuple[bool, float]:
+def _price(design: Design) -> tuple[bool, float]:
     """Whether a design is fragile, and its cost, dearer by two percent for each state."""
-    seen = plain_figures(made.loop.closed)
+    seen = plain_figures(design.loop.closed)
     return not seen.margin >= MARGIN, seen.cost * _PRICE_OF_ORDER**seen.order

@@ -329,8 +329,8 @@ def first_certified(
 
 def _decided(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> CertifiedLoop:
     """Decide stability, block by block if the loop separates."""
-    found = (each.separation(loop.matrix) for each in proposal.coordinates)
-    separation = next(filter(None, found), None)
+    separations = (each.separation(loop.matrix) for each in proposal.coordinates)
+    separation = next(filter(None, separations), None)
     method: Method | None = "lyapunov" if proposal.coordinates else None
     verdict = certify_stability(loop.system, region, method=method, separation=separation)
     if not verdict.stable:

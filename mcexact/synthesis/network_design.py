@@ -75,13 +75,13 @@ class NetworkTask:
             return scaled_polynomial(own, self.request.region, degree)
         if only and not isinstance(self.prescribed, Mapping):
             return spectrum_polynomial(self.prescribed, degree, where="spectrum.closed_loop")
-        names = self.network.given.names
+        names = self.network.plant.names
         members = [names[i] for i in self.components[self.component_of(channel)]]
         if isinstance(self.prescribed, Mapping):
-            given = [name for name in members if name in self.prescribed]
-            if len(given) == 1:
-                where = f"spectrum.closed_loop.{given[0]}"
-                return spectrum_polynomial(self.prescribed[given[0]], degree, where=where)
+            named = [name for name in members if name in self.prescribed]
+            if len(named) == 1:
+                where = f"spectrum.closed_loop.{named[0]}"
+                return spectrum_polynomial(self.prescribed[named[0]], degree, where=where)
         raise InputError(
             "the spectrum splits into one set for each strong component of the transfer graph: "
             f"expected {{agent: numbers, …}} with {degree} numbers for one agent of "
@@ -126,13 +126,14 @@ class NetworkCandidate:
     @property
     def largest(self) -> Fraction:
         """The largest entry of a channel controller."""
-        return max((made.largest for made in self.channels.values()), default=Fraction(0))
+        return max((channel.largest for channel in self.channels.values()), default=Fraction(0))
 
     @property
     def cost(self) -> int:
         """A measure of the length of numbers, dominated by the largest ones."""
         return sum(
-            made.bit_length + 3 * ceil(made.largest).bit_length() for made in self.channels.values()
+            channel.bit_length + 3 * ceil(channel.largest).bit_length()
+            for channel in self.channels.values()
         )
 
 
@@ -152,10 +153,10 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
         raise InternalError("a part of a loop has modes that the loop does not have")
     if not _only(kept, task.spectrum.polynomial):
         return None
-    made, wanted = {}, {}
+    channels, wanted = {}, {}
     for reach in drawn.reaches:
         if task.request.arithmetic == "float":
-            channel, found = _riccati_controller(task, M, reach)
+            channel, controller = _riccati_controller(task, M, reach)
         else:
             part, channel = parts[reach.channel], reach.channel
             degree = part.A.nrows + reach.index - 1
@@ -163,11 +164,11 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
             controllers = assigning_controllers(
                 part.A, part.B, part.C, polynomial, index=reach.index, side=reach.side, rng=rng
             )
-            found = next(controllers, None)
-        if found is None or found.polynomial is None:
+            controller = next(controllers, None)
+        if controller is None or controller.polynomial is None:
             return None
-        made[channel], wanted[channel] = found, found.polynomial
-    return NetworkCandidate(drawn.gains, made, wanted, kept)
+        channels[channel], wanted[channel] = controller, controller.polynomial
+    return NetworkCandidate(drawn.gains, channels, wanted, kept)
 
 
 def _riccati_controller(
@@ -181,9 +182,9 @@ def _riccati_controller(
         part = channel_part(M, system.B(q), system.C(q), rng)
         if part.A.nrows != reach.degree:
             continue
-        found = riccati_channel_controller(part, task.request.region)
-        if found is not None and (best[1] is None or found.largest < best[1].largest):
-            best = (q, found)
+        controller = riccati_channel_controller(part, task.request.region)
+        if controller is not None and (best[1] is None or controller.largest < best[1].largest):
+            best = (q, controller)
     return best
 
 
@@ -271,9 +272,9 @@ def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Pro
     task = NetworkTask(network, components, choices, fixed, prescribed, request)
     request.tell("decentralized gains")
     for attempts in (_ATTEMPTS, _MORE_ATTEMPTS):
-        found = best_candidate(task, drawn_gains(network.system, choices, attempts=attempts))
-        if found is not None:
-            yield _proposal(task, found)
+        candidate = best_candidate(task, drawn_gains(network.system, choices, attempts=attempts))
+        if candidate is not None:
+            yield _proposal(task, candidate)
             return
     if request.arithmetic == "float":
         raise LimitReached(
@@ -314,15 +315,15 @@ def require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: Stabilit
         With the fixed spectrum as its certificate.
     """
     if fixed.outside(region):
-        told = say.FIXED if network.graph is None else say.FIXED_SHARED
-        raise refusal("fixed", fixed, told=told, region=region)
+        words = say.FIXED if network.graph is None else say.FIXED_SHARED
+        raise refusal("fixed", fixed, told=words, region=region)
 
 
 def _choices(
     network: DerivedNetwork, agent: int | None
 ) -> tuple[tuple[tuple[int, ...], ...], tuple[tuple[int, ...], ...]]:
     """Return the channels that may have the controller, for each strong component."""
-    plant = network.given
+    plant = network.plant
     graph = transfer_graph(network.system)
     components = tuple(tuple(plant.index(name) for name in members) for members in graph.components)
     if agent is None:
@@ -332,20 +333,20 @@ def _choices(
 
 def _proposal(task: NetworkTask, candidate: NetworkCandidate) -> Proposal:
     """Write a candidate as agent programs."""
-    network, names = task.network, task.network.given.names
+    network, names = task.network, task.network.plant.names
     blocks = tuple(
         AssignedBlock(
             tuple(names[i] for i in task.components[task.component_of(channel)]),
             names[channel],
-            made.order,
+            part.order,
             candidate.polynomials[channel],
         )
-        for channel, made in candidate.channels.items()
+        for channel, part in candidate.channels.items()
     )
     parts = {
         "network": network.kind,
         "dimensions": dict(zip(names, network.dimensions, strict=True)),
-        "observer_order": network.given.n * network.given.m + network.given.m - 1,
+        "observer_order": network.plant.n * network.plant.m + network.plant.m - 1,
         "blocks": blocks,
         "kept": candidate.kept,
         "gains": candidate.gains,
@@ -365,26 +366,26 @@ def network_design(
     there is one strong component, about the gains F̄_i with which the agent with the channel
     controller controls and observes the network.
     """
-    made = designed(method, request, network.given, network.graph, proposals)
-    network_keeps = made.parts["kept"].degree > 0
-    certificates = {**made.certificates, "fixed_spectrum": made.parts["fixed_spectrum"]}
-    made = replace(made, parts={**made.parts, "kept": _left_in_loop(made, network)})
-    blocks, gains = made.parts.get("blocks", ()), made.parts.get("gains", ())
+    design = designed(method, request, network.plant, network.graph, proposals)
+    network_keeps = design.parts["kept"].degree > 0
+    certificates = {**design.certificates, "fixed_spectrum": design.parts["fixed_spectrum"]}
+    design = replace(design, parts={**design.parts, "kept": _left_in_loop(design, network)})
+    blocks, gains = design.parts.get("blocks", ()), design.parts.get("gains", ())
     if len(blocks) == 1 and not network_keeps:
         reach = single_channel_gains(
             network.system, blocks[0].agent, cyclic=True, draw=lambda *_: gains
         )
         certificates["single_channel_gains"] = reach
-    return replace(made, certificates=certificates)
+    return replace(design, certificates=certificates)
 
 
-def _left_in_loop(made: Design, network: DerivedNetwork) -> Polynomial:
+def _left_in_loop(design: Design, network: DerivedNetwork) -> Polynomial:
     """The fixed modes of the network that are in the loop, too.
 
     A network with delays has modes of messages under way, 0, and no loop has those of messages
     that no agent uses.
     """
-    kept: Polynomial = made.parts["kept"]
+    kept: Polynomial = design.parts["kept"]
     if network.graph is None or not network.graph.delays or kept.degree < 1:
         return kept
-    return kept.gcd(characteristic_polynomial(made.loop.matrix))
+    return kept.gcd(characteristic_polynomial(design.loop.matrix))

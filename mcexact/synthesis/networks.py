@@ -52,20 +52,20 @@ class DerivedNetwork:
     Attributes
     ----------
     kind : {"decentralized", "extended", "lifted", "held"}
-    given : MultiChannelSystem
+    plant : MultiChannelSystem
         The plant or derived system on which the agents run.
     graph : NeighborGraph or None
         None if no signals are sent.
     dimensions : tuple of int
         n_1 … n_m.
     system : MultiChannelSystem
-        The system whose decentralized controllers are the distributed controllers of the given one.
+        The system whose decentralized controllers are the distributed controllers of the plant.
     signals : tuple
         The signals that each agent receives, in the order of its outputs: ("y", j) or ("x", j).
     """
 
     kind: NetworkKind
-    given: MultiChannelSystem
+    plant: MultiChannelSystem
     graph: NeighborGraph | None
     dimensions: tuple[int, ...]
     system: MultiChannelSystem
@@ -74,7 +74,7 @@ class DerivedNetwork:
     def size(self, signal: Signal) -> int:
         """The dimension of a signal."""
         what, j = signal
-        return self.given.q(j) if what == "y" else self.dimensions[j]
+        return self.plant.q(j) if what == "y" else self.dimensions[j]
 
     def holds(self, j: int) -> dict[int, int]:
         """The number of steps for which agent j holds x_j, for each follower and for itself."""
@@ -172,29 +172,29 @@ def network_programs(
     Paper, sections IV-C to IV-E and V.  Delays belong to the links and holding to the agents, so
     programs contain no matrix of the lifted system.
     """
-    given, programs = network.given, []
-    for i in range(given.m):
-        p_i, made = given.p(i), channels.get(i)
-        F = gains[i] if made is None else gains[i] + made.D
-        k = 0 if made is None else made.order
+    plant, programs = network.plant, []
+    for i in range(plant.m):
+        p_i, channel = plant.p(i), channels.get(i)
+        F = gains[i] if channel is None else gains[i] + channel.D
+        k = 0 if channel is None else channel.order
         upper, lower = range(p_i), range(p_i, F.nrows)
         used = [network.split(i, F.take(rows=rows)) for rows in (upper, lower)]
         own: list[Matrix | None] = [None, None]
         update = LinearMap()
-        if made is not None and k:
-            own = [made.C.take(rows=upper), made.C.take(rows=lower)]
-            driven = network.split(i, made.B)
-            update = LinearMap(driven.outputs, driven.shared, made.A).without_zeros()
+        if channel is not None and k:
+            own = [channel.C.take(rows=upper), channel.C.take(rows=lower)]
+            driven = network.split(i, channel.B)
+            update = LinearMap(driven.outputs, driven.shared, channel.A).without_zeros()
         inputs, shared = (
             LinearMap(each.outputs, each.shared, z).without_zeros()
             for each, z in zip(used, own, strict=True)
         )
         programs.append(
             AgentProgram(
-                given.names[i], network.dimensions[i], k, shared, update, inputs, network.holds(i)
+                plant.names[i], network.dimensions[i], k, shared, update, inputs, network.holds(i)
             )
         )
-    return Controller(given.time, given.digest_of_values(), tuple(programs))
+    return Controller(plant.time, plant.digest_of_values(), tuple(programs))
 
 
 # The networks of shared sub-states, and the dimensions with which they are controlled.
@@ -235,13 +235,13 @@ def sharing_network(
         If there is no neighbor graph, there is no such network, or it does not fit the delays or
         the way of sharing.
     """
-    system, found = with_graph(system, graph)
+    system, graph = with_graph(system, graph)
     one_of(network, (None, "extended", "lifted", "held"), "network")
-    kind: NetworkKind = network or ("lifted" if found.delays else "extended")
+    kind: NetworkKind = network or ("lifted" if graph.delays else "extended")
     sharing = sharing_of(kind, share)
     request.tell("shared dimensions")
     allocation, sizes = _sizes(system, dimensions, sharing, request.region, free_assignability)
-    return shared_network(system, found, sizes, sharing, kind), allocation
+    return shared_network(system, graph, sizes, sharing, kind), allocation
 
 
 def _sizes(

@@ -358,19 +358,19 @@ def _candidates(task: ObserverTask) -> list[ReachingGains]:
     # More candidates give shorter numbers, but each costs some n³ operations.
     count = max(32, min(240, 20_000 // max(1, task.error.n) ** 2))
     quick = reaching_gains(task.error, agent, draw, index=system.m, attempts=4 * count)
-    found = list(islice(quick, count))
-    if found:
-        return found
+    gains = list(islice(quick, count))
+    if gains:
+        return gains
     observable = joint_observability(system)
     if not observable.controllable:
         raise refusal("unreached", observable, told=say.NOT_OBSERVABLE)
     decision = completeness(task.error)
     if not decision.complete:
         raise refusal("not complete", decision)
-    found = list(islice(reaching_gains(task.error, agent, draw, attempts=2000), count))
-    if not found:
+    gains = list(islice(reaching_gains(task.error, agent, draw, attempts=2000), count))
+    if not gains:
         raise LimitReached("observer gains K_i, H_ij exist, but 2000 draws did not find them")
-    return found
+    return gains
 
 
 def best_channel_controller(
@@ -413,11 +413,11 @@ def best_channel_controller(
         controllers = assigning_controllers(
             each.matrix, B, C, polynomial, index=index, side=side, rng=rng
         )
-        for made in islice(controllers, _ROWS_PER_CANDIDATE):
+        for controller in islice(controllers, _ROWS_PER_CANDIDATE):
             # Short numbers matter for the proof, small ones for running the controller.
-            size = made.bit_length + 8 * ceil(made.largest).bit_length()
+            size = controller.bit_length + 8 * ceil(controller.largest).bit_length()
             if best is None or size < best[0]:
-                best = (size, each, made)
+                best = (size, each, controller)
     if best is None:
         raise LimitReached("no channel controller was found among the candidates")
     return best[1], best[2], polynomial
@@ -503,23 +503,23 @@ def _of_the_observable_part(
     error = error_system(part, feedback.gains, graph)
     task = ObserverTask(part, graph, carrier, feedback, error, {}, request, least)
     try:
-        made = _proposal(task, L)
+        proposal = _proposal(task, L)
     except Impossible:
         refuse_if_impossible(system, graph, request.region, [F @ L for F in feedback.gains])
         raise LimitReached(
             "for the F_i that were found, no constant K_i, H_ij let one agent control and observe "
             "all errors of the observable part: try floating-point arithmetic"
         ) from None
-    controller = replace(made.controller, system=system.digest_of_values())
-    return Proposal(controller, parts=made.parts)
+    controller = replace(proposal.controller, system=system.digest_of_values())
+    return Proposal(controller, parts=proposal.parts)
 
 
 def _proposal(task: ObserverTask, estimated: Matrix) -> Proposal:
     """Write the best channel controller as agent programs."""
-    found, channel, error = best_channel_controller(task)
+    candidate, channel, error = best_channel_controller(task)
     feedback = task.feedback
     controller = observer_programs(
-        task.system, task.graph, task.agent, feedback.gains, found.gains, channel
+        task.system, task.graph, task.agent, feedback.gains, candidate.gains, channel
     )
     parts = {
         "agent": task.system.names[task.agent],
@@ -527,7 +527,7 @@ def _proposal(task: ObserverTask, estimated: Matrix) -> Proposal:
         "feedback": feedback.gains,
         "feedback_polynomial": feedback.polynomial,
         "error_polynomial": error,
-        "observer_gains": found.gains,
+        "observer_gains": candidate.gains,
         "estimated": estimated,
     }
     coordinates = observer_coordinates(task.system.n, controller)[-1:]
@@ -752,7 +752,7 @@ def float_proposals(
     _require_doubles(system)
     tried, region = 0, request.region
     for each in rounds(region, system.n * system.m):
-        found = list[tuple[_Candidate, tuple[Matrix, ...]]]()
+        candidates = list[tuple[_Candidate, tuple[Matrix, ...]]]()
         for target, price in each.targets:
             request.tell("state feedback")
             F = _state_feedback(system, target, price) if gains is None else tuple(gains)
@@ -762,9 +762,10 @@ def float_proposals(
             for drawn in islice(_drawn_gains(system, graph, error, F), each.draws):
                 tried += 1
                 request.tell(f"observer gains K, H number {tried}")
-                found += [(made, F) for made in _solved(error, agent, drawn, target, reduced)]
-        found.sort(key=lambda made: (made[0].observer.channel.order, made[0].size))
-        proposed = (_float_proposal(system, graph, agent, F, made, tried) for made, F in found)
+                solved = _solved(error, agent, drawn, target, reduced)
+                candidates += [(each, F) for each in solved]
+        candidates.sort(key=lambda each: (each[0].observer.channel.order, each[0].size))
+        proposed = (_float_proposal(system, graph, agent, F, each, tried) for each, F in candidates)
         yield from most_promising(system, graph, region, proposed) if each.ranked else proposed
     refuse_if_impossible(system, graph, region, gains)
     raise LimitReached(
@@ -871,22 +872,22 @@ def _solved(
     G = _gain(E, B, target)
     if G is None:
         return []
-    made = []
+    observers = []
     L = _gain(E.T, C.T, target)
     if L is not None:
-        made.append(full_order_observer(E, B, C, -G, -L.T))
+        observers.append(full_order_observer(E, B, C, -G, -L.T))
     if reduced:
 
         def gain(E22: Matrix, E12: Matrix) -> Matrix | None:
-            found = _gain(E22.T, E12.T, target)
-            return None if found is None else -found.T
+            F = _gain(E22.T, E12.T, target)
+            return None if F is None else -F.T
 
         less = reduced_order_observer(E, B, C, -G, gain)
-        made += [] if less is None else [less]
+        observers += [] if less is None else [less]
     size = float(np.linalg.norm(matrix_to_float(G)))
     return [
         _Candidate(observer_gains, -G, each, size * float(np.linalg.norm(matrix_to_float(each.L))))
-        for each in made
+        for each in observers
     ]
 
 
@@ -909,9 +910,9 @@ def _first_feedback(A: Floats, B: Floats, target: StabilityRegion, price: float)
 def _rounded(A: Floats, B: Floats, F: Floats, target: StabilityRegion) -> Matrix:
     """Round a gain to few bits if these suffice, otherwise to the bits of a double."""
     few, many = _BITS
-    found = dyadic_matrix(F, few)
-    reached = is_within(A + B @ matrix_to_float(found), target)
-    return found if reached else dyadic_matrix(F, many)
+    short = dyadic_matrix(F, few)
+    reached = is_within(A + B @ matrix_to_float(short), target)
+    return short if reached else dyadic_matrix(F, many)
 
 
 def refuse_if_impossible(
@@ -926,12 +927,12 @@ def refuse_if_impossible(
     ------
     Impossible
     """
-    for verb, found in (
+    for verb, answer in (
         ("move", joint_controllability(system)),
         ("see", joint_observability(system)),
     ):
-        if not region.contains_roots_of(found.uncontrollable_polynomial):
-            raise refusal("unreached", found, told=say.UNREACHED[verb], region=region)
+        if not region.contains_roots_of(answer.uncontrollable_polynomial):
+            raise refusal("unreached", answer, told=say.UNREACHED[verb], region=region)
     if gains is None:
         return
     decision = fixed_spectrum(error_system(system, gains, graph))

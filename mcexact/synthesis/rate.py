@@ -76,21 +76,21 @@ def request_for(
     aims = Aims() if aims is None else aims
     InputError.require(aims, Aims, "aims")
     if spectrum is not None or rate is not None or radius is not None:
-        given = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
-        return _limited(given, aims)
+        request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
+        return _limited(request, aims)
     telling(progress)("the sensible rate")
     about = controlled or system
     weights = Weights.of(system, aims.weights)
     if controlled is not None:
         weights = weights.with_integrators(system)
-    found = chosen_region(about, weights)
-    region, told = found or _SMALL[StabilityRegion(system.time).discrete]
+    sensible = chosen_region(about, weights)
+    region, reason = sensible or _SMALL[StabilityRegion(system.time).discrete]
     if controlled is None and avoids_fixed_modes:
-        region, told = _beyond(fixed_spectrum(system), region, told)
-    note = f"no {region.word} was given: {region.edge} is {told}"
+        region, reason = _beyond(fixed_spectrum(system), region, reason)
+    note = f"no {region.word} was given: {region.edge} is {reason}"
     asked: dict[str, Any] = {region.word: region.edge}
-    made = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **asked)
-    return _limited(replace(made, notes=(note,)), aims)
+    chosen = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **asked)
+    return _limited(replace(chosen, notes=(note,)), aims)
 
 
 def _limited(request: Request, aims: Aims | None) -> Request:
@@ -110,15 +110,15 @@ def slower(region: StabilityRegion) -> StabilityRegion:
 
 
 def _beyond(
-    fixed: FixedSpectrum, region: StabilityRegion, told: str
+    fixed: FixedSpectrum, region: StabilityRegion, reason: str
 ) -> tuple[StabilityRegion, str]:
     """Halve a rate (or the distance of a radius to 1) until the stable fixed modes are faster."""
     if not fixed.stabilizable:
-        return region, told
+        return region, reason
     while fixed.outside(region):
         region = slower(region)
-        told = "slow enough for the fixed modes"
-    return region, told
+        reason = "slow enough for the fixed modes"
+    return region, reason
 
 
 _HALVINGS, _MORE_HALVINGS = 2, 4
@@ -160,11 +160,11 @@ def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> D
             request.tell("a slower rate")
             asked = _halved(request, trial)
         try:
-            made = design(asked)
+            result = design(asked)
         except LimitReached as limit:
             failed = failed or limit
         else:
-            best = made if best is None or _margin(made) > _margin(best) else best
+            best = result if best is None or _margin(result) > _margin(best) else best
         if not request.notes or (best is not None and _is_final(best)):
             break
     if best is None:
@@ -176,8 +176,8 @@ def _halved(request: Request, times: int) -> Request:
     region = request.region
     for _ in range(times):
         region = slower(region)
-    told = f", and {region.edge} was taken, since no faster loop that was found is robust"
-    notes = (*request.notes[:-1], request.notes[-1] + told)
+    remark = f", and {region.edge} was taken, since no faster loop that was found is robust"
+    notes = (*request.notes[:-1], request.notes[-1] + remark)
     return replace(request, region=region, notes=notes, tell=partial(_once_warned, request.tell))
 
 
@@ -187,19 +187,19 @@ def _once_warned(tell: Progress, step: str) -> None:
         tell(step)
 
 
-def _margin(made: Design) -> float:
+def _margin(design: Design) -> float:
     """The margin of a controller that was searched, 0 for others."""
-    found = made.parts.get("optimum")
-    return 0.0 if found is None else float(found.figures.margin)
+    optimum = design.parts.get("optimum")
+    return 0.0 if optimum is None else float(optimum.figures.margin)
 
 
-def _is_robust_for_all(made: Design) -> bool:
+def _is_robust_for_all(design: Design) -> bool:
     """Whether one controller for all agents has the margin that designs aim at."""
-    found = made.parts.get("optimum")
-    central = None if found is None else found.central
+    optimum = design.parts.get("optimum")
+    central = None if optimum is None else optimum.central
     return central is not None and bool(central.margin >= MARGIN)
 
 
-def _is_final(made: Design) -> bool:
+def _is_final(design: Design) -> bool:
     """Whether a slower rate is not tried: the loop is robust, or it was not searched."""
-    return _margin(made) >= MARGIN or "diagnosis" not in made.parts
+    return _margin(design) >= MARGIN or "diagnosis" not in design.parts

@@ -144,9 +144,9 @@ class _Work:
             return None
         radii = None if gains is None else gain_radii(loop.controller, gains)
         search = StabilitySearch(loop, region, radii, self.each)
-        found = search.border(Fraction(1))
+        border = search.border(Fraction(1))
         self.left -= search.tested
-        return found
+        return border
 
 
 def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -> EveryLoop:
@@ -251,9 +251,9 @@ def _smaller(search: StabilitySearch, parts: tuple[float, ...]) -> Iterator[Clos
 
 def _failing(search: StabilitySearch) -> FailingPlant | None:
     """A plant nearby whose loop is not stable, which is decided exactly."""
-    found = failing_loop(search, _POINTS)
-    given = search.loop.given
-    known = [*([] if found is None else [found]), *severed_plants(given, Box(given).radii)]
+    nearest = failing_loop(search, _POINTS)
+    plant = search.loop.given
+    known = [*([] if nearest is None else [nearest]), *severed_plants(plant, Box(plant).radii)]
     for near in sorted(known, key=lambda each: each.distance):
         refutation = refuted_loop(search, near.plant)
         if refutation is not None:

@@ -138,25 +138,25 @@ invariant zero of the plant
     one_of(method, (None, "observer", "extended"), "method")
     solvability = _required(system)
     integrated = setpoint_system(system)
-    given = system, agent, spectrum, rate, radius, arithmetic, progress
-    request = request_for(*given, aims=aims, controlled=integrated_plant(system))
+    arguments = system, agent, spectrum, rate, radius, arithmetic, progress
+    request = request_for(*arguments, aims=aims, controlled=integrated_plant(system))
     _require_reachable(integrated, request.region)
 
     def attempt(asked: Request) -> Design:
         task = _Task(system, integrated, graph, asked, method, dimensions, aims or Aims())
-        moved = (_for_the_plant(system, each) for each in task.proposals())
-        return designed("observer", asked, system, system.neighbors, moved, stable=True)
+        proposals = (_for_the_plant(system, each) for each in task.proposals())
+        return designed("observer", asked, system, system.neighbors, proposals, stable=True)
 
-    made = at_a_robust_rate(request, attempt)
-    gain = made.loop.closed.steady_gain
+    design = at_a_robust_rate(request, attempt)
+    gain = design.loop.closed.steady_gain
     if gain is None or gain != Matrix.identity(gain.nrows):
         raise InternalError("a stable loop with integrators does not attain its set-points")
     methods: dict[str | None, Method] = {None: "observer", "decentralized": "decentralized"}
     return replace(
-        made,
-        method=methods.get(made.parts.get("network"), "extended"),
-        certificates={**made.certificates, "setpoint": solvability},
-        parts={"solvability": solvability, "designed": made.parts},
+        design,
+        method=methods.get(design.parts.get("network"), "extended"),
+        certificates={**design.certificates, "setpoint": solvability},
+        parts={"solvability": solvability, "designed": design.parts},
     )
 
 
@@ -240,10 +240,10 @@ class _Task:
 
 def _required(system: MultiChannelSystem) -> SetpointSolvability:
     """Raise an error if some set-points have no equilibrium."""
-    found = setpoint_solvability(system)
-    if found.solvable:
-        return found
-    raise refusal("equilibrium", found, combinations=found.combinations.rows())
+    solvability = setpoint_solvability(system)
+    if solvability.solvable:
+        return solvability
+    raise refusal("equilibrium", solvability, combinations=solvability.combinations.rows())
 
 
 def _require_reachable(augmented: MultiChannelSystem, region: StabilityRegion) -> None:
@@ -279,9 +279,9 @@ def _proposals(
         # After a refusal the decision is repeated, for a certificate about the plant itself.
         yield from proposed(integrated, request)
     except Impossible as refused:
-        found = refused.certificate
-        if minimal and found.kind == "fixed_spectrum":
-            raise refusal("integrators", found) from None
+        certificate = refused.certificate
+        if minimal and certificate.kind == "fixed_spectrum":
+            raise refusal("integrators", certificate) from None
         raise
 
 
@@ -332,14 +332,14 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
             if any(j != i and not M.is_zero() for j, M in each.outputs.items()):
                 raise InputError("an agent uses the integrators of another one")
         stay = Matrix.identity(q) * steady_point(system.time)
-        moved = [
+        maps = [
             _on_own_state(each, i, size, q, k)
             for each, size in zip(agent.maps(), (agent.shared, k, system.p(i)), strict=True)
         ]
-        own = moved[1].private or Matrix.zeros(k, q + k)
+        own = maps[1].private or Matrix.zeros(k, q + k)
         private = LinearMap(
-            {i: vstack([Matrix.identity(q), moved[1].outputs.get(i, Matrix.zeros(k, q))])},
-            {j: vstack([Matrix.zeros(q, M.ncols), M]) for j, M in moved[1].shared.items()},
+            {i: vstack([Matrix.identity(q), maps[1].outputs.get(i, Matrix.zeros(k, q))])},
+            {j: vstack([Matrix.zeros(q, M.ncols), M]) for j, M in maps[1].shared.items()},
             block([[hstack([stay, Matrix.zeros(q, k)])], [own]]),
             vstack([-Matrix.identity(q), Matrix.zeros(k, q)]),
         )
@@ -348,9 +348,9 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
                 agent.name,
                 agent.shared,
                 q + k,
-                moved[0].without_zeros(),
+                maps[0].without_zeros(),
                 private.without_zeros(),
-                moved[2].without_zeros(),
+                maps[2].without_zeros(),
                 agent.hold,
             )
         )

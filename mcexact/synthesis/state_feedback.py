@@ -171,19 +171,19 @@ def assigning_feedback(A: Matrix, B: Matrix, polynomial: Polynomial, *, seed: in
     rng, reach = Random(seed), _left_inverse(B)
     targets = [companions(polynomial), [Matrix.zeros(1, 1)] * n]
     best: tuple[int, Matrix] | None = None
-    least, found = Fraction(0), 0
+    least, count = Fraction(0), 0
     for draw in range(_DRAWS):
-        if found >= _CANDIDATES and draw >= _DRAWS_IF_FOUND:
+        if count >= _CANDIDATES and draw >= _DRAWS_IF_FOUND:
             break
         direction = _drawn_direction(A, B, reach, targets, rng, draw)
         size = abs(determinant(direction.X))
         if not size:
             continue
-        least = size if not found else min(least, size)
+        least = size if not count else min(least, size)
         # A larger determinant leads to longer denominators of F, so the draw is dropped.
-        if size > 4 * least and found >= _CANDIDATES:
+        if size > 4 * least and count >= _CANDIDATES:
             continue
-        found += 1
+        count += 1
         F = direction.feedback(polynomial)
         if best is None or _cost(F) < best[0]:
             best = _cost(F), F
@@ -296,10 +296,10 @@ def companions(polynomial: Polynomial) -> list[Matrix]:
     >>> [M.shape for M in companions(p)]
     [(1, 1), (1, 1), (2, 2)]
     """
-    found = []
+    blocks = []
     for factor, times in polynomial.factor():
-        found += [companion(factor)] * times
-    return found
+        blocks += [companion(factor)] * times
+    return blocks
 
 
 def split_by_channel(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...]:
@@ -426,12 +426,12 @@ def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
         factor = Polynomial((re * re + im * im, -2 * re, Fraction(1)))
         result = result * factor ** max(above, below)
     if result.degree != degree:
-        found = f"a list of {len(entries)}"
+        description = f"a list of {len(entries)}"
         if result.degree != len(entries):
-            found += f" with {result.degree} numbers (a pair counts twice)"
+            description += f" with {result.degree} numbers (a pair counts twice)"
         raise InputError(
             f"expected {degree} numbers (or {degree + 1} coefficients of a monic polynomial, "
-            f"constant term first), found {found}",
+            f"constant term first), found {description}",
             where=where,
         )
     return result
@@ -597,7 +597,7 @@ def scaled_polynomial(own: Polynomial, region: StabilityRegion, degree: int) -> 
     if degree < own.degree:
         raise InputError(f"expected a degree of at least {own.degree}, found {degree}")
     with localcontext(_PRECISION):
-        roots = [_moved(each, region) for each in _roots(own)]
+        roots = [_into_region(each, region) for each in _roots(own)]
         mean = _mean([_modulus(each) for each in roots], region)
         more = (mean if region.discrete else -mean), Decimal(0)
         roots += [more] * (degree - own.degree)
@@ -627,7 +627,7 @@ def _limit(region: StabilityRegion) -> Decimal:
     return _INSIDE if edge == 1 else edge**_FASTER
 
 
-def _moved(root: Root, region: StabilityRegion) -> Root:
+def _into_region(root: Root, region: StabilityRegion) -> Root:
     """Move a root into the region."""
     (re, im), limit, size = root, _limit(region), _modulus(root)
     if not region.discrete:
@@ -712,9 +712,9 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
     rest = decided.uncontrollable_polynomial
     if not region.contains_roots_of(rest):
         raise refusal("unreached", decided, told=say.NOT_CONTROLLABLE_IN, region=region)
-    found = controllable_subspace(system.A, B, generator(system, "controllability"))
-    pivots = list(found.pivots)
-    A1 = (system.A @ found.X).take(rows=pivots)
+    subspace = controllable_subspace(system.A, B, generator(system, "controllability"))
+    pivots = list(subspace.pivots)
+    A1 = (system.A @ subspace.X).take(rows=pivots)
     polynomial = default_polynomial(region, len(pivots))
     F1 = assigning_feedback(A1, B.take(rows=pivots), polynomial)
     selection = Matrix.identity(system.n).take(rows=pivots)
@@ -744,10 +744,10 @@ def observable_part(system: MultiChannelSystem) -> tuple[MultiChannelSystem, Mat
     >>> part.A.numerators, L.numerators
     (((1,),), ((1, 0),))
     """
-    found = controllable_subspace(
+    subspace = controllable_subspace(
         system.A.T, system.output_matrix().T, generator(system, "observability")
     )
-    L, pivots = found.X.T, list(found.pivots)
+    L, pivots = subspace.X.T, list(subspace.pivots)
     part = MultiChannelSystem(
         (L @ system.A).take(cols=pivots),
         [L @ channel.B for channel in system.channels],

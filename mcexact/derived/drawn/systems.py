@@ -773,11 +773,11 @@ def _stabilized(
     B = [channel.B for channel in system.channels]
     C = [channel.C for channel in system.channels]
     if is_discrete(system.time):
-        moved, root = system.A * Fraction(1, bound), root.scale(bound).monic()
+        A, root = system.A * Fraction(1, bound), root.scale(bound).monic()
     else:
-        moved = system.A - Matrix.identity(system.n) * bound
+        A = system.A - Matrix.identity(system.n) * bound
         root = root.compose_shift(bound)
-    return MultiChannelSystem(moved, B, C, time=system.time), root
+    return MultiChannelSystem(A, B, C, time=system.time), root
 
 
 # Systems that are determined by a seed and a few sizes.

@@ -196,8 +196,8 @@ def minimize(
         step = _line_search(function, x, value, gradient, direction)
         if step is None:
             break
-        moved, change = step.x - x, step.gradient - gradient
-        H, fresh = _updated(H, moved, change, fresh=fresh)
+        shift, change = step.x - x, step.gradient - gradient
+        H, fresh = _updated(H, shift, change, fresh=fresh)
         x, value, gradient = step.x, step.value, step.gradient
         values.append(value)
         settled = len(values) > _WINDOW and values[-_WINDOW] - value < tolerance * abs(value)
@@ -212,16 +212,16 @@ def _first(x: Floats, gradient: Floats) -> Floats:
     return np.eye(len(x)) * (length / max(float(np.linalg.norm(gradient)), 1e-300))
 
 
-def _updated(H: Floats, moved: Floats, change: Floats, *, fresh: bool) -> tuple[Floats, bool]:
+def _updated(H: Floats, shift: Floats, change: Floats, *, fresh: bool) -> tuple[Floats, bool]:
     """Update the inverse of the Hessian matrix; a first one is scaled before."""
-    curvature = float(moved @ change)
-    if not curvature > 1e-14 * np.linalg.norm(moved) * np.linalg.norm(change):
+    curvature = float(shift @ change)
+    if not curvature > 1e-14 * np.linalg.norm(shift) * np.linalg.norm(change):
         return H, fresh
     if fresh:
         H = np.eye(len(H)) * (curvature / float(change @ change))
     r, Hy = 1 / curvature, H @ change
-    crossed = np.outer(Hy, moved)
-    H = H + (1 + r * float(change @ Hy)) * r * np.outer(moved, moved) - r * (crossed + crossed.T)
+    crossed = np.outer(Hy, shift)
+    H = H + (1 + r * float(change @ Hy)) * r * np.outer(shift, shift) - r * (crossed + crossed.T)
     return H, False
 
 
@@ -233,11 +233,11 @@ def _line_search(
     best: _Step | None = None
     for k in range(_SEARCH):
         point = x + t * direction
-        found, G = function(point)
-        if not found <= value + _DECREASE * t * slope:
+        lower, G = function(point)
+        if not lower <= value + _DECREASE * t * slope:
             high = t
         else:
-            best = _Step(point, found, G)
+            best = _Step(point, lower, G)
             if float(G @ direction) >= _CURVATURE * slope:
                 break
             low = t
@@ -296,7 +296,7 @@ def bound_of(problem: FeedbackProblem, x: Floats) -> float:
     M = problem.loop(x)
     if not np.all(np.isfinite(M)):
         return np.inf
-    return spectral_bound(M, problem.network.given.time)
+    return spectral_bound(M, problem.network.plant.time)
 
 
 def spectral_descent(
@@ -324,7 +324,7 @@ def spectral_descent(
         height = abs(mode) if problem.discrete else mode.real
         return height + size * float(x @ x), problem.gradient(G) + 2 * size * x
 
-    found, _ = minimize(
+    result, _ = minimize(
         value,
         x,
         steps=steps,
@@ -332,7 +332,7 @@ def spectral_descent(
         enough=lambda height: target.reached(height, _well_inside(target.region)),
         stop=lambda: effort.over,
     )
-    return found
+    return result
 
 
 def _well_inside(region: StabilityRegion) -> float:
@@ -353,14 +353,14 @@ def calmed(problem: FeedbackProblem, x: Floats, effort: Effort) -> tuple[Floats,
     bound : float
         Its largest real part or modulus.
     """
-    K, found = problem.gain(x), [(bound_of(problem, x), x)]
-    stable = found[0][0] < (1.0 if problem.discrete else 0.0)
+    K, tries = problem.gain(x), [(bound_of(problem, x), x)]
+    stable = tries[0][0] < (1.0 if problem.discrete else 0.0)
     for part in () if stable else _PARTS:
         effort.take(len(problem.A), 0.5)
         K[: problem.p] = part * problem.gain(x)[: problem.p]
         entries = problem.entries(K)
-        found.append((bound_of(problem, entries), entries))
-    bound, best = min(found, key=lambda each: each[0])
+        tries.append((bound_of(problem, entries), entries))
+    bound, best = min(tries, key=lambda each: each[0])
     return best, bound
 
 
@@ -388,13 +388,13 @@ def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effor
             [(value, G)] = quadratic_costs(problem, problem.gain(x), (shift,))
             return (value, problem.gradient(G)) if np.isfinite(value) else INFINITE
 
-        moved, _ = minimize(shifted, x, steps=25, stop=lambda: effort.over)
-        faster = bound_of(problem, moved)
+        candidate, _ = minimize(shifted, x, steps=25, stop=lambda: effort.over)
+        faster = bound_of(problem, candidate)
         slow = bound - faster < 0.01 * gap
         # Nearer to the edge the cost counts little but how fast the loop is.
         stalls, share = (stalls + 1, 0.3 * share) if slow else (0, _SHARE)
         if faster < bound:
-            x, bound = moved, faster
+            x, bound = candidate, faster
         if stalls >= _STALLS:
             break
     return x if target.reached(bound) else None
@@ -508,16 +508,16 @@ def inside(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) 
     x, bound = calmed(problem, x, effort)
     if target.reached(bound, SLACK):
         return x
-    moved = ratcheted(problem, x, target, effort.part(0.75))
-    if moved is not None:
-        return moved
-    found = spectral_descent(problem, x, target, effort.part(0.5))
-    if target.reached(bound_of(problem, found), SLACK):
-        return found
-    moved = ratcheted(problem, found, target, effort.part(0.7))
-    if moved is not None:
-        return moved
-    again = spectral_descent(problem, found, target, effort)
+    result = ratcheted(problem, x, target, effort.part(0.75))
+    if result is not None:
+        return result
+    slow = spectral_descent(problem, x, target, effort.part(0.5))
+    if target.reached(bound_of(problem, slow), SLACK):
+        return slow
+    result = ratcheted(problem, slow, target, effort.part(0.7))
+    if result is not None:
+        return result
+    again = spectral_descent(problem, slow, target, effort)
     return again if target.reached(bound_of(problem, again)) else None
 
 
@@ -536,14 +536,14 @@ def found_alone(
     Equal parts are searched once.
     """
     known: dict[bytes, Realization | None] = {}
-    found = []
+    alone = []
     for part in parts:
         model = part.model
         key = b"|".join(each.tobytes() for each in (model.A, model.B, model.C))
         if key not in known:
             known[key] = _searched(model, order, target, effort)
-        found.append(known[key])
-    return found
+        alone.append(known[key])
+    return alone
 
 
 def _searched(model: Model, order: int, target: Target, effort: Effort) -> Realization | None:

@@ -125,8 +125,8 @@ def sure_figures(loop: ClosedLoop, weights: Weights, integrators: Sequence[int] 
 
     Notes
     -----
-    The eigenvalues are those of `loop_eigenvalues`.  The peak is computed by `_moved`, the margin
-    is confirmed in ball arithmetic at the frequency where it is least.
+    The eigenvalues are those of `loop_eigenvalues`.  The peak is computed by `_trajectory`, and
+    the margin is confirmed in ball arithmetic at the frequency where it is least.
 
     Examples
     --------
@@ -194,9 +194,10 @@ def loop_eigenvalues(M: Matrix, *, discrete: bool) -> Complexes | None:
     """
     if M.nrows > POLYNOMIAL_LIMIT:
         return None
-    found = closed_loop_spectrum(M, "discrete" if discrete else "continuous")
+    spectrum = closed_loop_spectrum(M, "discrete" if discrete else "continuous")
     values = np.array(
-        [complex(to_float(disc.re), to_float(disc.im)) for disc in found.discs], dtype=np.complex128
+        [complex(to_float(disc.re), to_float(disc.im)) for disc in spectrum.discs],
+        dtype=np.complex128,
     )
     return values if np.all(np.isfinite(values)) else None
 
@@ -222,9 +223,9 @@ def _is_stable_in_doubles(loop: ClosedLoop, M: Floats) -> bool:
     return region.contains_roots_of(characteristic_polynomial(rounded))
 
 
-def _agree(found: Sequence[float], limit: float = 0.0) -> bool:
+def _agree(figures: Sequence[float], limit: float = 0.0) -> bool:
     """Whether two figures differ by less than half a percent."""
-    sizes = [each - limit for each in found]
+    sizes = [each - limit for each in figures]
     return len(sizes) == 2 and abs(sizes[0] - sizes[1]) <= _SAME * abs(sizes[0])
 
 
@@ -243,7 +244,7 @@ def _balanced(M: Floats) -> Floats:
     return balanced
 
 
-def _moved(
+def _trajectory(
     M: Matrix, start: Matrix, values: Complexes, rows: int, *, discrete: bool
 ) -> list[Floats] | None:
     """The first rows of exp(Mt) or M^t times a matrix, at the times of `peak_of_state`."""
@@ -260,10 +261,10 @@ def _sure_peak(loop: ClosedLoop, values: Complexes) -> float:
     """The peak of the state, as `peak_of_state` has it."""
     n, N = loop.given.n, loop.dimension
     start = Matrix.identity(N).take(cols=range(n))
-    moved = _moved(loop.matrix, start, values, n, discrete=is_discrete(loop.given.time))
-    if moved is None:
+    states = _trajectory(loop.matrix, start, values, n, discrete=is_discrete(loop.given.time))
+    if states is None:
         return np.nan
-    return max(1.0, max((norm(E) for E in moved), default=1.0))
+    return max(1.0, max((norm(E) for E in states), default=1.0))
 
 
 def step_peak(loop: ClosedLoop) -> float:
@@ -294,12 +295,12 @@ def step_peak(loop: ClosedLoop) -> float:
     rest = solve_nonsingular(at_rest - loop.matrix, loop.reference)
     if values is None or rest is None:
         return np.nan
-    moved = _moved(loop.matrix, rest, values, n, discrete=discrete)
-    if moved is None:
+    states = _trajectory(loop.matrix, rest, values, n, discrete=discrete)
+    if states is None:
         return np.nan
     C = matrix_to_float(loop.given.output_matrix())
     reached = C @ matrix_to_float(rest.take(rows=range(n)))
-    peaks = (float(np.max(np.abs(reached - C @ E), initial=0.0)) for E in moved)
+    peaks = (float(np.max(np.abs(reached - C @ E), initial=0.0)) for E in states)
     return max(peaks, default=0.0)
 
 
@@ -425,20 +426,20 @@ def _with_integrals(
 
 def _noise(loop: ClosedLoop) -> tuple[Floats, Floats]:
     """Return N and D: how noise of all outputs enters the state of the loop, and the inputs."""
-    given, agents = loop.given, loop.controller.agents
-    starts = np.concatenate([[0], np.cumsum([given.q(j) for j in range(given.m)])]).astype(int)
+    plant, agents = loop.given, loop.controller.agents
+    starts = np.concatenate([[0], np.cumsum([plant.q(j) for j in range(plant.m)])]).astype(int)
 
     def at_once(each: LinearMap, i: int, nrows: int) -> Floats:
-        found = np.zeros((nrows, int(starts[-1])))
+        matrix = np.zeros((nrows, int(starts[-1])))
         for j, M in each.without_zeros().outputs.items():
             if not loop.waits(j, i)[1]:
-                found[:, starts[j] : starts[j + 1]] += matrix_to_float(M)
-        return found
+                matrix[:, starts[j] : starts[j + 1]] += matrix_to_float(M)
+        return matrix
 
     N, inputs = np.zeros((loop.dimension, int(starts[-1]))), []
     for i, agent in enumerate(agents):
-        inputs.append(at_once(agent.input, i, given.p(i)))
-        N[: given.n] += matrix_to_float(given.B(i)) @ inputs[-1]
+        inputs.append(at_once(agent.input, i, plant.p(i)))
+        N[: plant.n] += matrix_to_float(plant.B(i)) @ inputs[-1]
         for kind, each, count in (
             ("x_", agent.shared_update, agent.shared),
             ("z_", agent.private_update, agent.private),
@@ -461,7 +462,7 @@ def integrators_of(loop: ClosedLoop) -> tuple[int, ...]:
     ----------
     loop : ClosedLoop
     """
-    found: list[int] = []
+    places: list[int] = []
     for i, agent in enumerate(loop.controller.agents):
         q, update = loop.given.q(i), agent.private_update
         own, less = update.outputs.get(i), update.reference
@@ -473,8 +474,8 @@ def integrators_of(loop: ClosedLoop) -> tuple[int, ...]:
             if own.take(rows=rows) != one or less.take(rows=rows) != -one:
                 return ()
         place, _ = loop.blocks["z_", i, 0]
-        found += range(place, place + q)
-    return tuple(found)
+        places += range(place, place + q)
+    return tuple(places)
 
 
 def digits_that_suffice(
@@ -497,21 +498,21 @@ def digits_that_suffice(
     """
 
     def holds(digits: int) -> bool:
-        made = closed_loop(loop.given, rounded_controller(loop.controller, digits), loop.graph)
-        if not _is_inside(made.matrix, region):
+        rounded = closed_loop(loop.given, rounded_controller(loop.controller, digits), loop.graph)
+        if not _is_inside(rounded.matrix, region):
             return False
-        return margin <= 0 or margin_of(made) >= margin
+        return margin <= 0 or margin_of(rounded) >= margin
 
-    fails, found = 0, MOST_DIGITS
-    if not holds(found):
+    fails, suffice = 0, MOST_DIGITS
+    if not holds(suffice):
         return None
-    while found - fails > 1:
-        middle = (found + fails) // 2
+    while suffice - fails > 1:
+        middle = (suffice + fails) // 2
         if holds(middle):
-            found = middle
+            suffice = middle
         else:
             fails = middle
-    return found
+    return suffice
 
 
 def _is_inside(M: Matrix, region: StabilityRegion) -> bool:
@@ -687,21 +688,21 @@ def _steps(
     """Each output after a unit step of its own set-point; () without integrators."""
     if not integrators_of(loop):
         return []
-    n, given = loop.given.n, loop.given
-    C, R = matrix_to_float(given.output_matrix()), matrix_to_float(loop.reference)
+    n, plant = loop.given.n, loop.given
+    C, R = matrix_to_float(plant.output_matrix()), matrix_to_float(loop.reference)
     at_rest = np.linalg.solve((np.eye(len(M)) if discrete else 0.0) - M, R)
     names = [
-        name if given.q(i) == 1 else f"{name}, {k + 1}"
-        for i, name in enumerate(given.names)
-        for k in range(given.q(i))
+        name if plant.q(i) == 1 else f"{name}, {k + 1}"
+        for i, name in enumerate(plant.names)
+        for k in range(plant.q(i))
     ]
-    state, found = -at_rest, [list[float]() for _ in names]
+    state, outputs = -at_rest, [list[float]() for _ in names]
     for _ in range(count):
         reached = C @ (at_rest + state)[:n]
-        for each, output in zip(found, np.diag(reached).tolist(), strict=True):
+        for each, output in zip(outputs, np.diag(reached).tolist(), strict=True):
             each.append(output)
         state = step @ state
-    return list(zip(names, found, strict=True))
+    return list(zip(names, outputs, strict=True))
 
 
 # The diagnosis of a request: the sensible rate, and the modes that are nearly fixed.
@@ -789,12 +790,12 @@ class Diagnosis:
         return f"{edge:.4g}" if self.sensible.discrete else f"{edge:.3g}"
 
     def __str__(self) -> str:
-        told = [f"sensible {self.region.word} {self.sensible_bound}"]
+        parts = [f"sensible {self.region.word} {self.sensible_bound}"]
         for each in self.modes[:1]:
-            told.insert(
+            parts.insert(
                 0, f"mode {_shown(each.mode)}: a relative change of {each.change:.0e} fixes it"
             )
-        return f"{'; '.join(told)} (computed)"
+        return f"{'; '.join(parts)} (computed)"
 
     def view(self) -> dict[str, object]:
         """Return the diagnosis as plain data."""
@@ -819,10 +820,10 @@ def _shown(mode: complex) -> str:
     return real if not mode.imag else f"{real} ± {abs(mode.imag):.4g}i"
 
 
-def _affordable(found: CentralOptimum | None, unhurried: CentralOptimum | None) -> bool:
-    if found is None or unhurried is None:
+def _affordable(optimum: CentralOptimum | None, unhurried: CentralOptimum | None) -> bool:
+    if optimum is None or unhurried is None:
         return False
-    return _is_affordable(found.figures, unhurried)
+    return _is_affordable(optimum.figures, unhurried)
 
 
 def _is_affordable(figures: Figures, unhurried: CentralOptimum) -> bool:
@@ -863,12 +864,12 @@ def diagnosed(
     with quiet_floats():
         central = central_optimum(system, weights, region)
         unhurried = central_optimum(system, weights, StabilityRegion(system.time))
-        start, found = region, central
+        start, optimum = region, central
         if region.edge == StabilityRegion(system.time).edge and unhurried:
             # The sensible rate is searched around a rate, of which stability alone gives none.
             start = _own_region(system.time, unhurried) or region
-            found = central_optimum(system, weights, start)
-        sensible = _sensible(system, weights, start, found, unhurried)
+            optimum = central_optimum(system, weights, start)
+        sensible = _sensible(system, weights, start, optimum, unhurried)
         modes = slow_modes(controlled or system, region)
     return Diagnosis(region, central, unhurried, sensible, modes)
 
@@ -933,16 +934,16 @@ def chosen_region(
             return None
         central = central_optimum(system, weights, region)
         sensible = _sensible(system, weights, region, central, unhurried)
-        pace, told = _pace(sensible or region) / 2, f"{part} the sensible {stable.word}"
+        pace, reason = _pace(sensible or region) / 2, f"{part} the sensible {stable.word}"
         if sensible is None:
-            told = f"{part} that of the optimal controller of all agents together"
+            reason = f"{part} that of the optimal controller of all agents together"
         else:
             slower = central_optimum(system, weights, _of_pace(system.time, pace))
             if not _affordable(slower, unhurried):
-                pace, told = 2 * pace, f"the sensible {stable.word}"
+                pace, reason = 2 * pace, f"the sensible {stable.word}"
     if stable.discrete and pace > _FAST_ENOUGH:
-        pace, told = _FAST_ENOUGH, f"fast enough, and slower than {told}"
-    return _rounded_region(system.time, pace), told
+        pace, reason = _FAST_ENOUGH, f"fast enough, and slower than {reason}"
+    return _rounded_region(system.time, pace), reason
 
 
 def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[SlowMode, ...]:
@@ -965,16 +966,16 @@ def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[Slo
     for k, value in enumerate(map(complex, values)):
         if value.imag < 0 or (abs(value) if region.discrete else value.real) < limit:
             continue
-        moved = [norm(left[:, k].conj() @ each) for each in B]
+        reached = [norm(left[:, k].conj() @ each) for each in B]
         seen = [norm(each @ right[:, k]) for each in C]
-        slow.append((max(map(min, moved, seen), default=0.0), value))
+        slow.append((max(map(min, reached, seen), default=0.0), value))
     slow.sort(key=lambda each: (each[0], each[1].real, each[1].imag))
     count = max(_FEWEST_MODES, _WORK // max(system.n**3 * system.m, 1))
-    found = []
+    modes = []
     for _, value in slow[:count]:
         change, channels = distance_at(A, B, C, value)
-        found.append(SlowMode(value, change / size, system.named(channels)))
-    return tuple(sorted(found, key=lambda each: each.change))
+        modes.append(SlowMode(value, change / size, system.named(channels)))
+    return tuple(sorted(modes, key=lambda each: each.change))
 
 
 def _sensible(
@@ -991,9 +992,9 @@ def _sensible(
     if system.n > _LARGE and _affordable(central, unhurried):
         return region
     pace, holds, fails = _pace(region), 0.0, np.inf
-    found = central
+    optimum = central
     for _ in range(steps):
-        if _affordable(found, unhurried):
+        if _affordable(optimum, unhurried):
             holds = pace
         else:
             fails = pace
@@ -1004,7 +1005,7 @@ def _sensible(
             pace = float(np.sqrt(holds * fails))
         else:
             pace = _FACTOR * holds if holds else fails / _FACTOR
-        found = central_optimum(system, weights, _of_pace(system.time, pace))
+        optimum = central_optimum(system, weights, _of_pace(system.time, pace))
     if not holds and system.n <= _LARGE:
         # Without a rate the optimum can be fragile where that of a moderate rate is not.
         for factor in _FASTER:

@@ -89,20 +89,20 @@ def quadratic_costs(problem: FeedbackProblem, K: Floats, shifts: tuple[float, ..
         return [INFINITE for _ in shifts]
     Q, W = problem.Q + C.T @ (K.T @ RK) @ C, problem.W + B @ (KV @ BK.T)
     through = float(np.sum(RK * KV))
-    found = []
+    costs = []
     for shift in shifts:
         inside = form.bound < shift if problem.discrete else form.bound < -shift
         gramians = form.gramians(W, Q, shift) if inside else None
         if gramians is None:
-            found.append(INFINITE)
+            costs.append(INFINITE)
             continue
         S, P = gramians
         SC = S @ C.T
         forward = P @ (M @ SC) / shift**2 if problem.discrete else P @ SC
         G = 2 * (B.T @ (forward + P @ (B @ KV)) + RK @ (C @ SC) + R @ KV)
         cost = float(np.sum(S * Q)) + through
-        found.append((cost, G) if cost > 0 and np.all(np.isfinite(G)) else INFINITE)
-    return found
+        costs.append((cost, G) if cost > 0 and np.all(np.isfinite(G)) else INFINITE)
+    return costs
 
 
 # The complementary sensitivity at the inputs of the plant, on a grid of frequencies.
@@ -193,8 +193,8 @@ class Response:
     def _resolvent(self, z: complex, right: Complexes, trans: int = 0) -> Complexes:
         """Solve (zI − T) X = right, or its transpose."""
         solved, _ = lapack.ztrtrs(z * np.eye(len(self._T)) - self._T, right, trans=trans)
-        found: Complexes = solved
-        return found
+        resolvent: Complexes = solved
+        return resolvent
 
     def sizes(self, points: Complexes) -> Floats:
         """Return the largest singular value of T at each of some points."""
@@ -278,8 +278,8 @@ class Eigenvalues:
     @classmethod
     def of(cls, problem: FeedbackProblem, M: Floats) -> Eigenvalues:
         """Compute the eigenvalues of the loop M of a problem, whose entries are finite."""
-        found = (np.asarray(each, dtype=np.complex128) for each in eig(M, left=True))
-        return cls(problem, *found)
+        decomposition = (np.asarray(each, dtype=np.complex128) for each in eig(M, left=True))
+        return cls(problem, *decomposition)
 
     def slope(self, k: int, direction: complex) -> Floats:
         """Return the gradient of Re(c λ_k) in K, for a number c.
@@ -298,8 +298,8 @@ class Eigenvalues:
         w, v, problem = self.left[:, k].conj(), self.right[:, k], self.problem
         paired = complex(w @ v)
         paired = paired if abs(paired) > _CLOSE else complex(_CLOSE)
-        found: Floats = np.real(direction / paired * np.outer(w @ problem.B, problem.C @ v))
-        return found
+        derivative: Floats = np.real(direction / paired * np.outer(w @ problem.B, problem.C @ v))
+        return derivative
 
 
 # Limits on the damping and the modulus of eigenvalues.
@@ -503,9 +503,9 @@ def _number(limit: Entry) -> float:
     return to_float(as_requested(limit))
 
 
-def _require(good: bool, name: str, expected: str, found: object) -> None:
+def _require(good: bool, name: str, expected: str, actual: object) -> None:
     if not good:
-        raise UsageError(f"expected {expected}, found {found}", where=name)
+        raise UsageError(f"expected {expected}, found {actual}", where=name)
 
 
 THEOREM = Aims(effort=0)
@@ -705,10 +705,10 @@ def central_optimum(
         weights.V,
         problem.discrete,
     )
-    found = gaussian_controller(model, shift_of(region))
-    if found is None:
+    controller = gaussian_controller(model, shift_of(region))
+    if controller is None:
         return None
-    A_k, B_k, C_k, D_k = found
+    A_k, B_k, C_k, D_k = controller
     K = balanced(problem, np.block([[D_k, C_k], [B_k, A_k]]))
     figures = figures_of(problem, K)
     return CentralOptimum(figures, _sizes(problem, K, region))
@@ -741,7 +741,7 @@ def _sizes(problem: FeedbackProblem, K: Floats, region: StabilityRegion) -> Size
 
 def _deviations(rows: Floats, S: Floats) -> Floats:
     """The standard deviations of some signals, none of them negligible beside the others."""
-    found = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", rows, S, rows), 0.0))
-    largest = float(np.max(found, initial=0.0))
-    floored: Floats = np.maximum(found, 1e-6 * largest) if largest else np.ones(len(rows))
+    deviations = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", rows, S, rows), 0.0))
+    largest = float(np.max(deviations, initial=0.0))
+    floored: Floats = np.maximum(deviations, 1e-6 * largest) if largest else np.ones(len(rows))
     return floored

@@ -154,13 +154,13 @@ class Weights:
         return cls(np.eye(system.n), np.eye(p), np.eye(system.n), _NOISE * np.eye(q))
 
     @classmethod
-    def of(cls, system: MultiChannelSystem, given: Mapping[str, Any] | None = None) -> Weights:
-        """Return the weights that are given, and those of `unit` for the others.
+    def of(cls, system: MultiChannelSystem, chosen: Mapping[str, Any] | None = None) -> Weights:
+        """Return the chosen weights, completed by those of `unit`.
 
         Parameters
         ----------
         system : MultiChannelSystem
-        given : mapping of {"Q", "R", "W", "V"} to matrix, optional
+        chosen : mapping of {"Q", "R", "W", "V"} to matrix, optional
             Symmetric matrices of numbers, as arrays or as lists of rows.  Q and W are positive
             semidefinite, R and V are positive definite.
 
@@ -179,14 +179,16 @@ class Weights:
             ...
         mcexact.errors.InputError: weights.R: expected a positive definite matrix
         """
-        found = cls.unit(system)
-        for name, entries in (given or {}).items():
+        weights = cls.unit(system)
+        for name, entries in (chosen or {}).items():
             where = f"weights.{name}"
             if name not in NAMES:
                 raise InputError(f"expected one of {', '.join(NAMES)}, found {name!r}", where=where)
-            size = len(getattr(found, name))
-            found = replace(found, **{name: _checked(entries, size, where, definite=name in "RV")})
-        return found
+            size = len(getattr(weights, name))
+            weights = replace(
+                weights, **{name: _checked(entries, size, where, definite=name in "RV")}
+            )
+        return weights
 
     def with_integrators(self, system: MultiChannelSystem) -> Weights:
         """Return the weights of `integrated_plant`, for the weights of a system.
@@ -219,15 +221,15 @@ def _checked(entries: Any, size: int, where: str, *, definite: bool) -> Floats:
         )
     if M != M.T:
         raise InputError("expected a symmetric matrix", where=where)
-    found = matrix_to_float(M)
-    if not np.all(np.isfinite(found)):
+    array = matrix_to_float(M)
+    if not np.all(np.isfinite(array)):
         raise InputError("expected numbers in the range of double precision", where=where)
-    least, largest = np.linalg.eigvalsh(found)[[0, -1]] if size else (1.0, 1.0)
+    least, largest = np.linalg.eigvalsh(array)[[0, -1]] if size else (1.0, 1.0)
     if definite and not least > _ROUNDING * largest:
         raise InputError("expected a positive definite matrix", where=where)
     if not least >= -_ROUNDING * abs(largest):
         raise InputError("expected a positive semidefinite matrix", where=where)
-    return found
+    return array
 
 
 def _read(entries: Any, where: str) -> Matrix:
@@ -266,14 +268,14 @@ class Ties:
 
     def values(self, entries: Floats) -> Floats:
         """Return the values of some entries."""
-        found = np.empty(self.count)
-        found[self.number[self.chosen]] = entries[self.chosen]
-        return found
+        distinct = np.empty(self.count)
+        distinct[self.number[self.chosen]] = entries[self.chosen]
+        return distinct
 
     def summed(self, entries: Floats) -> Floats:
         """Sum the entries that have the same value, as the chain rule does with gradients."""
-        found = np.bincount(self.number, entries, minlength=self.count)
-        return np.asarray(found, dtype=np.float64)
+        sums = np.bincount(self.number, entries, minlength=self.count)
+        return np.asarray(sums, dtype=np.float64)
 
 
 # All controllers of one structure as the free entries of one gain matrix.
@@ -412,14 +414,14 @@ class FeedbackProblem:
         >>> problem.loop(np.array([-2.0, 3.0, 1.0, -4.0])).tolist()
         [[0.0, 1.0, 0.0], [-2.0, 0.0, 3.0], [1.0, 0.0, -4.0]]
         """
-        given, derived, z = network.given, network.system, sum(orders)
+        plant, derived, z = network.plant, network.system, sum(orders)
         rows, sources = _signals(network)
         agents, (n, N, p) = (
             _places(network, orders, sources),
-            (given.n, derived.n, weights.R.shape[0]),
+            (plant.n, derived.n, weights.R.shape[0]),
         )
-        inputs = [matrix_to_float(derived.B(i)) for i in range(given.m)]
-        own = [given.p(i) for i in range(given.m)]
+        inputs = [matrix_to_float(derived.B(i)) for i in range(plant.m)]
+        own = [plant.p(i) for i in range(plant.m)]
         upper = [B[:, :k] for B, k in zip(inputs, own, strict=True)]
         lower = [B[:, k:] for B, k in zip(inputs, own, strict=True)]
         B, C = np.hstack([*upper, *lower]), rows
@@ -446,7 +448,7 @@ class FeedbackProblem:
     @property
     def discrete(self) -> bool:
         """Whether the plant is in discrete time."""
-        return is_discrete(self.network.given.time)
+        return is_discrete(self.network.plant.time)
 
     @property
     def size(self) -> int:
@@ -486,13 +488,13 @@ class FeedbackProblem:
 
         Of equal ones it is one, and K is the gain if they are equal in K.
         """
-        found: Floats = K.ravel()[self._free] / self.scale.ravel()[self._free]
-        return found if self.ties is None else self.ties.values(found)
+        scaled: Floats = K.ravel()[self._free] / self.scale.ravel()[self._free]
+        return scaled if self.ties is None else self.ties.values(scaled)
 
     def gradient(self, G: Floats) -> Floats:
         """Return the gradient in the free entries, for the gradient in K."""
-        found: Floats = G.ravel()[self._free] * self.scale.ravel()[self._free]
-        return found if self.ties is None else self.ties.summed(found)
+        scaled: Floats = G.ravel()[self._free] * self.scale.ravel()[self._free]
+        return scaled if self.ties is None else self.ties.summed(scaled)
 
     @cached_property
     def bare(self) -> FeedbackProblem:
@@ -500,16 +502,16 @@ class FeedbackProblem:
         n, p = self.n, self.p
 
         def corner(M: Floats, size: int) -> Floats:
-            found = np.zeros(M.shape)
-            found[:size, :size] = M[:size, :size]
-            return found
+            padded = np.zeros(M.shape)
+            padded[:size, :size] = M[:size, :size]
+            return padded
 
         return replace(self, Q=corner(self.Q, n), R=corner(self.R, p), W=corner(self.W, n))
 
     @cached_property
     def columns_of_states(self) -> tuple[Places, ...]:
         """For each row of K from the p-th on, the columns in which its state is used."""
-        found: list[Places] = []
+        places: list[Places] = []
         sent = {
             (signal[1], tuple(columns)): columns
             for agent in self.agents
@@ -518,11 +520,11 @@ class FeedbackProblem:
         }
         for j, agent in enumerate(self.agents):
             blocks = [columns for (of, _), columns in sent.items() if of == j]
-            found += [
+            places += [
                 np.array([b[k] for b in blocks], dtype=np.intp) for k in range(len(agent.updates))
             ]
-        found += [np.array([c]) for agent in self.agents for c in agent.private_columns]
-        return tuple(found)
+        places += [np.array([c]) for agent in self.agents for c in agent.private_columns]
+        return tuple(places)
 
     def closed(self, K: Floats) -> Floats:
         """Return M = A + B K C."""
@@ -537,48 +539,48 @@ class FeedbackProblem:
 def _corner(M: Floats, size: int, diagonal: float) -> Floats:
     """Append a multiple of the identity as a diagonal block."""
     rows, columns = M.shape
-    found = np.zeros((rows + size, columns + size))
-    found[:rows, :columns] = M
-    found[rows:, columns:] = diagonal * np.eye(size)
-    return found
+    bordered = np.zeros((rows + size, columns + size))
+    bordered[:rows, :columns] = M
+    bordered[rows:, columns:] = diagonal * np.eye(size)
+    return bordered
 
 
 def _signals(network: DerivedNetwork) -> tuple[Floats, Sources]:
     """Return the rows of all signals, each once, and where each signal of each age stands."""
-    found: list[Floats] = []
+    blocks: list[Floats] = []
     places: Sources = {}
     start = 0
     for _, signal, rows in _received(network):
         key = signal, rows.tobytes()
         if key not in places:
             places[key] = slice(start, start + len(rows))
-            found.append(rows)
+            blocks.append(rows)
             start += len(rows)
-    return np.vstack([np.zeros((0, network.system.n)), *found]), places
+    return np.vstack([np.zeros((0, network.system.n)), *blocks]), places
 
 
 def _received(network: DerivedNetwork) -> list[tuple[int, Signal, Floats]]:
     """Return what each agent receives, in its order: the agent, the signal and the rows of C̄_i."""
-    found: list[tuple[int, Signal, Floats]] = []
+    received: list[tuple[int, Signal, Floats]] = []
     for i, signals in enumerate(network.signals):
         C, start = matrix_to_float(network.system.C(i)), 0
         for signal in signals:
             stop = start + network.size(signal)
-            found.append((i, signal, C[start:stop]))
+            received.append((i, signal, C[start:stop]))
             start = stop
-    return found
+    return received
 
 
 def _places(
     network: DerivedNetwork, orders: Sequence[int], sources: Sources
 ) -> tuple[AgentPlaces, ...]:
     """Number the rows (u, v, z) and the columns (signals, z) of K, agent by agent."""
-    given, signals = network.given, max((s.stop for s in sources.values()), default=0)
-    p = [0, *accumulate(given.p(i) for i in range(given.m))]
+    plant, signals = network.plant, max((s.stop for s in sources.values()), default=0)
+    p = [0, *accumulate(plant.p(i) for i in range(plant.m))]
     v = [p[-1] + k for k in (0, *accumulate(network.dimensions))]
     z = [0, *accumulate(orders)]
-    heard: list[list[int]] = [[] for _ in range(given.m)]
-    columns: list[dict[Signal, Places]] = [{} for _ in range(given.m)]
+    heard: list[list[int]] = [[] for _ in range(plant.m)]
+    columns: list[dict[Signal, Places]] = [{} for _ in range(plant.m)]
     for i, signal, rows in _received(network):
         place = sources[signal, rows.tobytes()]
         heard[i] += range(place.start, place.stop)
@@ -593,19 +595,19 @@ def _places(
             columns[i].get(("y", i), np.arange(0)),
             columns[i],
         )
-        for i in range(given.m)
+        for i in range(plant.m)
     )
 
 
 def _outputs(network: DerivedNetwork, sources: Sources) -> Places:
     """Return for each signal the output of the plant that it is, −1 for sub-states."""
-    given = network.given
-    starts = [0, *accumulate(given.q(i) for i in range(given.m))]
-    found = np.full(max((s.stop for s in sources.values()), default=0), -1)
+    plant = network.plant
+    starts = [0, *accumulate(plant.q(i) for i in range(plant.m))]
+    places = np.full(max((s.stop for s in sources.values()), default=0), -1)
     for ((what, j), _), where in sources.items():
         if what == "y":
-            found[where] = np.arange(starts[j], starts[j + 1])
-    return found
+            places[where] = np.arange(starts[j], starts[j + 1])
+    return places
 
 
 def _noise(network: DerivedNetwork, sources: Sources, V: Floats) -> Floats:
@@ -619,7 +621,7 @@ def _noise(network: DerivedNetwork, sources: Sources, V: Floats) -> Floats:
     for k, ((_, rows), where) in enumerate(sources.items()):
         seen = np.frombuffer(rows).reshape(where.stop - where.start, network.system.n)
         # What is under way is read from the states after those of the plant.
-        age[where] = k + 1 if seen[:, network.given.n :].any() else 0
+        age[where] = k + 1 if seen[:, network.plant.n :].any() else 0
     together = (place[:, None] >= 0) & (place >= 0) & (age[:, None] == age)
     return np.where(together, V[np.ix_(place, place)] if V.size else 0.0, 0.0)
 

@@ -143,9 +143,9 @@ class Ladder:
 
         Of large plants whose agents send signals, those that look alike are tied.
         """
-        made = FeedbackProblem.of(*structure, self.weights, self.sizes)
+        untied = FeedbackProblem.of(*structure, self.weights, self.sizes)
         sending = structure[0].graph is not None
-        return tied(made, self.weights) if self.large and sending else made
+        return tied(untied, self.weights) if self.large and sending else untied
 
     @property
     def orders(self) -> range:
@@ -157,13 +157,13 @@ class Ladder:
         sizes = zip(problem.orders, problem.network.dimensions, strict=True)
         return self.most_order is None or all(z + x <= self.most_order for z, x in sizes)
 
-    def fine(self, found: Figures) -> bool:
+    def fine(self, figures: Figures) -> bool:
         """Whether a controller is good enough to end the search."""
         return (
-            found.cost <= self.enough
-            and found.margin >= self.target.margin
-            and self.target.shape.met(found.damping, found.fastest)
-            and found.largest_gain <= 1.001 * self.target.largest_gain
+            figures.cost <= self.enough
+            and figures.margin >= self.target.margin
+            and self.target.shape.met(figures.damping, figures.fastest)
+            and figures.largest_gain <= 1.001 * self.target.largest_gain
         )
 
     def keeps(self, problem: FeedbackProblem, K: Floats) -> bool:
@@ -203,9 +203,9 @@ class Start:
     K: Floats
 
 
-def ranked(ladder: Ladder, found: list[Candidate]) -> list[Candidate]:
+def ranked(ladder: Ladder, candidates: list[Candidate]) -> list[Candidate]:
     """Return the candidates by their prices, the lowest first."""
-    return sorted(found, key=lambda each: _price(ladder, each))
+    return sorted(candidates, key=lambda each: _price(ladder, each))
 
 
 def _price(ladder: Ladder, candidate: Candidate) -> float:
@@ -224,14 +224,14 @@ def _price(ladder: Ladder, candidate: Candidate) -> float:
     return figures.cost * lacking * large * _PRICE_OF_ORDER**priced
 
 
-def contents(ladder: Ladder, found: list[Candidate]) -> bool:
+def contents(ladder: Ladder, candidates: list[Candidate]) -> bool:
     """Whether the search of a large plant may end: the best price is nearly low enough."""
-    return ladder.large and best_price(ladder, found) <= _CONTENT * ladder.enough
+    return ladder.large and best_price(ladder, candidates) <= _CONTENT * ladder.enough
 
 
-def best_price(ladder: Ladder, found: list[Candidate]) -> float:
+def best_price(ladder: Ladder, candidates: list[Candidate]) -> float:
     """The lowest price; infinite without candidates."""
-    return min((_price(ladder, each) for each in found), default=np.inf)
+    return min((_price(ladder, each) for each in candidates), default=np.inf)
 
 
 # The steps of the ladder: starts of static gains, of low orders and of all agents together.
@@ -248,7 +248,7 @@ _STATIC = "static gains"
 
 
 def steps_of(
-    ladder: Ladder, found: list[Candidate], later: list[tuple[float, Start]]
+    ladder: Ladder, candidates: list[Candidate], later: list[tuple[float, Start]]
 ) -> Iterator[Iterable[Start]]:
     """Yield the starts of each step, from the lowest order to the highest.
 
@@ -272,14 +272,14 @@ def steps_of(
         observers = [each for each in observers if each.problem.order > problem.order]
         if problem.order > 2 * problem.n or problem.size > _MOST_ENTRIES:
             break
-        before = best_price(ladder, found)
+        before = best_price(ladder, candidates)
         yield _alone(ladder, static, parts[1], order)
-        yield _drawn(ladder, problem, order, [*found, *(draft for _, draft in later)])
-        if _BETTER * before < best_price(ladder, found) < _GOOD * ladder.enough:
+        yield _drawn(ladder, problem, order, [*candidates, *(draft for _, draft in later)])
+        if _BETTER * before < best_price(ladder, candidates) < _GOOD * ladder.enough:
             return
     yield observers
     # It takes long to construct, and is hardly ever a better start than what was found.
-    small = static.n <= (_SMALL if found else MOST_STATES)
+    small = static.n <= (_SMALL if candidates else MOST_STATES)
     proposed = ladder.theorem() if small else None
     if proposed is not None:
         problem, K = problem_of(*proposed, ladder.weights, ladder.sizes)
@@ -296,9 +296,9 @@ def _drawn(
 ) -> Iterator[Start]:
     """Yield drawn starts of one order, with and without the static gains that were found."""
     static = next((each for each in known if each.step == _STATIC), None)
-    given = None if static is None else (static.problem, static.K)
+    gains = None if static is None else (static.problem, static.K)
     for seed in range(ladder.seeds):
-        K = drawn_dynamics(problem, seed, None if seed % 2 else given)
+        K = drawn_dynamics(problem, seed, None if seed % 2 else gains)
         yield Start(f"order {order} per agent, seed {seed}", problem, K)
 
 
@@ -307,12 +307,12 @@ def _alone(
 ) -> Iterator[Start]:
     """Yield the controllers that agents find for their own parts, if any of them finds one."""
     network = static.network
-    orders = (order,) * network.given.m
+    orders = (order,) * network.plant.m
     problem = ladder.problem((network, orders))
-    made = found_alone(parts, order, ladder.target, ladder.effort.part(0.05))
-    if any(part is not None for part in made):
-        K, drawn = with_private_parts(problem, made), drawn_dynamics(problem, 0)
-        for agent, part in zip(problem.agents, made, strict=True):
+    alone = found_alone(parts, order, ladder.target, ladder.effort.part(0.05))
+    if any(part is not None for part in alone):
+        K, drawn = with_private_parts(problem, alone), drawn_dynamics(problem, 0)
+        for agent, part in zip(problem.agents, alone, strict=True):
             K[agent.updates] = drawn[agent.updates]
             if part is None:
                 K[agent.private_rows] = drawn[agent.private_rows]
@@ -377,18 +377,18 @@ def _local_observers(
     ladder: Ladder, static: FeedbackProblem, parts: list[list[Locality]]
 ) -> list[Start]:
     """The optimal controllers of the agents' own parts, where they are not too large."""
-    found = []
+    starts = []
     for each in parts:
-        made = local_observers(each, shift_of(ladder.target.region))
-        orders = [0 if part is None else len(part[0]) for part in made]
+        observers = local_observers(each, shift_of(ladder.target.region))
+        orders = [0 if part is None else len(part[0]) for part in observers]
         problem = ladder.problem((static.network, tuple(orders)))
         if not 0 < sum(orders) <= max(2 * problem.n, 8) or problem.size > _MOST_ENTRIES:
             continue
-        K = with_private_parts(problem, made)
+        K = with_private_parts(problem, observers)
         updates = np.concatenate([agent.updates for agent in problem.agents])
         K[updates] = drawn_dynamics(problem, 0)[updates]
-        found.append(Start("local observers", problem, balanced(problem, K)))
-    return found
+        starts.append(Start("local observers", problem, balanced(problem, K)))
+    return starts
 
 
 def _rank(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> Rank:
@@ -424,19 +424,19 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     much of the effort a step has only one; if its cost is far too high it is followed after all
     other steps, unless its agents are tied.  A draft of hopeless cost always comes last.
     """
-    found: list[Candidate] = []
+    candidates: list[Candidate] = []
     later: list[tuple[float, Start]] = []
-    for step in steps_of(ladder, found, later):
+    for step in steps_of(ladder, candidates, later):
         drafts, dear = list[tuple[float, Start]](), False
         for start in filter(lambda each: ladder.allows(each.problem), step):
             if ladder.effort.over:
                 break
             ladder.tell(start.step)
-            found += _as_it_is(ladder, start)
+            candidates += _as_it_is(ladder, start)
             before = ladder.effort.left
             value, draft = _draft(ladder, start)
-            if value <= ladder.enough and _finish(ladder, draft, found):
-                return found
+            if value <= ladder.enough and _finish(ladder, draft, candidates):
+                return candidates
             if np.isfinite(value) and value > ladder.enough:
                 drafts.append((value, draft))
                 dear = ladder.effort.left < (1 - _DEAR) * before
@@ -447,22 +447,22 @@ def climbed(ladder: Ladder) -> list[Candidate]:
             waits = dear and draft.problem.ties is None
             if value > (_GOOD_ENOUGH if waits else _HOPELESS) * ladder.enough:
                 later.append((value, draft))
-            elif _finish(ladder, draft, found):
-                return found
-        if contents(ladder, found):
-            return found
+            elif _finish(ladder, draft, candidates):
+                return candidates
+        if contents(ladder, candidates):
+            return candidates
     for _, draft in sorted(later, key=lambda each: each[0])[: 2 * _KEPT]:
-        if _finish(ladder, draft, found):
+        if _finish(ladder, draft, candidates):
             break
-    return found
+    return candidates
 
 
 def _as_it_is(ladder: Ladder, start: Start) -> list[Candidate]:
     """A start inside the region, which is a candidate: descent may end with a higher price."""
     if not ladder.target.reached(bound_of(start.problem, start.problem.entries(start.K))):
         return []
-    made = _candidate(ladder, start.step, start.problem.untied, start.K)
-    return [] if made is None else [made]
+    candidate = _candidate(ladder, start.step, start.problem.untied, start.K)
+    return [] if candidate is None else [candidate]
 
 
 def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:
@@ -484,35 +484,35 @@ def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:
     return min(cost, value), replace(start, K=K)
 
 
-def _finish(ladder: Ladder, draft: Start, found: list[Candidate]) -> bool:
+def _finish(ladder: Ladder, draft: Start, candidates: list[Candidate]) -> bool:
     """Follow a draft to the end, append the results, and return whether one is good enough.
 
     If agents that look alike are tied, and no result is good enough, the ties are removed and the
     search goes on.
     """
-    before = len(found)
-    if _followed(ladder, draft, found):
+    before = len(candidates)
+    if _followed(ladder, draft, candidates):
         return True
     problem = draft.problem.untied
-    made = ranked(ladder, found[before:])
-    if not made or problem.ties is draft.problem.ties or problem.size > _MOST_FREED:
+    freed = ranked(ladder, candidates[before:])
+    if not freed or problem.ties is draft.problem.ties or problem.size > _MOST_FREED:
         return False
-    if contents(ladder, made):
+    if contents(ladder, freed):
         return False
-    return _followed(ladder, Start(draft.step, problem, made[0].K), found)
+    return _followed(ladder, Start(draft.step, problem, freed[0].K), candidates)
 
 
-def _followed(ladder: Ladder, draft: Start, found: list[Candidate]) -> bool:
+def _followed(ladder: Ladder, draft: Start, candidates: list[Candidate]) -> bool:
     """Follow a draft in its problem, as `_finish` does."""
     problem = draft.problem
-    if ladder.effort.over and found:
+    if ladder.effort.over and candidates:
         return False
     part = ladder.effort.part(0.4 if problem.ties is None else 0.8)
     for x in polished(problem, problem.entries(draft.K), ladder.target, part):
-        made = _candidate(ladder, draft.step, problem.untied, problem.gain(x))
-        if made is not None:
-            found.append(made)
-            if ladder.fine(made.figures) and ladder.keeps(made.problem, made.K):
+        candidate = _candidate(ladder, draft.step, problem.untied, problem.gain(x))
+        if candidate is not None:
+            candidates.append(candidate)
+            if ladder.fine(candidate.figures) and ladder.keeps(candidate.problem, candidate.K):
                 return True
     return False
 
@@ -546,14 +546,14 @@ class Family:
 
     def of_order(self, order: int | Sequence[int]) -> Structure:
         """Return the structure in which every agent has a state of at least some order."""
-        network, none = self.network, (0,) * self.network.given.m
-        orders = (order,) * network.given.m if isinstance(order, int) else tuple(order)
+        network, none = self.network, (0,) * self.network.plant.m
+        orders = (order,) * network.plant.m if isinstance(order, int) else tuple(order)
         if network.graph is None or self.share is None:
             return network, orders
         if not any(orders):
             return network, none
         sizes = [max(pair) for pair in zip(orders, network.dimensions, strict=True)]
-        wider = shared_network(network.given, network.graph, sizes, self.share, network.kind)
+        wider = shared_network(network.plant, network.graph, sizes, self.share, network.kind)
         return wider, none
 
     def theorem(self, request: Request) -> NetworkController | None:
@@ -625,10 +625,10 @@ def target_of(request: Request, central: Figures | None, aims: Aims) -> Target:
     return Target(request.region, largest, aims.margin, aims.shape)
 
 
-def _effort(given: float | None, states: int, central: Figures | None, target: Target) -> Effort:
+def _effort(seconds: float | None, states: int, central: Figures | None, target: Target) -> Effort:
     """Convert the effort from seconds to units; by default it grows with the number of states."""
-    if given is not None:
-        return Effort(given * PER_SECOND)
+    if seconds is not None:
+        return Effort(seconds * PER_SECOND)
     grown = max(min((states / _GROWS) ** 2, _MOST_TIMES), (states / _GROWS_WITH_CUBE) ** 3)
     units = _EFFORT * (1 + grown)
     # What is fragile even in one hand does not become robust by a longer search.
@@ -677,9 +677,9 @@ def optimum(
     >>> found.step, found.figures.order, found.figures.bound < -1
     ('static gains', 0, True)
     """
-    given, aims = family.network.given, aims or Aims()
-    weights = weights or Weights.of(given, aims.weights)
-    known = diagnosis or diagnosed(given, request.region, weights, family.network.system)
+    plant, aims = family.network.plant, aims or Aims()
+    weights = weights or Weights.of(plant, aims.weights)
+    known = diagnosis or diagnosed(plant, request.region, weights, family.network.system)
     central = known.central
     figures = None if central is None else central.figures
     target = target_of(request, figures, aims)
@@ -689,7 +689,7 @@ def optimum(
         weights,
         target,
         np.inf if figures is None else _ENOUGH * figures.cost,
-        _effort(aims.effort, given.n, figures, target),
+        _effort(aims.effort, plant.n, figures, target),
         None if central is None else central.sizes,
         seeds=aims.seeds,
         most_digits=aims.digits,
@@ -697,11 +697,11 @@ def optimum(
         tell=request.tell,
     )
     with quiet_floats():
-        found = climbed(ladder)
-    if not found:
+        candidates = climbed(ladder)
+    if not candidates:
         raise LimitReached(f"no controller was found for {request.region}: {known}")
     limit = LimitReached("")
-    for each in ranked(ladder, found)[:_CERTIFIED]:
+    for each in ranked(ladder, candidates)[:_CERTIFIED]:
         try:
             return with_few_digits(each, target, figures, aims.digits)
         except LimitReached as reached:
@@ -710,7 +710,7 @@ def optimum(
 
 
 def with_few_digits(
-    found: Candidate, target: Target, central: Figures | None, most: int | None = None
+    candidate: Candidate, target: Target, central: Figures | None, most: int | None = None
 ) -> Optimum:
     """Round a controller to the least number of digits that the gate certifies, and one more.
 
@@ -733,7 +733,7 @@ def with_few_digits(
     At least three digits are kept, unless these are too many or are not certified and fewer are,
     and up to two more where the margin needs them.
     """
-    problem, K, least = found.problem, found.K, None
+    problem, K, least = candidate.problem, candidate.K, None
     for digits in range(1, min(_MOST_TRIED, most or _MOST_TRIED) + 1):
         if _certified(problem, rounded(K, digits), target):
             least = digits
@@ -746,25 +746,25 @@ def with_few_digits(
     if least is not None:
         kept = max(least + 1, _LEAST_STORED)
         tried = [min(kept + k, most or _MOST_TRIED) for k in range(_MORE)]
-        K = _stored(found, target, least, tried)
-    return Optimum(found.step, problem, K, least, figures_of(problem, K), central)
+        K = _stored(candidate, target, least, tried)
+    return Optimum(candidate.step, problem, K, least, figures_of(problem, K), central)
 
 
-def _stored(found: Candidate, target: Target, least: int, tried: Iterable[int]) -> Floats:
+def _stored(candidate: Candidate, target: Target, least: int, tried: Iterable[int]) -> Floats:
     """Round to the first number of digits with which the margin is as aimed at, if it was before.
 
     Otherwise to the first number with which the loop stays in the region, or else to the least.
     """
-    problem, first = found.problem, None
-    robust = found.figures.margin >= target.margin
+    problem, first = candidate.problem, None
+    robust = candidate.figures.margin >= target.margin
     for digits in tried:
-        stored = rounded(found.K, digits)
+        stored = rounded(candidate.K, digits)
         if not target.keeps(problem, problem.entries(stored)):
             continue
         if not robust or figures_of(problem, stored, peak=False).margin >= target.margin:
             return stored
         first = stored if first is None else first
-    return rounded(found.K, least) if first is None else first
+    return rounded(candidate.K, least) if first is None else first
 
 
 def _certified(problem: FeedbackProblem, K: Floats, target: Target) -> bool:
@@ -774,23 +774,23 @@ def _certified(problem: FeedbackProblem, K: Floats, target: Target) -> bool:
     network = problem.network
     proposal = Proposal(controller_of(problem, K))
     try:
-        certify(network.given, proposal, target.region, network.graph)
+        certify(network.plant, proposal, target.region, network.graph)
     except (Impossible, UsageError):
         return False
     return True
 
 
-def proposal_of(found: Optimum) -> Proposal:
+def proposal_of(result: Optimum) -> Proposal:
     """Return the proposal of a search, with its parts."""
-    network = found.problem.network
-    given = network.given
+    network = result.problem.network
+    plant = network.plant
     parts = {
         "network": network.kind,
-        "dimensions": dict(zip(given.names, network.dimensions, strict=True)),
-        "observer_order": given.n * given.m + given.m - 1,
-        "optimum": found,
+        "dimensions": dict(zip(plant.names, network.dimensions, strict=True)),
+        "observer_order": plant.n * plant.m + plant.m - 1,
+        "optimum": result,
     }
-    return Proposal(found.controller, parts=parts)
+    return Proposal(result.controller, parts=parts)
 
 
 def searched_proposals(
@@ -831,8 +831,8 @@ def searched_proposals(
     `Warned`.
     """
     network, aims = family.network, aims or Aims()
-    weights = weights or Weights.of(network.given, aims.weights)
-    about = network.given, request.region, weights, network.system
+    weights = weights or Weights.of(network.plant, aims.weights)
+    about = network.plant, request.region, weights, network.system
     if not aims.searched_for(request):
         try:
             yield from network_proposals(network, request)
@@ -853,25 +853,27 @@ def searched_proposals(
         request.tell(Warned(f"{request.region} is hard for all agents together: {known}"))
     more: dict[str, Any] = {"fixed_spectrum": fixed, "diagnosis": known}
     try:
-        found = optimum(family, request, aims, weights=weights, diagnosis=known)
+        result = optimum(family, request, aims, weights=weights, diagnosis=known)
     except LimitReached as limit:
         if aims.largest_order is not None or aims.digits is not None or request.region.limits:
             raise
         yield _of_the_theorem(family, request, limit, known)
         return
-    made = proposal_of(found)
-    yield Proposal(made.controller, parts={**made.parts, "kept": fixed.polynomial, **more})
+    proposal = proposal_of(result)
+    yield Proposal(proposal.controller, parts={**proposal.parts, "kept": fixed.polynomial, **more})
 
 
 def _of_the_theorem(
     family: Family, request: Request, limit: LimitReached, known: Diagnosis
 ) -> Proposal:
     """Return the controller of the theorem; the limit of the search if there is none either."""
-    if family.network.given.n > MOST_STATES:
+    if family.network.plant.n > MOST_STATES:
         raise limit
     request.tell("the controller of the theorem")
     try:
-        made = next(network_proposals(family.network, request))
+        proposal = next(network_proposals(family.network, request))
     except LimitReached:
         raise limit from None
-    return Proposal(made.controller, made.polynomials, parts={**made.parts, "diagnosis": known})
+    return Proposal(
+        proposal.controller, proposal.polynomials, parts={**proposal.parts, "diagnosis": known}
+    )

@@ -94,8 +94,8 @@ def riccati(model: Model, shift: float) -> Floats | None:
                 X = solve_continuous_are(A + shift * np.eye(len(A)), B, model.Q, model.R)
         except (LinAlgError, ValueError):
             return None
-    found = np.asarray(X, dtype=np.float64)
-    return found if np.all(np.isfinite(found)) else None
+    solution = np.asarray(X, dtype=np.float64)
+    return solution if np.all(np.isfinite(solution)) else None
 
 
 def regulator(model: Model, shift: float) -> Floats | None:
@@ -124,10 +124,10 @@ def regulator(model: Model, shift: float) -> Floats | None:
 def _solved(M: Floats, right: Floats) -> Floats | None:
     """Solve a linear system; None if that is impossible in floating point."""
     try:
-        found = np.asarray(np.linalg.solve(M, right), dtype=np.float64)
+        solution = np.asarray(np.linalg.solve(M, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         return None
-    return found if np.all(np.isfinite(found)) else None
+    return solution if np.all(np.isfinite(solution)) else None
 
 
 def regulated_covariance(model: Model, F: Floats) -> Floats | None:
@@ -147,17 +147,17 @@ def regulated_covariance(model: Model, F: Floats) -> Floats | None:
             S = solve_continuous_lyapunov(closed, -model.W)
     except (LinAlgError, ValueError):
         return None
-    found = np.asarray(S, dtype=np.float64)
-    return found if np.all(np.isfinite(found)) else None
+    covariance = np.asarray(S, dtype=np.float64)
+    return covariance if np.all(np.isfinite(covariance)) else None
 
 
 def output_gain(F: Floats, S: Floats, C: Floats) -> Floats | None:
     """Compute F S C'(C S C')⁺, the gain of y = C x that is nearest to F x in the mean."""
     try:
-        found = np.asarray(F @ S @ C.T @ np.linalg.pinv(C @ S @ C.T), dtype=np.float64)
+        gain = np.asarray(F @ S @ C.T @ np.linalg.pinv(C @ S @ C.T), dtype=np.float64)
     except np.linalg.LinAlgError:
         return None
-    return found if np.all(np.isfinite(found)) else None
+    return gain if np.all(np.isfinite(gain)) else None
 
 
 def estimator(model: Model, shift: float) -> Floats | None:
@@ -262,7 +262,7 @@ def localities(
     >>> [each.states for each in localities(problem, Weights.unit(plant))]
     [(0, 1), (2,)]
     """
-    n, given = problem.n, problem.network.given
+    n, plant = problem.n, problem.network.plant
     A, B, C = problem.A[:n, :n], problem.B[:n], problem.C[:, :n]
     sets = []
     for agent in problem.agents:
@@ -272,12 +272,12 @@ def localities(
             touched = touched | np.any(C[agent.own] != 0, axis=0)
         sets.append(set(map(int, np.flatnonzero(touched))))
     _adopt(np.abs(A) + np.abs(A).T, sets)
-    found, start = [], 0
+    parts, start = [], 0
     for i, (agent, states) in enumerate(zip(problem.agents, sets, strict=True)):
         s = np.array(sorted(states), dtype=np.intp)
         square, inputs = np.ix_(s, s), agent.inputs
-        outputs = np.arange(start, start + given.q(i))
-        start += given.q(i)
+        outputs = np.arange(start, start + plant.q(i))
+        start += plant.q(i)
         model = Model(
             A[square],
             B[np.ix_(s, inputs)],
@@ -288,8 +288,8 @@ def localities(
             weights.V[np.ix_(outputs, outputs)],
             problem.discrete,
         )
-        found.append(Locality(tuple(sorted(states)), model))
-    return found
+        parts.append(Locality(tuple(sorted(states)), model))
+    return parts
 
 
 def _adopt(coupling: Floats, sets: list[set[int]]) -> None:
@@ -462,19 +462,19 @@ def cut_gains(problem: FeedbackProblem, model: Model, shift: float) -> Floats | 
 
 def _outputs(agent: AgentPlaces) -> Places:
     """The columns of the outputs of the plant that an agent receives."""
-    found = [columns for (what, _), columns in agent.signals.items() if what == "y"]
-    return np.concatenate([np.zeros(0, dtype=np.intp), *found])
+    own = [columns for (what, _), columns in agent.signals.items() if what == "y"]
+    return np.concatenate([np.zeros(0, dtype=np.intp), *own])
 
 
 def held_states(parts: Sequence[Locality]) -> list[tuple[int, ...]]:
     """Give each state of some parts of the plant to the first agent that has it."""
-    given: set[int] = set()
-    found = []
+    taken: set[int] = set()
+    held = []
     for part in parts:
-        own = tuple(each for each in part.states if each not in given)
-        given.update(own)
-        found.append(own)
-    return found
+        own = tuple(each for each in part.states if each not in taken)
+        taken.update(own)
+        held.append(own)
+    return held
 
 
 def cut_observers(
@@ -542,13 +542,13 @@ def _updates(problem: FeedbackProblem) -> list[Places]:
 
 def _known(problem: FeedbackProblem, held: Sequence[tuple[int, ...]], i: int) -> dict[int, int]:
     """The columns of the estimates that agent i knows: its own, and those that it receives."""
-    agent, found = problem.agents[i], dict[int, int]()
+    agent, known = problem.agents[i], dict[int, int]()
     for (what, j), columns in agent.signals.items():
         if what == "x" and j != i:
-            found |= dict(zip(held[j], map(int, columns), strict=False))
+            known |= dict(zip(held[j], map(int, columns), strict=False))
     own = agent.signals.get(("x", i), np.zeros(0, dtype=np.intp))
     places = np.concatenate([own, agent.private_columns])
-    return found | dict(zip(held[i], map(int, places), strict=False))
+    return known | dict(zip(held[i], map(int, places), strict=False))
 
 
 # Equal programs for similar agents, which leave few entries to search.
@@ -611,7 +611,7 @@ def tied(problem: FeedbackProblem, weights: Weights) -> FeedbackProblem:
 
 def _alike(problem: FeedbackProblem, parts: list[Locality]) -> list[list[int]]:
     """Group the agents that look alike."""
-    found: dict[Hashable, list[int]] = {}
+    groups: dict[Hashable, list[int]] = {}
     m = len(problem.agents)
     for i, (agent, part) in enumerate(zip(problem.agents, parts, strict=True)):
         signals = tuple(
@@ -620,8 +620,8 @@ def _alike(problem: FeedbackProblem, parts: list[Locality]) -> list[list[int]]:
         sizes = len(agent.inputs), len(agent.updates), len(agent.private_rows)
         model = part.model
         entries = tuple(map(_pattern, (model.A, model.B, model.C)))
-        found.setdefault((sizes, frozenset(signals), entries), []).append(i)
-    return [*found.values()]
+        groups.setdefault((sizes, frozenset(signals), entries), []).append(i)
+    return [*groups.values()]
 
 
 def _stands(signal: tuple[str, int], i: int, m: int) -> tuple[str, int]:

@@ -18,7 +18,7 @@ NETWORKS = networks()
 def stable(kind: str) -> tuple[FeedbackProblem, np.ndarray]:
     """A problem with plain weights, its plant made stable, and small gains."""
     network = NETWORKS[kind]
-    given, rng = network.given, np.random.default_rng(2)
+    given, rng = network.plant, np.random.default_rng(2)
 
     def positive(size: int) -> np.ndarray:
         root = rng.standard_normal((size, size))

@@ -21,7 +21,7 @@ NETWORKS = networks()
 
 def problem(kind: str, sizes: Sizes | None = None) -> FeedbackProblem:
     network = NETWORKS[kind]
-    return FeedbackProblem.of(network, (1, 2, 0), Weights.unit(network.given), sizes)
+    return FeedbackProblem.of(network, (1, 2, 0), Weights.unit(network.plant), sizes)
 
 
 def drawn(of: FeedbackProblem, seed: int = 1) -> np.ndarray:
@@ -35,7 +35,7 @@ def polynomial(M: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("kind", NETWORKS)
 def test_the_loop_is_that_of_the_programs(kind):
     of = problem(kind)
-    K, given = drawn(of), of.network.given
+    K, given = drawn(of), of.network.plant
     loop = closed_loop(given, controller_of(of, K), of.network.graph)
     exact, found = matrix_to_float(loop.matrix), of.loop(of.entries(K))
     # The derived system may have states that no program uses, with the mode 0.
@@ -49,7 +49,7 @@ def test_the_loop_is_that_of_the_programs(kind):
 def test_a_controller_is_read_back_as_the_gain_matrix_that_it_was(kind):
     of = problem(kind)
     K = drawn(of)
-    again, found = problem_of(of.network, controller_of(of, K), Weights.unit(of.network.given))
+    again, found = problem_of(of.network, controller_of(of, K), Weights.unit(of.network.plant))
     assert again.orders == of.orders
     assert np.array_equal(found, K)
 
