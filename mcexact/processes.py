@@ -1,4 +1,4 @@
-"""Child processes, which can be told from and ended at any moment, also inside compiled code.
+"""Child processes, which send messages and can be ended at any moment, also in compiled code.
 
 A child is a fork only where this process has a single thread: a fork of a process with threads may
 inherit locks that nobody releases, and every notebook, every thread pool and OpenBLAS has threads.
@@ -92,7 +92,7 @@ class Child:
         return _waited(self._process)
 
     def kill(self) -> None:
-        """End the process, whatever it does; who waits for a message of it gets an EOFError."""
+        """End the process, whatever it does; receiving from it then raises EOFError."""
         with contextlib.suppress(OSError):
             self._process.kill()
 
@@ -117,7 +117,7 @@ def _ended(process: Any, connection: Any) -> None:
 
 
 def may_fork() -> bool:
-    """Whether a fork is safe: on Linux, of a process with one thread, of which compiled code knows.
+    """Whether a fork is safe: on Linux, if the process has one thread, also in compiled code.
 
     Libraries of macOS do not survive a fork.
     """
@@ -156,7 +156,7 @@ def end_with_parent() -> None:
 
 
 def _error_reply(error: Exception) -> bytes:
-    """An error as it is sent; one that cannot be pickled by its text."""
+    """Pickle an error, or its text if the error itself cannot be pickled."""
     try:
         reply = pickle.dumps((False, error))
         pickle.loads(reply)

@@ -133,7 +133,7 @@ def closed_by(system: MultiChannelSystem, gains: Sequence[Matrix]) -> Matrix:
     ----------
     system : MultiChannelSystem
     gains : sequence of m Matrix
-        F_i, p_i×q_i; `checked_gains` makes them of what a user gives.
+        F_i, p_i×q_i; `checked_gains` converts a user's gains.
     """
     fed = [F @ channel.C for channel, F in zip(system.channels, gains, strict=True)]
     return system.A + system.input_matrix() @ vstack(fed, ncols=system.n)
@@ -460,9 +460,9 @@ REARRANGING = frozenset(
         "restricted",
     }
 )
-"""The constructions whose results have entries of the system, 0 and 1 for entries."""
+"""The constructions whose results have no entries but 0, 1 and those of the system."""
 LINE = "line"
-"""The construction that comes before these."""
+"""The construction that puts the parameters on a line, before those of `REARRANGING`."""
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -686,7 +686,7 @@ def _line(
 def _number(
     entry: RationalFunction, known: dict[int, RationalFunction], free: Iterator[int]
 ) -> int:
-    """0 for 0, and else a number that stands for the entry from now on."""
+    """Return 0 for 0, and for any other entry the number that represents it."""
     if entry.is_constant and entry.value == 0:
         return 0
     k = next(free)

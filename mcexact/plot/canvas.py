@@ -12,7 +12,7 @@ from mcexact.exact.roots import is_discrete
 
 BLUE, RED, GRAY, LIGHT = "#1f4e79", "#b03a2e", "#888888", "#ebebeb"
 PANEL = 4.4, 3.5
-"""The size in inches of a picture that two of fit beside each other on a page."""
+"""The size in inches of a picture of which two fit beside each other on a page."""
 NAMED = 8
 """The largest number of curves that are named in a legend."""
 
@@ -51,17 +51,17 @@ def empty_figure(width: float, height: float) -> Any:
 
 
 def one_axis(ax: Any, width: float = 5.0, height: float = 3.8) -> Any:
-    """The given axes, or those of a new figure."""
+    """Return the axes ``ax``, or those of a new figure."""
     return empty_figure(width, height).subplots() if ax is None else ax
 
 
 def several_axes(ax: Any, count: int, width: float = 4.6, height: float = 3.6) -> list[Any]:
-    """The given axes, or those of a new figure, which lie side by side.
+    """Return a list of the axes ``ax``, or those of a new figure side by side.
 
     Raises
     ------
     UsageError
-        If the number of given axes is another.
+        If ``ax`` has another number of axes than ``count``.
     """
     if ax is None:
         return list(empty_figure(width * count, height).subplots(1, count, squeeze=False)[0])
@@ -79,9 +79,9 @@ def elapsed_label(time: str) -> str:
 def finished(
     axis: Any, title: str = "", across: str = "", up: str = "", *, columns: int = 2
 ) -> Any:
-    """Write what a picture shows and what its axes count, with the legend below; the figure.
+    """Set the title, the labels and the legend of a picture, and return its figure.
 
-    A legend that the axis has already stays.
+    A legend that the axis already has stays; a new one stands below the axis.
     """
     if title:
         axis.set_title(title, fontsize="medium")
@@ -110,7 +110,7 @@ def legend_below(axis: Any, columns: int = 2) -> None:
 
 
 def cut(text: str, longest: int) -> str:
-    """A name, without its middle if it is long: ends of names differ more often.
+    """Cut the middle out of a long name, since names differ more often at their ends.
 
     Examples
     --------
@@ -124,5 +124,5 @@ def cut(text: str, longest: int) -> str:
 
 
 def plain_label(text: str, longest: int = 24) -> str:
-    """A name that is not too long, in which a dollar sign does not start a formula."""
+    """Shorten a name, and escape its dollar signs, which would start formulas."""
     return cut(text, longest).replace("$", r"\$")

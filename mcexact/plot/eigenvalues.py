@@ -18,11 +18,11 @@ from mcexact.plot.canvas import BLUE, GRAY, LIGHT, RED, legend_below, one_axis
 
 _WIDE, _POWERS, _TICKS = 100.0, 3, 5
 _NEAR = 3
-"""So many times the largest eigenvalue, a circle is still in the picture."""
+"""A circle is drawn if its radius is at most this multiple of the largest modulus."""
 _SAMPLES = [10 ** (-each / 50) for each in range(401)]
-"""From 1 to 10⁻⁸."""
+"""A geometric sequence from 1 to 10⁻⁸."""
 _SEEN = 1 / 200
-"""The part of the picture's width from which on a disc is seen."""
+"""The least radius of a disc that is drawn, as a part of the picture's width."""
 
 
 @dataclass(frozen=True)
@@ -48,13 +48,13 @@ def points_of(source: Any) -> tuple[Point, ...]:
 
     Parameters
     ----------
-    found : Polynomial, object with ``polynomial``, or sequence of complex
+    source : Polynomial, object with ``polynomial``, or sequence of complex
         For a polynomial each root has a verified disc, and its multiplicity is exact.
 
     Raises
     ------
     UsageError
-        If it is something else.
+        If the object is neither of these.
 
     Examples
     --------
@@ -264,7 +264,7 @@ def _decades(least: float, largest: float) -> list[float]:
 
 
 def _draw_discs(axis: Any, points: Sequence[Point]) -> None:
-    """The discs that are large enough to be seen; where they lie is said of the others."""
+    """Draw the discs that are large enough to be seen; the legend names the largest radius."""
     from matplotlib.patches import Circle
 
     proved = [each for each in points if each.multiplicity is not None]

@@ -20,7 +20,7 @@ from mcexact.plot.canvas import BLUE, GRAY, NAMED, RED, finished, one_axis, plai
 _STEPS = 201
 _FINE = 301
 _REACH = Fraction(3)
-"""How far a parameter without a range is drawn on both sides of 0, or beyond what is found."""
+"""How far a parameter without a range is drawn on both sides of 0 or of its exceptional values."""
 
 
 def parameter_modes(
@@ -141,7 +141,7 @@ _STYLES = [(color, style) for style in ("-", "--", ":") for color in (RED, BLUE,
 
 
 def _span(bounds: Sequence[Any], marks: Sequence[float]) -> tuple[float, float]:
-    """The values to draw: the range, with room for what is found where it has no end."""
+    """The values to draw: the range; where it has no end, some more than the exceptional values."""
     low, high = bounds
     inside = [*(float(end) for end in bounds if end is not None), *marks]
     reach = max([float(_REACH), *(x - min(inside) for x in inside)]) / 3 if inside else 3.0

@@ -39,7 +39,7 @@ _BOUNDED = 4
 
 
 class Run(Protocol):
-    """What is shown of a trajectory."""
+    """The parts of a trajectory that are drawn."""
 
     @property
     def time(self) -> str: ...
@@ -244,7 +244,7 @@ _FRAGILE = 1 / 0.3
 
 
 class LoopCurves(Protocol):
-    """What the pictures show."""
+    """The curves of a stable loop that are drawn."""
 
     @property
     def region(self) -> StabilityRegion: ...
@@ -288,7 +288,7 @@ def loop(curves: LoopCurves, ax: Any = None) -> Any:
 
 
 def _panel(ax: Any, title: str) -> Any:
-    """The given axes, or new ones, with a title and a grid."""
+    """Return the axes ``ax``, or new ones, with a title and a grid."""
     axis = one_axis(ax, *PANEL)
     axis.set_title(title, fontsize="medium")
     axis.grid(visible=True, which="major", alpha=0.3)
@@ -349,7 +349,7 @@ def _over_time(axis: Any, curves: LoopCurves, values: list[float], label: str) -
 
 
 def steps(curves: LoopCurves, ax: Any = None) -> Any:
-    """Draw outputs that step to their set-points; those beyond some are not named."""
+    """Draw the step response of every output; the first eight are named."""
     axis = _panel(ax, "Step responses")
     for k, (name, values) in enumerate(curves.steps):
         label = plain_label(name) if k < NAMED else None

@@ -521,7 +521,7 @@ def _as_printed(plant: MultiChannelSystem) -> bool:
 
 
 def _neighbors_of_the_example(note: Notebook, plant: MultiChannelSystem) -> None:
-    """Small changes of the example, after which it says something else."""
+    """Small changes of the example that change its conclusion."""
     note.on(f"{PAPER}, with A_32 = 0")
     still = MultiChannelSystem(
         Matrix.identity(3),

@@ -2,7 +2,7 @@
 
 There are three sources of plants: the example of section IV-B (`three_channels`), small named
 plants that refute a false statement or show what drawn plants do not, and drawn plants with their
-seed in the name, so that every instance can be made again.
+seed in the name, so that every instance can be reproduced.
 
 The equations of the paper's constructions are evaluated at vectors of small integers, from the
 plant alone: `messages_agree`, `errors_agree` and `integrators_agree` do not use the code that
@@ -43,7 +43,7 @@ PROPER_SUBSETS: dict[int, tuple[tuple[int, ...], ...]] = {
     3: ((0,), (1,), (2,), (0, 1), (0, 2), (1, 2)),
     4: ((0,), (1,), (2,), (3,), *_PAIRS_OF_FOUR, (0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)),
 }
-"""The same for two, three and four channels, by positions."""
+"""The nonempty proper subsets of two, three and four channels, by positions."""
 
 
 def three_channels(time: str = "continuous", delay: int = 0) -> MultiChannelSystem:

@@ -387,7 +387,7 @@ class Notebook:
     matrices : list of (str, str, rows)
         Instances with their neighbor sets, and their matrices by name, with the entries as texts.
     broken : str
-        Empty, or why the examination came to no end.
+        Empty, or the error with which the examination ended early.
     in_common : str
         What the instances have in common; set when the examination has ended.
     """
@@ -505,7 +505,7 @@ class Notebook:
 
     @property
     def holds(self) -> bool:
-        """Whether all checks hold, all certificates are VALID, and all false statements fall."""
+        """Whether all checks hold, certificates are VALID and false statements are refuted."""
         return not self.failure
 
 
@@ -527,7 +527,7 @@ def examined(key: str, procedure: Procedure) -> Notebook:
     ----------
     key : str
     procedure : callable
-        The function that fills the notebook it is given.
+        The function that fills the notebook.
     """
     notebook = Notebook(key)
     try:

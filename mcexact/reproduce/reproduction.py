@@ -158,7 +158,7 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
 
 
 def examine(section: int, keys: tuple[str, ...]) -> tuple[Notebook, ...]:
-    """Carry out the examinations of one section whose keys are given."""
+    """Carry out the examinations of one section that have these keys."""
     return tuple(
         examined(key, procedure) for key, procedure in SECTIONS[section][1].items() if key in keys
     )

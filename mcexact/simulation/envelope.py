@@ -3,7 +3,7 @@
 A simulation shows one trajectory and proves nothing beyond it.  `proved_envelope` adds bounds
 |y_k(t) − ȳ_k| ≤ c_k d(t) for all times, from a Lyapunov matrix of the loop that is certified
 exactly; the initial state and the point of rest are exact, and roundings go upwards.  There are no
-bounds where a signal changes during the run, or where no Lyapunov matrix is found.
+bounds if a signal changes during the run, or if the search for a Lyapunov matrix fails.
 `simulated_loop` joins a run with the spectrum of its loop, these bounds and warnings.
 """
 
@@ -92,8 +92,8 @@ def proved_envelope(run: Trajectory, spectrum: LoopSpectrum | None = None) -> En
     >>> from mcexact.model.system import MultiChannelSystem
     >>> from mcexact.simulation.trajectory import simulate
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> found = proved_envelope(simulate(plant, local_controllers(plant, [[[-3]]]), initial=[4]))
-    >>> found.bound, [(int(rest), int(size)) for rest, size in found.outputs]
+    >>> envelope = proved_envelope(simulate(plant, local_controllers(plant, [[[-3]]]), initial=[4]))
+    >>> envelope.bound, [(int(rest), int(size)) for rest, size in envelope.outputs]
     (Fraction(9, 5), [(0, 4)])
     >>> proved_envelope(simulate(plant, local_controllers(plant, [[[0]]]))) is None
     True

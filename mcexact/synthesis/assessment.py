@@ -11,7 +11,7 @@ the verdict of an `Assessment` follows from them:
   what is sensible;
 - "Worth installing": none of these.
 
-The figures are floating point; what is proved, or open, is said to be so.
+The figures are computed in floating point.  The verdict names what is proved and what is open.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ _OPEN = "stability is not proved for everything within the given uncertainty"
 
 @dataclass(frozen=True)
 class Link:
-    """A link that a controller uses, with how many numbers it carries at each step.
+    """A link that a controller uses, and the count of numbers that it carries at each step.
 
     Attributes
     ----------
@@ -136,7 +136,7 @@ class Assessment(Shown):
 
     @property
     def relative_cost(self) -> float:
-        """The cost divided by that of this controller; NaN if it is not known."""
+        """The cost divided by that of `central`; NaN if either is not known."""
         return np.nan if self.central is None else self.figures.cost / self.central.cost
 
     @cached_property

@@ -106,7 +106,7 @@ def certify_controller(
     Raises
     ------
     InputError
-        If the system or the controller is something else.
+        If the system is no `MultiChannelSystem` or the controller no `Controller`.
     UsageError
         If the rate or radius is out of range or for the other time domain, or the method is
         inconclusive.
@@ -213,7 +213,7 @@ def enclosed_outside(verdict: StabilityVerdict) -> RootDisc | None:
 
     Parameters
     ----------
-    found : StabilityVerdict
+    verdict : StabilityVerdict
 
     Returns
     -------
@@ -224,8 +224,8 @@ def enclosed_outside(verdict: StabilityVerdict) -> RootDisc | None:
     --------
     >>> from mcexact.model.statespace import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> found = certify_controller(plant, local_controllers(plant, [[[-3]]]), largest_modulus=1)
-    >>> enclosed_outside(found)
+    >>> verdict = certify_controller(plant, local_controllers(plant, [[[-3]]]), largest_modulus=1)
+    >>> enclosed_outside(verdict)
     RootDisc(re='-2', im='0', radius='0')
     """
     if verdict.stable or verdict.about.n > POLYNOMIAL_LIMIT:
@@ -245,7 +245,7 @@ def account_of_verdict(
 
     Parameters
     ----------
-    found : StabilityVerdict
+    verdict : StabilityVerdict
     largest : bool
         Whether its rate (radius) is the largest (least) that was found.
     every_loop : BoxStability, optional
@@ -333,7 +333,7 @@ def _ends(controller: Controller, digits: int) -> list[tuple[Fraction, Fraction]
 
 
 def _with_entries(controller: Controller, entries: Iterable[int | Fraction]) -> Controller:
-    """The controller with other entries, in the order of those that are not 0."""
+    """Replace the nonzero entries of the controller, in their order."""
     values = iter(entries)
 
     def of(M: Matrix) -> Matrix:
@@ -403,16 +403,16 @@ def _places(signals: LoopPencil, count: int) -> tuple[list[int], list[int]]:
 
 @dataclass(frozen=True)
 class SafeDigits:
-    """The digits that are enough, and those that are too few.
+    """Two numbers of digits: one that is enough, and one that is too small.
 
     Attributes
     ----------
     safe : int or None
-        With so many significant digits every rounding of the entries is certified; None if that was
-        proved for no number of digits up to the one asked for.
+        A number of significant digits for which every rounding of the entries is certified; None if
+        no number up to the one asked for has a proof.
     proof : BoxStability or None
     unsafe : int or None
-        The largest number of digits for which a rounding was found that fails; None if none was.
+        The largest number of digits of a rounding that is proved to fail; None if none is known.
     rounded : Controller or None
         The controller with this rounding.
     refutation : StabilityVerdict or None
@@ -459,8 +459,8 @@ def safe_digits(
     --------
     >>> from mcexact.model.statespace import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> found = safe_digits(plant, local_controllers(plant, [[["-1.04"]]]))
-    >>> found.safe, found.unsafe
+    >>> digits = safe_digits(plant, local_controllers(plant, [[["-1.04"]]]))
+    >>> digits.safe, digits.unsafe
     (3, 2)
     """
     bound: dict[str, Any] = {"rate": rate, "radius": radius}

@@ -3,8 +3,8 @@
 For a rate or a radius, `design_decentralized` and `design_extended` search controllers of low order
 in floating point, and fall back to the controller of the theorem if the search finds none: its
 dynamics are all in one agent of each strong component, and it is often fragile.  For a prescribed
-spectrum, or a named agent, the controller of the theorem is made at once.  A fixed mode that is too
-slow is a refusal with a certificate.
+spectrum, or a named agent, the controller of the theorem is constructed without a search.  A fixed
+mode that is too slow is a refusal with a certificate.
 
 Over links with delays, `design_extended` designs for the lifted and for the held network if a
 search can use both and none was named, and keeps the cheaper one with a sufficient margin.
@@ -198,8 +198,8 @@ def design_extended(
     >>> from mcexact.model import gallery
     >>> plant = gallery.load("liu2020-3ch-no-communication")
     >>> ring = NeighborGraph.ring(plant.names)
-    >>> found = design_extended(plant, ring, spectrum=[-1, -1, -2, -2])
-    >>> found.parts["dimensions"], found.order, found.parts["observer_order"]
+    >>> design = design_extended(plant, ring, spectrum=[-1, -1, -2, -2])
+    >>> design.parts["dimensions"], design.order, design.parts["observer_order"]
     ({'1': 0, '2': 0, '3': 1}, 1, 11)
     >>> design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
     Traceback (most recent call last):

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from mcexact.analysis.boxes.failure import FAILING
 from mcexact.analysis.stability import certify_stability
@@ -23,11 +23,10 @@ from mcexact.floating.margins import loop_margins
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.plot.responses import loop as loop_figure
 from mcexact.synthesis.gate import Arithmetic, CertifiedLoop, Proposal, Request, first_certified
-from mcexact.synthesis.optimum.diagnosis import bound_of_eigenvalues
-
-if TYPE_CHECKING:
-    from mcexact.synthesis.robustness import EveryLoop
+from mcexact.synthesis.optimum.diagnosis import bound_of_eigenvalues, curves_of
+from mcexact.synthesis.robustness import EveryLoop, every_loop
 
 Method = Literal["decentralized", "observer", "extended"]
 
@@ -53,7 +52,7 @@ class Design(ShownByAccount):
     certificates : mapping
         All certificates, keyed by the names of their files.
     parts : mapping
-        What the method made the controller of, and ``"solvability"`` where it holds set-points:
+        The parts of the controller by name, and ``"solvability"`` if it holds set-points:
 
         - observer: ``feedback`` (F_i), ``observer_gains`` ([K_i, H_ij …]), ``estimated`` (L: the
           agents estimate L x); with a channel controller also ``agent`` (who carries it) and
@@ -125,15 +124,13 @@ class Design(ShownByAccount):
         Returns
         -------
         EveryLoop
-            Where the plant has radii, about all plants within them; otherwise about a part of its
-            entries that is found with little work.
+            If the plant has radii, the box has these.  Otherwise each radius is the same part of
+            its entry, which the search chooses.
         """
-        from mcexact.synthesis.robustness import every_loop
-
         return every_loop(self.loop.closed, self.region, effort)
 
     def account_with(self, around: EveryLoop | None) -> Account:
-        """The same certificates, and the one about all loops in a box, if there is one."""
+        """Return the account with a certificate about all loops in a box, if there is one."""
         facts: dict[str, Any] = {
             "method": self.method,
             "arithmetic": self.arithmetic,
@@ -174,13 +171,10 @@ class Design(ShownByAccount):
         Computed in floating point, not certified; the page of ``mcexact design --html`` shows the
         same.  `Controller.plot` draws the gains, and `Trajectory.plot` what `simulate` returns.
         """
-        from mcexact.plot.responses import loop
-        from mcexact.synthesis.optimum.diagnosis import curves_of
-
         curves = curves_of(self.loop.closed, self.region)
         if curves is None:
             raise UsageError("the loop is not stable: there are no curves of its return to rest")
-        return loop(curves, ax)
+        return loop_figure(curves, ax)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the design as plain data; a polynomial is a list of its coefficients."""
@@ -234,7 +228,7 @@ def designed(
 
 
 def _is_inside(loop: CertifiedLoop, region: StabilityRegion) -> bool:
-    """Whether every eigenvalue of a loop lies in a region, which its certificates say."""
+    """Whether the certificates of a loop prove that every eigenvalue lies in a region."""
     return loop.polynomial is None or region.contains_roots_of(loop.polynomial)
 
 

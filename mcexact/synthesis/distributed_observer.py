@@ -163,7 +163,7 @@ def best_agreeing(
 
     The larger γ, the nearer are all x_i to one estimate with the derivative
     (A + BF) x + L (y − C x), which is that of the optimal controller.  In discrete time they are
-    drawn once in each step, by a part of their differences that grows no difference::
+    corrected once in each step, by a part of their differences that lets no difference grow::
 
         x_i⁺ = (A + BF) x_i + A L_i (y_i − C_i x_i)/w_i + γ A Σ_j (x_j − x_i),    γ ≤ 1/(1 + d)
 
@@ -239,8 +239,8 @@ def _optimal(
     for digits in _DIGITS:
         short = _short(F, digits)
         if is_within(model.A + model.B @ short, region):
-            F = matrix_from_float(short, "decimal", where="F")
-            return split_by_channel(system, F), injections
+            exact = matrix_from_float(short, "decimal", where="F")
+            return split_by_channel(system, exact), injections
     return None
 
 
@@ -377,7 +377,7 @@ def design_observer(
         "exact" assigns the whole spectrum, for small systems.  "float" designs for a rate or a
         radius, with a proof that is exact as well (`float_proposals`).
     progress : callable, optional
-        Is told, in a few words, what is being done.
+        A function that is called with a short description of each step.
 
     Returns
     -------

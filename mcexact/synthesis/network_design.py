@@ -70,7 +70,7 @@ class NetworkTask:
         return next(c for c, members in enumerate(self.components) if channel in members)
 
     def polynomial(self, channel: int, own: Polynomial, degree: int, *, only: bool) -> Polynomial:
-        """The polynomial of the block with this channel: prescribed, or near its own."""
+        """The polynomial to assign to the block of this channel: prescribed, or near its own."""
         if self.prescribed is None:
             return scaled_polynomial(own, self.request.region, degree)
         if only and not isinstance(self.prescribed, Mapping):

@@ -4,7 +4,7 @@ A request without a rate gets half the sensible one as a rule; this is the faste
 controller for all agents can afford (`optimum.diagnosis`).  `request_for` chooses it.  Agents that
 know less can be too slow for it, so `at_a_robust_rate` designs for smaller and smaller parts of a
 chosen rate until the loop has a margin of 0.3, and otherwise keeps the loop with the largest
-margin.  A rate that was given is never changed.
+margin.  A prescribed rate is never changed.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def request_for(
         As in `Request.of`.
     aims : Aims, optional
     controlled : MultiChannelSystem, optional
-        The system with integrators whose sensible rate counts, if it is not the given one.
+        The plant with integrators, if its sensible rate counts and not that of the system.
     avoids_fixed_modes : bool
         Whether a chosen rate is slow enough for the stable fixed modes of the system.
 
@@ -136,8 +136,8 @@ def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> D
     Returns
     -------
     Design
-        The first with a margin of 0.3, or the one with the largest margin; a controller that was
-        not searched is not made again.  A rate that was given stays.
+        The first with a margin of 0.3, or else the one with the largest margin.  A design without a
+        search is not repeated, and a prescribed rate stays.
 
     Raises
     ------
@@ -148,8 +148,8 @@ def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> D
     -----
     The sensible rate is that of one controller for all agents; agents that know less than it can be
     too slow for half of it.  Where already this controller is fragile, a search that aims at a
-    margin can find a robust one for a slower rate all the same.  Where it is robust, and no loop
-    that was found is, an eighth and a sixteenth of the rate are tried, too.
+    margin can find a robust one for a slower rate all the same.  If it is robust but no loop of the
+    search is, an eighth and a sixteenth of the rate are tried, too.
     """
     best, failed = None, None
     for trial in range(_MORE_HALVINGS + 1):

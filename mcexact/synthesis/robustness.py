@@ -30,9 +30,9 @@ from mcexact.shown import Shown
 WithinRadii = Literal["proved", "open", "refuted"]
 """What is known of all loops within the radii."""
 SIX_DIGITS = Fraction(1, 100_000)
-"""By so large a part rounding to six significant digits, up or down, changes a number at most."""
+"""The largest relative change of a number that is rounded to six digits, up or down."""
 _PARTS, _SURE = (0.9, 0.6, 0.3, 0.1), (0.3, 0.1)
-"""Parts of what seems to be the largest box that are tried, and those that are with little work."""
+"""The parts of the apparently largest box that are tried, and those tried with little work."""
 _POINTS = 2
 _MOST_SIGNALS, _MOST_SEGMENTS, _USUAL = 160, 600, 30
 """Loops with more states, outputs and inputs are left out; for each box at most so many parts of
@@ -71,12 +71,12 @@ class EveryLoop(Shown):
 
     @property
     def part(self) -> Fraction | None:
-        """The part of the modulus of each entry of the plant that its radius is in the proof."""
+        """The radius of each entry in the proof, divided by the modulus of the entry."""
         return None if self.proof is None else Box(self.proof.about.plant).part
 
     @property
     def within_radii(self) -> WithinRadii:
-        """Whether every loop within the radii of the plant is stable, where it has some."""
+        """Whether every loop within the radii of the plant is stable, if the plant has radii."""
         return known_within(self.proof, self.failing)
 
     def rows(self) -> Iterator[tuple[str, str]]:
@@ -174,8 +174,8 @@ def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -
     >>> from mcexact.model.system import MultiChannelSystem
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> loop = closed_loop(plant, local_controllers(plant, [[[-3]]]))
-    >>> found = every_loop(loop, StabilityRegion("continuous"))
-    >>> 0.2 < found.part < found.failing.distance < 0.4, found.gains == SIX_DIGITS
+    >>> loops = every_loop(loop, StabilityRegion("continuous"))
+    >>> 0.2 < loops.part < loops.failing.distance < 0.4, loops.gains == SIX_DIGITS
     (True, True)
     """
     whole = StabilityRegion(loop.given.time)

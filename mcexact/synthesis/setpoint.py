@@ -5,7 +5,7 @@ every output then is at its set-point.  It exists only if every set-point has an
 integrators leave all slow modes controllable and observable, which is decided first.
 
 The controller is that of `decentralized` or `distributed_observer` for the plant with integrators,
-taken as a plant, and `with_integrators` makes the integrators a part of the agents' own states.  By
+treated as a plant, and `with_integrators` moves the integrators into the agents' own states.  By
 default a controller of low order is searched, without communication if no fixed mode forbids this;
 a controller of a theorem comes next.
 """

@@ -95,8 +95,8 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
     --------
     >>> from fractions import Fraction
     >>> system = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
-    >>> found = state_feedback(system, Polynomial((Fraction(2), Fraction(3), Fraction(1))))
-    >>> found.gains[0].numerators
+    >>> feedback = state_feedback(system, Polynomial((Fraction(2), Fraction(3), Fraction(1))))
+    >>> feedback.gains[0].numerators
     ((-2, -3),)
     """
     controllable = joint_controllability(system)
@@ -108,7 +108,7 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
 
 
 def given_feedback(system: MultiChannelSystem, gains: tuple[Matrix, ...]) -> StateFeedback:
-    """Return given gains with the characteristic polynomial of A + Σ B_i F_i, which may be any.
+    """Return prescribed gains F_i with the characteristic polynomial of A + Σ B_i F_i.
 
     Parameters
     ----------
@@ -555,7 +555,7 @@ Root = tuple[Decimal, Decimal]
 
 
 def scaled_polynomial(own: Polynomial, region: StabilityRegion, degree: int) -> Polynomial:
-    """Return a polynomial with every root in a region, the most of them roots of a given one.
+    """Return a polynomial with every root in a region, and most roots those of ``own``.
 
     Parameters
     ----------
@@ -590,8 +590,8 @@ def scaled_polynomial(own: Polynomial, region: StabilityRegion, degree: int) -> 
     Examples
     --------
     >>> own = Polynomial.from_roots([-4, "1/3", 0])
-    >>> found = scaled_polynomial(own, StabilityRegion.of("continuous", rate="1/10"), 4)
-    >>> [float(-factor.coefficients[0]) for factor, _ in found.factor()]
+    >>> scaled = scaled_polynomial(own, StabilityRegion.of("continuous", rate="1/10"), 4)
+    >>> [float(-factor.coefficients[0]) for factor, _ in scaled.factor()]
     [-0.12, -0.33, -0.55, -4.0]
     """
     if degree < own.degree:

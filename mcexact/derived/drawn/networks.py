@@ -217,7 +217,7 @@ def _mesh(places: int) -> Iterator[tuple[int, int]]:
 
 
 def _hubs(choices: Choices, places: int) -> Iterator[tuple[int, int]]:
-    """The lines of a network in which each place is joined to two before, often to hubs."""
+    """The lines of a network in which each place is joined to two earlier ones, often to hubs."""
     ends = [0, 1]
     yield 0, 1
     for i in range(2, places):
@@ -231,7 +231,7 @@ def _hubs(choices: Choices, places: int) -> Iterator[tuple[int, int]]:
 def _swing(
     choices: Choices, plant: _Plant, lines: Iterator[tuple[int, int]], buses: int
 ) -> list[Fraction]:
-    """The states θ_i, ω_i of each bus; the inverse inertias are given back."""
+    """Add the states θ_i, ω_i of each bus, and return the inverse inertias."""
     inverse = [Fraction(1, choices.option((2, 4, 5, 8, 10))) for _ in range(buses)]
     for i, per_mass in enumerate(inverse):
         plant.add(2 * i, 2 * i + 1, 1)

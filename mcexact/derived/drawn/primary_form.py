@@ -180,7 +180,7 @@ class Draft:
         steps : int
             The number of elementary steps tried.
         bound : int
-            A step that makes an entry larger than this, and than it was, is left out.
+            A step is left out if an entry becomes larger than this and larger than before.
         """
         n = self.n
         if n < 2:
@@ -427,7 +427,7 @@ def draw_ports(
 
 
 def live(ports: Ports, channels: Collection[int]) -> int:
-    """The number of ports of those of the channels that are active."""
+    """The number of ports of the active channels."""
     return sum(owner in channels and owner not in ports.inactive for owner in ports.owners)
 
 

@@ -798,15 +798,15 @@ class Draw:
     states, channels : int
         n and m.
     fixed_degree : int or None
-        If given, the system has fixed modes, the roots of an irreducible factor of this degree.
+        The degree of an irreducible polynomial whose roots are fixed modes; None plants none.
     time : str
         ``"continuous"`` or ``"discrete"``.
     neighbors : bool
         Whether it has a strongly connected neighbor graph.
     deficiency : int or None
-        If given, it has one, over which the bound of Theorem 2 is this; n then follows.
+        The bound of Theorem 2 over a drawn neighbor graph, which determines n; None leaves it open.
     network : str or None
-        If given, the equations are those of this kind of network, and what is fixed is not known.
+        The kind of network whose equations the system has; its fixed modes are then not known.
     """
 
     seed: int
@@ -858,7 +858,7 @@ def drawn_system(draw: Draw) -> MultiChannelSystem:
 
 
 def _network(choices: Choices, draw: Draw, network: str) -> MultiChannelSystem:
-    """A network, which is as it is: nothing else about it can be prescribed."""
+    """Draw a network, about which nothing else can be prescribed."""
     if draw.fixed_degree is not None or draw.deficiency is not None:
         raise UsageError("a network has fixed modes or not: prescribe none, and no bound")
     if is_discrete(draw.time):
@@ -869,7 +869,7 @@ def _network(choices: Choices, draw: Draw, network: str) -> MultiChannelSystem:
 
 
 def _with_graph(choices: Choices, draw: Draw, system: MultiChannelSystem) -> MultiChannelSystem:
-    """The system with a strongly connected neighbor graph, if it is to have one."""
+    """Add a strongly connected neighbor graph to the system, if the draw asks for one."""
     if not draw.neighbors:
         return system
     return system.with_neighbors(drawn_graph(choices, system.names, strongly_connected=True))

@@ -12,8 +12,8 @@ damped or too fast.  It is infinite outside the region, so every descent has two
 
 Two more moves serve starts that are far from the region: `calmed` reduces what the agents do to the
 plant where this makes a loop faster, and `settled` lowers the cost of a stable loop outside the
-region, which long networks need.  `found_alone` runs the search for one agent and its own part of
-the plant.
+region, which long networks need.  `controllers_of_parts` runs the search for each agent and its own
+part of the plant.
 
 All of them use one method, BFGS with a line search that accepts infinite values, and count their
 work in an `Effort` instead of timing it, so that results do not depend on the load of the machine.
@@ -524,12 +524,12 @@ def inside(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) 
 _SEEDS = 4
 
 
-def found_alone(
+def controllers_of_parts(
     parts: Sequence[Locality], order: int, target: Target, effort: Effort
 ) -> list[Realization | None]:
     """Search a controller of some order for each agent's own part of the plant.
 
-    It is None for agents for which none was found.
+    The result is None for an agent whose search fails.
 
     Notes
     -----

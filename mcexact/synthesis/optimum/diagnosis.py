@@ -92,8 +92,8 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
     >>> from mcexact.model.system import MultiChannelSystem
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> loop = closed_loop(plant, local_controllers(plant, [[[-3]]]))
-    >>> found = figures_of_loop(loop, Weights.unit(plant))
-    >>> found.bound, round(found.margin, 3), round(found.cost, 3)
+    >>> figures = figures_of_loop(loop, Weights.unit(plant))
+    >>> figures.bound, round(figures.margin, 3), round(figures.cost, 3)
     (-2.0, 0.667, 2.815)
     """
     M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.given.time)
@@ -134,8 +134,8 @@ def sure_figures(loop: ClosedLoop, weights: Weights, integrators: Sequence[int] 
     >>> from mcexact.model.system import MultiChannelSystem
     >>> plant = MultiChannelSystem([[-1, 9], [0, -1]], [[[0], [1]]], [[[1, 0]]])
     >>> loop = closed_loop(plant, local_controllers(plant, [[[0]]]))
-    >>> found = sure_figures(loop, Weights.unit(plant))
-    >>> found.bound, found.damping, round(found.peak, 3)
+    >>> figures = sure_figures(loop, Weights.unit(plant))
+    >>> figures.bound, figures.damping, round(figures.peak, 3)
     (-1.0, 1.0, 3.351)
     """
     M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.given.time)
@@ -203,7 +203,7 @@ def loop_eigenvalues(M: Matrix, *, discrete: bool) -> Complexes | None:
 
 
 def bound_of_eigenvalues(M: Matrix, *, discrete: bool) -> float | None:
-    """Return the largest real part, or modulus, of `loop_eigenvalues`; None where these are."""
+    """Return the largest real part, or modulus, of `loop_eigenvalues`; None if these are None."""
     values = loop_eigenvalues(M, discrete=discrete)
     return None if values is None else _bound_of(values, discrete=discrete)
 
@@ -369,7 +369,7 @@ def input_rows(loop: ClosedLoop) -> Floats:
 
 
 def _inputs(loop: ClosedLoop) -> Matrix:
-    """The same, exactly."""
+    """Return U exactly, the rows of all inputs over the state of the loop."""
     agents = enumerate(loop.controller.agents)
     return vstack(
         [loop.rows(agent.input, i, loop.given.p(i)) for i, agent in agents], ncols=loop.dimension
@@ -531,8 +531,8 @@ def rounded_controller(controller: Controller, digits: int) -> Controller:
     >>> from mcexact.model.statespace import local_controllers
     >>> from mcexact.model.system import MultiChannelSystem
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> made = rounded_controller(local_controllers(plant, [[["-10/3"]]]), 3)
-    >>> made.agents[0].input.outputs[0].rows()
+    >>> rounded = rounded_controller(local_controllers(plant, [[["-10/3"]]]), 3)
+    >>> rounded.agents[0].input.outputs[0].rows()
     ((Fraction(-333, 100),),)
     """
     context = Context(prec=digits)
@@ -627,10 +627,10 @@ def curves_of(loop: ClosedLoop, region: StabilityRegion) -> Curves | None:
     >>> from mcexact.model.loop import closed_loop
     >>> from mcexact.model.system import MultiChannelSystem
     >>> plant, region = MultiChannelSystem([[1]], [[[1]]], [[[1]]]), StabilityRegion("continuous")
-    >>> found = curves_of(closed_loop(plant, local_controllers(plant, [[[-3]]])), region)
-    >>> round(max(found.sensitivity), 3), found.growth[0], found.growth[-1] < 0.01
+    >>> curves = curves_of(closed_loop(plant, local_controllers(plant, [[[-3]]])), region)
+    >>> round(max(curves.sensitivity), 3), curves.growth[0], curves.growth[-1] < 0.01
     (1.5, 1.0, True)
-    >>> found.effort[0], found.eigenvalues
+    >>> curves.effort[0], curves.eigenvalues
     (3.0, [(-2+0j)])
     >>> curves_of(closed_loop(plant, local_controllers(plant, [[[0]]])), region)
     """
@@ -854,8 +854,8 @@ def diagnosed(
     Examples
     --------
     >>> plant = MultiChannelSystem([[1, 0], [0, -2]], [[["1"], ["1e-6"]]], [[[1, 1]]])
-    >>> found = diagnosed(plant, StabilityRegion("continuous", 3))
-    >>> found.is_sensible, found.modes[0].mode
+    >>> diagnosis = diagnosed(plant, StabilityRegion("continuous", 3))
+    >>> diagnosis.is_sensible, diagnosis.modes[0].mode
     (False, (-2+0j))
     >>> diagnosed(plant, StabilityRegion("continuous")).sensible.edge > 1
     True
@@ -919,8 +919,8 @@ def chosen_region(
     Examples
     --------
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> region, told = chosen_region(plant)
-    >>> print(region, told, sep=", ")
+    >>> region, reason = chosen_region(plant)
+    >>> print(region, reason, sep=", ")
     Re λ < -21/5, half the sensible rate
     """
     weights, stable = weights or Weights.unit(system), StabilityRegion(system.time)

@@ -432,8 +432,8 @@ class Aims:
         The largest number of significant decimal digits of an entry.
     effort : float, optional
         About how many seconds a processor of 2024 may search for each rate that is tried, one if
-        a rate is given and else up to three.  Work is counted, not timed, so that the result does
-        not depend on the machine's load.  With 0 there is no search, but the
+        a rate is prescribed and else up to three.  Work is counted, not timed, so that the
+        result does not depend on the machine's load.  With 0 there is no search, but the
         controller of the theorem at once.
     seeds : int
         The number of drawn starts of each order.

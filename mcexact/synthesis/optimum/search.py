@@ -13,8 +13,8 @@ For large plants the cut controllers come before all orders.  `climbed` follows 
 step for a while and the best two to the end, and stops at the first controller that is good enough
 in cost, margin, gains and digits.
 
-`optimum` ranks what was found by its price, the cost made higher by small margins, large gains and
-high orders, and rounds the best one: it finds the least number of digits that the gate certifies,
+`optimum` ranks the candidates by their price, the cost with surcharges for small margins, large
+gains and high orders, and rounds the best one: it finds the least number of digits that the gate certifies,
 and keeps at least one digit more where more digits are allowed.  `searched_proposals` is the entry:
 it decides first whether a fixed mode forbids the region and whether the region is out of reach for
 all agents together, and it falls back to the controller of the theorem if the search finds none.
@@ -41,8 +41,8 @@ from mcexact.synthesis.optimum.descent import (
     SLACK,
     Target,
     bound_of,
+    controllers_of_parts,
     drafted,
-    found_alone,
     inside,
     polished,
     settled,
@@ -91,7 +91,7 @@ _LARGEST_ORDER = 3
 _PRICE_OF_ORDER, _PRICED_ORDERS = 1.02, 20
 _CONTENT, _FRAGILE, _NOT_CERTIFIED = 1.5, 1.25, 1e6
 MOST_STATES = 100
-"""Of plants for which the controller of the theorem is constructed where a search found none."""
+"""The most states of a plant for which the controller of the theorem follows a failed search."""
 
 
 @dataclass(frozen=True)
@@ -224,7 +224,7 @@ def _price(ladder: Ladder, candidate: Candidate) -> float:
     return figures.cost * lacking * large * _PRICE_OF_ORDER**priced
 
 
-def contents(ladder: Ladder, candidates: list[Candidate]) -> bool:
+def suffices(ladder: Ladder, candidates: list[Candidate]) -> bool:
     """Whether the search of a large plant may end: the best price is nearly low enough."""
     return ladder.large and best_price(ladder, candidates) <= _CONTENT * ladder.enough
 
@@ -294,7 +294,7 @@ def _states(parts: list[Locality]) -> list[tuple[int, ...]]:
 def _drawn(
     ladder: Ladder, problem: FeedbackProblem, order: int, known: Sequence[Candidate | Start]
 ) -> Iterator[Start]:
-    """Yield drawn starts of one order, with and without the static gains that were found."""
+    """Yield drawn starts of one order, with and without the best static gains."""
     static = next((each for each in known if each.step == _STATIC), None)
     gains = None if static is None else (static.problem, static.K)
     for seed in range(ladder.seeds):
@@ -309,7 +309,7 @@ def _alone(
     network = static.network
     orders = (order,) * network.plant.m
     problem = ladder.problem((network, orders))
-    alone = found_alone(parts, order, ladder.target, ladder.effort.part(0.05))
+    alone = controllers_of_parts(parts, order, ladder.target, ladder.effort.part(0.05))
     if any(part is not None for part in alone):
         K, drawn = with_private_parts(problem, alone), drawn_dynamics(problem, 0)
         for agent, part in zip(problem.agents, alone, strict=True):
@@ -449,7 +449,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
                 later.append((value, draft))
             elif _finish(ladder, draft, candidates):
                 return candidates
-        if contents(ladder, candidates):
+        if suffices(ladder, candidates):
             return candidates
     for _, draft in sorted(later, key=lambda each: each[0])[: 2 * _KEPT]:
         if _finish(ladder, draft, candidates):
@@ -497,7 +497,7 @@ def _finish(ladder: Ladder, draft: Start, candidates: list[Candidate]) -> bool:
     freed = ranked(ladder, candidates[before:])
     if not freed or problem.ties is draft.problem.ties or problem.size > _MOST_FREED:
         return False
-    if contents(ladder, freed):
+    if suffices(ladder, freed):
         return False
     return _followed(ladder, Start(draft.step, problem, freed[0].K), candidates)
 
@@ -673,8 +673,8 @@ def optimum(
     >>> from mcexact.synthesis.networks import decentralized_network
     >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 0], [0, 1]]])
     >>> request = Request.of(plant, rate=1, arithmetic="float")
-    >>> found = optimum(Family(decentralized_network(plant)), request)
-    >>> found.step, found.figures.order, found.figures.bound < -1
+    >>> result = optimum(Family(decentralized_network(plant)), request)
+    >>> result.step, result.figures.order, result.figures.bound < -1
     ('static gains', 0, True)
     """
     plant, aims = family.network.plant, aims or Aims()
@@ -716,7 +716,7 @@ def with_few_digits(
 
     Parameters
     ----------
-    found : Candidate
+    candidate : Candidate
     target : Target
     central : Figures or None
         Of the central optimum.

@@ -15,7 +15,14 @@ from mcexact.synthesis.gate import Request
 from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import decentralized_network, sharing_network
 from mcexact.synthesis.optimum import search
-from mcexact.synthesis.optimum.descent import SLACK, Target, bound_of, found_alone, inside, polished
+from mcexact.synthesis.optimum.descent import (
+    SLACK,
+    Target,
+    bound_of,
+    controllers_of_parts,
+    inside,
+    polished,
+)
 from mcexact.synthesis.optimum.figures import Aims, figures_of
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
 from mcexact.synthesis.optimum.search import (
@@ -230,7 +237,7 @@ def test_agents_find_controllers_of_their_own_parts():
     plant = MultiChannelSystem.from_float(A, B, C, rounding="decimal")
     weights, target = Weights.unit(plant), Target(request(plant, "1/5").region)
     static = FeedbackProblem.of(decentralized_network(plant), (0,) * m, weights)
-    made = found_alone(localities(static, weights, driven=True), 1, target, Effort(1e5))
+    made = controllers_of_parts(localities(static, weights, driven=True), 1, target, Effort(1e5))
     of = FeedbackProblem.of(static.network, (1,) * m, weights)
     K = with_private_parts(of, made)
     assert not K[~of.mask].any()
@@ -242,7 +249,7 @@ def test_an_agent_without_input_finds_nothing():
     plant = MultiChannelSystem([[1, 0], [0, 1]], [[[1], [0]], [[0], [0]]], [[[1, 0]], [[0, 1]]])
     weights = Weights.unit(plant)
     static = FeedbackProblem.of(decentralized_network(plant), (0, 0), weights)
-    made = found_alone(
+    made = controllers_of_parts(
         localities(static, weights), 1, Target(request(plant, "1/5").region), Effort(1e5)
     )
     assert made[0] is not None and made[1] is None
