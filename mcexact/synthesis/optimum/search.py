@@ -14,10 +14,11 @@ step for a while and the best two to the end, and stops at the first controller 
 in cost, margin, gains and digits.
 
 `optimum` ranks the candidates by their price, the cost with surcharges for small margins, large
-gains and high orders, and rounds the best one: it finds the least number of digits that the gate certifies,
-and keeps at least one digit more where more digits are allowed.  `searched_proposals` is the entry:
-it decides first whether a fixed mode forbids the region and whether the region is out of reach for
-all agents together, and it falls back to the controller of the theorem if the search finds none.
+gains and high orders.  It finds the least number of digits with which the gate certifies the best
+one, and keeps at least one digit more where more digits are allowed.  `searched_proposals` is the
+entry: it decides first whether a fixed mode forbids the region and whether the region is out of
+reach for all agents together, and it falls back to the controller of the theorem if the search
+finds none.
 The search is floating point and deterministic; only what the gate certifies is proved, and finding
 no controller proves nothing.
 """
