@@ -11,8 +11,8 @@ the conversions between floats and rational numbers, for the whole package; and 
 from blocks.
 
 `Matrix.from_rows` and `Matrix.from_entries` refuse floats.  `from_float`, `matrix_from_float` and
-`dyadic_matrix` convert them explicitly; `as_requested` takes a float as the decimal that it
-prints, since a rate that a user asks for is no measurement.
+`dyadic_matrix` convert them explicitly, by a rounding that is named; `as_requested` takes a float
+as the decimal that it prints, since a rate that a user asks for is no measurement.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import sys
 from array import array
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from decimal import Context, Decimal
 from fractions import Fraction
 from html import escape
 from itertools import accumulate
@@ -898,7 +899,7 @@ def largest_entry(matrices: Iterable[Matrix]) -> Fraction:
 
 # Conversions between floats and rational numbers and matrices, for the whole package.
 
-Rounding = Literal["decimal", "dyadic"]
+Rounding = Literal["decimal", "dyadic", "simplest"]
 _ROUNDINGS = get_args(Rounding)
 
 # Floats hold every integer up to here.
@@ -917,14 +918,31 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
     ----------
     x : float
         A finite float or numpy floating-point scalar.
-    rounding : {"decimal", "dyadic"}
+    rounding : {"decimal", "dyadic", "simplest"}
         "decimal" reads the shortest decimal that prints the float in its own precision (0.1 is
-        1/10, also in single precision), "dyadic" the binary fraction that is stored.
+        1/10, also in single precision), "dyadic" the binary fraction that is stored, and "simplest"
+        a short fraction or decimal within 4 units in the last place, if there is one.
 
     Raises
     ------
     InputError
-        The number is not finite, or the rounding is unknown.
+        The number is not real or not finite, or the rounding is unknown.
+
+    Notes
+    -----
+    In double precision "simplest" is the first of these that exists:
+
+    1. the integer, if the float is one and at most 2**53;
+    2. a fraction p/q ≠ 0 within 4 units in the last place, whose p and q have at most 44 bits
+       together, if it has no more digits than the decimal of the float nearest to it;
+    3. the shortest decimal, if it has at most 15 digits;
+    4. a decimal of at most 11 digits within 4 units, unless a fraction of 44 bits is near it, too;
+    5. the shortest decimal.
+
+    Two fractions of 44 bits differ by at least 2**-44 of their size, far more than 4 units, and two
+    decimals of 11 digits as well: there is at most one of each, and the float nearest to it leads
+    to the same one.  So reading the result again changes nothing.  In a precision of P bits the
+    bounds are P − 9 bits, the decimal digits that it always keeps, and 4 digits fewer than these.
 
     Examples
     --------
@@ -932,6 +950,10 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
     Fraction(1, 10)
     >>> from_float(0.1, "dyadic")
     Fraction(3602879701896397, 36028797018963968)
+    >>> from_float(1.7 / 12, "simplest"), from_float(0.1 + 0.2, "simplest")
+    (Fraction(17, 120), Fraction(3, 10))
+    >>> from_float(2**0.5, "simplest") == from_float(2**0.5, "decimal")
+    True
     >>> import numpy
     >>> from_float(numpy.float32(0.1), "decimal"), from_float(numpy.float32(0.1), "dyadic")
     (Fraction(1, 10), Fraction(13421773, 134217728))
@@ -940,13 +962,124 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
     shape = getattr(x, "shape", ())
     if shape:
         raise InputError(f"expected a number, found an array of shape {shape}", where=where)
+    if isinstance(x, complex) or getattr(getattr(x, "dtype", None), "kind", "") == "c":
+        raise InputError(f"expected a real number, found {type(x).__name__}", where=where)
     # A numpy scalar stays as it is: Python's floats are longer than some and shorter than others.
     value = x if hasattr(x, "as_integer_ratio") else float(x)
     try:
+        if rounding == "simplest":
+            return _simplest(value)
         # Python's and numpy's floats are printed with the fewest digits that tell them apart.
         return Fraction(*value.as_integer_ratio()) if rounding == "dyadic" else Fraction(str(value))
     except (OverflowError, ValueError):
         raise InputError(f"expected a finite number, found {float(x)!r}", where=where) from None
+
+
+# A result of the rounding "simplest" is at most so many units in the last place from the float.
+_UNITS = 4
+
+
+@dataclass(frozen=True)
+class _Precision:
+    """What is short for floats of P bits that always keep some number of decimal digits."""
+
+    bits: int
+    digits: int
+
+    @property
+    def most_bits(self) -> int:
+        """A fraction is short if numerator and denominator have at most so many bits together."""
+        return self.bits - 9
+
+    @property
+    def few_digits(self) -> int:
+        """A decimal is short if it has at most so many digits."""
+        return self.digits - 4
+
+    def is_near(self, p: int, q: int, n: int, d: int) -> bool:
+        """Whether p/q is within `_UNITS` of n/d > 0, where d is a power of 2 and q > 0.
+
+        A unit is 2**(e − P), where n/d is from 2**(e−1) to 2**e, so that d * 2**e has the bits of n
+        as its exponent.  Floats below the normal ones have larger units.
+        """
+        return abs(n * q - p * d) << self.bits <= _UNITS * q << n.bit_length()
+
+    def fraction_near(self, n: int, d: int) -> tuple[int, int] | None:
+        """Return the short fraction near n/d > 0, in lowest terms; None if there is none.
+
+        Such a fraction p/q differs from n/d by less than 1/(2q²), so it is a convergent of the
+        continued fraction, by Legendre's theorem.
+        """
+        a, b = n, d
+        p, q, before = 1, 0, (0, 1)
+        while b:
+            k, rest = divmod(a, b)
+            p, q, before = k * p + before[0], k * q + before[1], (p, q)
+            if p.bit_length() + q.bit_length() > self.most_bits:
+                return None
+            if self.is_near(p, q, n, d):
+                return p, q
+            a, b = b, rest
+        return None
+
+
+_DOUBLE = _Precision(sys.float_info.mant_dig, sys.float_info.dig)
+
+
+def _precision(kind: Any) -> _Precision:
+    """The precision of numpy's floats of some dtype."""
+    import numpy as np
+
+    info = np.finfo(kind)
+    return _Precision(int(info.nmant) + 1, int(info.precision))
+
+
+def _simplest(value: Any) -> Fraction:
+    """Convert by the rounding "simplest"; what is exact already does not change."""
+    n, d = value.as_integer_ratio()
+    if isinstance(value, float):
+        value, precision = float(value), _DOUBLE
+    elif hasattr(value, "dtype"):
+        precision = _precision(value.dtype)
+    else:
+        return Fraction(n, d)
+    if d == 1 and abs(n) <= 1 << precision.bits:
+        return Fraction(n)
+    if n < 0:
+        return -_simplest_positive(-value, -n, d, precision)
+    return _simplest_positive(value, n, d, precision)
+
+
+def _simplest_positive(value: Any, n: int, d: int, precision: _Precision) -> Fraction:
+    """Convert a float n/d > 0 by the rules of `from_float`."""
+    kind = type(value)
+    near = precision.fraction_near(n, d)
+    if near is not None:
+        # Both integers are floats, so their quotient is the float nearest to the fraction.
+        p, q = near
+        fraction, text = Fraction(p, q), str(kind(p) / kind(q))
+        if len(str(p)) + len(str(q)) <= _digits(text) or Fraction(text) == fraction:
+            return fraction
+    text = str(value)
+    if _digits(text) > precision.digits and precision.few_digits > 0:
+        context = Context(prec=precision.few_digits)
+        short = context.divide(Decimal(n), Decimal(d))
+        if precision.is_near(*short.as_integer_ratio(), n, d):
+            again = kind(str(short))
+            if precision.fraction_near(*again.as_integer_ratio()) is None:
+                return Fraction(short)
+    return Fraction(text)
+
+
+def _digits(text: str) -> int:
+    """Count the significant digits of a printed decimal.
+
+    Examples
+    --------
+    >>> _digits("-0.0120"), _digits("1e-20"), _digits("300.0")
+    (2, 1, 1)
+    """
+    return len(text.partition("e")[0].replace(".", "").strip("-0"))
 
 
 def as_requested(number: Any, *, where: str | None = None) -> Fraction:
@@ -1036,7 +1169,7 @@ def matrix_from_float(
     M : array_like, r × c
         A real two-dimensional array, a sparse array of scipy, or a list of rows of numbers.
         Integers, Fractions and matrices of this package do not change.
-    rounding : {"decimal", "dyadic"}
+    rounding : {"decimal", "dyadic", "simplest"}
         See `from_float`.
     where : str, optional
         The place to name in an error.

@@ -36,7 +36,7 @@ def test_only_finite_floats_come_in(x):
 
 
 def test_an_unknown_rounding_is_refused():
-    with pytest.raises(InputError, match='rounding: expected "decimal" or "dyadic"'):
+    with pytest.raises(InputError, match='rounding: expected "decimal", "dyadic" or "simplest"'):
         from_float(0.5, "nearest")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="rounding: expected"):
         matrix_from_float([[0.5]], "up")  # type: ignore[arg-type]
