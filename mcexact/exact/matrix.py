@@ -934,15 +934,16 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
 
     1. the integer, if the float is one and at most 2**53;
     2. a fraction p/q ≠ 0 within 4 units in the last place, whose p and q have at most 44 bits
-       together, if it has no more digits than the decimal of the float nearest to it;
+       together, if p and q, or its decimal, have no more digits than the shortest decimals of the
+       float and of the float nearest to p/q;
     3. the shortest decimal, if it has at most 15 digits;
-    4. a decimal of at most 11 digits within 4 units, unless a fraction of 44 bits is near it, too;
+    4. a decimal of at most 11 digits within 4 units, if the float nearest to it is read as it;
     5. the shortest decimal.
 
-    Two fractions of 44 bits differ by at least 2**-44 of their size, far more than 4 units, and two
-    decimals of 11 digits as well: there is at most one of each, and the float nearest to it leads
-    to the same one.  So reading the result again changes nothing.  In a precision of P bits the
-    bounds are P − 9 bits, the decimal digits that it always keeps, and 4 digits fewer than these.
+    Reading the result again changes nothing: two fractions of 44 bits differ by 2**-44 of their
+    size or more, and two decimals of 11 digits by 1e-11, far more than 4 units, so that the float
+    nearest to the result leads to the same one.  In a precision of P bits, which always keeps D
+    decimal digits, the bounds are P − 9 bits, D digits and D − 4 digits.
 
     Examples
     --------
@@ -1052,22 +1053,25 @@ def _simplest(value: Any) -> Fraction:
 
 def _simplest_positive(value: Any, n: int, d: int, precision: _Precision) -> Fraction:
     """Convert a float n/d > 0 by the rules of `from_float`."""
-    kind = type(value)
+    kind, text = type(value), str(value)
     near = precision.fraction_near(n, d)
     if near is not None:
         # Both integers are floats, so their quotient is the float nearest to the fraction.
         p, q = near
-        fraction, text = Fraction(p, q), str(kind(p) / kind(q))
-        if len(str(p)) + len(str(q)) <= _digits(text) or Fraction(text) == fraction:
+        fraction, again = Fraction(p, q), str(kind(p) / kind(q))
+        length = len(str(p)) + len(str(q))
+        if Fraction(again) == fraction:
+            length = min(length, _digits(again))
+        if length <= min(_digits(text), _digits(again)):
             return fraction
-    text = str(value)
     if _digits(text) > precision.digits and precision.few_digits > 0:
         context = Context(prec=precision.few_digits)
         short = context.divide(Decimal(n), Decimal(d))
         if precision.is_near(*short.as_integer_ratio(), n, d):
-            again = kind(str(short))
-            if precision.fraction_near(*again.as_integer_ratio()) is None:
-                return Fraction(short)
+            decimal = Fraction(short)
+            # The float nearest to it prints few digits, so this goes no deeper.
+            if _simplest(kind(str(short))) == decimal:
+                return decimal
     return Fraction(text)
 
 
