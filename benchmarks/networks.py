@@ -25,7 +25,7 @@ def network_rows(network: str, n: int, m: int, found: float, checked: float = 0)
     """
     answers = analyze(drawn_system(Draw(0, n, m, network=network)))
     said = f"{network}, n={n}, m={m}"
-    for name in answers.unbidden:
+    for name in answers.by_default:
         start = processor_seconds()
         answer = answers[name]
         seconds = processor_seconds() - start

@@ -1,10 +1,11 @@
 """analyze: all questions about one system, each decided once within its limits.
 
-`analyze` makes an `Analysis` of a plant, or a `ParametricAnalysis` of a plant with parameters, for
-all values of which the questions are decided.  Both are an `Asking`: the answer to a question is an
-attribute or an item, decided when it is first used and kept.  The table of questions
-(`questions`) says which function decides each, about which system, from which other answers, and
-whether it is asked by default; NP-hard and slow questions are asked only by name.
+`analyze` makes an `Analysis` of a plant, with parameters or without; with parameters the questions
+are decided for all values.  The answer to a question is an attribute or an item, decided when it is
+first used and kept.  The table of questions (`questions`) says which function decides each, about
+which system, from which other answers, and whether it is asked by default; NP-hard and slow
+questions are asked only by name.  A plant of numbers, a plant with one parameter and a plant with
+several have a table each.
 
 Three things can prevent an answer.  A limit on work leaves a question open, and the other questions
 have answers.  With a timeout one child process decides the questions and sends each answer at once;
@@ -26,22 +27,22 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from html import escape
-from types import MappingProxyType
-from typing import Any, NoReturn, overload
+from typing import Any, NoReturn
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.parameters.hypersurfaces import (
-    exceptional_hypersurfaces,
-    parametric_completeness,
-)
-from mcexact.analysis.questions import QUESTIONS, Question
+from mcexact.analysis.questions import Question, questions_about
 from mcexact.analysis.sharing import (
     minimal_communication,
     minimal_shared_dimensions,
     neighbor_graph,
     shared_dimension_bound,
 )
-from mcexact.answer.account import Account, ParametricAccount, ShownByAccount
+from mcexact.answer.account import (
+    Account,
+    ShownByAccount,
+    account_for_all_values,
+    by_certificate,
+)
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rulebook import ALLOCATION, ANALYSIS, LINKS, with_own
 from mcexact.answer.sentence import Given, Sentences
@@ -59,7 +60,6 @@ from mcexact.errors import (
     telling,
 )
 from mcexact.exact.rational import written
-from mcexact.exact.rational_functions import RationalFunction
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.properties import PROPERTIES
 from mcexact.model.system import MultiChannelSystem
@@ -92,46 +92,95 @@ Begin = Callable[[str, str], None]
 Keep = Callable[[str, Any, float], None]
 
 
-def _decide_in_child(connection: Any, asking: Asking) -> None:
+def _decide_in_child(connection: Any, analysis: Analysis) -> None:
     """Decide questions as they are named, and send each outcome at once."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's
-    asking.watch(
+    analysis.watch(
         lambda name, step: connection.send(("begin", name, step)),
-        lambda name, found, seconds: connection.send(("keep", name, found, seconds)),
+        lambda name, answer, seconds: connection.send(("keep", name, answer, seconds)),
     )
     with contextlib.suppress(EOFError, OSError):
         while True:
             try:
-                asking.without_limit(connection.recv())
+                analysis.without_limit(connection.recv())
             except McexactError as error:
                 connection.send(("error", error))
             connection.send(("end",))
 
 
-class Asking(ShownByAccount):
+_MOST_STATES = 60
+"""Plants within the radii that fail are searched for at most so many states: that takes seconds."""
+
+
+class Analysis(ShownByAccount):
     """The answers about one system, by attribute or item, each decided when it is first used.
+
+    Parameters
+    ----------
+    plant : MultiChannelSystem or ParametricSystem
+        With parameters the questions are decided for all values.
+    questions : iterable of str, optional
+    information : {"own", "outputs"}
+    subset : sequence of str, optional
+    channel : str, optional
+    timeout : float, optional
+    progress : callable, optional
+        As `analyze` takes them.
 
     Attributes
     ----------
     plant : MultiChannelSystem or ParametricSystem
+    information : str
+
+    Examples
+    --------
+    >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
+    >>> analysis = Analysis(plant)
+    >>> print(analysis.account.at("answer")[1])
+    A mode is fixed where t = 0.
+    >>> analysis.setpoint.words
+    ('rank 3 for almost every t', 'rank 2 where t = 0')
+    >>> Analysis(plant.at({"t": 0})).fixed_spectrum.empty
+    False
     """
 
     plant: Any
-    information = "own"
-    questions: Mapping[str, Question] = QUESTIONS
-    """The questions that can be asked of such a plant."""
-    _certain = "every entry of this system is certain: add 'uncertainty' to the file"
-    """What an error says where nothing is uncertain."""
-    _arguments: dict[str, Any]
-    """What questions need besides the plant; None where it is not given."""
 
-    def _ask(
+    def __init__(
         self,
-        questions: Iterable[str] | None,
+        plant: MultiChannelSystem | ParametricSystem,
+        questions: Iterable[str] | None = None,
+        *,
+        information: str = "own",
+        subset: Sequence[str] | None = None,
+        channel: str | None = None,
         timeout: float | None = None,
         progress: Callable[[str], None] | None = None,
     ) -> None:
-        """Note which questions are asked, by default those that apply and are cheap."""
+        if isinstance(plant, ParametricSystem):
+            if subset is not None or information != "own":
+                raise UsageError(
+                    "these questions are about systems without parameters: "
+                    "give values with .at({…})"
+                )
+        else:
+            InputError.require(plant, MultiChannelSystem, "system")
+        self.plant = plant
+        self.information = information
+        self._arguments: dict[str, Any] = {
+            "neighbors": plant.neighbors,
+            "uncertainty": _uncertainty(plant),
+            "subset": subset,
+            "channel": channel,
+            "channels": None if channel is None else [channel],
+        }
+        named = () if subset is None else several(subset, "subset")
+        plant.indices([*named, *([] if channel is None else [channel])])
+        one_of(information, ("own", "outputs"), "information")
+        if information == "outputs":
+            self._require(
+                "neighbors", "the information 'outputs' is about messages between neighbors"
+            )
         if timeout is not None:
             require_seconds(timeout, "timeout")
         tell = telling(progress)
@@ -139,14 +188,31 @@ class Asking(ShownByAccount):
         self._child: Child | None = None
         self._ended: set[str] = set()
         self.watch(lambda _, step: tell(step), lambda *_: None)
-        self._found: dict[str, Any] = {}
+        self._answers: dict[str, Any] = {}
         self._seconds: dict[str, float] = {}
-        if questions is not None:
+        self._refuted: dict[str, Answer | None] = {}
+        self._chosen = questions is not None
+        if self._chosen:
             self.left_out = {}
-        listed = self.unbidden if questions is None else several(questions, "questions")
+        listed = self.by_default if questions is None else several(questions, "questions")
         for name in listed:
             self._require_known(name)
         self._asked = set(listed)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The names of the parameters of the plant; empty if it has none."""
+        return _parameters(self.plant)
+
+    @property
+    def questions(self) -> Mapping[str, Question]:
+        """The questions that can be asked of such a plant."""
+        return questions_about(self.parameters)
+
+    @cached_property
+    def system(self) -> MultiChannelSystem:
+        """Return the plant, or the plant with the outputs that the agents receive."""
+        return self.plant if self.information == "own" else self.linked
 
     def watch(self, begin: Begin, keep: Keep) -> None:
         """Call functions as questions are decided.
@@ -178,7 +244,7 @@ class Asking(ShownByAccount):
             If there is no such question, or the system lacks something that it needs.
         """
         self._require_known(name)
-        self._found[name], self._seconds[name] = answer, seconds
+        self._answers[name], self._seconds[name] = answer, seconds
         self._asked.add(name)
 
     def leave_open(self, reason: str, names: Iterable[str] | None = None) -> None:
@@ -191,7 +257,7 @@ class Asking(ShownByAccount):
         names : iterable of str, optional
         """
         if names is None:
-            names = self._asked - self._found.keys()
+            names = self._asked - self._answers.keys()
             self._timeout = self._left = 0.0
         for name in names:
             self.know(name, LimitReached(reason))
@@ -216,28 +282,28 @@ class Asking(ShownByAccount):
         return tuple(name for name in self.questions if name in self._asked)
 
     @cached_property
-    def unbidden(self) -> tuple[str, ...]:
-        """The questions that are asked by default."""
+    def by_default(self) -> tuple[str, ...]:
+        """The questions that are asked by default: they apply to the plant, and are cheap."""
         return tuple(name for name in self._applicable() if name not in self.left_out)
 
     @cached_property
     def left_out(self) -> dict[str, str]:
         """The questions that are left out because they would take very long, and why."""
-        found = {name: self._too_long(self.questions[name]) for name in self._applicable()}
-        return {name: reason for name, reason in found.items() if reason}
-
-    def _too_long(self, question: Question) -> str:
-        """Why a question is not asked by default of this system; empty if it is."""
-        raise NotImplementedError
+        reasons = {
+            name: self.questions[name].reason_to_leave_out(self.system)
+            for name in self._applicable()
+        }
+        return {name: reason for name, reason in reasons.items() if reason}
 
     def _applicable(self) -> Iterator[str]:
         for name, question in self.questions.items():
             there = not question.needs or self._arguments[question.needs] is not None
-            if question.unbidden and there and self._applies(name):
+            if question.by_default and there and self._applies(name):
                 yield name
 
     def _applies(self, name: str) -> bool:
-        return True
+        subset = self._arguments["subset"]
+        return name != "complementary_subsystem" or 0 < len(set(subset)) < self.plant.m
 
     def _require_known(self, name: str) -> None:
         if not isinstance(name, str) or name not in self.questions:
@@ -256,9 +322,13 @@ class Asking(ShownByAccount):
                 + ", and this system names no neighbors: add 'neighbors' to the file"
             )
         if needed == "uncertainty":
+            certain = (
+                "a parameter has no range with two ends"
+                if self.parameters
+                else "every entry of this system is certain: add 'uncertainty' to the file"
+            )
             raise UsageError(
-                asked.format("every plant within the radii of its entries")
-                + f", and {self._certain}"
+                f"{asked.format('every plant within the radii of its entries')}, and {certain}"
             )
         argument = needed.removesuffix("s")
         meant = {"subset": "a set of channels", "channel": "one channel"}[argument]
@@ -275,10 +345,10 @@ class Asking(ShownByAccount):
             If a limit on work prevented the decision.
         """
         self._require_known(name)
-        found = self._answer(name)
-        if isinstance(found, LimitReached):
-            raise found
-        return found
+        outcome = self._outcome(name)
+        if isinstance(outcome, LimitReached):
+            raise outcome
+        return outcome
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self.questions:
@@ -290,14 +360,14 @@ class Asking(ShownByAccount):
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self.questions})
 
-    def _answer(self, name: str) -> Any:
+    def _outcome(self, name: str) -> Any:
         """Return the answer, or the limit that prevented it.
 
         A question that cannot be decided of this system was not asked: the others have answers.
         """
         asked_before = name in self._asked
         self._asked.add(name)
-        if name not in self._found:
+        if name not in self._answers:
             try:
                 if self._left is None:
                     self._decide_here(name)
@@ -307,29 +377,29 @@ class Asking(ShownByAccount):
                 if not asked_before:
                     self._asked.discard(name)
                 raise
-        return self._found[name]
+        return self._answers[name]
 
     def _decide_here(self, name: str) -> None:
         began = time.perf_counter()
         try:
-            arguments, reused = self._given(name)
+            subject, keywords = self._arguments_of(self.questions[name])
             began = time.perf_counter()
             self._begin(name, self._progress(name))
-            found = self._decide(name, arguments, reused)
+            outcome = self.questions[name].decide(subject, **keywords)
         except LimitReached as reached:
-            found = reached
-        self._found[name], self._seconds[name] = found, time.perf_counter() - began
-        self._keep(name, found, self._seconds[name])
+            outcome = reached
+        self._answers[name], self._seconds[name] = outcome, time.perf_counter() - began
+        self._keep(name, outcome, self._seconds[name])
 
     def without_limit(self, names: Iterable[str]) -> None:
         """Decide questions here, however long it takes."""
         self._left = None
         for name in names:
-            self._answer(name)
+            self._outcome(name)
 
     def _progress(self, name: str) -> str:
         """A line that says how many questions are decided, and which is next."""
-        done, asked = len(self._found), len(self._asked | self._found.keys())
+        done, asked = len(self._answers), len(self._asked | self._answers.keys())
         return f"{done} of {asked} questions decided, now the {name.replace('_', ' ')}"
 
     def _decide_in_time(self, names: list[str]) -> None:
@@ -348,7 +418,7 @@ class Asking(ShownByAccount):
                 self._end_child()
                 raise
         self._left = max(0.0, left - (time.monotonic() - began))
-        if undecided := [name for name in names if name not in self._found]:
+        if undecided := [name for name in names if name not in self._answers]:
             self._left = 0.0
             self._end_child()
             self.leave_open(f"the time limit of {self._timeout:g} s was reached", undecided)
@@ -362,13 +432,13 @@ class Asking(ShownByAccount):
         """Receive the answers of a child until it has decided all, or the time is over."""
         try:
             while child.connection.poll(max(0.0, end - time.monotonic())):
-                said, *rest = child.connection.recv()
-                if said == "begin":
+                event, *rest = child.connection.recv()
+                if event == "begin":
                     self._begin(*rest)
-                elif said == "keep":
+                elif event == "keep":
                     self.know(*rest)
                     self._keep(*rest)
-                elif said == "error":
+                elif event == "error":
                     raise rest[0]
                 else:
                     return
@@ -383,28 +453,57 @@ class Asking(ShownByAccount):
         left = ("_begin", "_keep", "_child")
         return {key: each for key, each in vars(self).items() if key not in left}
 
-    def _given(self, name: str) -> tuple[list[Any], dict[str, Any]]:
-        """Return what a question is asked about, and the answers to others that it uses."""
-        raise NotImplementedError
+    def _arguments_of(self, question: Question) -> tuple[Any, dict[str, Any]]:
+        """Return what a question is asked about, and the keywords, also answers to others."""
+        subject = getattr(self, question.about)
+        keywords = {key: self[other] for key, other in question.reuses.items()}
+        for key, other in question.shares.items():
+            if other in self._asked and not isinstance(self._outcome(other), LimitReached):
+                keywords[key] = self._outcome(other)
+        if question.needs not in {"", "neighbors", "uncertainty"}:
+            keywords[question.needs] = self._arguments[question.needs]
+        return subject, keywords
 
-    def _decide(self, name: str, arguments: list[Any], reused: dict[str, Any]) -> Any:
-        return self.questions[name].decide(*arguments, **reused)
+    @cached_property
+    def linked(self) -> MultiChannelSystem:
+        """Return the plant with the outputs that the agents receive."""
+        from mcexact.derived.constructions import augmented_outputs
+
+        return augmented_outputs(self.plant)
+
+    @cached_property
+    def lifted(self) -> MultiChannelSystem:
+        """Return the plant with sub-states, as many as the bound, shared over links with delays."""
+        from mcexact.derived.constructions import lifted_system
+
+        return lifted_system(self.plant, self._shared("outputs_states"))
+
+    @cached_property
+    def held(self) -> MultiChannelSystem:
+        """Return the plant with sub-states that are shared alone, and held for the delays."""
+        from mcexact.derived.constructions import held_system
+
+        return held_system(self.plant, self._shared("states"))
+
+    def _shared(self, stem: str) -> tuple[int, ...]:
+        bound: int = self[f"shared_dimension_bound_{stem}"].deficiency
+        return (bound,) * int(self.plant.m)
 
     def open(self) -> dict[str, LimitReached]:
         """Return the questions that a limit on work left undecided."""
         return {
-            name: found
-            for name, found in self._outcomes().items()
-            if isinstance(found, LimitReached)
+            name: outcome
+            for name, outcome in self._outcomes().items()
+            if isinstance(outcome, LimitReached)
         }
 
     def ended(self) -> dict[str, list[str]]:
         """Return the questions on which work was stopped, by the reason for it."""
-        found: dict[str, list[str]] = {}
+        names: dict[str, list[str]] = {}
         for name in self.asked:
             if name in self._ended:
-                found.setdefault(self._found[name].message, []).append(name)
-        return found
+                names.setdefault(self._answers[name].message, []).append(name)
+        return names
 
     def explain(self) -> str:
         """Say in plain words what is decided, and what a limit left open, one sentence a line."""
@@ -462,10 +561,13 @@ class Asking(ShownByAccount):
 
     def __repr__(self) -> str:
         plant = self.plant
-        open_ = sum(name not in self._found for name in self._asked)
+        if self.parameters:
+            named = ", ".join(plant.parameters_in_words)
+            return f"ParametricAnalysis(n={plant.n}, m={plant.m}, parameters: {named})"
+        open_ = sum(name not in self._answers for name in self._asked)
         return (
-            f"{type(self).__name__}(n={plant.n}, m={plant.m}, {plant.time} time: "
-            f"{len(self._found)} questions decided, {open_} asked and not yet)"
+            f"Analysis(n={plant.n}, m={plant.m}, {plant.time} time: "
+            f"{len(self._answers)} questions decided, {open_} asked and not yet)"
         )
 
     def __bool__(self) -> NoReturn:
@@ -475,366 +577,133 @@ class Asking(ShownByAccount):
         )
 
     def _outcomes(self) -> dict[str, Any]:
-        """Return the names of all questions asked or needed, in the order of the table."""
+        """The outcomes by question, with the change that existing links make to fixed modes."""
+        outcomes = self._all_outcomes()
+        if self._chosen or not self._links_may_move_modes(outcomes.get("fixed_spectrum")):
+            return outcomes
+        self._asked.add("linked_fixed_spectrum")
+        return self._all_outcomes()
+
+    def _links_may_move_modes(self, spectrum: Any) -> bool:
+        """Whether modes are fixed without the links of the plant, if this was decided."""
+        graph = self.plant.neighbors
+        linked = self.information == "own" and graph is not None and graph.edges()
+        known = spectrum is not None and not isinstance(spectrum, LimitReached)
+        return bool(linked and known and not spectrum.empty)
+
+    def _all_outcomes(self) -> dict[str, Any]:
+        """Decide all questions asked or needed; their outcomes in the order of the table."""
         # The evidence of questions with ports is long: a limit shall not discard others for it.
         names = sorted(self.asked, key=lambda name: bool(self.questions[name].ports))
-        if self._left is not None and (rest := [n for n in names if n not in self._found]):
+        if self._left is not None and (rest := [n for n in names if n not in self._answers]):
             self._decide_in_time(rest)
             self._end_child()
         for name in names:
-            self._answer(name)
-        return {name: self._found[name] for name in self.asked}
-
-
-# Questions for all values of parameters.
-
-_MOST = 10
-"""The states of a plant with several parameters of which questions are asked by default."""
-_CHANNELS = 20
-_WITHIN_RANGES = ("box_fixed_modes", "box_stabilizability")
-"""What is asked by default about all values within ranges of several parameters."""
-_DEGREE = 60
-"""The degree of minors up to which indices are asked by default: a minute on one processor."""
-
-
-def _degree_of(entry: RationalFunction) -> int:
-    return max(int(entry.numerator.total_degree()), int(entry.denominator.total_degree()), 0)
-
-
-class ParametricAnalysis(Asking):
-    """The answers about a system with parameters, each decided when it is first used.
-
-    Parameters
-    ----------
-    plant : ParametricSystem
-    questions : iterable of str, optional
-    channel : str, optional
-    timeout : float, optional
-    progress : callable, optional
-        As `analyze` takes them.
-
-    Attributes
-    ----------
-    plant : ParametricSystem
-
-    Examples
-    --------
-    >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
-    >>> found = ParametricAnalysis(plant)
-    >>> print(found.account.at("answer")[1])
-    A mode is fixed where t = 0.
-    >>> found.setpoint.words
-    ('rank 3 for almost every t', 'rank 2 where t = 0')
-    """
-
-    plant: ParametricSystem
-    _certain = "a parameter has no range with two ends"
-    questions = MappingProxyType(
-        {name: question for name, question in QUESTIONS.items() if question.for_all_values}
-    )
-
-    def __init__(
-        self,
-        plant: ParametricSystem,
-        questions: Iterable[str] | None = None,
-        *,
-        channel: str | None = None,
-        timeout: float | None = None,
-        progress: Callable[[str], None] | None = None,
-    ) -> None:
-        self.plant = plant
-        ends = [end for bounds in plant.ranges for end in bounds]
-        self._arguments = {
-            "channels": None if channel is None else [channel],
-            "uncertainty": None if None in ends else plant.ranges,
-        }
-        plant.indices([] if channel is None else [channel])
-        self._ask(questions, timeout, progress)
-
-    def _too_long(self, question: Question) -> str:
-        plant = self.plant
-        if len(plant.parameters) > 1 and plant.n > _MOST:
-            return f"more than {_MOST} states with several parameters"
-        if "channels" in question.help and plant.m > _CHANNELS:
-            return f"more than {_CHANNELS} channels, with a certificate for every two"
-        if question.ports and (degree := self._degree(question)) > _DEGREE:
-            return f"ranks of polynomials of degrees up to about {degree}"
-        return ""
-
-    def _applies(self, name: str) -> bool:
-        # With one parameter the exact answers say what holds in the range.
-        several = len(self.plant.parameters) > 1
-        return not name.startswith("box_") or (several and name in _WITHIN_RANGES)
-
-    def _degree(self, question: Question) -> int:
-        """About the degree of minors of [B, A B, …]: blocks times rows or columns with letters."""
-        plant = self.plant
-        entries = [[_degree_of(entry) for entry in row] for row in plant.A.rows]
-        lines = min(sum(map(any, entries)), sum(map(any, zip(*entries, strict=True))))
-        width = sum(p if question.ports == "inputs" else q for p, q in plant.sizes)
-        return lines * max(map(max, entries), default=0) * -(-plant.n // max(width, 1))
-
-    def _given(self, name: str) -> tuple[list[Any], dict[str, Any]]:
-        question = self.questions[name]
-        if name == "completeness":
-            return [self.plant, self["fixed_spectrum"], self["transfer_graph"]], {}
-        if question.needs == "uncertainty":
-            return [self.plant], {}
-        reused = {question.needs: self._arguments[question.needs]} if question.needs else {}
-        return [self.plant], reused
-
-    def _decide(self, name: str, arguments: list[Any], reused: dict[str, Any]) -> Any:
-        if name == "completeness":
-            return parametric_completeness(*arguments)
-        if len(self.plant.parameters) > 1 and self.questions[name].needs != "uncertainty":
-            return exceptional_hypersurfaces(*arguments, name, **reused)  # type: ignore[call-overload]
-        return super()._decide(name, arguments, reused)
+            self._outcome(name)
+        return {name: self._answers[name] for name in self.asked}
 
     @property
     def answers(self) -> dict[str, Any]:
         """The answers to all questions asked, without those that a limit left open."""
         return {
-            name: found
-            for name, found in self._outcomes().items()
-            if not isinstance(found, LimitReached)
+            name: outcome
+            for name, outcome in self._outcomes().items()
+            if not isinstance(outcome, LimitReached)
         }
-
-    @property
-    def account(self) -> ParametricAccount:  # type: ignore[override]
-        """Decide all questions asked, and return the answers with their sentences."""
-        return ParametricAccount(self.plant, self.answers)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data with an entry for each answer, keyed by the name of its question."""
-        return self.account.as_json(questions=[each.view() for each in self.effort()])
-
-    def plot(self, ax: Any = None, **options: Any) -> Any:
-        """Draw the modes against one parameter, or the hypersurfaces of two."""
-        return self["fixed_spectrum"].plot(ax, **options)
-
-    def __repr__(self) -> str:
-        named = ", ".join(self.plant.parameters_in_words)
-        return f"ParametricAnalysis(n={self.plant.n}, m={self.plant.m}, parameters: {named})"
-
-
-# Questions about a plant without parameters, and `analyze`.
-
-_MOST_STATES = 60
-"""Plants within the radii that fail are searched for at most so many states: that takes seconds."""
-
-
-class Analysis(Asking):
-    """The answers about one system, by attribute or item, each decided when it is first used.
-
-    Parameters
-    ----------
-    plant : MultiChannelSystem
-    questions : iterable of str, optional
-    information : {"own", "outputs"}
-    subset : sequence of str, optional
-    channel : str, optional
-    timeout : float, optional
-    progress : callable, optional
-        As `analyze` takes them.
-
-    Attributes
-    ----------
-    plant : MultiChannelSystem
-    information : str
-    """
-
-    plant: MultiChannelSystem
-
-    def __init__(
-        self,
-        plant: MultiChannelSystem,
-        questions: Iterable[str] | None = None,
-        *,
-        information: str = "own",
-        subset: Sequence[str] | None = None,
-        channel: str | None = None,
-        timeout: float | None = None,
-        progress: Callable[[str], None] | None = None,
-    ) -> None:
-        InputError.require(plant, MultiChannelSystem, "system")
-        self.plant = plant
-        self.information = information
-        self._arguments: dict[str, Any] = {
-            "neighbors": plant.neighbors,
-            "uncertainty": plant.plant.uncertainty,
-            "subset": subset,
-            "channel": channel,
-            "channels": None if channel is None else [channel],
-        }
-        named = () if subset is None else several(subset, "subset")
-        plant.indices([*named, *([] if channel is None else [channel])])
-        one_of(information, ("own", "outputs"), "information")
-        if information == "outputs":
-            self._require(
-                "neighbors", "the information 'outputs' is about messages between neighbors"
-            )
-        self._refuted: dict[str, Answer | None] = {}
-        self._by_default = questions is None
-        self._ask(questions, timeout, progress)
-
-    def _too_long(self, question: Question) -> str:
-        system = self.system
-        ports = {
-            "inputs": sum(map(system.p, range(system.m))),
-            "outputs": sum(map(system.q, range(system.m))),
-        }
-        return question.reason_to_leave_out(system.n, ports)
-
-    def _applies(self, name: str) -> bool:
-        subset = self._arguments["subset"]
-        return name != "complementary_subsystem" or 0 < len(set(subset)) < self.plant.m
-
-    @cached_property
-    def system(self) -> MultiChannelSystem:
-        """Return the plant, or the plant with the outputs that the agents receive."""
-        return self.plant if self.information == "own" else self.linked
-
-    @cached_property
-    def linked(self) -> MultiChannelSystem:
-        """Return the plant with the outputs that the agents receive."""
-        from mcexact.derived.constructions import augmented_outputs
-
-        return augmented_outputs(self.plant)
-
-    @cached_property
-    def lifted(self) -> MultiChannelSystem:
-        """Return the plant with sub-states, as many as the bound, shared over links with delays."""
-        from mcexact.derived.constructions import lifted_system
-
-        return lifted_system(self.plant, self._shared("outputs_states"))
-
-    @cached_property
-    def held(self) -> MultiChannelSystem:
-        """Return the plant with sub-states that are shared alone, and held for the delays."""
-        from mcexact.derived.constructions import held_system
-
-        return held_system(self.plant, self._shared("states"))
-
-    def _shared(self, stem: str) -> tuple[int, ...]:
-        return (self[f"shared_dimension_bound_{stem}"].deficiency,) * self.plant.m
-
-    def _given(self, name: str) -> tuple[list[Any], dict[str, Any]]:
-        question = self.questions[name]
-        arguments = [getattr(self, question.about)]
-        if question.needs not in {"", "neighbors", "uncertainty"}:
-            arguments.append(self._arguments[question.needs])
-        reused = {key: self[other] for key, other in question.reuses.items()}
-        for key, other in question.shares.items():
-            if other in self._asked and not isinstance(self._answer(other), LimitReached):
-                reused[key] = self._answer(other)
-        return arguments, reused
-
-    def _outcomes(self) -> dict[str, Any]:
-        """The outcomes, with the change that the existing links make to the fixed modes."""
-        found, graph = super()._outcomes(), self.plant.neighbors
-        spectrum = found.get("fixed_spectrum")
-        linked = self.information == "own" and graph is not None and graph.edges()
-        if not self._by_default or not linked or "linked_fixed_spectrum" in found:
-            return found
-        if spectrum is None or isinstance(spectrum, LimitReached) or spectrum.empty:
-            return found
-        self._asked.add("linked_fixed_spectrum")
-        return super()._outcomes()
 
     def decided(self) -> dict[str, Any]:
-        """Return the answers to all questions asked, with several answers to one numbered."""
-        answers: dict[str, Any] = {}
-        for name, found in self._outcomes().items():
-            if isinstance(found, tuple):
-                answers |= {f"{name}_{k}": each for k, each in enumerate(found, start=1)}
-            elif not isinstance(found, LimitReached):
-                answers[name] = found
-        return answers
+        """Return the answers to all questions asked, with several answers to one numbered.
+
+        With several parameters these are the answers along lines, which prove the others.
+        """
+        return by_certificate(self.answers)
 
     @property
     def account(self) -> Account:
         """Decide all questions asked, and return the answers with their sentences."""
+        if self.parameters:
+            return account_for_all_values(self.plant, self.answers)
         answers = self.decided()
         open_ = {*self.left_out, *self.open()} - answers.keys() - self._ended
         given = Given(self.system, {"information": self.information})
-        said = with_own(ANALYSIS, answers).sentences(answers, given, open_)
-        return Account(answers, given, said, self.plant.subject, sorted(open_), self.failing())
+        sentences = with_own(ANALYSIS, answers).sentences(answers, given, open_)
+        return Account(answers, given, sentences, self.plant.subject, sorted(open_), self.failing())
 
     def failing(self) -> dict[str, Answer]:
         """Return exact answers about plants within the radii that lack an unproved property.
 
         Such a plant is searched for each question of `PROPERTIES` that was asked and is open, if
-        the system has at most 60 states.  If the search fails, this proves nothing.
+        the system has at most 60 states and no parameters.  If the search fails, this proves
+        nothing.
         """
         system, asked = self.system, PROPERTIES.keys() & (self.open().keys() - self._ended)
-        if system.subject or system.n > _MOST_STATES or self._left == 0:
+        if self.parameters or system.subject or system.n > _MOST_STATES or self._left == 0:
             return {}
         for name in asked - self._refuted.keys():
             # Few plants have radii, and this loads all that searches in boxes.
             from mcexact.analysis.boxes.largest import failing_member
 
             self._refuted[name] = failing_member(system, PROPERTIES[name])
-        found = {name: self._refuted[name] for name in sorted(asked)}
-        return {name: answer for name, answer in found.items() if answer is not None}
+        searched = {name: self._refuted[name] for name in sorted(asked)}
+        return {name: answer for name, answer in searched.items() if answer is not None}
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data with an entry for each answer, keyed by the name of its question."""
+        account, efforts = self.account, [each.view() for each in self.effort()]
+        if self.parameters:
+            return account.as_json(questions=efforts)
         open_ = {}
         for name, reached in self.open().items():
             bounds = {"lower": _written(reached.lower), "upper": _written(reached.upper)}
             open_[name] = {"decided": False, "computed_not_certified": bounds}
-        told, account = [each.view() for each in self.effort()], self.account
         failing = {name: each.about.plant.to_dict() for name, each in account.failing.items()}
         known = {"failing_within_radii": failing} if failing else {}
-        return account.as_json(information=self.information, questions=told, **known, **open_)
+        return account.as_json(information=self.information, questions=efforts, **known, **open_)
 
     def to_rows(self) -> list[dict[str, Any]]:
         """Decide all questions asked, and return a flat row for each answer."""
         return [{"question": name, **each.to_row()} for name, each in self.decided().items()]
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draw the neighbor graph and the transfer graph, with what makes a mode fixed in orange.
+    def plot(self, ax: Any = None, **options: Any) -> Any:
+        """Draw the graphs of the plant, or what is fixed for which values of its parameters.
+
+        Without parameters these are the neighbor graph and the transfer graph, with what makes a
+        mode fixed in orange; with one the modes against it, with two hypersurfaces.
 
         Parameters
         ----------
         ax : axes of matplotlib, optional
             One for each graph.
+        **options
+            With parameters, as the answer's own ``plot`` takes them.
 
         Returns
         -------
         matplotlib.figure.Figure
         """
-        return structure(self.system, self["fixed_spectrum"], self["transfer_graph"], ax)
+        if self.parameters:
+            return self["fixed_spectrum"].plot(ax, **options)
+        return structure(self.system, self["fixed_spectrum"], self["transfer_graph"], ax, **options)
+
+
+ParametricAnalysis = Analysis
+"""The name of the class where the plant has parameters."""
+
+
+def _parameters(plant: Any) -> tuple[str, ...]:
+    return plant.parameters if isinstance(plant, ParametricSystem) else ()
+
+
+def _uncertainty(plant: MultiChannelSystem | ParametricSystem) -> Any:
+    """The radii of the entries, or the ranges of all parameters; None if something lacks these."""
+    if isinstance(plant, ParametricSystem):
+        ends = [end for bounds in plant.ranges for end in bounds]
+        return None if None in ends else plant.ranges
+    return plant.plant.uncertainty
 
 
 def _written(bound: Fraction | None) -> Any:
     return None if bound is None else written(bound)
-
-
-@overload
-def analyze(
-    plant: MultiChannelSystem,
-    questions: Iterable[str] | None = None,
-    *,
-    also: Iterable[str] = (),
-    information: str = "own",
-    subset: Sequence[str] | None = None,
-    channel: str | None = None,
-    timeout: float | None = None,
-    progress: Callable[[str], None] | None = None,
-) -> Analysis: ...
-
-
-@overload
-def analyze(
-    plant: ParametricSystem,
-    questions: Iterable[str] | None = None,
-    *,
-    also: Iterable[str] = (),
-    channel: str | None = None,
-    timeout: float | None = None,
-    progress: Callable[[str], None] | None = None,
-) -> ParametricAnalysis: ...
 
 
 def analyze(
@@ -847,7 +716,7 @@ def analyze(
     channel: str | None = None,
     timeout: float | None = None,
     progress: Callable[[str], None] | None = None,
-) -> Analysis | ParametricAnalysis:
+) -> Analysis:
     """Answer questions about a system, by default all that apply and are cheap.
 
     Parameters
@@ -876,7 +745,7 @@ def analyze(
 
     Returns
     -------
-    Analysis or ParametricAnalysis
+    Analysis
         The answers, each of which is decided when it is first used.
 
     Raises
@@ -888,38 +757,28 @@ def analyze(
     Examples
     --------
     >>> from mcexact.model import gallery
-    >>> found = analyze(gallery.load("liu2020-3ch-no-communication"))
-    >>> found.fixed_spectrum.empty, found.completeness.complete
+    >>> analysis = analyze(gallery.load("liu2020-3ch-no-communication"))
+    >>> analysis.fixed_spectrum.empty, analysis.completeness.complete
     (False, False)
-    >>> sorted(found.minimal_communication.added)
+    >>> sorted(analysis.minimal_communication.added)
     [('1', '2')]
-    >>> found = analyze(found.plant, ["completeness"], progress=print)
-    >>> found.completeness.complete
+    >>> analysis = analyze(analysis.plant, ["completeness"], progress=print)
+    >>> analysis.completeness.complete
     0 of 2 questions decided, now the fixed spectrum
     1 of 2 questions decided, now the completeness
     False
     """
-    made: Analysis | ParametricAnalysis
-    if isinstance(plant, ParametricSystem):
-        if subset is not None or information != "own":
-            raise UsageError(
-                "these questions are about systems without parameters: give values with .at({…})"
-            )
-        made = ParametricAnalysis(
-            plant, questions, channel=channel, timeout=timeout, progress=progress
-        )
-    else:
-        made = Analysis(
-            plant,
-            questions,
-            information=information,
-            subset=subset,
-            channel=channel,
-            timeout=timeout,
-            progress=progress,
-        )
-    made.also(also)
-    return made
+    analysis = Analysis(
+        plant,
+        questions,
+        information=information,
+        subset=subset,
+        channel=channel,
+        timeout=timeout,
+        progress=progress,
+    )
+    analysis.also(also)
+    return analysis
 
 
 # The answers of `mcexact allocate` with their sentences.

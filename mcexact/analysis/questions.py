@@ -1,12 +1,69 @@
-"""The table of questions about a system, from which names of answers, options and files derive."""
+"""The tables of questions about a system, from which names of answers, options and files derive.
+
+A plant of numbers, a plant with one parameter and a plant with several have a table each, which
+`questions_about` returns.  The tables for parameters have those questions of `QUESTIONS` that are
+decided for all values.  What differs is data of the questions: the function that decides, the
+answers that it uses, whether the question is asked by default, and the limit beyond which it is
+left out since it would take very long.
+
+A question names its function by a string, because every command has options for questions, and the
+modules of all functions take longer to import than most commands run.
+"""
 
 from __future__ import annotations
 
 import importlib
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
+
+# Limits: why a question is left out, unless it is named, as it would take very long.
+
+_MOST_STATES, _MOST_CHANNELS = 10, 20
+"""The states of a plant with several parameters, and the channels of one with any, by default."""
+_MOST_DEGREE = 60
+"""The degree of minors up to which indices are asked by default: a minute on one processor."""
+
+
+def _left_out_with_numbers(question: Question, system: Any) -> str:
+    """The limit for numbers: dense matrices of many states, and long Krylov sequences."""
+    n = system.n
+    if question.most and n > question.most:
+        return f"more than {question.most} states, of which it needs dense matrices"
+    width = max(question.width(system), 1) if question.ports else n
+    if question.ports and (n**2 > 10**4 * width or n**3 > 2 * 10**6 * width):
+        return f"{n} states for {width} {question.ports}, which make very long evidence"
+    return ""
+
+
+def _left_out_with_parameters(question: Question, plant: Any) -> str:
+    """The limit for parameters: states of several, pairs of channels, and degrees of minors."""
+    if len(plant.parameters) > 1 and plant.n > _MOST_STATES:
+        return f"more than {_MOST_STATES} states with several parameters"
+    if question.pairs and plant.m > _MOST_CHANNELS:
+        return f"more than {_MOST_CHANNELS} channels, with a certificate for every two"
+    if (
+        question.ports
+        and (degree := _degree_of_minors(plant, question.width(plant))) > _MOST_DEGREE
+    ):
+        return f"ranks of polynomials of degrees up to about {degree}"
+    return ""
+
+
+def _degree_of_minors(plant: Any, width: int) -> int:
+    """About the degree of minors of [B, A B, …]: blocks times rows or columns with letters."""
+    degrees = [[_degree(entry) for entry in row] for row in plant.A.rows]
+    lines = min(sum(map(any, degrees)), sum(map(any, zip(*degrees, strict=True))))
+    n: int = plant.n
+    return lines * max(map(max, degrees), default=0) * -(-n // max(width, 1))
+
+
+def _degree(entry: Any) -> int:
+    return max(int(entry.numerator.total_degree()), int(entry.denominator.total_degree()), 0)
+
+
+# Questions, and the table for numbers.
 
 SHARES = {"outputs+states": "outputs_states", "states": "states"}
 """The form of each way of sharing in the name of a question."""
@@ -28,21 +85,24 @@ class Question:
         feed back.  "lifted" and "held" are the plant with sub-states shared over links with delays,
         "held" with sub-states that are shared alone, and held for the delays.
     needs : {"", "neighbors", "uncertainty", "subset", "channel", "channels"}
-        What the question needs: a neighbor graph, radii of entries, a set of channels or a channel.
-        The last three values name the function's second argument; ``channels`` is a list of one
-        channel.
-    unbidden : bool
+        What the question needs: a neighbor graph, radii of entries or ranges of parameters, a set
+        of channels or a channel.  The last three values name an argument of the function;
+        ``channels`` is a list of one channel.
+    by_default : bool
         Whether it is asked by default; NP-hard and slow questions are not.
     option : str
         The name of the option of `mcexact analyze` that asks it, with the help of its first
         question.
     ports : {"", "inputs", "outputs"}
         If not empty, it is asked by default only if n² ≤ 10⁴ and n³ ≤ 2·10⁶ times the number of
-        these, since the evidence is a Krylov sequence, which is longer with fewer of them.
+        these, since the evidence is a Krylov sequence, which is longer with fewer of them.  With
+        parameters the degree of minors is limited instead.
     most : int
-        If not 0, it is asked by default only of at most so many states, which take about a minute
-        on one processor.
-    given : mapping
+        If not 0, it is asked by default only of at most so many states without parameters, which
+        take about a minute on one processor.
+    pairs : bool
+        Whether the evidence for all values of parameters has a certificate for every two channels.
+    keywords : mapping
         Further keyword arguments of the function.
     reuses : mapping
         Keyword arguments that take the answer to another question about the same system.
@@ -55,22 +115,27 @@ class Question:
         Whether the certificate is about the dual system.
     for_all_values : bool
         Whether it is decided for all values of parameters as well.
+    limit : callable
+        It takes the question and a system, and returns why the question would take very long about
+        it; empty if it would not.
     """
 
     home: str
     help: str
     about: str = "system"
     needs: str = ""
-    unbidden: bool = True
+    by_default: bool = True
     option: str = ""
     ports: str = ""
     most: int = 0
-    given: Mapping[str, Any] = field(default_factory=dict)
+    pairs: bool = False
+    keywords: Mapping[str, Any] = field(default_factory=dict)
     reuses: Mapping[str, str] = field(default_factory=dict)
     shares: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""
     dual: bool = False
     for_all_values: bool = False
+    limit: Callable[[Question, Any], str] = _left_out_with_numbers
 
     @property
     def module(self) -> str:
@@ -85,16 +150,20 @@ class Question:
     def decide(self, *arguments: Any, **keywords: Any) -> Any:
         """Call the function that decides it."""
         module = importlib.import_module(f"mcexact.analysis.{self.module}")
-        return getattr(module, self.function)(*arguments, **self.given, **keywords)
+        return getattr(module, self.function)(*arguments, **self.keywords, **keywords)
 
-    def reason_to_leave_out(self, n: int, ports: Mapping[str, int]) -> str:
-        """Why it is not asked by default about n states with so many ports; empty if it is."""
-        if self.most and n > self.most:
-            return f"more than {self.most} states, of which it needs dense matrices"
-        width = max(ports[self.ports], 1) if self.ports else n
-        if self.ports and (n**2 > 10**4 * width or n**3 > 2 * 10**6 * width):
-            return f"{n} states for {width} {self.ports}, which make very long evidence"
-        return ""
+    def width(self, system: Any) -> int:
+        """The number of the inputs or outputs that the evidence depends on."""
+        return sum(p if self.ports == "inputs" else q for p, q in system.sizes)
+
+    def reason_to_leave_out(self, system: Any) -> str:
+        """Why it is not asked by default about a system; empty if it is.
+
+        Parameters
+        ----------
+        system : MultiChannelSystem or ParametricSystem
+        """
+        return self.limit(self, system)
 
 
 def _joint(
@@ -107,11 +176,12 @@ def _joint(
             f"which modes the channels {verb}",
             about=about,
             needs=needs,
-            unbidden=not option,
+            by_default=not option,
             option=option,
             shares={"spectrum": spectrum} if spectrum else {},
             kind="controllability",
             dual=what == "observ",
+            pairs=about == "system",
             for_all_values=about == "system",
         )
         for what, verb in (("controll", "control"), ("observ", "observe"))
@@ -152,7 +222,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "by default if some mode is fixed without these",
             about="linked",
             needs="neighbors",
-            unbidden=False,
+            by_default=False,
             kind="fixed_spectrum",
         ),
         "completeness": Question(
@@ -179,6 +249,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         "transfer_graph": Question(
             "structure:transfer_graph",
             "which channels' inputs affect which outputs",
+            pairs=True,
             for_all_values=True,
         ),
         "assignability": Question(
@@ -202,7 +273,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         "spectrum_of_A": Question(
             "stability:open_loop_spectrum",
             "the modes of the plant",
-            unbidden=False,
+            by_default=False,
             kind="closed_loop_spectrum",
         ),
         "pencil_rank": Question(
@@ -215,12 +286,12 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         **{
             f"channel_gains_{want}": Question(
                 "single_channel:single_channel_gains",
-                f"whether gains make one channel {said}",
+                f"whether gains make one channel {power}",
                 needs="channel",
-                given={"want": want},
+                keywords={"want": want},
                 kind="single_channel_gains",
             )
-            for want, said in (
+            for want, power in (
                 ("controllable", "control everything"),
                 ("observable", "observe everything"),
                 ("both", "control and observe everything"),
@@ -229,7 +300,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         "every_channel": Question(
             "single_channel:single_channel_gains",
             "gains with which every channel controls and observes the whole plant",
-            unbidden=False,
+            by_default=False,
             option="every-channel",
             kind="single_channel_gains",
         ),
@@ -245,9 +316,9 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                 help,
                 about="plant",
                 needs="neighbors",
-                unbidden=not option,
+                by_default=not option,
                 option=option,
-                given={"share": share},
+                keywords={"share": share},
                 kind=kind,
             )
             for name, kind, option, help in _SHARING
@@ -256,14 +327,14 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         **{
             name: Question(
                 f"boxes.members:{name}",
-                f"whether {said} for every plant within the radii of the entries, or the ranges",
+                f"whether {quality} for every plant within the radii of the entries, or the ranges",
                 needs="uncertainty",
                 for_all_values=True,
                 reuses={"spectrum": "fixed_spectrum"} if kind == "box_fixed" else {},
                 kind=kind,
                 dual=name == "box_observability",
             )
-            for name, kind, said in (
+            for name, kind, quality in (
                 ("box_fixed_modes", "box_fixed", "no mode is fixed"),
                 ("box_stabilizability", "box_fixed", "a controller of its own stabilizes,"),
                 ("box_controllability", "box_controllable", "the channels control every mode,"),
@@ -283,7 +354,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "sharing:minimal_communication",
             "the fewest links over which sending outputs leaves no mode fixed",
             about="plant",
-            unbidden=False,
+            by_default=False,
             option="links",
             kind="communication",
         ),
@@ -296,13 +367,13 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                     "which modes are fixed with the delays of the neighbor graph, lifted and held",
                     about=network,
                     needs="neighbors",
-                    unbidden=False,
+                    by_default=False,
                     option="delayed",
                     kind="fixed_spectrum",
                 ),
                 **{
-                    f"joint_{what}": found
-                    for what, found in _joint(
+                    f"joint_{what}": each
+                    for what, each in _joint(
                         network, "neighbors", "delayed", f"{network}_fixed_spectrum"
                     ).items()
                 },
@@ -315,6 +386,51 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
 The answer has the same name in Python and in JSON, and so has the file of its certificate, with
 ``.json``; several answers to one question are numbered.
 """
+
+
+# The tables for parameters.
+
+_WITHIN_RANGES = ("box_fixed_modes", "box_stabilizability")
+"""What is asked by default about all values within the ranges of several parameters.
+
+With one parameter the exact answers say what holds in its range.
+"""
+
+
+def _for_all_values(name: str, question: Question, *, several: bool) -> Question:
+    """Return a question as it is asked about a plant with one parameter, or with several."""
+    asked = replace(question, limit=_left_out_with_parameters, reuses={}, shares={})
+    if name == "completeness":
+        answers = {"spectrum": "fixed_spectrum", "graph": "transfer_graph"}
+        return replace(
+            asked, home="parameters.hypersurfaces:parametric_completeness", reuses=answers
+        )
+    if question.needs == "uncertainty":
+        return replace(asked, by_default=several and name in _WITHIN_RANGES)
+    if several:
+        home = "parameters.hypersurfaces:exceptional_hypersurfaces"
+        return replace(asked, home=home, keywords={"question": name})
+    return asked
+
+
+WITH_ONE_PARAMETER, WITH_SEVERAL_PARAMETERS = (
+    MappingProxyType(
+        {
+            name: _for_all_values(name, question, several=several)
+            for name, question in QUESTIONS.items()
+            if question.for_all_values
+        }
+    )
+    for several in (False, True)
+)
+"""The questions about a plant with parameters, for all values of which they are decided."""
+
+
+def questions_about(parameters: Sequence[str]) -> Mapping[str, Question]:
+    """Return the table of questions about a plant with some parameters, or with none."""
+    if not parameters:
+        return QUESTIONS
+    return WITH_ONE_PARAMETER if len(parameters) == 1 else WITH_SEVERAL_PARAMETERS
 
 
 def asked_by(*options: str) -> list[str]:

@@ -1,13 +1,13 @@
 """Answers about a system with their sentences, rows and certificates.
 
-`Account` is for one plant without parameters, and for the certified part of an analysis with them.
-It holds answers by name, the sentences that follow from them by rules, and the certificates and the
-manifest from which the checker verifies these sentences.  If the plant has radii, the answers about
-every plant within them are said first (`leading`).
+An `Account` holds answers by name, the sentences that follow from them by rules, and the
+certificates and the manifest from which the checker verifies these sentences.  If the plant has
+radii, the answers about every plant within them come first (`leading`).
 
-`ParametricAccount` is for a plant with parameters.  With one parameter every sentence follows from
-certificates.  With several, certificates are about lines, and the account also has sentences that
-are computed and not certified; its property ``proved`` has the certified ones alone.
+`account_for_all_values` makes the account of answers about a plant with parameters.  Such an answer
+has rows: values of the parameters, and what holds there.  With one parameter every sentence follows
+from certificates.  With several, certificates are about lines, and the account also has sentences
+that are computed and not certified.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ FAILS = {
     "box_controllability": "some plant is not controllable by all channels together",
     "box_observability": "some plant is not observable by all channels together",
 }
-"""What is said where a plant within the radii is known that lacks what was asked."""
+"""The sentences where a plant within the radii is known that lacks what was asked."""
 
 
 def leading(
@@ -86,36 +86,65 @@ def leading(
     Returns
     -------
     tuple of str
-        The last one says that what follows is about the nominal values; empty if nothing is said
-        of all plants.
+        The last one says that what follows is about the nominal values; empty if there is no answer
+        about all plants.
     """
     known = [name for name in QUESTIONS if name in answers]
     if "box_fixed_modes" in known and "box_stabilizability" in known:
         # A plant without fixed modes is stabilizable.
         known.remove("box_stabilizability")
-    said = [answers[name].explain() for name in known]
-    said += [f"within the radii: {FAILS[name]}" for name in FAILS if name in failing]
+    sentences = [answers[name].explain() for name in known]
+    sentences += [f"within the radii: {FAILS[name]}" for name in FAILS if name in failing]
     if left := _left(answers, {*open_} - {*failing}):
-        said.append(f"within the radii: open, as no proof was found: {', '.join(left)}")
-    return (f"radii: {radii_in_words(system)}", *said, "At the nominal values:") if said else ()
+        sentences.append(f"within the radii: open, as no proof was found: {', '.join(left)}")
+    if not sentences:
+        return ()
+    return (f"radii: {radii_in_words(system)}", *sentences, "At the nominal values:")
 
 
 def _left(answers: Mapping[str, Any], open_: Collection[str]) -> list[str]:
     """The questions about every plant within the radii that are reported as open."""
-    told = {*open_} - answers.keys()
+    names = {*open_} - answers.keys()
     if "box_fixed_modes" in answers:
-        told.discard("box_stabilizability")
+        names.discard("box_stabilizability")
     if "setpoint" in answers and not answers["setpoint"].solvable:
         # The nominal plant fails, of which its own sentence tells.
-        told.discard("box_setpoints")
-    return [name.removeprefix("box_").replace("_", " ") for name in QUESTIONS if name in told]
+        names.discard("box_setpoints")
+    return [name.removeprefix("box_").replace("_", " ") for name in QUESTIONS if name in names]
 
 
-# Accounts of plants without parameters.
+# Answers for all values of parameters: what their rows are about.
+
+LABELS = {
+    "fixed_spectrum": "fixed modes",
+    "completeness": "complete",
+    "joint_controllability": "modes that no channel controls",
+    "joint_observability": "modes that no channel observes",
+    "controllability_indices": "ranks of [B, AB, …] by the number of blocks",
+    "observability_indices": "ranks of [C; CA; …] by the number of blocks",
+    "transfer_graph": "edges of the transfer graph",
+    "setpoint": "rank of the matrix of equilibria",
+    "channel_controllability": "modes that the channel does not control",
+    "channel_observability": "modes that the channel does not observe",
+}
+"""The questions, with what their answers are about."""
+COLUMNS = ("where", "what", "because")
+PROVED = "proved for every point of lines"
+PROOFS = ("about", "line", "what holds on it")
+MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
+"""The questions about modes, of which a table says more than a sentence."""
+_OPEN = (
+    "That no mode is fixed for almost all values is proved by a point at which none is. All else "
+    "about almost all values, and the conditions, is proved along drawn lines; between them it is "
+    "computed and not certified. Where several conditions meet is not decided."
+)
+Row = tuple[str, str, str]
+
+# Accounts.
 
 FORMAT = "mcexact-analysis/1"
+PARAMETRIC_FORMAT = "mcexact-parametric-analysis/1"
 _ANSWER = ("answer", "answer.mode")
-_PLAIN = ("title", *_ANSWER, "table")
 
 
 @dataclass(frozen=True, repr=False)
@@ -125,9 +154,10 @@ class Account(Shown):
     Attributes
     ----------
     answers : mapping
-        The answers by name; the name with ``.json`` is that of the certificate's file.
+        The answers by name; the name with ``.json`` is that of the certificate's file.  With
+        parameters an answer may be a tuple, or be proved by certificates along lines: `parts`.
     given : Given
-    sentences : Sentences
+    derived : Sentences
         The sentences that follow by the rules, each with its place and premises.
     subject : sequence of mapping
         The constructions that lead from the user's plant to the plant of this account.
@@ -137,23 +167,68 @@ class Account(Shown):
         For some of these the exact answer about a plant within the radii that lacks what was asked.
     nearby : collection of str
         The names that answers about another plant nearby have.
+    computed : Sentences
+        Sentences that no certificate implies alone: only with several parameters.
+    for_all_values : bool
+        Whether the answers are for all values of parameters, and have rows.
     """
 
     answers: Mapping[str, Any]
     given: Given
-    sentences: Sentences
+    derived: Sentences
     subject: Sequence[Mapping[str, Any]] = ()
     open: Collection[str] = ()
     failing: Mapping[str, Any] = field(default_factory=dict)
     nearby: Collection[str] = ()
+    computed: Sentences = field(default_factory=Sentences)
+    for_all_values: bool = False
 
     def __repr__(self) -> str:
-        return f"Account({len(self.answers)} answers, {len(self.sentences)} sentences)"
+        head = "ParametricAccount" if self.for_all_values else "Account"
+        return f"{head}({len(self.answers)} answers, {len(self.sentences)} sentences)"
+
+    @property
+    def several(self) -> bool:
+        """Whether the answers are for all values of several parameters: proofs are about lines."""
+        return self.for_all_values and len(self.given.system.parameters) > 1
+
+    # Sentences.
+
+    @cached_property
+    def sentences(self) -> Sentences:
+        """All sentences, those that no certificate implies last."""
+        return Sentences((*self.derived, *self.computed))
+
+    def at(self, *places: str) -> list[str]:
+        """The sentences of a place, with what is left open behind the answer."""
+        note = [_OPEN] if self.several and "answer" in places else []
+        return [*self.sentences.at(*places), *note]
+
+    @cached_property
+    def leading(self) -> tuple[str, ...]:
+        """The sentences about every plant within the radii; empty without radii."""
+        system = self.given.system
+        if not isinstance(system, MultiChannelSystem):
+            return ()
+        return leading(system.plant, self.answers, self.open, self.failing)
+
+    def explain(self) -> str:
+        """Say in plain words what the answers are, one sentence a line."""
+        title = [] if self.for_all_values else self.at("title")
+        rows = [each.line for each in self.sentences.at("table")]
+        return "\n".join([*self.leading, *title, *self.at(*_ANSWER), *rows])
+
+    # Certificates.
+
+    @cached_property
+    def parts(self) -> dict[str, Answer]:
+        """The certificates by name: of several for one question, or along lines, numbered."""
+        return by_certificate(self.answers)
 
     @cached_property
     def certificates(self) -> dict[str, str]:
         """The text of every certificate, keyed by the name of its file."""
-        return {f"{name}.json": protocol.encode(answer) for name, answer in self.answers.items()}
+        return {f"{name}.json": protocol.encode(part) for name, part in self.parts.items()}
 
     def manifest(self) -> dict[str, Any]:
         """Return the sentences with their premises, and the digests of the certificates."""
@@ -161,10 +236,12 @@ class Account(Shown):
 
     def _manifest(self, texts: Mapping[str, str]) -> dict[str, Any]:
         near = [f"{name}.json" for name in sorted(self.nearby) if name in self.answers]
-        return manifest(self.sentences, texts, self.subject, near)
+        return manifest(self.derived, texts, self.subject, near)
 
     def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
         """Return the certificates and the manifest, keyed by the names of their files.
+
+        Without certificates for all values there is no file.
 
         Parameters
         ----------
@@ -172,14 +249,16 @@ class Account(Shown):
             Whether certificates name the plant by its digest alone, as in `codec.encode`; those
             about a box around it, of which there is no file, contain it.
         """
+        if self.for_all_values and not self.parts:
+            return {}
         texts = self.certificates
         if system_by_digest:
             own = self.given.system.digest()
             texts = {
                 f"{name}.json": protocol.encode(
-                    answer, system_by_digest=answer.about.plant.digest() == own
+                    part, system_by_digest=part.about.plant.digest() == own
                 )
-                for name, answer in self.answers.items()
+                for name, part in self.parts.items()
             }
         return texts | {MANIFEST: canonical(self._manifest(texts)) + "\n"}
 
@@ -203,11 +282,14 @@ class Account(Shown):
         for name, text in self.files(system_by_digest=system_by_digest).items():
             write_text(os.path.join(folder, name), text)
 
+    # Plain data.
+
     def as_json(self, **more: Any) -> dict[str, Any]:
         """Return plain data with an entry for each answer, keyed by its name."""
-        system = self.given.system
+        system, everywhere = self.given.system, self.for_all_values
+        table = [[*each.cells] for each in self.sentences.at("table")]
         return {
-            "format": FORMAT,
+            "format": PARAMETRIC_FORMAT if everywhere else FORMAT,
             "system": {
                 "name": system.name,
                 "n": system.n,
@@ -215,40 +297,86 @@ class Account(Shown):
                 "time": system.time,
                 "channels": list(system.names),
             },
+            **({"parameters": system.document()["parameters"]} if everywhere else {}),
             **more,
-            "answer": [str(each) for each in self.sentences.at("answer", "answer.mode")],
+            "answer": [str(each) for each in self.at(*_ANSWER)],
+            **({"table": table} if everywhere else {}),
             "sentences": [
                 {"text": each.line, "rule": each.template.key, "theorem": each.template.theorem}
-                for each in self.sentences
+                for each in self.derived
             ],
-            **{
-                name: answer.to_dict() | {"certificate": f"{name}.json"}
-                for name, answer in self.answers.items()
-            },
+            **{name: self._view(name) for name in self.answers},
         }
 
-    @cached_property
-    def leading(self) -> tuple[str, ...]:
-        """The sentences about every plant within the radii; empty without radii."""
-        system = self.given.system
-        if not isinstance(system, MultiChannelSystem):
-            return ()
-        return leading(system.plant, self.answers, self.open, self.failing)
+    def _view(self, name: str) -> dict[str, Any]:
+        """An answer as plain data, with the names of its certificates."""
+        answer = self.answers[name]
+        if not self.for_all_values:
+            view: dict[str, Any] = answer.to_dict()
+            return view | {"certificate": f"{name}.json"}
+        own = re.compile(rf"{name}(_\d+)?")
+        view = {} if isinstance(answer, tuple) else answer.to_dict()
+        view |= {
+            "rows": [dict(zip(COLUMNS, row, strict=True)) for row in self.rows(name)],
+            "certificates": [f"{each}.json" for each in self.parts if own.fullmatch(each)],
+        }
+        along = [{"certificate": file, "line": line} for file, line in self.along(name)]
+        return view | ({"along": along} if along else {})
 
-    def explain(self) -> str:
-        """Say in plain words what was found, one sentence a line."""
-        return "\n".join([*self.leading, *(each.line for each in self.sentences.at(*_PLAIN))])
+    # Rows: the values of the parameters, and what holds there.
+
+    def rows(self, name: str) -> tuple[Row, ...]:
+        """The rows of an answer for all values: the values, what holds there, and why."""
+        answer = self.answers[name]
+        if name in WITHIN_RANGES:
+            return ((", ".join(self.given.system.parameters_in_words), WITHIN_RANGES[name], ""),)
+        if isinstance(answer, tuple):
+            return joined((count(k, "block"), each) for k, each in enumerate(answer, 1))
+        rows: tuple[Row, ...] = answer.rows
+        return rows
+
+    def along(self, name: str) -> tuple[tuple[str, str], ...]:
+        """With several parameters the certificates of a question, and the line of each."""
+        lines = _lines(self.answers[name]) if self.several and name != "completeness" else []
+        return tuple((f"{name}_{k}.json", str(line)) for k, line in enumerate(lines, 1))
+
+    def proofs(self, names: Collection[str]) -> tuple[tuple[str, ...], ...]:
+        """The rows of the sentences that repeat what certificates say of their lines."""
+        keys = {ON_LINE[name].key for name in names if name in ON_LINE}
+        return tuple(each.cells for each in self.sentences.at("line") if each.template.key in keys)
+
+    def table(self, name: str) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+        """`rows` with the heads of their columns, without the column of reasons if it is empty."""
+        rows = self.rows(name)
+        used = len(COLUMNS) - (not any(why for *_, why in rows))
+        return COLUMNS[:used], tuple(row[:used] for row in rows)
+
+    def detailed(self, names: Collection[str] = MODES) -> list[str]:
+        """The questions for all values of which a table says more than a sentence."""
+        if not self.for_all_values:
+            return []
+        return [
+            name
+            for name, answer in self.answers.items()
+            if name in names and self.rows(name) and not _says_all(name, answer)
+        ]
+
+    # Notebooks.
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the sentences of the answer, and the labels and texts of the table."""
         yield from (("", each) for each in self.leading)
-        yield from (("", str(each)) for each in self.sentences.at(*_ANSWER))
+        yield from (("", str(each)) for each in self.at(*_ANSWER))
         yield from ((each.cells[0], str(each)) for each in self.sentences.at("table"))
 
     def _html(self) -> str:
-        """Return the sentences and the table in HTML, each entry with its reason."""
-        said = "".join(f"<li>{escape(each)}</li>" for each in self.leading)
-        said += "".join(
+        """Return the sentences and the tables in HTML."""
+        return self._html_of_rows() if self.for_all_values else self._html_with_reasons()
+
+    def _html_with_reasons(self) -> str:
+        """The sentences and their table, each entry with its reason."""
+        items = "".join(f"<li>{escape(each)}</li>" for each in self.leading)
+        items += "".join(
             f'<li title="{escape(_reason(each))}">{escape(each)}</li>'
             for each in self.sentences.at(*_ANSWER)
         )
@@ -259,7 +387,17 @@ class Account(Shown):
         )
         title = "".join(self.sentences.at("title"))
         over = f"<caption>{escape(title)}</caption>" if title else ""
-        return (f'<ul class="said">{said}</ul>' if said else "") + f"<table>{over}{rows}</table>"
+        return (f'<ul class="said">{items}</ul>' if items else "") + f"<table>{over}{rows}</table>"
+
+    def _html_of_rows(self) -> str:
+        """The sentences, their table, and tables of the answers of which these say more."""
+        items = "".join(f"<li>{escape(each)}</li>" for each in self.at("answer"))
+        listed = [(each.cells[0], str(each)) for each in self.sentences.at("table")]
+        grids = [grid(("", ""), listed, "".join(self.sentences.at("title")))]
+        grids += [grid(*self.table(name), LABELS[name]) for name in self.detailed()]
+        if proofs := self.proofs(MODES):
+            grids.append(grid(PROOFS, proofs, PROVED))
+        return f'<ul class="said">{items}</ul>' + "".join(grids)
 
 
 def _reason(sentence: Any) -> str:
@@ -287,220 +425,58 @@ class ShownByAccount(Shown):
         return self.account._html()
 
 
-# Accounts of plants with parameters.
-
-PARAMETRIC_FORMAT = "mcexact-parametric-analysis/1"
-LABELS = {
-    "fixed_spectrum": "fixed modes",
-    "completeness": "complete",
-    "joint_controllability": "modes that no channel controls",
-    "joint_observability": "modes that no channel observes",
-    "controllability_indices": "ranks of [B, AB, …] by the number of blocks",
-    "observability_indices": "ranks of [C; CA; …] by the number of blocks",
-    "transfer_graph": "edges of the transfer graph",
-    "setpoint": "rank of the matrix of equilibria",
-    "channel_controllability": "modes that the channel does not control",
-    "channel_observability": "modes that the channel does not observe",
-}
-"""The questions, with what their answers are about."""
-COLUMNS = ("where", "what", "because")
-PROVED = "proved for every point of lines"
-PROOFS = ("about", "line", "what holds on it")
-MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
-"""The questions about modes, of which a table says more than a sentence."""
-_OPEN = (
-    "That no mode is fixed for almost all values is proved by a point at which none is. All else "
-    "about almost all values, and the conditions, is proved along drawn lines; between them it is "
-    "computed and not certified. Where several conditions meet is not decided."
-)
-_PLACES = ("title", "answer", "table")
-Row = tuple[str, str, str]
+# Accounts of answers for all values of parameters.
 
 
-@dataclass(frozen=True, repr=False)
-class ParametricAccount(Shown):
-    """Answers about one system with parameters, for almost all values and at exceptional ones.
+def account_for_all_values(plant: ParametricSystem, answers: Mapping[str, Any]) -> Account:
+    """Return the answers about a plant with parameters, with the sentences that follow from them.
 
-    Attributes
+    Parameters
     ----------
     plant : ParametricSystem
     answers : mapping
         The answers by the names of their questions.
     """
+    several = len(plant.parameters) > 1
+    given = Given(plant, _wording(plant, answers))
+    derived = (SEVERAL if several else RULES).sentences(by_certificate(answers), given)
+    computed = Sentences(sentences_of_several(answers, given) if several else ())
+    return Account(answers, given, derived, computed=computed, for_all_values=True)
 
-    plant: ParametricSystem
-    answers: Mapping[str, Any]
 
-    @property
-    def several(self) -> bool:
-        """Whether the plant has several parameters: then proofs are about lines."""
-        return len(self.plant.parameters) > 1
+def _wording(plant: ParametricSystem, answers: Mapping[str, Any]) -> dict[str, Any]:
+    """What the sentences repeat of the plant, besides its sizes."""
+    several = len(plant.parameters) > 1
+    constant = all(entry.denominator.is_constant() for row in plant.A.rows for entry in row)
+    return {
+        "parameter": ", ".join(plant.parameters),
+        "parameters": ", ".join(plant.parameters_in_words),
+        "outputs": sum(q for _, q in plant.sizes),
+        "scale": None if several else plant.A.reduced[1],
+        "undefined": _undefined(plant, answers),
+        "divided": "" if constant else ", divided by the denominator of A",
+        "apart": "" if several else apart_from_poles(plant),
+    }
 
-    @cached_property
-    def parts(self) -> dict[str, Answer]:
-        """The certificates by name: of several for one question, or along lines, numbered."""
-        found: dict[str, Answer] = {}
-        for name, answer in self.answers.items():
-            if isinstance(answer, Answer):
-                found[name] = answer
-            elif name != "completeness":  # it follows from other answers
-                found |= {f"{name}_{k}": each for k, each in enumerate(_proofs(answer), 1)}
-        return found
 
-    @cached_property
-    def proved(self) -> Account:
-        """The sentences that follow from certificates by rules."""
-        rules = SEVERAL if self.several else RULES
-        return Account(self.parts, self._given, rules.sentences(self.parts, self._given))
+def _undefined(plant: ParametricSystem, answers: Mapping[str, Any]) -> list[str]:
+    """The values within the ranges at which an entry is undefined, as conditions."""
+    if len(plant.parameters) == 1:
+        return undefined_where(plant)
+    spectra = (each for each in answers.values() if isinstance(each, Hypersurfaces))
+    surfaces = [Hypersurface(q) for each in spectra for q in each.undefined_at]
+    return [*dict.fromkeys(str(h) for h in surfaces if h.meets(plant))]
 
-    @property
-    def _given(self) -> Given:
-        plant = self.plant
-        bottoms = [entry.denominator for row in plant.A.rows for entry in row]
-        whole = all(bottom.is_constant() for bottom in bottoms)
-        divided = "" if whole else ", divided by the denominator of A"
-        asked = {
-            "parameter": ", ".join(plant.parameters),
-            "parameters": ", ".join(plant.parameters_in_words),
-            "outputs": sum(q for _, q in plant.sizes),
-            "scale": None if self.several else plant.A.reduced[1],
-            "undefined": self._undefined,
-            "divided": divided,
-            "apart": "" if self.several else apart_from_poles(plant),
-        }
-        return Given(plant, asked)
 
-    @property
-    def _undefined(self) -> list[str]:
-        """The values within the ranges at which an entry is undefined, as conditions."""
-        if not self.several:
-            return undefined_where(self.plant)
-        spectra = (each for each in self.answers.values() if isinstance(each, Hypersurfaces))
-        surfaces = [Hypersurface(q) for each in spectra for q in each.undefined_at]
-        return [*dict.fromkeys(str(h) for h in surfaces if h.meets(self.plant))]
-
-    @cached_property
-    def sentences(self) -> Sentences:
-        """The sentences; with several parameters also those that no certificate implies alone."""
-        if self.several:
-            told = sentences_of_several(self.answers, self._given)
-            return Sentences((*self.proved.sentences, *told))
-        return self.proved.sentences
-
-    def at(self, *places: str) -> list[str]:
-        """The sentences of a place, with what is left open behind the answer."""
-        told: list[str] = [*self.sentences.at(*places)]
-        return [*told, _OPEN] if self.several and "answer" in places else told
-
-    @property
-    def certificates(self) -> dict[str, str]:
-        """The text of every certificate, keyed by the name of its file."""
-        return {f"{name}.json": protocol.encode(each) for name, each in self.parts.items()}
-
-    def manifest(self) -> dict[str, Any]:
-        """Return the sentences with their premises, and the digests of the certificates."""
-        return self.proved.manifest()
-
-    def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
-        """Return the certificates and the manifest, by the names of files; none without answers."""
-        if not self.parts:
-            return {}
-        return self.proved.files(system_by_digest=system_by_digest)
-
-    @property
-    def about(self) -> str:
-        """The plant of all certificates, as their object ``system``."""
-        return self.plant.canonical_text()
-
-    def rows(self, name: str) -> tuple[Row, ...]:
-        """The rows of the answer to a question: the values, what holds there, and why."""
-        answer = self.answers[name]
-        if name in WITHIN_RANGES:
-            return ((", ".join(self.plant.parameters_in_words), WITHIN_RANGES[name], ""),)
-        if isinstance(answer, tuple):
-            return joined((count(k, "block"), each) for k, each in enumerate(answer, 1))
-        found: tuple[Row, ...] = answer.rows
-        return found
-
-    def along(self, name: str) -> tuple[tuple[str, str], ...]:
-        """With several parameters the certificates of a question, and the line of each."""
-        lines = _lines(self.answers[name]) if self.several and name != "completeness" else []
-        return tuple((f"{name}_{k}.json", str(line)) for k, line in enumerate(lines, 1))
-
-    def proofs(self, names: Collection[str]) -> tuple[tuple[str, ...], ...]:
-        """The rows of the sentences that repeat what certificates say of their lines."""
-        keys = {ON_LINE[name].key for name in names if name in ON_LINE}
-        return tuple(each.cells for each in self.sentences.at("line") if each.template.key in keys)
-
-    def table(self, name: str) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
-        """`rows` with the heads of their columns, without the column of reasons if it is empty."""
-        rows = self.rows(name)
-        used = len(COLUMNS) - (not any(why for *_, why in rows))
-        return COLUMNS[:used], tuple(row[:used] for row in rows)
-
-    def as_json(self, **more: Any) -> dict[str, Any]:
-        """Return plain data with an entry for each answer, keyed by its name."""
-        plant = self.plant
-        return {
-            "format": PARAMETRIC_FORMAT,
-            "system": {
-                "name": plant.name,
-                "n": plant.n,
-                "m": plant.m,
-                "time": plant.time,
-                "channels": list(plant.names),
-            },
-            "parameters": plant.document()["parameters"],
-            **more,
-            "answer": self.at("answer"),
-            "table": [[*each.cells] for each in self.sentences.at("table")],
-            "sentences": [
-                {"text": each.line, "rule": each.template.key, "theorem": each.template.theorem}
-                for each in self.proved.sentences
-            ],
-            **{name: self._view(name) for name in self.answers},
-        }
-
-    def _view(self, name: str) -> dict[str, Any]:
-        """The answer to a question with the names of its certificates."""
-        answer = self.answers[name]
-        own = re.compile(rf"{name}(_\d+)?")
-        files = [f"{each}.json" for each in self.parts if own.fullmatch(each)]
-        rows = [dict(zip(COLUMNS, row, strict=True)) for row in self.rows(name)]
-        view = {} if isinstance(answer, tuple) else answer.to_dict()
-        found = view | {"rows": rows, "certificates": files}
-        along = [{"certificate": file, "line": line} for file, line in self.along(name)]
-        return found | ({"along": along} if along else {})
-
-    def explain(self) -> str:
-        """Say in plain words what was found, one sentence a line."""
-        told = [each.line for each in self.sentences.at("table")]
-        return "\n".join([*self.at("answer"), *told])
-
-    def __repr__(self) -> str:
-        return f"ParametricAccount({len(self.answers)} answers, {len(self.sentences)} sentences)"
-
-    def _labeled(self) -> Iterator[tuple[str, Any]]:
-        yield from (("", said) for said in self.at("answer"))
-        yield from ((each.cells[0], str(each)) for each in self.sentences.at("table"))
-
-    def _html(self) -> str:
-        """Return the sentences and the tables in HTML."""
-        said = "".join(f"<li>{escape(each)}</li>" for each in self.at("answer"))
-        listed = [(each.cells[0], str(each)) for each in self.sentences.at("table")]
-        made = [grid(("", ""), listed, "".join(self.sentences.at("title")))]
-        made += [grid(*self.table(name), LABELS[name]) for name in self.detailed()]
-        if proofs := self.proofs(MODES):
-            made.append(grid(PROOFS, proofs, PROVED))
-        return f'<ul class="said">{said}</ul>' + "".join(made)
-
-    def detailed(self, names: Collection[str] = MODES) -> list[str]:
-        """The questions of which a table says more than a sentence."""
-        return [
-            name
-            for name, answer in self.answers.items()
-            if name in names and self.rows(name) and not _says_all(name, answer)
-        ]
+def by_certificate(answers: Mapping[str, Any]) -> dict[str, Answer]:
+    """Return the certificates of answers by name: of several for one question, numbered."""
+    parts: dict[str, Answer] = {}
+    for name, answer in answers.items():
+        if isinstance(answer, Answer):
+            parts[name] = answer
+        elif name != "completeness":  # for all values it follows from other answers
+            parts |= {f"{name}_{k}": each for k, each in enumerate(_proofs(answer), 1)}
+    return parts
 
 
 def _says_all(name: str, answer: Any) -> bool:
@@ -522,5 +498,5 @@ def _proofs(answer: Any) -> list[Answer]:
         return [proof for each in answer for proof in _proofs(each)]
     if isinstance(answer, Answer):
         return [answer]
-    found = answer.certificates
-    return [*found.values()] if isinstance(found, Mapping) else [*found]
+    proofs = answer.certificates
+    return [*proofs.values()] if isinstance(proofs, Mapping) else [*proofs]

@@ -1,10 +1,10 @@
 """What `mcexact analyze` and `mcexact allocate` decide, in their child processes.
 
-`analyzed` reads the plant and asks the questions about it: `mcexact.analysis.analyze.Analysis` for
-a plant without parameters, after the search for the largest radii if that is asked for, and
-`ParametricAnalysis` for the answers at all values of parameters.  It resumes what an earlier child
-decided before a limit (`Known`), and hands over each answer at once (`Reporting`).  `allocated`
-finds the least dimensions of shared sub-states, or the cheapest links to add.
+`analyzed` reads the plant and asks the questions about it, by `mcexact.analysis.analyze.Analysis`:
+with parameters for all values of these, and without parameters after the search for the largest
+radii if that is asked for.  It resumes what an earlier child decided before a limit (`Known`), and
+hands over each answer at once (`Reporting`).  `allocated` finds the least dimensions of shared
+sub-states, or the cheapest links to add.
 
 Pages have pictures, whose libraries are loaded for a page alone.
 """
@@ -18,12 +18,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from mcexact.analysis.analyze import (
+    Analysis,
     Effort,
-    ParametricAnalysis,
     account_of_dimensions,
     account_of_links,
     analyze,
 )
+from mcexact.analysis.questions import questions_about
 from mcexact.answer.account import Account
 from mcexact.answer.sharing import ROW_BOUND
 from mcexact.cli import options, uncertainty
@@ -179,7 +180,7 @@ def _for_all_values(
         If something is asked that is only decided for systems without parameters.
     """
     only_without = asked.information != "own" or asked.subset or asked.radii or asked.effort
-    if only_without or not ParametricAnalysis.questions.keys() >= {*asked.questions}:
+    if only_without or not questions_about(system.parameters).keys() >= {*asked.questions}:
         raise UsageError(
             "these questions are about systems without parameters: give values to "
             f"{', '.join(system.parameters)} by --at NAME=VALUE"
@@ -187,7 +188,7 @@ def _for_all_values(
     # Its module has the pages as well, with their pictures.
     from mcexact.report.pages import parameter_latex, parameter_page, parameter_tables
 
-    analysis = ParametricAnalysis(system, channel=asked.channel)
+    analysis = Analysis(system, channel=asked.channel)
     analysis.also(asked.questions)
     known.resume(analysis, report)
     account, taken = analysis.account, effort_tables(analysis.effort())
@@ -196,11 +197,7 @@ def _for_all_values(
         page = replace(page, tables=(*page.tables, *taken))
     words = [line for sentence in account.at("answer") for line in wrapped(sentence, WIDTH)]
     return Analyzed(
-        evidence=Evidence(
-            account.certificates,
-            account.files(system_by_digest=system_by_digest),
-            account.about,
-        ),
+        evidence=Evidence.of(account, system_by_digest),
         document=analysis.to_dict(),
         words="\n".join(words) + "\n",
         tables=(*parameter_tables(account), *taken),

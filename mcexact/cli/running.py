@@ -46,7 +46,7 @@ from mcexact.model.text import write_text
 from mcexact.processes import Child
 
 if TYPE_CHECKING:
-    from mcexact.analysis.analyze import Asking
+    from mcexact.analysis.analyze import Analysis
     from mcexact.checker.kinds import Verdict
 
 T = TypeVar("T")
@@ -190,7 +190,7 @@ class Known:
     lost: dict[str, str] = field(default_factory=dict)
     ended: str = ""
 
-    def resume(self, analysis: Asking, report: Reporting) -> None:
+    def resume(self, analysis: Analysis, report: Reporting) -> None:
         """Enter the decided parts into an analysis, and have it report what else it decides."""
         for name, data in self.parts.items():
             if name in analysis.questions:

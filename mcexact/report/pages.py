@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from mcexact.answer.account import LABELS, MODES, PROOFS, PROVED, Account, ParametricAccount
+from mcexact.answer.account import LABELS, MODES, PROOFS, PROVED, Account
 from mcexact.answer.several_parameters import Hypersurfaces
 from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
@@ -210,12 +210,12 @@ def _steps(curves: LoopCurves) -> Picture:
 # The answers about a system with parameters: tables, a page, and LaTeX.
 
 
-def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tuple[Table, ...]:
+def parameter_tables(account: Account, *, whole: bool = False) -> tuple[Table, ...]:
     """Return the table of all answers, then tables with the details of some questions.
 
     Parameters
     ----------
-    account : ParametricAccount
+    account : Account
     whole : bool
         Whether all questions have a table, and not only those about modes: on a page.
     """
@@ -229,34 +229,37 @@ def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tupl
     return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *told)
 
 
-def parameter_page(account: ParametricAccount) -> AnswerPage:
+def parameter_page(account: Account) -> AnswerPage:
     """Return the page of an analysis for all values of parameters."""
     return AnswerPage(
-        title=account.plant.name or "A system with parameters",
+        title=account.given.system.name or "A system with parameters",
         heading="".join(account.sentences.at("title")),
         good=None,
         answer=tuple(account.at("answer")),
         pictures=tuple(drawn.embedded() for drawn in _parameter_pictures(account)),
         tables=parameter_tables(account, whole=True),
-        plant=shown_plant(account.plant),
+        plant=shown_plant(account.given.system),
     )
 
 
-def _parameter_pictures(account: ParametricAccount) -> list[Picture]:
+def _parameter_pictures(account: Account) -> list[Picture]:
     """The modes against one parameter, or the hypersurfaces of two."""
     spectrum, said = account.answers.get("fixed_spectrum"), " ".join(account.at("answer")[:2])
     if spectrum is None:
         return []
     if not isinstance(spectrum, Hypersurfaces):
         return [Picture(parameter_modes(spectrum), "Modes against the parameter", said)]
-    if len(account.plant.parameters) == 2 and spectrum.hypersurfaces:
+    if len(account.given.system.parameters) == 2 and spectrum.hypersurfaces:
         return [Picture(hypersurfaces(spectrum), "Where another mode is fixed", said)]
     return []
 
 
-def parameter_latex(account: ParametricAccount) -> str:
+def parameter_latex(account: Account) -> str:
     """Return the system and the answers in LaTeX."""
-    lines = [f"% {escaped(account.plant.name or 'system')}", rf"\[ {account.plant._latex()} \]"]
+    lines = [
+        f"% {escaped(account.given.system.name or 'system')}",
+        rf"\[ {account.given.system._latex()} \]",
+    ]
     lines += [escaped(said) for said in account.at("answer")]
     lines += [escaped(said.line) for said in account.sentences.at("table")]
     for name in account.detailed():

@@ -10,7 +10,7 @@ from mcexact.errors import UsageError, several
 from mcexact.model.properties import PROPERTIES
 
 QUESTIONS = {
-    name: question for name, question in ALL.items() if question.unbidden and not question.needs
+    name: question for name, question in ALL.items() if question.by_default and not question.needs
 }
 """The questions of `mcexact.analysis.questions` that need the plant alone and are cheap."""
 WITHIN_RADII = {name: ALL[name] for name in PROPERTIES}

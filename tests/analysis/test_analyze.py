@@ -6,13 +6,20 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 import mcexact
 from mcexact.analysis.analyze import Analysis, analyze
-from mcexact.analysis.questions import QUESTIONS, Question
+from mcexact.analysis.questions import (
+    QUESTIONS,
+    WITH_ONE_PARAMETER,
+    WITH_SEVERAL_PARAMETERS,
+    Question,
+    questions_about,
+)
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.kinds import Expectation
 from mcexact.checker.reading import Limits
@@ -25,6 +32,7 @@ from mcexact.model.system import MultiChannelSystem
 
 PAPER = gallery.load("liu2020-3ch-no-communication")
 RING = PAPER.with_neighbors(NeighborGraph.ring(PAPER.names))
+ANY = Expectation()
 NP_HARD = {
     "minimal_shared_dimensions_outputs_states",
     "minimal_shared_dimensions_states",
@@ -62,7 +70,7 @@ def test_nothing_is_decided_before_it_is_looked_at_and_nothing_twice(calls: list
 def test_nothing_np_hard_is_asked_unless_it_is_named(calls: list[str]) -> None:
     analyze(RING, subset=["1"], channel="2").decided()
     assert not {"minimal_shared_dimensions", "minimal_communication"} & set(calls)
-    assert not NP_HARD & {name for name, question in QUESTIONS.items() if question.unbidden}
+    assert not NP_HARD & {name for name, question in QUESTIONS.items() if question.by_default}
 
 
 def test_a_question_that_is_named_alone_is_asked_alone() -> None:
@@ -115,7 +123,7 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
 ) -> None:
     found = analyze(PAPER)
     told = found.to_dict()["questions"]
-    assert [each["question"] for each in told] == list(found.unbidden) == list(found.asked)
+    assert [each["question"] for each in told] == list(found.by_default) == list(found.asked)
     assert all(each["outcome"] == "decided" and each["seconds"] >= 0 for each in told)
     fewer = dict(QUESTIONS) | {"setpoint": replace(QUESTIONS["setpoint"], most=2)}
     monkeypatch.setattr(Analysis, "questions", fewer)
@@ -134,10 +142,10 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
     ("n", "width", "asked"), [(100, 1, True), (101, 1, False), (1000, 500, True), (600, 60, False)]
 )
 def test_indices_are_asked_where_their_evidence_is_short(n: int, width: int, asked: bool) -> None:
-    ports = {"inputs": width, "outputs": 1}
-    reason = QUESTIONS["controllability_indices"].reason_to_leave_out(n, ports)
+    system = SimpleNamespace(n=n, sizes=((width, 1),))
+    reason = QUESTIONS["controllability_indices"].reason_to_leave_out(system)
     assert (reason == "") == asked
-    assert QUESTIONS["fixed_spectrum"].reason_to_leave_out(n, ports) == ""
+    assert QUESTIONS["fixed_spectrum"].reason_to_leave_out(system) == ""
 
 
 @pytest.mark.parametrize(
@@ -173,13 +181,39 @@ def test_a_name_that_is_no_question_is_an_attribute_error() -> None:
     assert set(QUESTIONS) <= set(dir(analyze(PAPER)))
 
 
-@pytest.mark.parametrize("name", sorted(QUESTIONS))
-def test_every_question_has_a_function_that_takes_what_the_table_gives_it(name: str) -> None:
-    question = QUESTIONS[name]
+TABLES = (QUESTIONS, WITH_ONE_PARAMETER, WITH_SEVERAL_PARAMETERS)
+
+
+@pytest.mark.parametrize(
+    ("table", "name"), [(table, name) for table in TABLES for name in sorted(table)]
+)
+def test_every_question_has_a_function_that_takes_what_the_table_gives_it(
+    table: dict[str, Question], name: str
+) -> None:
+    question = table[name]
     module = __import__(f"mcexact.analysis.{question.module}", fromlist=[question.function])
     taken = inspect.signature(getattr(module, question.function)).parameters
-    assert {*question.given, *question.reuses} <= set(taken)
-    assert set(question.reuses.values()) <= set(QUESTIONS)
+    needed = {question.needs} - {"", "neighbors", "uncertainty"}
+    assert {*question.keywords, *question.reuses, *question.shares, *needed} <= set(taken)
+    assert {*question.reuses.values(), *question.shares.values()} <= set(table)
+
+
+def test_the_questions_about_a_plant_depend_on_the_number_of_its_parameters() -> None:
+    tables = [questions_about(names) for names in ((), ("s",), ("s", "t"), ("s", "t", "u"))]
+    assert tables == [*TABLES, WITH_SEVERAL_PARAMETERS]
+    within = [name for name, question in QUESTIONS.items() if question.needs == "uncertainty"]
+    asked = [[name for name in table if table[name].by_default] for table in TABLES]
+    assert [name for name in within if name in asked[0]] == within
+    assert [name for name in within if name in asked[1]] == []
+    assert [name for name in within if name in asked[2]] == within[:2]
+
+
+def test_answers_for_all_values_are_saved_and_have_rows(tmp_path: Path) -> None:
+    analysis = analyze(PARAMETRIC)
+    analysis.save(tmp_path)
+    verdicts = {each.verdict for _, each in manifest_verdicts(str(tmp_path), ANY, Limits())}
+    assert "VALID" in verdicts and verdicts <= {"VALID", "IMPLIED", "REMARK"}
+    assert [row["question"] for row in analysis.to_rows()] == list(analysis.account.parts)
 
 
 def test_every_question_is_answered_by_a_public_function() -> None:
@@ -190,7 +224,7 @@ def test_every_question_is_answered_by_a_public_function() -> None:
 
 def test_what_is_saved_is_what_the_checker_verifies(tmp_path: Path) -> None:
     analyze(RING).save(tmp_path / "new" / "evidence")
-    found = manifest_verdicts(str(tmp_path / "new" / "evidence"), Expectation(), Limits())
+    found = manifest_verdicts(str(tmp_path / "new" / "evidence"), ANY, Limits())
     said = [verdict.verdict for _, verdict in found]
     assert set(said) == {"VALID", "IMPLIED", "REMARK"}
     claimed = [each.template.claims for each in analyze(RING).sentences]
@@ -206,7 +240,7 @@ def test_the_line_of_an_analysis_is_short() -> None:
 @pytest.mark.parametrize(
     "call",
     [
-        lambda plant: mcexact.analyze("plant.json"),  # type: ignore[call-overload]
+        lambda plant: mcexact.analyze("plant.json"),  # type: ignore[arg-type]
         lambda plant: mcexact.analyze(None, information="outputs"),
         lambda plant: mcexact.certify_controller(plant, None),
         lambda plant: mcexact.save_certificate(3, "answer.json"),  # type: ignore[arg-type]
@@ -334,7 +368,7 @@ def test_what_the_links_of_a_plant_change_about_fixed_modes_leads(
         other = analyze(canal(neighbors), information="outputs").fixed_spectrum
         assert found.linked_fixed_spectrum.polynomial == other.polynomial
     found.save(tmp_path)
-    verdicts = list(manifest_verdicts(str(tmp_path), Expectation(), Limits()))
+    verdicts = list(manifest_verdicts(str(tmp_path), ANY, Limits()))
     assert {verdict.verdict for _, verdict in verdicts} <= {"VALID", "IMPLIED", "REMARK"}
 
 

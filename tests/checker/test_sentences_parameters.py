@@ -12,7 +12,7 @@ import pytest
 
 from mcexact import MultiChannelSystem, ParametricSystem, analyze
 from mcexact.answer import parameters as say
-from mcexact.answer.account import ParametricAccount
+from mcexact.answer.account import Account
 from mcexact.answer.loops import EVERY_VALUE
 from mcexact.answer.rulebook import PARAMETERS, premises_of
 from mcexact.answer.templates import templates
@@ -75,7 +75,7 @@ TEMPLATES = list(templates(say))
 
 
 @cache
-def account(name: str) -> ParametricAccount:
+def account(name: str) -> Account:
     """All answers about a plant."""
     plant, also = PLANTS[name], WITHIN_RANGES.get(name, [])
     return analyze(plant, also=also, channel=plant.names[0]).account
@@ -96,7 +96,7 @@ def asked(questions: tuple[str, ...], known: dict[str, Document]) -> list[str]:
 @pytest.mark.parametrize("name", PLANTS)
 def test_a_rule_implies_its_sentence_exactly_where_it_is_said(name: str, tmp_path: Path) -> None:
     known = evidence(name)
-    told = {each.template.key for each in account(name).proved.sentences}
+    told = {each.template.key for each in account(name).derived}
     listed = [
         sentence(each.key, *asked(premises_of(each, PARAMETERS), known), evidence=known)
         for each in TEMPLATES
@@ -107,7 +107,7 @@ def test_a_rule_implies_its_sentence_exactly_where_it_is_said(name: str, tmp_pat
 
 
 def test_every_sentence_is_said_of_some_plant() -> None:
-    told = {each.template.key for name in PLANTS for each in account(name).proved.sentences}
+    told = {each.template.key for name in PLANTS for each in account(name).derived}
     assert told == {each.key for each in TEMPLATES}
 
 

@@ -160,7 +160,7 @@ def test_what_took_long_is_listed_and_a_question_that_is_left_out_can_be_named(
     assert "took long" not in call("analyze", TRIPLE)[1]
     setpoint = replace(QUESTIONS["setpoint"], most=2)
     monkeypatch.setattr(
-        "mcexact.analysis.analyze.Asking.questions", {**QUESTIONS, "setpoint": setpoint}
+        "mcexact.analysis.analyze.Analysis.questions", {**QUESTIONS, "setpoint": setpoint}
     )
     text = call("analyze", TRIPLE)[1]
     assert "questions that are open or took long" in text

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact import ParametricSystem, analyze, check
-from mcexact.answer.account import ParametricAccount
+from mcexact.answer.account import Account
 from mcexact.errors import InputError
 
 POLE = ParametricSystem([[1]], [[["1/t"]]], [[["t"]]], parameters=["t"])
@@ -59,7 +59,7 @@ def test_no_answer_speaks_of_a_value_at_which_the_plant_is_undefined(
 
 @pytest.mark.parametrize("plant", PLANTS)
 def test_the_same_values_are_undefined_in_every_table(plant: ParametricSystem) -> None:
-    account: ParametricAccount = analyze(plant).account
+    account: Account = analyze(plant).account
     undefined = {
         name: {where for where, what, _ in account.rows(name) if what.endswith("undefined")}
         for name in account.answers
