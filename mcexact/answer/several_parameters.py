@@ -51,10 +51,13 @@ from mcexact.answer.parameters import (
 )
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.templates import Sentence, blame, polynomial_in_x
-from mcexact.exact import rational_functions
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_latex, rational_text
-from mcexact.exact.rational_functions import RationalFunction, parameter_latex
+from mcexact.exact.rational_functions import (
+    RationalFunction,
+    least_denominator,
+    parameter_latex,
+)
 from mcexact.model.parametric import ParametricSystem
 from mcexact.shown import LINE, Shown, escaped, fitting
 
@@ -351,10 +354,7 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
     @property
     def scale(self) -> RationalFunction:
         """The denominator of A, by which the roots of the generic polynomials are divided."""
-        names = self.about.parameters
-        return rational_functions.in_parameters(
-            rational_functions.cleared(self.about.A, names)[1], names
-        )
+        return least_denominator(self.about.A, self.about.parameters)
 
     @property
     def divided(self) -> str:

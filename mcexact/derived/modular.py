@@ -25,7 +25,6 @@ from typing import Any
 
 from mcexact.errors import UsageError
 from mcexact.exact import krylov
-from mcexact.exact.bivariate import value_at
 from mcexact.exact.krylov import SparseLoop, stays_sparse
 from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix, from_numerators
@@ -334,9 +333,9 @@ class PolynomialSystem:
     def at(self, t: int | Fraction) -> MultiChannelSystem:
         """The system of the polynomial matrices at a value of t."""
         return MultiChannelSystem(
-            value_at(self.A, t),
-            [value_at(B_i, t) for B_i in self.B],
-            [value_at(C_i, t) for C_i in self.C],
+            self.A.at(t),
+            [B_i.at(t) for B_i in self.B],
+            [C_i.at(t) for C_i in self.C],
             names=self.system.names,
         )
 

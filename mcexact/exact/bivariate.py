@@ -1,21 +1,23 @@
-"""Polynomials in x and t: resultants, kernels, and arithmetic over Q[t]/(q).
+"""Routines on polynomials in x and t: resultants, kernels, and arithmetic over Q[t]/(q).
 
-For plants with one parameter t.  A `Bivariate` is a list of flint's polynomials in t: the
-coefficients of the powers of x, constant first.  Over L = Q[t]/(q) they are reduced modulo q,
-which is monic and irreducible.
+A `Bivariate` is plain data, a list of flint's polynomials in t: the coefficients of the powers of
+x, constant first.  Over L = Q[t]/(q) they are reduced modulo q, which is monic and irreducible.
+This is one of the two forms of `exact.parametric_polynomials`, through which the rest of the
+package uses these routines, except for those modulo a prime.
 
-Determinants, characteristic polynomials and norms are computed by values: at enough integers t,
-by flint over Q, then interpolated.  Coprimality is tried at values of t modulo a prime first,
-since one value without a common root proves it.
+Characteristic polynomials and norms are computed by values: at enough integers t, by flint over Q,
+then interpolated.  Coprimality is tried at a value of t modulo a prime first, since one value
+without a common root proves it.
 
 Over L, `factors` is Trager's algorithm: it factors the norm, a polynomial over Q.  Kernels over
 L[x]/(p) (`Tower`) are kernels of matrices over Q, in which each element is its matrix of
-multiplication.  Kernels over Q(t) (`over_functions`, `generic_kernel`) are interpolated by
-rational functions from kernels at integers, and further values have to agree, which is no proof.
+multiplication.  Kernels over Q(t) (`over_functions`) are interpolated by rational functions from
+kernels at integers, and further values have to agree, which is no proof.
 
-Resultants with respect to x are computed modulo primes, by values at t.  `common_divisor`
-combines primes until the result no longer changes; that is no proof, and the callers have to
-verify it.
+Resultants with respect to x are computed modulo primes, by values at t, of `Residues`: polynomials
+in x and t modulo a prime are a type of their own, since flint's for one word are many times faster.
+`common_divisor` combines primes until the result no longer changes; that is no proof, and the
+callers have to verify it.
 """
 
 from __future__ import annotations
@@ -24,80 +26,26 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
 import flint
 
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import PolynomialMatrix
-from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import combine, rationals
-from mcexact.exact.polynomial import Polynomial, _fmpq, _from_rational
+from mcexact.exact.polynomial import to_fmpq
 
 # Polynomials in x and t over Q.
 
-Coefficient = flint.fmpq_poly
 Bivariate = list[Any]
-
+"""A polynomial in x, by its coefficients in Q[t]."""
 
 _PRIME, _VALUE = 2**61 - 1, 10**9 + 7
 
 
-@cache
-def _ring() -> Any:
-    return flint.fmpq_mpoly_ctx.get(("t", "x"), flint.Ordering.lex)
-
-
-def from_polynomials(p: Sequence[Polynomial]) -> Bivariate:
-    """The polynomial with these coefficients."""
-    return [c._rational for c in p]
-
-
-def polynomials(f: Bivariate) -> tuple[Polynomial, ...]:
-    """The coefficients."""
-    return tuple(_from_rational(c) for c in f)
-
-
-def degree(f: Bivariate) -> int:
-    """The degree in t, at least 0."""
-    return max([int(c.degree()) for c in f] + [0])
-
-
-def joined(f: Bivariate) -> Any:
-    """f as one polynomial of flint in t and x."""
-    terms = {(i, k): c for k, part in enumerate(f) for i, c in enumerate(part.coeffs()) if c != 0}
-    return _ring().from_dict(terms)
-
-
-def split(f: Any) -> Bivariate:
-    """The coefficients of a polynomial of flint, divided by the leading one, which is constant."""
-    rows: dict[int, dict[int, Any]] = {}
-    for (i, k), c in f.to_dict().items():
-        rows.setdefault(int(k), {})[int(i)] = c
-    found = [
-        flint.fmpq_poly([row.get(i, 0) for i in range(max(row, default=-1) + 1)])
-        for row in (rows.get(k, {}) for k in range(max(rows) + 1))
-    ]
-    if found[-1].degree() != 0:
-        raise InternalError("a factor of a monic polynomial is not monic")
-    return [c / found[-1][0] for c in found]
-
-
-def common_factors(polynomials: Sequence[Bivariate]) -> list[Bivariate]:
-    """The irreducible factors of positive degree in x of the greatest common divisor."""
-    if _are_apart_somewhere(polynomials):
-        return []
-    common = joined(polynomials[0])
-    for f in polynomials[1:]:
-        common = common.gcd(joined(f))
-    found = [p for p, _ in common.factor()[1] if p.degrees()[1] > 0]
-    return sorted(map(split, found), key=lambda p: (len(p), str(p)))
-
-
 def product(f: Bivariate, g: Bivariate) -> Bivariate:
     """f g, both nonzero."""
-    result = [Coefficient([])] * (len(f) + len(g) - 1)
+    result = [flint.fmpq_poly([])] * (len(f) + len(g) - 1)
     for i, a in enumerate(f):
         for k, b in enumerate(g):
             result[i + k] = result[i + k] + a * b
@@ -106,7 +54,7 @@ def product(f: Bivariate, g: Bivariate) -> Bivariate:
 
 def difference(f: Bivariate, g: Bivariate) -> Bivariate:
     """f − g, perhaps with zeros at the end."""
-    zero = Coefficient([])
+    zero = flint.fmpq_poly([])
     return [a - b for a, b in itertools.zip_longest(f, g, fillvalue=zero)]
 
 
@@ -139,7 +87,7 @@ def without(f: Bivariate, g: Bivariate, q: Any = None) -> Bivariate:
 
 def at(f: Bivariate, t: int | Fraction) -> Any:
     """f at a value of t, a polynomial in x."""
-    point = _fmpq(t)
+    point = to_fmpq(t)
     return flint.fmpq_poly([c(point) for c in f])
 
 
@@ -179,14 +127,7 @@ def roots_modulo(q: Any, p: Bivariate, ell: int) -> Iterator[tuple[int, int]]:
             yield tau, mu
 
 
-def are_coprime(first: Bivariate, second: Bivariate) -> bool:
-    """Whether two polynomials, monic in x, have no common factor."""
-    return _are_apart_somewhere([first, second]) or bool(
-        joined(first).gcd(joined(second)).is_constant()
-    )
-
-
-def _are_apart_somewhere(polynomials: Sequence[Bivariate]) -> bool:
+def are_apart_somewhere(polynomials: Sequence[Bivariate]) -> bool:
     """Whether they have no common root at one value of t modulo a prime: then no common factor."""
     if any(d % _PRIME == 0 for f in polynomials for d in denominators(f)):
         return False
@@ -205,36 +146,15 @@ def size(f: Bivariate) -> int:
     return sum(abs(int(v.p)) * (d // int(v.q)) for c in f for v in c.coeffs())
 
 
-def is_coprime_modulo(q: Any, residue: flint.nmod_poly, ell: int) -> bool:
-    """Whether a rational polynomial has no common root with another one modulo a prime."""
-    return bool(residues(q, ell).gcd(residue).degree() == 0)
-
-
-def freed(p: Any, factors: Sequence[Any]) -> Any:
-    """p divided by each factor as often as this divides it, and by its leading coefficient."""
-    for q in factors:
-        while (pair := divmod(p, q))[1] == 0:
-            p = pair[0]
-    return p / p[p.degree()]
-
-
 def characteristic(M: PolynomialMatrix) -> Bivariate:
     """det(xI − M(t)), by values."""
     where = points(degree_bound(M) + 1)
     values = []
     for t in where:
-        part = value_at(M, t)
+        part = M.at(t)
         entries = [flint.fmpq(v, part.denominator) for row in part.numerators for v in row]
         values.append(flint.fmpq_mat(part.nrows, part.ncols, entries).charpoly())
     return [interpolated([v[k] for v in values], where) for k in range(M.nrows + 1)]
-
-
-def value_at(M: PolynomialMatrix, t: int | Fraction) -> Matrix:
-    """A polynomial matrix at a value of its variable."""
-    total = Matrix.zeros(M.nrows, M.ncols)
-    for layer in reversed(M.matrices):
-        total = total * Fraction(t) + layer
-    return total
 
 
 def degree_bound(M: PolynomialMatrix) -> int:
@@ -296,15 +216,15 @@ def factors(f: Bivariate, q: Any) -> list[Bivariate]:
     if len(f) == 2:
         return [f]
     for k in _shifts():
-        moved = _shifted(f, -k, q)
-        norm = _norm(moved, q)
+        shifted = _shifted(f, -k, q)
+        norm = _norm(shifted, q)
         if norm.gcd(norm.derivative()).degree() == 0:
             break
-    found = []
+    result = []
     for p, _ in norm.numer().factor()[1]:
         constant = [flint.fmpq_poly([c]) for c in flint.fmpq_poly(p).coeffs()]
-        found.append(monic(_shifted(gcd(moved, constant, q), k, q), q))
-    return sorted(found, key=lambda p: (len(p), str(p)))
+        result.append(monic(_shifted(gcd(shifted, constant, q), k, q), q))
+    return sorted(result, key=lambda p: (len(p), str(p)))
 
 
 def _shifts() -> Iterator[int]:
@@ -319,10 +239,10 @@ def _shifted(f: Bivariate, k: int, q: Any) -> Bivariate:
     shift = flint.fmpq_poly([0, k]) % q
     result: Bivariate = []
     for c in reversed(f):
-        moved = [c, *result]
+        raised = [c, *result]
         for i, entry in enumerate(result):
-            moved[i] = (moved[i] + shift * entry) % q
-        result = moved
+            raised[i] = (raised[i] + shift * entry) % q
+        result = raised
     return result
 
 
@@ -341,11 +261,9 @@ def _norm(f: Bivariate, q: Any) -> Any:
 # Kernels over Q[t]/(q)[x]/(p), and over Q(t)[x]/(p), from matrices of rational numbers.
 
 _CHECKED = 3
-"""The number of points at which functions that were found from others are compared."""
+"""The number of further points at which interpolated functions are compared."""
 
-Element = list[Any]
-"""A polynomial in x, by its coefficients in Q[t]."""
-Kernel = tuple[tuple[int, ...], list[list[Element]]]
+Kernel = tuple[tuple[int, ...], list[list[Bivariate]]]
 """The rows that form the identity, and the columns of a kernel."""
 X: Bivariate = [flint.fmpq_poly([0]), flint.fmpq_poly([1])]
 """x itself, modulo which nothing depends on x."""
@@ -365,26 +283,6 @@ def modulus_at(p: Bivariate, t: int) -> Bivariate | None:
     return [flint.fmpq_poly([c]) for c in value.coeffs()]
 
 
-def entries_of(M: PolynomialMatrix) -> list[list[Any]]:
-    """The entries as polynomials of flint."""
-    return [
-        [
-            flint.fmpq_poly([flint.fmpq(c.numerator, c.denominator) for c in entry.coefficients])
-            for entry in (M.entry(i, j) for j in range(M.ncols))
-        ]
-        for i in range(M.nrows)
-    ]
-
-
-def matrix_of(rows: list[list[Any]], ncols: int) -> PolynomialMatrix:
-    """The matrix of polynomials of flint."""
-    made = [
-        [Polynomial(tuple(Fraction(int(c.p), int(c.q)) for c in entry.coeffs())) for entry in row]
-        for row in rows
-    ]
-    return PolynomialMatrix.from_polynomials(made, ncols=ncols)
-
-
 class Tower:
     """K = Q[t]/(q)[x]/(p) with the basis x^k t^j, j < deg q, over Q; a field."""
 
@@ -394,18 +292,18 @@ class Tower:
         self.p = [c % q for c in p]
         self._known: dict[str, list[list[Any]]] = {}
 
-    def _coordinates(self, element: Element) -> list[Any]:
+    def _coordinates(self, element: Bivariate) -> list[Any]:
         """The coordinates of an element of degree below f in x."""
         parts = [*element, *[flint.fmpq_poly([])] * (self.f - len(element))]
         return [part[j] for part in parts for j in range(self.e)]
 
-    def _times_x(self, element: Element) -> Element:
+    def _times_x(self, element: Bivariate) -> Bivariate:
         parts = [*element, *[flint.fmpq_poly([])] * (self.f - len(element))]
         top = parts[-1]
-        moved = [flint.fmpq_poly([]), *parts[:-1]]
-        return [(a - top * c) % self.q for a, c in zip(moved, self.p, strict=False)]
+        raised = [flint.fmpq_poly([]), *parts[:-1]]
+        return [(a - top * c) % self.q for a, c in zip(raised, self.p, strict=False)]
 
-    def _multiplication(self, element: Element) -> list[list[Any]]:
+    def _multiplication(self, element: Bivariate) -> list[list[Any]]:
         """The columns x^k t^j · element, for an element of degree at most 1 in x."""
         key = str(element)
         if key not in self._known:
@@ -426,7 +324,7 @@ class Tower:
             self._known[key] = columns
         return self._known[key]
 
-    def kernel(self, rows: list[list[Element]], ncols: int) -> Kernel:
+    def kernel(self, rows: list[list[Bivariate]], ncols: int) -> Kernel:
         """The kernel of a matrix with these rows, in echelon form."""
         D = self.D
         table = flint.fmpq_mat(len(rows) * D, ncols * D)
@@ -463,7 +361,7 @@ class Tower:
 
 def over_functions(sample: Callable[[int], Kernel | None]) -> Kernel:
     """The kernel over Q(t) that has these values, multiplied by the least common denominator."""
-    far = [found for t in range(10**4, 10**4 + 60) if (found := sample(t)) is not None][:3]
+    far = [value for t in range(10**4, 10**4 + 60) if (value := sample(t)) is not None][:3]
     if not far:
         raise InternalError("a generic polynomial factors at every point that was tried")
     least = min(len(free) for free, _ in far)
@@ -474,10 +372,10 @@ def over_functions(sample: Callable[[int], Kernel | None]) -> Kernel:
     while True:
         while len(where) < wanted + _CHECKED:
             t += 1
-            found = sample(t)
-            if found is not None and found[0] == pattern:
+            kernel = sample(t)
+            if kernel is not None and kernel[0] == pattern:
                 where.append(t)
-                values.append([c[0] for vector in found[1] for e in vector for c in e])
+                values.append([c[0] for vector in kernel[1] for e in vector for c in e])
         functions = _functions(values, where, wanted)
         if functions is not None:
             break
@@ -497,21 +395,21 @@ def _functions(
     modulus = flint.fmpq_poly([1])
     for t in where[:count]:
         modulus = modulus * flint.fmpq_poly([-t, 1])
-    found = []
-    for given in zip(*values, strict=True):
-        function = _function(given, where, count, modulus)
+    functions = []
+    for column in zip(*values, strict=True):
+        function = _function(column, where, count, modulus)
         if function is None:
             return None
-        found.append(function)
-    return found
+        functions.append(function)
+    return functions
 
 
-def _function(given: Sequence[Any], where: list[int], count: int, modulus: Any) -> Any:
+def _function(values: Sequence[Any], where: list[int], count: int, modulus: Any) -> Any:
     """A rational function N/D with these values, D monic (Cauchy interpolation)."""
     one = flint.fmpq_poly([1])
-    if len(set(map(str, given))) == 1:
-        return flint.fmpq_poly([given[0]]), one
-    r0, r1 = modulus, interpolated(given[:count], where[:count])
+    if len(set(map(str, values))) == 1:
+        return flint.fmpq_poly([values[0]]), one
+    r0, r1 = modulus, interpolated(values[:count], where[:count])
     v0: Any = flint.fmpq_poly([])
     v1: Any = one
     while r1.degree() > count // 2:
@@ -523,7 +421,7 @@ def _function(given: Sequence[Any], where: list[int], count: int, modulus: Any) 
     top, bottom = r1 // common, v1 // common
     lead = bottom[bottom.degree()]
     top, bottom = top / lead, bottom / lead
-    for t, value in zip(where, given, strict=True):
+    for t, value in zip(where, values, strict=True):
         if bottom(t) == 0 or top(t) / bottom(t) != value:
             return None
     return top, bottom
@@ -572,13 +470,13 @@ def resultant_degree_bound(f: Sequence[Any], g: Sequence[Any]) -> int:
 def _degrees_of_roots(f: Sequence[Any]) -> list[tuple[Fraction | float, int]]:
     """The degrees in t of the roots x, each with their number; −∞ for the root 0."""
     degrees = [int(c.degree()) for c in f]
-    found: list[tuple[Fraction | float, int]] = []
+    slopes: list[tuple[Fraction | float, int]] = []
     k = len(f) - 1
     while k > 0:
         lines = ((Fraction(degrees[j] - degrees[k], k - j), k - j) for j in range(k) if f[j] != 0)
-        found.append(max(lines, default=(-math.inf, k)))
-        k -= found[-1][1]
-    return found
+        slopes.append(max(lines, default=(-math.inf, k)))
+        k -= slopes[-1][1]
+    return slopes
 
 
 def characteristic_modulo(M: PolynomialMatrix, ell: int) -> Residues:
@@ -673,7 +571,7 @@ def common_divisor(
     Primes modulo which its degree is larger are left out.  A result on which two products of
     primes agree is returned, and has to be verified.
     """
-    product, found = 1, [[0]]
+    product, rows = 1, [[0]]
     before: tuple[list[list[int]], int] | None = None
     for ell in primes:
         common = of_rationals(f, g, ell).gcd(of_rationals(f, h, ell))
@@ -681,72 +579,15 @@ def common_divisor(
         if degree == 0:
             return flint.fmpq_poly([1])
         row = [int(c) for c in common.coeffs()]
-        if product == 1 or degree + 1 < len(found[0]):
-            product, found, before = ell, [row], None
-        elif degree + 1 == len(found[0]):
-            product, found = product * ell, combine(found, product, [row], ell)
+        if product == 1 or degree + 1 < len(rows[0]):
+            product, rows, before = ell, [row], None
+        elif degree + 1 == len(rows[0]):
+            product, rows = product * ell, combine(rows, product, [row], ell)
         else:
             continue
-        known = rationals(found, product)
-        if known is not None and known == before:
-            [numerators], denominator = known
+        lifted = rationals(rows, product)
+        if lifted is not None and lifted == before:
+            [numerators], denominator = lifted
             return flint.fmpq_poly(numerators, denominator)
-        before = known
+        before = lifted
     raise InternalError("primes have an end")
-
-
-# Determinants, kernels and products of matrices of polynomials in a parameter.
-
-Rows = list[list[Any]]
-"""Rows of polynomials of flint."""
-ZERO = flint.fmpq_poly([])
-
-
-def determinant(M: PolynomialMatrix) -> Any:
-    """det(M), by values.
-
-    Examples
-    --------
-    >>> from mcexact.exact.matrix import Matrix
-    >>> I = Matrix.identity(2)
-    >>> str(determinant(PolynomialMatrix.from_matrices(I * -2, I)))
-    'x^2 + (-4)*x + 4'
-    """
-    where = points(degree_bound(M) + 1)
-    values = []
-    for t in where:
-        part = value_at(M, t)
-        entries = [flint.fmpq(v, part.denominator) for row in part.numerators for v in row]
-        values.append(flint.fmpq_mat(part.nrows, part.ncols, entries).det())
-    return interpolated(values, where)
-
-
-def determinant_modulo(M: PolynomialMatrix, ell: int) -> flint.nmod_poly:
-    """det(M) modulo a prime that divides no denominator, by values."""
-    many = degree_bound(M) + 1
-    return interpolated_modulo([M.at_residue(t, ell).determinant() for t in range(many)], ell)
-
-
-def matrix_product(left: Rows, right: Rows) -> Rows:
-    """The product of two matrices."""
-    width = len(right[0]) if right else 0
-    return [
-        [sum((c * right[k][j] for k, c in enumerate(row) if c != 0), ZERO) for j in range(width)]
-        for row in left
-    ]
-
-
-def kernel_modulo(rows: Rows, ncols: int, q: Polynomial) -> Kernel:
-    """The kernel over Q[t]/(q), q irreducible, in echelon form."""
-    modulus = q._rational
-    return Tower(modulus, X).kernel([[[e % modulus] for e in row] for row in rows], ncols)
-
-
-def generic_kernel(rows: Rows, ncols: int) -> Kernel:
-    """The kernel over Q(t), multiplied by the least common denominator."""
-
-    def sample(t: int) -> Kernel:
-        values = [[[flint.fmpq_poly([entry(t)])] for entry in row] for row in rows]
-        return Tower(line(t), X).kernel(values, ncols)
-
-    return over_functions(sample)

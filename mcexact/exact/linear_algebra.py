@@ -532,6 +532,13 @@ class PolynomialMatrix:
         """x times the matrix."""
         return PolynomialMatrix.from_matrices(Matrix.zeros(*self.shape), *self.matrices)
 
+    def at(self, x: Fraction | int) -> Matrix:
+        """The matrix at a rational number."""
+        total = Matrix.zeros(*self.shape)
+        for M in reversed(self.matrices):
+            total = total * Fraction(x) + M
+        return total
+
     def at_residue(self, mu: int, ell: int) -> ModularMatrix:
         """The matrix at x = mu modulo a prime that does not divide the denominator."""
         total = ModularMatrix.zeros(self.nrows, self.ncols, ell)
@@ -541,6 +548,16 @@ class PolynomialMatrix:
 
     def __repr__(self) -> str:
         return f"PolynomialMatrix.from_matrices({', '.join(map(repr, self.matrices))})"
+
+
+def stacked(matrices: Sequence[PolynomialMatrix], ncols: int) -> PolynomialMatrix:
+    """The matrix [M1; M2; …] of matrices with a number of columns."""
+    length = max((len(M.matrices) for M in matrices), default=1)
+    layers = [
+        [M.matrices[k] if k < len(M.matrices) else Matrix.zeros(*M.shape) for M in matrices]
+        for k in range(length)
+    ]
+    return PolynomialMatrix.from_matrices(*(vstack(layer, ncols) for layer in layers))
 
 
 def _as_polynomial_matrix(M: PolynomialMatrix | Matrix) -> PolynomialMatrix:

@@ -248,7 +248,7 @@ class Polynomial(PolynomialForms):
     def __add__(self, other: Polynomial | int | Fraction) -> Polynomial:
         addend = self._coerced(other)
         return (
-            NotImplemented if addend is None else _from_rational(self._rational + addend._rational)
+            NotImplemented if addend is None else from_fmpq_poly(self._rational + addend._rational)
         )
 
     __radd__ = __add__
@@ -256,7 +256,7 @@ class Polynomial(PolynomialForms):
     def __sub__(self, other: Polynomial | int | Fraction) -> Polynomial:
         addend = self._coerced(other)
         return (
-            NotImplemented if addend is None else _from_rational(self._rational - addend._rational)
+            NotImplemented if addend is None else from_fmpq_poly(self._rational - addend._rational)
         )
 
     def __rsub__(self, other: int | Fraction) -> Polynomial:
@@ -268,7 +268,7 @@ class Polynomial(PolynomialForms):
     def __mul__(self, other: Polynomial | int | Fraction) -> Polynomial:
         factor = self._coerced(other)
         return (
-            NotImplemented if factor is None else _from_rational(self._rational * factor._rational)
+            NotImplemented if factor is None else from_fmpq_poly(self._rational * factor._rational)
         )
 
     __rmul__ = __mul__
@@ -292,7 +292,7 @@ class Polynomial(PolynomialForms):
         if other.is_zero():
             raise ZeroDivisionError("division by the zero polynomial")
         quotient, remainder = divmod(self._rational, other._rational)
-        return _from_rational(quotient), _from_rational(remainder)
+        return from_fmpq_poly(quotient), from_fmpq_poly(remainder)
 
     def __floordiv__(self, other: Polynomial) -> Polynomial:
         return divmod(self, other)[0]
@@ -349,7 +349,7 @@ class Polynomial(PolynomialForms):
         >>> str(Polynomial.from_roots([1, 2]).gcd(Polynomial.from_roots([2, 3])))
         'x - 2'
         """
-        return _from_rational(self._rational.gcd(other._rational))
+        return from_fmpq_poly(self._rational.gcd(other._rational))
 
     def squarefree_part(self) -> Polynomial:
         """The monic product of the distinct irreducible factors; refuses 0."""
@@ -369,7 +369,7 @@ class Polynomial(PolynomialForms):
             raise InputError("the zero polynomial has no factorization")
         _, factors = self._integer.factor()
         found = [
-            (_from_rational(flint.fmpq_poly(factor)).monic(), int(multiplicity))
+            (from_fmpq_poly(flint.fmpq_poly(factor)).monic(), int(multiplicity))
             for factor, multiplicity in factors
         ]
         return sorted(found, key=lambda pair: (pair[0].degree, pair[0].coefficients))
@@ -389,7 +389,7 @@ class Polynomial(PolynomialForms):
         >>> Polynomial.from_roots([5]).compose_shift(2) == Polynomial.from_roots([3])
         True
         """
-        return _from_rational(self._rational(flint.fmpq_poly([_fmpq(a), 1])))
+        return from_fmpq_poly(self._rational(flint.fmpq_poly([to_fmpq(a), 1])))
 
     def scale(self, a: Fraction | int) -> Polynomial:
         """p(a x), whose roots are those of p divided by a; the constant p(0) if a = 0.
@@ -452,12 +452,31 @@ def product(polynomials: Iterable[Polynomial]) -> Polynomial:
     return level[0] if level else Polynomial.of(1)
 
 
-def _fmpq(value: Fraction | int) -> flint.fmpq:
+# Conversion to and from flint.
+
+
+def to_fmpq(value: Fraction | int) -> flint.fmpq:
+    """A rational number in flint's form."""
     return flint.fmpq(value.numerator, value.denominator)
 
 
-def _from_rational(p: flint.fmpq_poly) -> Polynomial:
-    """The polynomial that flint computed."""
+def from_fmpq(value: flint.fmpq) -> Fraction:
+    """A rational number of flint's."""
+    return Fraction(int(value.p), int(value.q))
+
+
+def to_fmpz_poly(p: Polynomial) -> flint.fmpz_poly:
+    """The numerators in flint's form, which nothing may change."""
+    return p._integer
+
+
+def to_fmpq_poly(p: Polynomial) -> flint.fmpq_poly:
+    """A polynomial in flint's form."""
+    return p._rational
+
+
+def from_fmpq_poly(p: flint.fmpq_poly) -> Polynomial:
+    """A polynomial of flint's."""
     denominator = int(p.denom())
     return Polynomial(tuple(Fraction(int(c), denominator) for c in p.numer().coeffs()))
 

@@ -1,14 +1,14 @@
-"""Rational functions of parameters, and matrices and polynomials of them.
+"""Rational functions of parameters, and matrices of them.
 
 A `RationalFunction` is N/D in named parameters, in lowest terms, with the leading coefficient of
 D equal to 1, so that equal functions compare equal.  A `FunctionMatrix` has these as entries.
 
-For decisions about several parameters, `cleared` multiplies a matrix by the least common
-denominator of its entries.  The functions after it compute in one ring of flint, the polynomials
-over Q in the parameters and x, x being the last variable: characteristic polynomials by traces
-(Faddeev and Le Verrier), determinants by elimination without fractions (Bareiss), factors and
-resultants by flint.  For one parameter, `FunctionMatrix.reduced` leads to `PolynomialMatrix` and
-`exact.bivariate`.
+For decisions, `cleared` multiplies a matrix by the least common denominator of its entries, which
+gives rows of polynomials over Q in the parameters, in one ring of flint.  The functions after it
+compute with such rows as plain data, in the ring that has x as its last variable, since
+`exact.parametric_polynomials` goes on in it.  Determinants are computed by elimination without
+fractions (Bareiss).  For one parameter, `polynomial_matrix` and `FunctionMatrix.reduced` lead to
+`PolynomialMatrix`, whose products are faster.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property, reduce
+from functools import cache, cached_property
 from typing import Any
 
 import flint
@@ -26,7 +26,7 @@ import flint
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix, MatrixDisplay, to_float
-from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial import Polynomial, from_fmpq, to_fmpq
 from mcexact.exact.rational import rational_latex, rational_text
 from mcexact.shown import LINE, escaped
 
@@ -91,8 +91,7 @@ class RationalFunction:
     def constant(cls, value: Fraction | int, parameters: tuple[str, ...]) -> RationalFunction:
         """A rational number."""
         ring = _ring(parameters)
-        number = flint.fmpq(value.numerator, value.denominator)
-        return cls(parameters, ring.constant(number), ring.constant(1))
+        return cls(parameters, ring.constant(to_fmpq(value)), ring.constant(1))
 
     @classmethod
     def parameter(cls, name: str, parameters: tuple[str, ...]) -> RationalFunction:
@@ -106,10 +105,7 @@ class RationalFunction:
     ) -> RationalFunction:
         """The polynomial with these coefficients, by the exponents of the parameters."""
         ring = _ring(parameters)
-        known = {
-            tuple(exponents) or (0,): flint.fmpq(c.numerator, c.denominator)
-            for exponents, c in terms.items()
-        }
+        known = {tuple(exponents) or (0,): to_fmpq(c) for exponents, c in terms.items()}
         return _checked(parameters, ring.from_dict(known), ring.constant(1))
 
     def terms(self) -> tuple[dict[tuple[int, ...], Fraction], dict[tuple[int, ...], Fraction]]:
@@ -124,7 +120,7 @@ class RationalFunction:
         width = len(self.parameters)
         top, bottom = (
             {
-                tuple(map(int, exponents))[:width]: Fraction(int(c.p), int(c.q))
+                tuple(map(int, exponents))[:width]: from_fmpq(c)
                 for exponents, c in p.to_dict().items()
             }
             for p in (self.numerator, self.denominator)
@@ -321,12 +317,12 @@ def _degree(p: Any) -> int:
 def _number(c: Any) -> Fraction:
     """The rational number that a constant polynomial is."""
     for value in c.to_dict().values():
-        return Fraction(int(value.p), int(value.q))
+        return from_fmpq(value)
     return Fraction(0)
 
 
 def _univariate(p: Any) -> Polynomial:
-    found = {int(e[0]): Fraction(int(c.p), int(c.q)) for e, c in p.to_dict().items()}
+    found = {int(e[0]): from_fmpq(c) for e, c in p.to_dict().items()}
     degree = max(found, default=-1)
     return Polynomial(tuple(found.get(k, Fraction(0)) for k in range(degree + 1)))
 
@@ -337,7 +333,7 @@ def _evaluated(
     """Σ c_e v^e."""
     total = zero
     for exponents, c in p.to_dict().items():
-        term = zero + Fraction(int(c.p), int(c.q))
+        term = zero + from_fmpq(c)
         for value, exponent in zip(values, exponents, strict=False):
             if exponent:
                 term = term * value ** int(exponent)
@@ -349,7 +345,7 @@ def _in_floats(p: Any, at: Sequence[Any]) -> Any:
     """The value of a polynomial in floating point."""
     total: Any = 0.0
     for exponents, c in p.to_dict().items():
-        term: Any = to_float(Fraction(int(c.p), int(c.q)))
+        term: Any = to_float(from_fmpq(c))
         for place, exponent in zip(at, exponents, strict=False):
             term = term * place ** int(exponent)
         total = total + term
@@ -375,7 +371,7 @@ def _text(p: Any, parameters: tuple[str, ...], *, latex: bool = False) -> str:
     text = ""
     names = tuple(map(parameter_latex, parameters)) if latex else parameters
     for exponents, c in sorted(p.to_dict().items(), reverse=True):
-        coefficient = Fraction(int(c.p), int(c.q))
+        coefficient = from_fmpq(c)
         powers = [
             name if e == 1 else f"{name}^{{{e}}}" if latex else f"{name}^{e}"
             for name, e in zip(names, map(int, exponents), strict=False)
@@ -491,17 +487,12 @@ class FunctionMatrix(MatrixDisplay):
         >>> str(M.entry(0, 0)), str(M.entry(0, 1)), str(delta)
         ('x + 1', 'x', 'x^2 - 1')
         """
-        entries = [[e.polynomials() for e in row] for row in self.rows]
-        common = Polynomial.of(1)
-        for row in entries:
-            for _, bottom in row:
-                common = common * (bottom // common.gcd(bottom))
-        common = common * (Fraction(1) / common.leading)
-        rows = [[top * (common // bottom) for top, bottom in row] for row in entries]
-        return PolynomialMatrix.from_polynomials(rows, ncols=self.ncols), common
+        parameters = next((e.parameters for row in self.rows for e in row), ("t",))
+        rows, common = cleared(self, parameters)
+        return polynomial_matrix(rows, self.ncols), _univariate(common)
 
 
-# Polynomials over Q in the parameters and x, which is the last variable of their ring.
+# Matrices over Q[t_1, …, t_k], as rows of polynomials of flint.
 
 Rows = list[list[Any]]
 """A matrix by its rows, whose entries are polynomials in the parameters."""
@@ -510,7 +501,7 @@ VARIABLE = "x"
 
 @cache
 def ring(parameters: tuple[str, ...]) -> Any:
-    """The ring of polynomials in the parameters and x."""
+    """The ring of polynomials in the parameters and x, which is the last variable."""
     return flint.fmpq_mpoly_ctx.get((*parameters, VARIABLE), flint.Ordering.lex)
 
 
@@ -529,6 +520,27 @@ def cleared(M: FunctionMatrix, parameters: tuple[str, ...]) -> tuple[Rows, Any]:
     return [[top * (delta / bottom) for top, bottom in row] for row in entries], delta
 
 
+def least_denominator(M: FunctionMatrix, parameters: tuple[str, ...]) -> RationalFunction:
+    """The least common denominator of the entries."""
+    return in_parameters(cleared(M, parameters)[1], parameters)
+
+
+def polynomial_matrix(rows: Rows, ncols: int) -> PolynomialMatrix:
+    """The matrix of polynomials in one parameter with these rows."""
+    terms = [[e.to_dict() for e in row] for row in rows]
+    length = 1 + max((int(t[0]) for row in terms for e in row for t in e), default=0)
+    layers: list[list[list[Fraction]]] = [
+        [[Fraction(0)] * ncols for _ in rows] for _ in range(length)
+    ]
+    for i, row in enumerate(terms):
+        for j, entry in enumerate(row):
+            for exponents, c in entry.items():
+                layers[int(exponents[0])][i][j] = from_fmpq(c)
+    return PolynomialMatrix.from_matrices(
+        *(Matrix.from_rows(layer, ncols=ncols) for layer in layers)
+    )
+
+
 def product(M: Rows, N: Rows, zero: Any) -> Rows:
     """M N."""
     columns = [*zip(*N, strict=True)]
@@ -542,22 +554,6 @@ def product(M: Rows, N: Rows, zero: Any) -> Rows:
 def total(M: Rows, N: Rows) -> Rows:
     """M + N."""
     return [[a + b for a, b in zip(*rows, strict=True)] for rows in zip(M, N, strict=True)]
-
-
-def characteristic(M: Rows, parameters: tuple[str, ...]) -> Any:
-    """det(xI − M), by traces (Faddeev and Le Verrier)."""
-    inside = ring(parameters)
-    x, zero, n = inside.gens()[-1], inside.constant(0), len(M)
-    found, coefficient = x**n, inside.constant(1)
-    power = [[zero] * n for _ in range(n)]
-    for k in range(1, n + 1):
-        power = product(M, power, zero)
-        for i in range(n):
-            power[i][i] = power[i][i] + coefficient
-        below = product(M, power, zero)
-        coefficient = sum((below[i][i] for i in range(n)), zero) / -k
-        found = found + coefficient * x ** (n - k)
-    return found
 
 
 def value(f: Any, point: Sequence[Any]) -> Any:
@@ -597,67 +593,16 @@ def determinant(M: Rows, parameters: tuple[str, ...]) -> Any:
     return rows[0][0] if rows else before
 
 
-def degree(f: Any) -> int:
-    """The degree in x."""
-    return max(int(f.degrees()[-1]), 0)
+def irreducible_factors(h: Any, parameters: tuple[str, ...]) -> list[RationalFunction]:
+    """The irreducible factors, other than constants, of a polynomial without x, in a fixed order.
 
-
-def factors(f: Any) -> list[Any]:
-    """The irreducible factors that are no constants, in a fixed order."""
-    return sorted((p for p, _ in f.factor()[1] if not p.is_constant()), key=str)
-
-
-def without(f: Any, g: Any) -> Any:
-    """f divided by g as often as g divides it."""
-    while True:
-        quotient, rest = divmod(f, g)
-        if rest != 0:
-            return f
-        f = quotient
-
-
-def common_divisor(polynomials: Sequence[Any]) -> Any:
-    """The greatest common divisor."""
-    return reduce(lambda f, g: f.gcd(g), polynomials)
-
-
-def is_coprime(f: Any, g: Any) -> bool:
-    """Whether two polynomials have no common factor but constants."""
-    return bool(f.gcd(g).is_constant())
-
-
-def resultant_factors(
-    f: Sequence[Any], g: Sequence[Any], parameters: tuple[str, ...]
-) -> set[RationalFunction]:
-    """The irreducible factors of the resultants with respect to x of two lists of polynomials.
-
-    No polynomial of the one list has a factor in common with one of the other, so that no resultant
-    is 0.  Their coefficients are coprime integers, the first one positive.
+    Their coefficients are coprime integers, the first one positive.
     """
-    return {
-        in_parameters(h, parameters)
-        for a in f
-        for b in g
-        for h in factors(a.resultant(b, VARIABLE))
-    }
+    factors = (p for p, _ in h.factor()[1] if not p.is_constant())
+    return [in_parameters(p, parameters) for p in sorted(factors, key=str)]
 
 
 def in_parameters(h: Any, parameters: tuple[str, ...]) -> RationalFunction:
-    """A polynomial in which x does not occur."""
+    """A polynomial of flint in which x does not occur, as a function of the parameters."""
     one = RationalFunction.constant(1, parameters).numerator
     return RationalFunction(parameters, h.project_to_context(one.context()), one)
-
-
-def coefficients(p: Any, parameters: tuple[str, ...]) -> tuple[RationalFunction, ...]:
-    """The coefficients of a polynomial that is monic in x up to a constant, constant term first."""
-    rows: list[dict[tuple[int, ...], Any]] = [{} for _ in range(degree(p) + 1)]
-    for exponents, c in p.to_dict().items():
-        rows[int(exponents[-1])][tuple(map(int, exponents[:-1]))] = c
-    [lead] = rows[-1].values()
-    one = RationalFunction.constant(1, parameters).numerator
-    return tuple(
-        RationalFunction(
-            parameters, one.context().from_dict({e: c / lead for e, c in row.items()}), one
-        )
-        for row in rows
-    )

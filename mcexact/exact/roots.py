@@ -29,7 +29,7 @@ import flint
 
 from mcexact.errors import InputError, InternalError, UsageError, one_of
 from mcexact.exact.matrix import Matrix, as_requested, hstack, vstack
-from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial import Polynomial, to_fmpz_poly
 from mcexact.exact.rational import digits_of, written
 
 # Discs and intervals around the roots of a polynomial, with decimal numbers, verified exactly.
@@ -145,7 +145,7 @@ def _moduli(p: Polynomial) -> list[float]:
 
 def _flint_roots(p: Polynomial, bits: int) -> list[flint.acb]:
     with PRECISION, flint.ctx.workprec(bits):
-        pairs: list[Any] = list(p._integer.complex_roots())
+        pairs: list[Any] = list(to_fmpz_poly(p).complex_roots())
     return [root for root, _ in pairs]
 
 

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import random
-from typing import Any
 
 import pytest
 import sympy
 
-from mcexact.exact.bivariate import (
+from mcexact.exact.linear_algebra import PolynomialMatrix
+from mcexact.exact.modular import polynomial_residues
+from mcexact.exact.parametric_polynomials import (
+    ParametricPolynomial,
     determinant,
     determinant_modulo,
     entries_of,
     generic_kernel,
-    kernel_modulo,
-    matrix_product,
+    kernel_over_field,
+    matrix_of,
 )
-from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.polynomial import Polynomial
 
 t = sympy.Symbol("t")
@@ -38,20 +39,43 @@ def test_determinants_are_those_of_sympy(n: int) -> None:
     values = [sum(c * t**k for k, c in enumerate(entry)) for entry in entries]
     expected = sympy.Poly(sympy.Matrix(n, n, values).det(), t)
     coefficients = [int(c) for c in reversed(expected.all_coeffs())]
-    found = determinant(M)
-    assert [int(c.p) for c in found.coeffs()] == (coefficients if any(coefficients) else [])
-    modular = [int(c) for c in determinant_modulo(M, PRIME).coeffs()]
-    assert modular == [int(c.p) % PRIME for c in found.coeffs()]
+    exact = determinant(M)
+    assert exact == Polynomial.of(*coefficients)
+    assert determinant_modulo(M, PRIME) == polynomial_residues(exact, PRIME)
 
 
 def test_kernels_are_annihilated_generically_and_at_a_value() -> None:
-    left, right = drawn(random.Random(5), 3, 2), drawn(random.Random(6), 2, 4)
-    M: Any = entries_of(left @ right)
-    pivots, vectors = generic_kernel(M, 4)
-    assert len(pivots) == len(vectors) == 2
-    columns = [[v[i][0] for v in vectors] for i in range(4)]
-    assert all(entry == 0 for row in matrix_product(M, columns) for entry in row)
+    M = drawn(random.Random(5), 3, 2) @ drawn(random.Random(6), 2, 4)
+    pivots, (columns,) = generic_kernel([M])
+    assert len(pivots) == columns.ncols == 2
+    assert (M @ columns).is_zero()
     q = Polynomial.of(-2, 0, 1)
-    square = entries_of(PolynomialMatrix.from_polynomials([[q, Polynomial.of(1)]], ncols=2))
-    pivots, vectors = kernel_modulo(square, 2, q)
-    assert pivots == (0,) and [str(e[0]) for e in vectors[0]] == ["1", "0"]
+    row = PolynomialMatrix.from_polynomials([[q, Polynomial.of(1)]], ncols=2)
+    pivots, (column,) = kernel_over_field([row], q)
+    assert pivots == (0,)
+    assert [column.entry(i, 0) for i in range(2)] == [Polynomial.of(1), Polynomial.of()]
+
+
+def test_a_kernel_at_the_roots_of_a_polynomial_in_x_is_annihilated_there() -> None:
+    """[x, −1; −t, x] has (1, x) in its kernel where x² = t, for every t and where t² = 2."""
+    constant = PolynomialMatrix.from_polynomials(
+        [[Polynomial.of(), Polynomial.of(-1)], [Polynomial.of(0, -1), Polynomial.of()]]
+    )
+    pencil = [constant, PolynomialMatrix.identity(2)]
+    p = ParametricPolynomial.from_polynomials(
+        [Polynomial.of(0, -1), Polynomial.of(), Polynomial.of(1)], ("t",)
+    )
+    q = Polynomial.of(-2, 0, 1)
+    for pivots, (low, high) in (generic_kernel(pencil, p), kernel_over_field(pencil, q, p)):
+        assert pivots == (1,) and low.shape == high.shape == (2, 1)
+        # (x M_1 + M_0)(low + x high), with t for x²
+        t_times_high = high.times_x()
+        assert ((constant @ low + t_times_high) % q).is_zero()
+        assert ((constant @ high + low) % q).is_zero()
+    assert generic_kernel(pencil[:1])[0] == kernel_over_field(pencil[:1], q)[0] == ()
+
+
+def test_entries_go_to_flint_and_back() -> None:
+    M = drawn(random.Random(7), 2, 3)
+    for each in (M, PolynomialMatrix.identity(0), M.take(rows=()), M.take(cols=())):
+        assert matrix_of(entries_of(each), each.ncols) == each

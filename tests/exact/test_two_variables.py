@@ -58,7 +58,7 @@ def test_the_characteristic_polynomial_is_that_of_sympy(seed: int) -> None:
     rows = [[sum(L[i, j] * t**k for k, L in enumerate(layers)) for j in range(3)] for i in range(3)]
     expected = sympy.Matrix(rows).charpoly(x).as_expr()
     assert sympy.expand(as_sympy(found) - expected) == 0
-    assert bivariate.degree(found) <= bivariate.degree_bound(M)
+    assert max(int(c.degree()) for c in found) <= bivariate.degree_bound(M)
 
 
 @pytest.mark.parametrize("q", ["t - 2", "t**2 - 2", "t**3 + t + 1"])

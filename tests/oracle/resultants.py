@@ -6,12 +6,18 @@ from typing import Any
 
 import flint
 
-from mcexact.exact.bivariate import Bivariate, joined
+RING = flint.fmpq_mpoly_ctx.get(("t", "x"), flint.Ordering.lex)
 
 
-def resultant(f: Bivariate, g: Bivariate) -> flint.fmpq_poly:
+def resultant(f: list[Any], g: list[Any]) -> flint.fmpq_poly:
     """The resultant with respect to x, a polynomial in t."""
-    found: dict[int, Any] = {
-        int(i): c for (i, _), c in joined(f).resultant(joined(g), "x").to_dict().items()
+    terms: dict[int, Any] = {
+        int(i): c for (i, _), c in _joined(f).resultant(_joined(g), "x").to_dict().items()
     }
-    return flint.fmpq_poly([found.get(i, 0) for i in range(max(found, default=-1) + 1)])
+    return flint.fmpq_poly([terms.get(i, 0) for i in range(max(terms, default=-1) + 1)])
+
+
+def _joined(f: list[Any]) -> Any:
+    """The polynomial with these coefficients of the powers of x, polynomials in t."""
+    coefficients = ((i, k, c) for k, part in enumerate(f) for i, c in enumerate(part.coeffs()))
+    return RING.from_dict({(i, k): c for i, k, c in coefficients if c != 0})

@@ -57,9 +57,21 @@ from mcexact.answer.several_parameters import (
 )
 from mcexact.derived.modular import generator
 from mcexact.errors import InputError, LimitReached, UsageError, one_of
-from mcexact.exact import rational_functions
+from mcexact.exact.parametric_polynomials import (
+    ParametricPolynomial,
+    characteristic,
+    common_factors,
+    resultant_factors,
+)
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
+from mcexact.exact.rational_functions import (
+    FunctionMatrix,
+    RationalFunction,
+    cleared,
+    product,
+    ring,
+    total,
+)
 from mcexact.exact.roots import root_discs
 from mcexact.model.entries import as_functions
 from mcexact.model.parametric import ParametricSystem
@@ -138,11 +150,11 @@ class _Search:
         self.about, self.decide = about, decide
         self.system, self.rng, self.names = system, rng, system.parameters
         parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
-        rows = [rational_functions.cleared(M, self.names)[0] for M in parts]
+        rows = [cleared(M, self.names)[0] for M in parts]
         entries = [about.A, *(M for c in about.channels for M in (c.B, c.C))]
         self.A, self.B, self.C = rows[0], rows[1::2], rows[2::2]
         self.poles = poles(entries, self.names)
-        self.chi = rational_functions.characteristic(self.A, self.names)
+        self.chi = characteristic(self.A, self.names)
 
     def answer(self) -> ExceptionalHypersurfaces:
         """The answer."""
@@ -151,7 +163,7 @@ class _Search:
             if drawn is None:
                 continue
             generic, candidates = drawn
-            degree = sum(map(rational_functions.degree, generic))
+            degree = sum(p.degree for p in generic)
 
             def is_generic(answer: ParametricFixedSpectrum, degree: int = degree) -> bool:
                 return sum(len(p) - 1 for p in answer.generic) == degree
@@ -184,12 +196,12 @@ class _Search:
             ),
             undefined_at=tuple(in_order(self.poles)),
             lines=lines,
-            generic=tuple(rational_functions.coefficients(p, self.names) for p in generic),
+            generic=tuple(p.functions() for p in generic),
         )
 
-    def _loop(self, size: int) -> Any:
+    def _loop(self, size: int) -> ParametricPolynomial:
         """det(xI − A − Σ B_i F_i C_i) for drawn gains of this size."""
-        inside = rational_functions.ring(self.names)
+        inside = ring(self.names)
         zero, closed = inside.constant(0), self.A
         for B_i, C_i, (p, q) in zip(self.B, self.C, self.system.sizes, strict=True):
             if p and q and self.system.n:
@@ -197,28 +209,25 @@ class _Search:
                     [inside.constant(self.rng.randint(-size, size)) for _ in range(q)]
                     for _ in range(p)
                 ]
-                gained = rational_functions.product(B_i, F, zero)
-                closed = rational_functions.total(
-                    closed, rational_functions.product(gained, C_i, zero)
-                )
-        return rational_functions.characteristic(closed, self.names)
+                closed = total(closed, product(product(B_i, F, zero), C_i, zero))
+        return characteristic(closed, self.names)
 
-    def _candidates(self, size: int) -> tuple[list[Any], list[RationalFunction]] | None:
+    def _candidates(
+        self, size: int
+    ) -> tuple[list[ParametricPolynomial], list[RationalFunction]] | None:
         """The factors that drawn gains do not move, and the candidates for hypersurfaces.
 
         None if one of the two loops keeps more factors than the other: then resultants are 0, and
         there are no candidates.
         """
         psi = [self.chi, self._loop(size), self._loop(size)]
-        common = rational_functions.common_divisor(psi)
-        generic = [p for p in rational_functions.factors(common) if rational_functions.degree(p)]
+        generic = common_factors(psi)
         for p in generic:
-            psi = [rational_functions.without(f, p) for f in psi]
-        if not all(rational_functions.is_coprime(psi[0], f) for f in psi[1:]):
+            psi = [f.without(p) for f in psi]
+        if not all(psi[0].is_coprime(f) for f in psi[1:]):
             return None
-        left, first, second = map(rational_functions.factors, psi)
-        in_both = rational_functions.resultant_factors(left, first, self.names)
-        in_both &= rational_functions.resultant_factors(left, [*second, *generic], self.names)
+        left, first, second = (f.factors() for f in psi)
+        in_both = resultant_factors(left, first) & resultant_factors(left, [*second, *generic])
         return generic, [h for h in in_both if h not in self.poles]
 
 

@@ -26,10 +26,10 @@ from __future__ import annotations
 
 import functools
 import math
+import operator
 import random
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from mcexact.analysis.subspaces import obstruction_modulo
 from mcexact.answer.evidence import RootDisc, ZeroBlock
@@ -55,29 +55,22 @@ from mcexact.derived.constructions import (
 )
 from mcexact.derived.modular import PolynomialSystem, drawn_gains, generator
 from mcexact.errors import InternalError, LimitReached
-from mcexact.exact import bivariate
-from mcexact.exact.bivariate import (
-    Bivariate,
-    Element,
-    Kernel,
-    Tower,
-    X,
-    characteristic,
-    denominators,
-    difference,
-    entries_of,
-    is_coprime_modulo,
-    line,
-    matrix_of,
-    modulus_at,
-    over_functions,
-    polynomials,
-    residues,
-    roots_modulo,
-    without,
-)
+from mcexact.exact.bivariate import Residues, characteristic_modulo
+from mcexact.exact.linear_algebra import PolynomialMatrix, stacked
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular import long_prime, primes
+from mcexact.exact.modular import ModularPolynomial, long_prime, polynomial_residues, primes
+from mcexact.exact.parametric_polynomials import (
+    Basis,
+    ParametricPolynomial,
+    characteristic,
+    common_divisor,
+    common_factors,
+    generic_kernel,
+    kernel_over_field,
+    reduced_residues,
+    resultant_degree_bound,
+    resultant_modulo,
+)
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import root_discs
 from mcexact.model.graph import NeighborGraph
@@ -99,69 +92,62 @@ class MovingGains:
     def __init__(
         self,
         system: PolynomialSystem,
-        psi: Bivariate,
-        psi_1: Bivariate,
+        psi: ParametricPolynomial,
+        psi_1: ParametricPolynomial,
         gains: list[Matrix],
         ell: int,
     ) -> None:
         self.psi, self.psi_1, self.gains, self.ell = psi, psi_1, gains, ell
-        self.loop = bivariate.characteristic_modulo(system.closed(gains), ell)
-        left = bivariate.residues_in_x(psi, ell)
-        right = bivariate.residues_in_x(psi_1, ell)
-        self.first = bivariate.resultant_modulo(left, right, ell)
-        self.other = bivariate.resultant_modulo(left, self.loop, ell)
+        self.loop: Residues = characteristic_modulo(system.closed(gains), ell)
+        left = psi.residues(ell)
+        self.first = resultant_modulo(left, psi_1.residues(ell), ell)
+        self.other = resultant_modulo(left, self.loop, ell)
 
-    def is_complete(self, q: Any, known: Sequence[Bivariate]) -> bool:
-        """Whether, at the roots of q, G moves all roots of ψ_0 but those of known factors."""
-        left, bottom = bivariate.reduced(self.psi, q), residues(q, self.ell)
-        for p in known:
-            left = without(left, p, q)
-        common = bivariate.resultant_modulo(
-            bivariate.residues_in_x(left, self.ell),
-            [c % bottom for c in self.loop],
-            self.ell,
-        )
-        return is_coprime_modulo(q, common, self.ell)
+    def is_complete(self, q: Polynomial, fixed: Sequence[ParametricPolynomial]) -> bool:
+        """Whether, at the roots of q, G moves all roots of ψ_0 but those of fixed factors."""
+        left = functools.reduce(ParametricPolynomial.without, fixed, self.psi.modulo(q))
+        loop = reduced_residues(self.loop, q, self.ell)
+        return self._is_coprime(q, resultant_modulo(left.residues(self.ell), loop, self.ell))
 
-    def is_nothing_else(self, values: Sequence[Any]) -> bool:
+    def _is_coprime(self, q: Polynomial, resultant: ModularPolynomial) -> bool:
+        return polynomial_residues(q, self.ell).gcd(resultant).degree == 0
+
+    def is_nothing_else(self, values: Sequence[Polynomial]) -> bool:
         """Whether modulo ℓ both resultants have common roots only among these values."""
         rest = self.first
-        if rest.is_zero():
+        if rest.degree < 0:
             return False
         for q in values:
-            bottom = residues(q, self.ell)
-            while (pair := divmod(rest, bottom))[1].is_zero():
-                rest = pair[0]
-        return bool(rest.gcd(self.other).degree() == 0)
+            divisor = polynomial_residues(q, self.ell)
+            while divisor.divides(rest):
+                rest //= divisor
+        return rest.gcd(self.other).degree == 0
 
-    def is_needed(self, q: Any) -> bool:
+    def is_needed(self, q: Polynomial) -> bool:
         """Whether the second resultant vanishes at a root of q."""
-        return not is_coprime_modulo(q, self.other, self.ell)
+        return not self._is_coprime(q, self.other)
 
     def common(
-        self, values: Sequence[Any], outside: Sequence[Any]
-    ) -> list[tuple[Any, Bivariate]] | None:
+        self, values: Sequence[Polynomial], outside: Sequence[Polynomial]
+    ) -> list[tuple[Polynomial, ParametricPolynomial]] | None:
         """Divisors of ψ_0 and ψ_1 at values that prove how often these divide the first resultant.
 
         None where they are not enough: a resultant can vanish more often than it has to, and its
         degree can be less than those of its factors allow.
         """
-        if self.first.degree() < bivariate.resultant_degree_bound(
-            self.psi, difference(self.psi_1, self.psi)
-        ):
+        if self.first.degree < resultant_degree_bound(self.psi, self.psi_1):
             return None
         divisors, rest = [], self.first
         for q in [*values, *outside]:
-            bottom = residues(q, self.ell)
-            if not self.is_needed(q) or not divmod(rest, bottom)[1].is_zero():
+            divisor = polynomial_residues(q, self.ell)
+            if not self.is_needed(q) or not divisor.divides(rest):
                 continue
-            if q in outside and q.degree() > _SHORT:
+            if q in outside and q.degree > _SHORT:
                 return None
-            first, second = (bivariate.reduced(f, q) for f in (self.psi, self.psi_1))
-            divisors.append((q, bivariate.gcd(first, second, q)))
-            for _ in divisors[-1][1][1:]:
-                rest = divmod(rest, bottom)[0]
-        return divisors if rest.gcd(self.other).degree() == 0 else None
+            divisors.append((q, self.psi.modulo(q).gcd(self.psi_1.modulo(q))))
+            for _ in range(divisors[-1][1].degree):
+                rest //= divisor
+        return divisors if rest.gcd(self.other).degree == 0 else None
 
 
 # Zero blocks, which prove that a mode is fixed.
@@ -171,7 +157,7 @@ _BLOCK_TRIES = 2000
 
 
 def responsible_channels(
-    system: PolynomialSystem, q: Any, p: Bivariate, rng: random.Random
+    system: PolynomialSystem, q: Polynomial, p: ParametricPolynomial, rng: random.Random
 ) -> tuple[int, ...] | None:
     """T for the roots of p at the roots of q, or None if these are not fixed.
 
@@ -180,9 +166,9 @@ def responsible_channels(
     stream = primes(rng.getrandbits(64), _BLOCK_BITS)
     for _ in range(_BLOCK_TRIES):
         ell = next(stream)
-        if not system.is_defined_modulo(ell) or any(d % ell == 0 for d in denominators([q, *p])):
+        if not system.is_defined_modulo(ell) or q.denominator * p.denominator % ell == 0:
             continue
-        for tau, mu in roots_modulo(q, p, ell):
+        for tau, mu in p.roots_modulo(q, ell):
             modular = system.modulo(tau, ell)
             obstruction = obstruction_modulo(modular, drawn_gains(modular, rng), mu)
             return None if obstruction is None else obstruction.channels_T
@@ -190,86 +176,37 @@ def responsible_channels(
 
 
 def zero_block(
-    system: PolynomialSystem, T: Sequence[int], q: Any, p: Bivariate
+    system: PolynomialSystem, T: Sequence[int], q: Polynomial, p: ParametricPolynomial
 ) -> ZeroBlock | None:
     """The zero block for T over Q[t]/(q)[x]/(p), or None if T proves nothing there."""
-    entries = _Entries(system, T)
-    columns, W = Tower(q, X).kernel([[[e] for e in row] for row in entries.inputs], system.n)
-    rows, U = Tower(q, p).kernel(entries.pencil([[e[0] for e in w] for w in W], q), system.n)
-    return _block(system, T, rows, U, columns, W, len(p) - 1)
+    return _block(system, T, p, functools.partial(kernel_over_field, q=q))
 
 
 def generic_zero_block(
-    system: PolynomialSystem, T: Sequence[int], p: Bivariate
+    system: PolynomialSystem, T: Sequence[int], p: ParametricPolynomial
 ) -> ZeroBlock | None:
     """The zero block for T over Q[t][x]/(p), or None if T proves nothing there."""
-    entries, n = _Entries(system, T), system.n
-
-    def left(t: int) -> Kernel:
-        return Tower(line(t), X).kernel([[[e] for e in row] for row in entries.inputs], n)
-
-    columns, W = over_functions(left)
-    functions = [[e[0] for e in w] for w in W]
-
-    def right(t: int) -> Kernel | None:
-        value = modulus_at(p, t)
-        if value is None:
-            return None
-        return Tower(line(t), value).kernel(entries.pencil(functions, line(t)), n)
-
-    rows, U = over_functions(right)
-    return _block(system, T, rows, U, columns, W, len(p) - 1)
+    return _block(system, T, p, generic_kernel)
 
 
 def _block(
     system: PolynomialSystem,
     T: Sequence[int],
-    rows: tuple[int, ...],
-    U: list[list[Element]],
-    columns: tuple[int, ...],
-    W: list[list[Element]],
-    degree: int,
+    p: ParametricPolynomial,
+    kernel: Callable[..., Basis],
 ) -> ZeroBlock | None:
-    if len(rows) + len(columns) <= system.n:
+    """W' is the kernel of B_T', and U that of [W (xI − A); C_s] at the roots of p."""
+    n = system.n
+    inputs = stacked([system.B[i].T for i in T], n)
+    outputs = stacked([system.C[i] for i in range(system.m) if i not in set(T)], n)
+    columns, (W,) = kernel([inputs])
+    W = W.T
+    below = PolynomialMatrix.from_matrices(Matrix.zeros(*outputs.shape))
+    rows, U = kernel([stacked([-(W @ system.A), outputs], n), stacked([W, below], n)], p=p)
+    if len(rows) + len(columns) <= n:
         return None
-    layers = tuple(
-        matrix_of([[u[i][k] for u in U] for i in range(system.n)], len(U)) for k in range(degree)
-    )
-    return ZeroBlock(
-        channels_T=tuple(system.system.names[i] for i in T),
-        U=layers,
-        W=matrix_of([[e[0] for e in w] for w in W], system.n),
-        row_pivots=rows,
-        column_pivots=columns,
-    )
-
-
-class _Entries:
-    """The entries of B_T', A and C_s as polynomials of flint, s the complement of T."""
-
-    def __init__(self, system: PolynomialSystem, T: Sequence[int]) -> None:
-        self.n = system.n
-        self.A = entries_of(system.A)
-        self.inputs = [
-            list(column) for i in T for column in zip(*entries_of(system.B[i]), strict=True)
-        ]
-        self.C = [
-            row for i in range(system.m) if i not in set(T) for row in entries_of(system.C[i])
-        ]
-
-    def pencil(self, W: list[list[Any]], q: Any) -> list[list[Element]]:
-        """The rows of [W (xI − A); C_s]."""
-        rows: list[list[Element]] = []
-        for w in W:
-            used = [(k, c) for k, c in enumerate(w) if c != 0]
-            row = []
-            for j in range(self.n):
-                total = 0 * w[j]
-                for k, c in used:
-                    total = total - c * self.A[k][j]
-                row.append([total % q, w[j] % q])
-            rows.append(row)
-        return rows + [[[c] for c in row] for row in self.C]
+    names = tuple(system.system.names[i] for i in T)
+    return ZeroBlock(channels_T=names, U=U, W=W, row_pivots=rows, column_pivots=columns)
 
 
 # The fixed spectrum for all values of a parameter.
@@ -321,16 +258,16 @@ def parametric_fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectr
     ).answer()
 
 
-_Mode = tuple[Bivariate, tuple[int, ...], ZeroBlock]
+_Mode = tuple[ParametricPolynomial, tuple[int, ...], ZeroBlock]
 
 
 @dataclass
 class _Candidate:
     """A value q, the further modes that are fixed there, and divisors of generic factors there."""
 
-    q: Any
+    q: Polynomial
     modes: list[_Mode]
-    divisors: list[Bivariate]
+    divisors: list[ParametricPolynomial]
 
 
 class _Search:
@@ -338,8 +275,8 @@ class _Search:
 
     def __init__(self, system: PolynomialSystem, rng: random.Random) -> None:
         self.system, self.rng = system, rng
-        self.generic: list[tuple[Bivariate, ZeroBlock]] = []
-        self.psi: list[Bivariate] = []
+        self.generic: list[tuple[ParametricPolynomial, ZeroBlock]] = []
+        self.psi: list[ParametricPolynomial] = []
         self.gains: list[list[Matrix]] = []
         self.modes: dict[Polynomial, list[_Mode]] = {}
 
@@ -354,41 +291,38 @@ class _Search:
 
     def _answer(self, *, exactly: bool) -> ParametricFixedSpectrum | None:
         """The answer; without an exact resultant there may be none for these gains."""
-        values = self._values()
-        undefined = [q for q in values if q in self.system.poles]
-        rest = [q for q in values if q not in self.system.poles]
+        candidates = self._values()
+        undefined = [q for q in candidates if q in self.system.poles]
+        rest = [q for q in candidates if q not in self.system.poles]
         outside = [] if not self._has_range else [q for q in rest if not self._in_range(q)]
         decided = [self._decided(q) for q in rest if q not in outside]
         moving = self._moving_gains(decided, [*undefined, *outside])
         exceptional = [each for each in decided if each.modes]
         # Small gains can agree at a value where nothing happens: it needs no entry.
         needed = [each for each in decided if not each.modes and moving.is_needed(each.q)]
-        named = [each.q for each in [*exceptional, *needed]] + [q._rational for q in undefined]
-        common = moving.common(named, [q._rational for q in outside])
+        values = [*(each.q for each in [*exceptional, *needed]), *undefined]
+        common = moving.common(values, outside)
         if common is None and not exactly:
             return None
         evidence = MovedModes(
             gains=(tuple(self.gains[0]), tuple(self.gains[1]), tuple(moving.gains)),
             modulus=moving.ell,
             moduli=self._moduli() if common is None else (),
-            common=tuple(CommonDivisor(_polynomial(q), polynomials(h)) for q, h in common or ()),
+            common=tuple(CommonDivisor(q, h.polynomials()) for q, h in common or ()),
             generic=tuple(block for _, block in self.generic),
             exceptional=tuple(
                 ExceptionalEvidence(
                     modes=tuple(block for _, _, block in each.modes),
-                    divisors=tuple(map(polynomials, each.divisors)),
+                    divisors=_coefficients(each.divisors),
                 )
                 for each in exceptional
             ),
-            settled=tuple(
-                SettledValue(_polynomial(each.q), tuple(map(polynomials, each.divisors)))
-                for each in needed
-            ),
+            settled=tuple(SettledValue(each.q, _coefficients(each.divisors)) for each in needed),
             undefined=tuple(undefined),
         )
         return ParametricFixedSpectrum(
             self.system.system,
-            generic=tuple(polynomials(p) for p, _ in self.generic),
+            generic=_coefficients(p for p, _ in self.generic),
             exceptional=tuple(map(self._exceptional, exceptional)),
             outside=tuple(OutsideValue(q, _discs(q)) for q in outside),
             evidence=evidence,
@@ -399,9 +333,10 @@ class _Search:
         self.gains = [
             self.system.drawn_gains(lambda: self.rng.randint(-size, size)) for _ in range(3)
         ]
-        loops = [characteristic(self.system.closed(F)) for F in self.gains]
+        names = self.system.system.parameters
+        loops = [characteristic(self.system.closed(F), names) for F in self.gains]
         self.generic = []
-        for p in bivariate.common_factors(loops):
+        for p in common_factors(loops):
             t = self.rng.randrange(10**3, 10**6)
             block = self._generic_block(p, t)
             if block is None:
@@ -409,14 +344,13 @@ class _Search:
             self.generic.append((p, block))
         self.psi = loops
         for p, _ in self.generic:
-            self.psi = [without(psi, p) for psi in self.psi]
-        return all(bivariate.are_coprime(self.psi[0], psi) for psi in self.psi[1:])
+            self.psi = [psi.without(p) for psi in self.psi]
+        return all(self.psi[0].is_coprime(psi) for psi in self.psi[1:])
 
-    def _generic_block(self, p: Bivariate, t: int) -> ZeroBlock | None:
+    def _generic_block(self, p: ParametricPolynomial, t: int) -> ZeroBlock | None:
         """A zero block for the roots of p, if they are fixed at a drawn value of t."""
-        at_t = line(t)
-        factor = bivariate.factors(bivariate.reduced(p, at_t), at_t)[-1]
-        T = responsible_channels(self.system, at_t, factor, self.rng)
+        at_t = Polynomial.of(-t, 1)
+        T = responsible_channels(self.system, at_t, p.modulo(at_t).factors()[-1], self.rng)
         return None if T is None else generic_zero_block(self.system, T, p)
 
     @property
@@ -427,23 +361,16 @@ class _Search:
         bounds = self.system.system.ranges[0]
         return any(meets(disc, bounds) for disc in _discs(q))
 
-    def _decided(self, value: Polynomial) -> _Candidate:
+    def _decided(self, q: Polynomial) -> _Candidate:
         """What is fixed at the roots of an irreducible polynomial."""
-        q = value._rational
-        common = bivariate.reduced(self.psi[0], q)
-        for psi in self.psi[1:]:
-            common = bivariate.gcd(common, bivariate.reduced(psi, q), q)
-        known = [bivariate.reduced(g, q) for g, _ in self.generic]
-        if value not in self.modes:
-            new = [
-                p
-                for p in bivariate.factors(common, q)
-                if all(bivariate.divided(g, p, q)[1] for g in known)
-            ]
-            self.modes[value] = [mode for p in new if (mode := self._mode(q, p)) is not None]
-        return _Candidate(q, self.modes[value], self._shared(q, known))
+        common = functools.reduce(ParametricPolynomial.gcd, [psi.modulo(q) for psi in self.psi])
+        generic = [p.modulo(q) for p, _ in self.generic]
+        if q not in self.modes:
+            new = [p for p in common.factors() if not any(p.divides(g) for g in generic)]
+            self.modes[q] = [mode for p in new if (mode := self._mode(q, p)) is not None]
+        return _Candidate(q, self.modes[q], self._shared(q, generic))
 
-    def _mode(self, q: Any, p: Bivariate) -> _Mode | None:
+    def _mode(self, q: Polynomial, p: ParametricPolynomial) -> _Mode | None:
         """A mode at the roots of q with its evidence, if it is fixed."""
         T = responsible_channels(self.system, q, p, self.rng)
         if T is None:
@@ -457,35 +384,35 @@ class _Search:
         """Candidates: the irreducible factors that two resultants have in common."""
         stream = primes(self.rng.getrandbits(64), _BITS)
         # det(xI − A_G) keeps its generic factors, so the second resultant has their roots as well
-        second = functools.reduce(bivariate.product, (p for p, _ in self.generic), self.psi[2])
-        known = [c for f in (*self.psi, second) for c in f]
-        usable = (ell for ell in stream if self._is_defined(known, ell))
-        common = bivariate.common_divisor(self.psi[0], self.psi[1], second, usable)
-        values = {q for q, _ in _polynomial(common).factor()}
-        return sorted(values, key=lambda q: (q.degree, q.coefficients))
+        second = functools.reduce(operator.mul, (p for p, _ in self.generic), self.psi[2])
+        usable = (ell for ell in stream if self._is_defined([*self.psi, second], ell))
+        common = common_divisor(self.psi[0], self.psi[1], second, usable)
+        return [q for q, _ in common.factor()]
 
-    def _is_defined(self, known: list[Any], ell: int) -> bool:
+    def _is_defined(
+        self, polynomials: Iterable[ParametricPolynomial | Polynomial], ell: int
+    ) -> bool:
         """Whether a prime divides no denominator."""
-        denominators = bivariate.denominators(known)
-        return self.system.is_defined_modulo(ell) and all(d % ell for d in denominators)
+        return self.system.is_defined_modulo(ell) and all(p.denominator % ell for p in polynomials)
 
-    def _shared(self, q: Any, known: list[Bivariate]) -> list[Bivariate]:
+    def _shared(
+        self, q: Polynomial, generic: list[ParametricPolynomial]
+    ) -> list[ParametricPolynomial]:
         """Divisors of generic factors that also divide ψ_0 at the roots of q."""
-        left, divisors = bivariate.reduced(self.psi[0], q), []
-        for p in known:
-            while len(g := bivariate.gcd(left, p, q)) > 1:
+        left, divisors = self.psi[0].modulo(q), []
+        for p in generic:
+            while (g := left.gcd(p)).degree:
                 divisors.append(g)
-                left = without(left, g, q)
+                left = left.without(g)
         return divisors
 
     def _moving_gains(self, decided: list[_Candidate], others: list[Polynomial]) -> MovingGains:
         """A prime ℓ, and gains that move, modulo ℓ, all modes that are not fixed."""
         stream = primes(self.rng.getrandbits(64), _BITS)
-        values = [*(each.q for each in decided), *(q._rational for q in others)]
-        known = [c for psi in self.psi for c in psi] + values
+        values = [*(each.q for each in decided), *others]
         for _ in range(_DRAWS):
             ell = next(stream)
-            if not self._is_defined(known, ell):
+            if not self._is_defined([*self.psi, *values], ell):
                 continue
             gains = self.system.drawn_gains(lambda ell=ell: self.rng.randrange(ell))
             moving = MovingGains(self.system, self.psi[0], self.psi[1], gains, ell)
@@ -499,29 +426,30 @@ class _Search:
     def _moduli(self) -> tuple[int, ...]:
         """Primes whose product is above twice the coefficients of the first resultant."""
         first, second = self.psi[0], self.psi[1]
-        sizes = bivariate.size(first), bivariate.size(second)
-        least = 2 * sizes[0] ** (len(second) - 1) * sizes[1] ** (len(first) - 1)
+        least = 2 * first.size() ** second.degree * second.size() ** first.degree
         moduli: list[int] = []
         while math.prod(moduli) <= least:
             moduli.append(long_prime(self.rng, _LONG_BITS))
         return tuple(moduli)
 
     def _exceptional(self, each: _Candidate) -> ExceptionalValue:
-        q, names = _polynomial(each.q), self.system.system.names
+        names = self.system.system.names
         return ExceptionalValue(
-            value=q,
-            roots=_discs(q),
+            value=each.q,
+            roots=_discs(each.q),
             modes=tuple(
                 ExceptionalMode(
-                    polynomials(p), tuple(n for i, n in enumerate(names) if i not in set(T))
+                    p.polynomials(), tuple(n for i, n in enumerate(names) if i not in set(T))
                 )
                 for p, T, _ in each.modes
             ),
         )
 
 
-def _polynomial(q: Any) -> Polynomial:
-    return polynomials([q])[0]
+def _coefficients(
+    polynomials: Iterable[ParametricPolynomial],
+) -> tuple[tuple[Polynomial, ...], ...]:
+    return tuple(p.polynomials() for p in polynomials)
 
 
 def _discs(q: Polynomial) -> tuple[RootDisc, ...]:

@@ -22,7 +22,6 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import islice
 from typing import Any, TypeVar
 
@@ -44,34 +43,36 @@ from mcexact.answer.several_parameters import A, Hypersurface, Line, RankHypersu
 from mcexact.derived.constructions import along_line, dual, points_of, rearranged
 from mcexact.derived.modular import PolynomialSystem, generator
 from mcexact.errors import InputError, InternalError, LimitReached
-from mcexact.exact import bivariate, rational_functions
-from mcexact.exact.bivariate import (
-    ZERO,
+from mcexact.exact import rational_functions
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import ModularMatrix, polynomial_residues, primes
+from mcexact.exact.parametric_polynomials import (
+    Basis,
     determinant,
     determinant_modulo,
-    entries_of,
     generic_kernel,
-    kernel_modulo,
-    matrix_of,
-    matrix_product,
+    kernel_over_field,
 )
-from mcexact.exact.bivariate import Kernel as Columns
-from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular import ModularMatrix, primes
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
+from mcexact.exact.rational_functions import (
+    FunctionMatrix,
+    RationalFunction,
+    Rows,
+    cleared,
+    irreducible_factors,
+    polynomial_matrix,
+)
 from mcexact.exact.roots import root_discs, steady_point
 from mcexact.model.parametric import ParametricSystem
 
 # Matrices built by name from those of a system, over the polynomials in its parameters.
 
 Named = SetpointMatrix | SignalMatrix | ControllabilityMatrix | TransferColumn
-Rows = list[list[Any]]
 
 
 @dataclass(frozen=True)
 class Entries:
-    """The entries of A', B_i' and C_i', polynomials of one ring, and the product of two matrices.
+    """The entries of A', B_i' and C_i', which are polynomials in the parameters.
 
     Attributes
     ----------
@@ -86,8 +87,6 @@ class Entries:
     steady : int
         The mode of constant signals: 0, or in discrete time 1.
     zero : polynomial
-    product : callable
-        Multiplies two matrices.
     """
 
     names: Sequence[str]
@@ -98,7 +97,22 @@ class Entries:
     scale: Any
     steady: int
     zero: Any
-    product: Callable[[Rows, Rows], Rows]
+
+    @classmethod
+    def of(cls, system: ParametricSystem) -> Entries:
+        """The entries of a system with one parameter or several."""
+        names = system.parameters
+        A, scale = cleared(system.A, names)
+        return cls(
+            names=system.names,
+            A=A,
+            B=[cleared(c.B, names)[0] for c in system.channels],
+            C=[cleared(c.C, names)[0] for c in system.channels],
+            widths=[c.B.ncols for c in system.channels],
+            scale=scale,
+            steady=steady_point(system.time),
+            zero=rational_functions.ring(names).constant(0),
+        )
 
     def matrix(self, named: Named) -> Rows:
         """The rows of a matrix, the rank of which is that of the same matrix from A, B_i, C_i."""
@@ -118,6 +132,9 @@ class Entries:
             return named.blocks * sum(width for name, width in pairs if name in named.channels)
         times = named.polynomial.degree if isinstance(named, SignalMatrix) else 1
         return times * (len(self.A) + sum(self.widths))
+
+    def _product(self, M: Rows, N: Rows) -> Rows:
+        return rational_functions.product(M, N, self.zero)
 
     def _signal(self, p: Polynomial) -> Rows:
         """[I⊗A' − K⊗δI, I⊗B'; I⊗C', 0], K the companion matrix of p."""
@@ -148,16 +165,16 @@ class Entries:
         rows: Rows = [[] for _ in self.A]
         for _ in range(named.blocks):
             rows = [row + more for row, more in zip(rows, power, strict=True)]
-            power = self.product(self.A, power)
+            power = self._product(self.A, power)
         return rows
 
     def _transfer(self, named: TransferColumn) -> Rows:
         power = self.B[self.names.index(named.source)]
         outputs, markov = self.C[self.names.index(named.to)], []
         for _ in self.A:
-            columns = zip(*self.product(outputs, power), strict=True)
+            columns = zip(*self._product(outputs, power), strict=True)
             markov += [[entry] for column in columns for entry in column]
-            power = self.product(self.A, power)
+            power = self._product(self.A, power)
         return markov
 
 
@@ -192,9 +209,8 @@ class _Search:
     def __init__(self, system: PolynomialSystem, matrix: Named) -> None:
         self.system, self.matrix = system, matrix
         self.rng = generator(system.system, "parametric_rank")
-        entries = _entries(system)
-        self.rows, self.ncols = entries.matrix(matrix), entries.columns(matrix)
-        self.M = matrix_of(self.rows, self.ncols)
+        entries = Entries.of(system.system)
+        self.M = polynomial_matrix(entries.matrix(matrix), entries.columns(matrix))
         self.stream = primes(self.rng.getrandbits(64), _BITS)
 
     def answer(self) -> ParametricRank:
@@ -202,11 +218,9 @@ class _Search:
         above, beside = self._pivots()
         rank, bounds = len(above), self.system.system.ranges[0]
         minor = determinant(self.M.take(rows=above, cols=beside))
-        factors = [q for q, _ in _polynomial(minor).factor()]
+        factors = [q for q, _ in minor.factor()]
         undefined = [q for q in factors if q in self.system.poles]
-        lost = [
-            q for q in factors if q not in self.system.poles and self._rank_at(q._rational) < rank
-        ]
+        lost = [q for q in factors if q not in self.system.poles and self._rank_at(q) < rank]
         discs = {q: tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(q)) for q in lost}
         outside = [
             q
@@ -214,10 +228,10 @@ class _Search:
             if bounds != (None, None) and not any(meets(disc, bounds) for disc in discs[q])
         ]
         exceptional = [q for q in lost if q not in outside]
-        kernels = [self._kernel(kernel_modulo(self.rows, self.ncols, q)) for q in exceptional]
-        ranks = [self.ncols - len(kernel.pivots) for kernel in kernels]
-        rest = bivariate.freed(minor, [q._rational for q in [*lost, *undefined]])
-        full = rank == min(len(self.rows), self.ncols)
+        kernels = [_kernel(kernel_over_field([self.M], q)) for q in exceptional]
+        ranks = [self.M.ncols - len(kernel.pivots) for kernel in kernels]
+        rest = _without(minor, [*lost, *undefined])
+        full = rank == min(self.M.shape)
         ell, X_, Y = self._drawn(rank, rest, list(zip(exceptional, ranks, strict=True)))
         return ParametricRank(
             self.system.system,
@@ -228,7 +242,7 @@ class _Search:
             ),
             outside=tuple(OutsideValue(q, discs[q]) for q in outside),
             evidence=TwoMinors(
-                kernel=None if full else self._kernel(generic_kernel(self.rows, self.ncols)),
+                kernel=None if full else _kernel(generic_kernel([self.M])),
                 rows=above,
                 columns=beside,
                 modulus=ell,
@@ -245,63 +259,52 @@ class _Search:
         columns = tuple(value.rref()[1])
         return tuple(value.take(cols=columns).T.rref()[1]), columns
 
-    def _rank_at(self, q: Any) -> int:
+    def _rank_at(self, q: Polynomial) -> int:
         """The rank at a root of q modulo a prime, which is nearly always that at a root of q."""
         for ell in self.stream:
-            if self.M.denominator % ell == 0 or int(q.denom()) % ell == 0:
+            if self.M.denominator % ell == 0 or q.denominator % ell == 0:
                 continue
-            for root, _ in bivariate.residues(q, ell).roots():
-                return self.M.at_residue(int(root), ell).rank()
+            for root in polynomial_residues(q, ell).roots():
+                return self.M.at_residue(root, ell).rank()
         raise InternalError("no prime has a root of the polynomial")
 
-    def _kernel(self, null_space: Columns) -> Kernel:
-        pivots, vectors = null_space
-        rows = [[v[i][0] for v in vectors] for i in range(self.ncols)]
-        return Kernel(matrix_of(rows, len(vectors)), pivots)
-
     def _drawn(
-        self, rank: int, rest: Any, values: list[tuple[Polynomial, int]]
+        self, rank: int, rest: Polynomial, values: list[tuple[Polynomial, int]]
     ) -> tuple[int, Matrix, Matrix]:
         """A prime, and X and Y whose minors have no other root in common with the first one."""
         for attempt in range(1, _DRAWS):
             ell = next(self.stream)
-            known = [rest, *(q._rational for q, _ in values)]
-            if self.M.denominator % ell == 0 or any(int(p.denom()) % ell == 0 for p in known):
+            known = [self.M.denominator, rest.denominator, *(q.denominator for q, _ in values)]
+            if any(d % ell == 0 for d in known):
                 continue
             X_, Y = (
                 Matrix.from_integers(
                     [[self.rng.randint(-attempt, attempt) for _ in range(c)] for _ in range(r)],
                     ncols=c,
                 )
-                for r, c in ((rank, len(self.rows)), (self.ncols, rank))
+                for r, c in ((rank, self.M.nrows), (self.M.ncols, rank))
             )
             small = X_ @ self.M @ Y
-            corners = [(q, small.take(rows=range(r), cols=range(r))) for q, r in values]
-            pairs = [(rest, small), *((q._rational, corner) for q, corner in corners)]
+            corners = ((q, small.take(rows=range(r), cols=range(r))) for q, r in values)
             if all(
-                bivariate.is_coprime_modulo(p, determinant_modulo(M, ell), ell) for p, M in pairs
+                polynomial_residues(p, ell).gcd(determinant_modulo(M, ell)).degree == 0
+                for p, M in [(rest, small), *corners]
             ):
                 return ell, X_, Y
         raise InternalError("no drawn minors have a root in common where the rank is less")
 
 
-def _polynomial(p: Any) -> Polynomial:
-    return bivariate.polynomials([p])[0]
+def _kernel(basis: Basis) -> Kernel:
+    pivots, (columns,) = basis
+    return Kernel(columns, pivots)
 
 
-def _entries(system: PolynomialSystem) -> Entries:
-    """The entries of A', B_i' and C_i' as polynomials of flint."""
-    return Entries(
-        names=system.system.names,
-        A=entries_of(system.A),
-        B=[entries_of(M) for M in system.B],
-        C=[entries_of(M) for M in system.C],
-        widths=[M.ncols for M in system.B],
-        scale=system.scale._rational,
-        steady=steady_point(system.system.time),
-        zero=ZERO,
-        product=matrix_product,
-    )
+def _without(p: Polynomial, factors: Iterable[Polynomial]) -> Polynomial:
+    """p divided by each factor as often as this divides it, and by its leading coefficient."""
+    for q in factors:
+        for _ in range(q.multiplicity_in(p)):
+            p //= q
+    return p.monic()
 
 
 # Several parameters: lines along which candidates are proved to be exceptional.
@@ -366,11 +369,7 @@ def confirming_lines(
 
 def poles(parts: Collection[FunctionMatrix], names: tuple[str, ...]) -> set[RationalFunction]:
     """The irreducible factors of the denominators of matrices."""
-    return {
-        rational_functions.in_parameters(q, names)
-        for M in parts
-        for q in rational_functions.factors(rational_functions.cleared(M, names)[1])
-    }
+    return {q for M in parts for q in irreducible_factors(cleared(M, names)[1], names)}
 
 
 def in_order(surfaces: Collection[RationalFunction]) -> list[RationalFunction]:
@@ -455,18 +454,15 @@ def rank_hypersurfaces(
     along drawn lines, where it is proved for every value.
     """
     rng = generator(system, "rank_hypersurfaces")
-    names, entries = (
-        system.parameters,
-        _entries_on_lines(rearranged(system, dual) if observed else system),
-    )
+    names = system.parameters
+    entries = Entries.of(rearranged(system, dual) if observed else system)
     rows, width = entries.matrix(matrix), entries.columns(matrix)
     parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
     undefined = poles(parts, names)
     for ell in islice(primes(rng.getrandbits(64), _LINE_BITS), DRAWS):
         above, beside = _pivots(rows, width, [rng.randrange(ell) for _ in names], ell)
         minor = [[rows[i][j] for j in beside] for i in above]
-        factors = rational_functions.factors(rational_functions.determinant(minor, names))
-        candidates = [rational_functions.in_parameters(h, names) for h in factors]
+        candidates = irreducible_factors(rational_functions.determinant(minor, names), names)
 
         def is_generic(answer: ParametricRank, rank: int = len(above)) -> bool:
             return answer.rank == rank
@@ -491,24 +487,6 @@ def rank_hypersurfaces(
         lines=lines,
         matrix=matrix,
         rank=len(above),
-    )
-
-
-def _entries_on_lines(system: ParametricSystem) -> Entries:
-    """The entries of A', B_i' and C_i' as polynomials in all parameters."""
-    names = system.parameters
-    zero = rational_functions.ring(names).constant(0)
-    A, scale = rational_functions.cleared(system.A, names)
-    return Entries(
-        names=system.names,
-        A=A,
-        B=[rational_functions.cleared(c.B, names)[0] for c in system.channels],
-        C=[rational_functions.cleared(c.C, names)[0] for c in system.channels],
-        widths=[c.B.ncols for c in system.channels],
-        scale=scale,
-        steady=steady_point(system.time),
-        zero=zero,
-        product=partial(rational_functions.product, zero=zero),
     )
 
 
