@@ -84,6 +84,7 @@ def test_factors_and_divisors_are_those_of_sympy(seed: int, names: tuple[str, ..
     assert {*f.factors()} <= {*common}
     assert all(not p.is_coprime(first) and not p.is_coprime(second) for p in common)
     left, right = (reduce(ParametricPolynomial.without, common, p) for p in (first, second))
+    assert all((p * p * left).without(p) == left.without(p) for p in common)
     assert left.is_coprime(right)
     assert sympy.gcd(as_sympy(left), as_sympy(right)).is_number
 
@@ -116,6 +117,8 @@ def test_the_dense_form_computes_as_the_joined_one(seed: int) -> None:
 def test_reduction_to_a_field_respects_products_and_divisors(q: Polynomial) -> None:
     rng = random.Random(3)
     f, g = drawn(rng, ONE, 2), drawn(rng, ONE, 1)
+    square = parsed("x + t", ONE).modulo(q)
+    assert square * square == parsed("x**2 + 2*t*x + t**2", ONE).modulo(q)
     both = (f * g).modulo(q)
     assert both == f.modulo(q) * g.modulo(q) and both.modulus == q
     assert g.modulo(q).divides(both) and both.gcd(g.modulo(q)) == g.modulo(q)
