@@ -290,7 +290,7 @@ class Tower:
         self.q, self.e, self.f = q, int(q.degree()), len(p) - 1
         self.D = self.e * self.f
         self.p = [c % q for c in p]
-        self._known: dict[str, list[list[Any]]] = {}
+        self._columns: dict[str, list[list[Any]]] = {}
 
     def _coordinates(self, element: Bivariate) -> list[Any]:
         """The coordinates of an element of degree below f in x."""
@@ -306,7 +306,7 @@ class Tower:
     def _multiplication(self, element: Bivariate) -> list[list[Any]]:
         """The columns x^k t^j · element, for an element of degree at most 1 in x."""
         key = str(element)
-        if key not in self._known:
+        if key not in self._columns:
             zero = flint.fmpq_poly([])
             low = [element[0] % self.q]
             first = self._times_x([element[1] % self.q]) if len(element) > 1 else []
@@ -321,8 +321,8 @@ class Tower:
                     columns.append(self._coordinates(turned))
                     turned = [(c * flint.fmpq_poly([0, 1])) % self.q for c in turned]
                 power = self._times_x(power)
-            self._known[key] = columns
-        return self._known[key]
+            self._columns[key] = columns
+        return self._columns[key]
 
     def kernel(self, rows: list[list[Bivariate]], ncols: int) -> Kernel:
         """The kernel of a matrix with these rows, in echelon form."""

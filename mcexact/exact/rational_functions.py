@@ -105,8 +105,8 @@ class RationalFunction:
     ) -> RationalFunction:
         """The polynomial with these coefficients, by the exponents of the parameters."""
         ring = _ring(parameters)
-        known = {tuple(exponents) or (0,): to_fmpq(c) for exponents, c in terms.items()}
-        return _checked(parameters, ring.from_dict(known), ring.constant(1))
+        coefficients = {tuple(exponents) or (0,): to_fmpq(c) for exponents, c in terms.items()}
+        return _checked(parameters, ring.from_dict(coefficients), ring.constant(1))
 
     def terms(self) -> tuple[dict[tuple[int, ...], Fraction], dict[tuple[int, ...], Fraction]]:
         """Numerator and denominator: their coefficients by the exponents of the parameters.
@@ -322,9 +322,9 @@ def _number(c: Any) -> Fraction:
 
 
 def _univariate(p: Any) -> Polynomial:
-    found = {int(e[0]): from_fmpq(c) for e, c in p.to_dict().items()}
-    degree = max(found, default=-1)
-    return Polynomial(tuple(found.get(k, Fraction(0)) for k in range(degree + 1)))
+    coefficients = {int(e[0]): from_fmpq(c) for e, c in p.to_dict().items()}
+    degree = max(coefficients, default=-1)
+    return Polynomial(tuple(coefficients.get(k, Fraction(0)) for k in range(degree + 1)))
 
 
 def _evaluated(

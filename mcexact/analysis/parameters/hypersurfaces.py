@@ -235,11 +235,11 @@ def _example(
     values: Iterable[Any], lines: Iterable[Line[ParametricFixedSpectrum]]
 ) -> tuple[dict[str, Fraction], tuple[Polynomial, ...]] | None:
     """A value at which a line meets a hypersurface, and the modes that are fixed only there."""
-    known = {id(value) for value in values}
+    chosen = {id(value) for value in values}
     for line in lines:
         for each in line.answer.exceptional:
             s = each.exact
-            if s is not None and id(each) in known:
+            if s is not None and id(each) in chosen:
                 at = {
                     name: value.substituted([s], _NUMBER).value for name, value in line.at.items()
                 }

@@ -274,8 +274,12 @@ class _Search:
         """A prime, and X and Y whose minors have no other root in common with the first one."""
         for attempt in range(1, _DRAWS):
             ell = next(self.stream)
-            known = [self.M.denominator, rest.denominator, *(q.denominator for q, _ in values)]
-            if any(d % ell == 0 for d in known):
+            denominators = [
+                self.M.denominator,
+                rest.denominator,
+                *(q.denominator for q, _ in values),
+            ]
+            if any(d % ell == 0 for d in denominators):
                 continue
             X_, Y = (
                 Matrix.from_integers(
@@ -393,8 +397,8 @@ def _line(about: ParametricSystem, rng: random.Random, size: int) -> ParametricS
 
 def _letter(parameters: Collection[str]) -> str:
     """The parameter of the lines, which is none of the system: s, or s1, s2, …"""
-    known = ("s" + str(k or "") for k in range(len(parameters) + 1))
-    return next(s for s in known if s not in parameters)
+    letters = ("s" + str(k or "") for k in range(len(parameters) + 1))
+    return next(s for s in letters if s not in parameters)
 
 
 def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Polynomial]:
