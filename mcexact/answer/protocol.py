@@ -88,8 +88,8 @@ def fitted(value: Any, room: int) -> str:
         return f"{value.nrows}×{value.ncols} matrix"
     if dataclasses.is_dataclass(value):
         names = getattr(value, "brief", ()) or (dataclasses.fields(value)[0].name,)
-        told = tuple(getattr(value, name) for name in names)
-        return fitted(told[0] if len(told) == 1 else told, room)
+        parts = tuple(getattr(value, name) for name in names)
+        return fitted(parts[0] if len(parts) == 1 else parts, room)
     text = rational_text(value) if isinstance(value, Fraction) else repr(value)
     short = value is None or isinstance(value, bool)
     return text if short or len(text) <= room else "…"
@@ -144,8 +144,8 @@ def displayed(value: Any) -> Any:
     if isinstance(value, (bool, Matrix, Polynomial)) or _is_part(value):
         return value
     if isinstance(value, tuple) and value and all(isinstance(each, str) for each in value):
-        told = ", ".join(value)
-        return told if len(told) <= _CELL else fitted(value, _CELL)
+        names = ", ".join(value)
+        return names if len(names) <= _CELL else fitted(value, _CELL)
     if isinstance(value, str) and len(value) <= _CELL:
         return value
     return "none" if value is None or value == () else fitted(value, _CELL)
@@ -272,7 +272,7 @@ class Part(Shown):
 
     def document(self) -> dict[str, Any]:
         """Return the object of ``FORMAT.md``, with exact objects as values."""
-        return _given(self, dataclasses.fields(self))
+        return _by_key(self, dataclasses.fields(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the same as plain data."""
@@ -313,7 +313,7 @@ class Answer(Shown):
     about: MultiChannelSystem
 
     @classmethod
-    def known(cls, found: Any, system: Any, where: str) -> Self | None:
+    def known(cls, argument: Any, system: Any, where: str) -> Self | None:
         """An argument that is this answer about a system, if it is known; None if it is not.
 
         Radii are of no account: answers about a box are searched beside that about its center.
@@ -325,10 +325,10 @@ class Answer(Shown):
         UsageError
             If it is about another system.
         """
-        if found is None:
+        if argument is None:
             return None
-        InputError.require(found, cls, where)
-        answer: Self = found
+        InputError.require(argument, cls, where)
+        answer: Self = argument
         if _values(answer.about) != _values(system):
             raise UsageError("expected it about this system, found it about another", where=where)
         return answer
@@ -345,15 +345,15 @@ class Answer(Shown):
 
     def claim(self) -> dict[str, Any]:
         """Return the statement, with the keys of the kind's ``claim``."""
-        return _given(self, fields_of(type(self), "claim"))
+        return _by_key(self, fields_of(type(self), "claim"))
 
     def witness(self) -> dict[str, Any]:
         """Return the evidence, with the keys of the kind's ``witness``."""
-        found: dict[str, Any] = {}
+        evidence: dict[str, Any] = {}
         for each in fields_of(type(self), "witness"):
             value = getattr(self, each.name)
-            found |= value.document() if each.metadata["whole"] else {each.name: value}
-        return found
+            evidence |= value.document() if each.metadata["whole"] else {each.name: value}
+        return evidence
 
     def document(self) -> dict[str, Any]:
         """Return claim and witness, as a part of the certificate of another answer."""
@@ -379,8 +379,9 @@ class Answer(Shown):
         Examples
         --------
         >>> from mcexact import MultiChannelSystem, fixed_spectrum
-        >>> found = fixed_spectrum(MultiChannelSystem([[1]], [[[0]]], [[[1]]]))
-        >>> found.to_row()["polynomial"], found.to_row()["factors"], found.to_row()["stabilizable"]
+        >>> spectrum = fixed_spectrum(MultiChannelSystem([[1]], [[[0]]], [[[1]]]))
+        >>> row = spectrum.to_row()
+        >>> row["polynomial"], row["factors"], row["stabilizable"]
         ('x - 1', 1, False)
         """
         row = {key: flat(value) for key, _, value in self.entries()}
@@ -416,8 +417,8 @@ class Answer(Shown):
         independent checker, which verifies it for this.
         """
         module, name = _EXPLAINED
-        said: str = getattr(importlib.import_module(module), name)(self)
-        return said
+        words: str = getattr(importlib.import_module(module), name)(self)
+        return words
 
 
 def is_about_dual(subject: Sequence[Document]) -> bool:
@@ -435,12 +436,12 @@ def answer(kind: str) -> Callable[[type[AnyAnswer]], type[AnyAnswer]]:
         Its name in certificates, which the checker's rule also has.
     """
 
-    def made(cls: type[AnyAnswer]) -> type[AnyAnswer]:
+    def declare(cls: type[AnyAnswer]) -> type[AnyAnswer]:
         cls.kind = kind
         KINDS[kind] = dataclass(frozen=True, repr=False, eq=False)(cls)
         return cls
 
-    return made
+    return declare
 
 
 def kind_named(name: str) -> type[Answer]:
@@ -462,12 +463,12 @@ def fields_of(kind: type[Answer], role: str) -> list[dataclasses.Field[Any]]:
 
 def shown_of(kind: type[Answer]) -> dict[str, str]:
     """Return the marked properties with their labels."""
-    found = {}
+    labels = {}
     for name, each in vars(kind).items():
         get = each.func if isinstance(each, cached_property) else getattr(each, "fget", None)
         if "label" in getattr(get, "__dict__", {}):
-            found[name] = get.__dict__["label"]
-    return found
+            labels[name] = get.__dict__["label"]
+    return labels
 
 
 def key_of(each: dataclasses.Field[Any]) -> str:
@@ -480,9 +481,9 @@ def is_optional(each: dataclasses.Field[Any]) -> bool:
     return bool(each.metadata.get("optional"))
 
 
-def _given(found: Any, fields: Iterable[dataclasses.Field[Any]]) -> dict[str, Any]:
+def _by_key(owner: Any, fields: Iterable[dataclasses.Field[Any]]) -> dict[str, Any]:
     """Return the keys and values of the fields that are not left out."""
-    values = {each: getattr(found, each.name) for each in fields}
+    values = {each: getattr(owner, each.name) for each in fields}
     return {key_of(f): v for f, v in values.items() if v is not None or not is_optional(f)}
 
 

@@ -130,8 +130,8 @@ def _is_object(value: Any) -> bool:
 
 
 def _keys(value: Any) -> Mapping[str, Any]:
-    found: Mapping[str, Any] = value if isinstance(value, Mapping) else value.document()
-    return found
+    document: Mapping[str, Any] = value if isinstance(value, Mapping) else value.document()
+    return document
 
 
 def _each(read: Read, parts: Iterable[Any]) -> Iterator[Any]:
@@ -149,19 +149,19 @@ class Certified(Claim):
     """The claims of an answer, by name, with the other data that a rule may read."""
 
     def __init__(self, answer: Answer, file: str, read: Read) -> None:
-        self._made = answer
-        super().__init__(self._made.claim(), file, "/claim", read)
+        self._answer = answer
+        super().__init__(answer.claim(), file, "/claim", read)
 
     @property
     def subject(self) -> Sequence[Mapping[str, Any]]:
         """The constructions that lead from the plant to the system of the answer."""
-        self._read[self._file, "/subject"] = self._made.subject
-        return tuple(self._made.subject)
+        self._read[self._file, "/subject"] = self._answer.subject
+        return tuple(self._answer.subject)
 
     @property
     def proof(self) -> Claim:
         """The part of the witness that the checker verifies independently, such as cuts."""
-        return Claim(self._made.witness(), self._file, "/witness", self._read)
+        return Claim(self._answer.witness(), self._file, "/witness", self._read)
 
 
 @dataclass(frozen=True)
@@ -195,7 +195,7 @@ class Rule:
         if self.missing and self.missing not in missing:
             return
         read: Read = {}
-        claims = [_found(question, answers, read) for question in self.premises]
+        claims = [_claims(question, answers, read) for question in self.premises]
         if any(claim is None for claim in claims):
             return
         for sentence in self.says(*claims, given):
@@ -203,7 +203,7 @@ class Rule:
             yield sentence.bound(self.place, because)
 
 
-def _found(name: str, answers: Mapping[str, Answer], read: Read) -> Any:
+def _claims(name: str, answers: Mapping[str, Answer], read: Read) -> Any:
     """Return the answer of a name for rules, or the numbered ones; None if there is none."""
     for each in _ALIASES.get(name, (name,)):
         if each in answers:
@@ -237,17 +237,19 @@ class Rulebook(list[Rule]):
     ) -> Callable[[F], F]:
         """Make a rule of a function that yields sentences."""
 
-        def made(says: F) -> F:
+        def enter(says: F) -> F:
             self.append(Rule(place, templates, says, premises, missing))
             return says
 
-        return made
+        return enter
 
     def sentences(
         self, answers: Mapping[str, Answer], given: Given, missing: Collection[str] = ()
     ) -> Sentences:
         """Return all sentences that follow from answers, keyed by questions."""
-        return Sentences(said for rule in self for said in rule.apply(answers, given, missing))
+        return Sentences(
+            sentence for rule in self for sentence in rule.apply(answers, given, missing)
+        )
 
 
 class Sentences(tuple[Sentence, ...]):
