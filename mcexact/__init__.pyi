@@ -41,6 +41,8 @@ from .analysis.sharing import minimal_communication as minimal_communication
 from .analysis.sharing import minimal_shared_dimensions as minimal_shared_dimensions
 from .analysis.sharing import neighbor_graph as neighbor_graph
 from .analysis.sharing import shared_dimension_bound as shared_dimension_bound
+from .analysis.sharing_gap import extremal_plant as extremal_plant
+from .analysis.sharing_gap import sharing_gap as sharing_gap
 from .analysis.single_channel import ErrorGains as ErrorGains
 from .analysis.single_channel import error_gains as error_gains
 from .analysis.single_channel import single_channel_gains as single_channel_gains
@@ -83,6 +85,7 @@ from .answer.sharing import Deficiency as Deficiency
 from .answer.sharing import MinimalCommunication as MinimalCommunication
 from .answer.sharing import NeighborGraphVerdict as NeighborGraphVerdict
 from .answer.sharing import SharedDimensions as SharedDimensions
+from .answer.sharing_gap import SharingGap as SharingGap
 from .answer.structure import ComplementarySubsystem as ComplementarySubsystem
 from .answer.structure import ControllabilityIndices as ControllabilityIndices
 from .answer.structure import ExceptionalSet as ExceptionalSet

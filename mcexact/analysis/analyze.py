@@ -32,11 +32,13 @@ from typing import Any, NoReturn
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.questions import Question, questions_about
 from mcexact.analysis.sharing import (
+    common_dimension,
     minimal_communication,
     minimal_shared_dimensions,
     neighbor_graph,
     shared_dimension_bound,
 )
+from mcexact.analysis.sharing_gap import sharing_gap
 from mcexact.answer.account import (
     Account,
     ShownByAccount,
@@ -798,12 +800,14 @@ def account_of_dimensions(
         The other keywords of `minimal_shared_dimensions`.
     """
     least = minimal_shared_dimensions(system, share=share, **options)
-    answers = {
+    answers: dict[str, Answer] = {
         "minimal_shared_dimensions": least,
         "shared_dimension_bound": shared_dimension_bound(system, share=share),
         "neighbor_graph": neighbor_graph(system),
         "joint_controllability": joint_controllability(system),
         "joint_observability": joint_observability(system),
+        "common_dimension": common_dimension(system, share=share),
+        "sharing_gap": sharing_gap(system),
     }
     given = Given(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
     return Account(answers, given, ALLOCATION.sentences(answers, given))

@@ -310,6 +310,14 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             about="plant",
             needs="neighbors",
         ),
+        "sharing_gap": Question(
+            "sharing_gap:sharing_gap",
+            "by which factors the bounds on what agents share can exceed the least, over the graph",
+            about="plant",
+            needs="neighbors",
+            unbidden=False,
+            option="minimal",
+        ),
         **{
             f"{name}_{stem}": Question(
                 f"sharing:{name}",

@@ -206,6 +206,7 @@ HOMES = {
     "pencil_rank": "mcexact.answer.modes",
     "setpoint": "mcexact.answer.structure",
     "shared_dimensions": "mcexact.answer.sharing",
+    "sharing_gap": "mcexact.answer.sharing_gap",
     "single_channel_gains": "mcexact.answer.structure",
     "stability": "mcexact.answer.loops",
     "transfer_graph": "mcexact.answer.structure",

@@ -7,7 +7,15 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from mcexact.answer import analysis, boxes, loops, parameters, several_parameters, sharing
+from mcexact.answer import (
+    analysis,
+    boxes,
+    loops,
+    parameters,
+    several_parameters,
+    sharing,
+    sharing_gap,
+)
 from mcexact.answer.sentence import Given, Rulebook
 from mcexact.answer.templates import Template, templates
 
@@ -18,8 +26,15 @@ if TYPE_CHECKING:
 
 # Rules that say when a sentence holds; they read checked certificates and nothing else.
 
-ANALYSIS = Rulebook([*analysis.ANALYSIS_RULES, *sharing.SHARING_RULES, *analysis.DETAIL_RULES])
-ALLOCATION = sharing.ALLOCATION_RULES
+ANALYSIS = Rulebook(
+    [
+        *analysis.ANALYSIS_RULES,
+        *sharing.SHARING_RULES,
+        *sharing_gap.GAP_RULES,
+        *analysis.DETAIL_RULES,
+    ]
+)
+ALLOCATION = Rulebook([*sharing.ALLOCATION_RULES, *sharing_gap.NOTE_RULES])
 PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 LINKS = sharing.LINK_RULES
 DESIGN, VERDICT = loops.DESIGN, loops.VERDICT
@@ -99,10 +114,10 @@ def in_words(said: Iterable[Sentence]) -> str:
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
         Rulebook([*ANALYSIS, *(rule for own in OWN.values() for rule in own)]),
-        (analysis, boxes, sharing),
+        (analysis, boxes, sharing, sharing_gap),
     ),
     "analyze, with parameters": (PARAMETERS, (parameters,)),
-    "allocate": (ALLOCATION, (sharing,)),
+    "allocate": (ALLOCATION, (sharing, sharing_gap)),
     "allocate --links": (LINKS, (sharing,)),
     "design, certify": (Rulebook([*DESIGN, *VERDICT]), (loops,)),
     "design, if there is none": (REFUSALS, (loops,)),

@@ -21,7 +21,7 @@ from dataclasses import dataclass, field, replace
 from types import FrameType
 from typing import NoReturn, TypeVar
 
-from . import boxes, loops, modes, parameters, reading, sharing, structure
+from . import boxes, loops, modes, parameters, reading, sharing, sharing_gap, structure
 from .arithmetic import NotAUnit
 from .budget import MORE, current, limited
 from .cells import subject_of
@@ -274,6 +274,7 @@ KINDS = {
     "pencil_rank": Rule(modes.check_pencil_rank, modes.pencil_rank_statement),
     "setpoint": Rule(structure.check_setpoint, structure.setpoint_statement),
     "shared_dimensions": Rule(sharing.check_shared_dimensions, sharing.shared_dimensions_statement),
+    "sharing_gap": Rule(sharing_gap.check_sharing_gap, sharing_gap.sharing_gap_statement),
     "single_channel_gains": Rule(
         structure.check_single_channel_gains, structure.single_channel_gains_statement
     ),

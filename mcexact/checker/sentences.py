@@ -616,6 +616,8 @@ _enter_common("states", "states", "common_dimension_states")
 
 
 BOUND = Role(("deficiency",), HEARD + PLANT)
+COMMON = Role(("common_dimension",), PLANT)
+GAP = Role(("sharing_gap",), PLANT)
 BOUNDS = "extended_bound.theorem_2, extended_bound.remark_2"
 
 
@@ -667,6 +669,48 @@ rule("allocate-reason", LEAST)(partial(demands, agents="some"))
 rule("allocate-reason-do-not-control", LEAST)(partial(demands, agents="none"))
 rule("allocate-reason-do-not-observe", LEAST)(partial(demands, agents="all"))
 rule("allocate-reason-cut-off", LEAST)(partial(demands, agents="cut off"))
+
+
+# How far the bounds can be from the least common dimension, over one neighbor graph.
+
+FACTORS = {"outputs+states": "relays_at_most", "states": "boundary_at_most"}
+THEOREMS = {"outputs+states": "Theorem 2", "states": "Remark 2"}
+GAP_PROVED = {"outputs+states": "Open: see proofs/OPEN.md", "states": "Open: see proofs/OPEN.md"}
+
+
+def factor(gap: Premise, share: str) -> str:
+    """By how much a bound exceeds the least common dimension of any plant at most."""
+    return (
+        f"the bound of {THEOREMS[share]} is at most {gap[FACTORS[share]]} times the least common "
+        "dimension that suffices, if one does"
+    )
+
+
+@rule("sharing-gap", GAP, theorem="Open: see proofs/OPEN.md")
+def _factors(gap: Premise) -> str:
+    """The factors of the graph alone."""
+    both = " and ".join(factor(gap, share) for share in FACTORS)
+    return f"For {gap.system.words}: for every plant over this neighbor graph, {both}"
+
+
+def _enter_gap(keys: str, share: str) -> None:
+    """Enter the rules that compare the bound of a plant with its least common dimension."""
+    paths = HEARD if share == "outputs+states" else PLANT
+
+    @rule(keys, Role(("deficiency",), paths), COMMON, GAP, theorem=GAP_PROVED[share])
+    def _compare(bound: Premise, common: Premise, gap: Premise) -> str:
+        common.expect(common["share"] == share, "about the other way of sharing")
+        common.expect(common["feasible"] and common["dimension"] > 0, "no dimension to compare")
+        return (
+            f"{common.statement}; {bound.statement.partition(': ')[2]}; "
+            f"for every plant over this neighbor graph, {factor(gap, share)}"
+        )
+
+
+_enter_gap(
+    "bound-and-least-outputs-states allocate-bound-and-least-outputs-states", "outputs+states"
+)
+_enter_gap("bound-and-least-states allocate-bound-and-least-states", "states")
 
 
 # Links.

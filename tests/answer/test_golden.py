@@ -206,6 +206,7 @@ def with_a_parameter(A: Any, ports: Any, bounds: Any = (None, None)) -> mcexact.
 def of_its_graph(plant: MultiChannelSystem) -> Answers:
     """What agents can share, at once and with the delays of their messages."""
     yield "neighbor_graph", neighbor_graph(plant)
+    yield "sharing_gap", mcexact.sharing_gap(plant)
     zero = [[[0] * plant.n for _ in range(plant.p(i))] for i in range(plant.m)]
     yield "error_gains", mcexact.error_gains(plant, zero).answer
     for name, found in of_the_system(mcexact.augmented_outputs(plant)):

@@ -37,6 +37,7 @@ KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
     "pencil_rank": fixed.rank_of_pencil,
     "setpoint": structure.setpoint,
     "shared_dimensions": sharing.shared_dimensions,
+    "sharing_gap": structure.sharing_gap,
     "single_channel_gains": fixed.single_channel_gains,
     "stability": loops.stability,
     "transfer_graph": structure.transfer_graph,

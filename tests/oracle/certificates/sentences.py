@@ -316,6 +316,13 @@ SENTENCES: dict[str, Any] = {
     "pencil_rank": _pencil_rank,
     "setpoint": _setpoint,
     "shared_dimensions": _dimensions,
+    "sharing_gap": lambda claim, system: (
+        "over its neighbor graph, in which every agent receives from itself, of sets S and R of "
+        "agents where no agent of S receives messages of R, "
+        f"{claim['relays']} agents send to S and receive from R for some, and at most "
+        f"{claim['relays_at_most']} for all; of sets s of agents {claim['boundary']} agents "
+        f"outside s send to s for some, and at most {claim['boundary_at_most']} for all"
+    ),
     "single_channel_gains": _single,
     "stability": lambda claim, system: (
         f"{_not(claim['stable'])}every eigenvalue of A has {_region(claim['bound'], system.time)}"

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from flint import fmpq_mat
 
 from . import algebra
 from .algebra import X
-from .modes import components, pencil, transfer_edges
+from .modes import components, pencil, subsets, transfer_edges
 from .reading import edges, integer, listed, polynomial, positions, record, truth
 from .systems import System
 
@@ -75,6 +75,36 @@ def neighbor_graph(claim: Any, witness: Any, system: System) -> bool:
     found = record(claim, "strongly_connected")
     links = [(j, i) for i, heard in enumerate(system.graph()) for j in heard]
     return truth(found["strongly_connected"]) is (len(components(system.m, links)) <= 1)
+
+
+def sharing_gap(claim: Any, witness: Any, system: System) -> bool:
+    """All pairs of sets, and all sets: attained, and not exceeded."""
+    found = record(claim, "relays", "relays_at_most", "boundary", "boundary_at_most")
+    relays, most, boundary, farthest = (integer(each, 0) for each in found.values())
+    graph = [set(heard) for heard in system.graph()]
+    between, around = numbers_of_relays(graph), boundary_sizes(graph)
+    return (
+        relays in between
+        and max(between) <= most
+        and boundary in around
+        and max(around) <= farthest
+    )
+
+
+def numbers_of_relays(graph: Sequence[set[int]]) -> set[int]:
+    """The numbers of relays of all pairs of sets S and R that are apart."""
+    found = set()
+    for S in subsets(len(graph)):
+        heard = set().union(*(graph[i] for i in S))
+        for R in subsets(len(graph)):
+            if not heard & set(R):
+                found.add(sum(1 for j in heard if graph[j] & set(R)))
+    return found
+
+
+def boundary_sizes(graph: Sequence[set[int]]) -> set[int]:
+    """The sizes of N_s∖s for all sets s."""
+    return {len(set().union(*(graph[i] for i in s)) - set(s)) for s in subsets(len(graph))}
 
 
 def mcmillan_degree(system: System, c: list[int]) -> int:

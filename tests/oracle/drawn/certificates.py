@@ -160,6 +160,7 @@ DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = 
     "pencil_rank": _pencil,
     "setpoint": lambda rng, s: mcexact.setpoint_solvability(s),
     "shared_dimensions": _dimensions,
+    "sharing_gap": lambda rng, s: mcexact.sharing_gap(s, node_limit=rng.choice((1, 3, 10**4))),
     "single_channel_gains": _single,
     "stability": _stability,
     "transfer_graph": _as_large(lambda rng, s: mcexact.transfer_graph(s)),
@@ -190,7 +191,7 @@ PARAMETRIC: Mapping[str, Callable[[random.Random, ParametricSystem], Found]] = {
     "parametric_rank": _rank,
 }
 ABOUT_THE_PLANT = ("common_dimension", "communication", "shared_dimensions")
-WITH_GRAPH = ("common_dimension", "neighbor_graph", "shared_dimensions")
+WITH_GRAPH = ("common_dimension", "neighbor_graph", "shared_dimensions", "sharing_gap")
 
 
 def certified(

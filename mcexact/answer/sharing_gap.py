@@ -1,0 +1,134 @@
+"""How far the paper's bounds can be from the least common dimension: answer and sentences.
+
+The bounds are (26) of Theorem 2 and (27) of Remark 2.  Over one neighbor graph the first is at most
+β times the least common dimension of any plant, the second at most m − γ times, and some plant
+attains either.  The answer `SharingGap` has these two numbers of the graph, with sets of agents
+that attain them.  Its sentences are about the graph alone, and about a plant whose bound and least
+common dimension are certified as well.
+"""
+
+from __future__ import annotations
+
+from mcexact.answer.analysis import Said
+from mcexact.answer.evidence import Tree
+from mcexact.answer.protocol import Answer, answer, claim, shown, witness
+from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.templates import Template
+
+# Answer: the factors of a neighbor graph.
+
+
+@answer("sharing_gap")
+class SharingGap(Answer):
+    """Over this graph (26) is at most β times the least common dimension, (27) at most m − γ times.
+
+    Sets S and R of agents are apart if no agent of S receives messages of an agent of R.  A relay
+    of them is an agent of which S receives messages, and which receives messages of R.
+
+    Attributes
+    ----------
+    relays, relays_at_most : int
+        The first is the number of relays of ``receivers`` and ``senders``; β, the most relays of
+        any two sets that are apart, is from the first to the second.
+    boundary, boundary_at_most : int
+        The first is the number of agents outside ``dominating``; m − γ, the most agents in any
+        N_s∖s, is from the first to the second.
+    receivers, senders : tuple of str
+        Sets S and R that are apart; both are empty if β is 0.
+    dominating : tuple of str
+        A set s with N_s = {1, …, m}; γ is the least size of such a set.
+    tree : Tree
+        The proof that no dominating set has fewer than m − ``boundary_at_most`` agents.
+    """
+
+    relays: int = claim("relays between sets that are apart")
+    relays_at_most: int = claim("relays at most")
+    boundary: int = claim("agents in a boundary")
+    boundary_at_most: int = claim("agents in a boundary at most")
+    receivers: tuple[str, ...] = witness()
+    senders: tuple[str, ...] = witness()
+    dominating: tuple[str, ...] = witness()
+    tree: Tree = witness()
+
+    @property
+    @shown()
+    def exact(self) -> bool:
+        """Whether both numbers are known exactly, and not only within bounds."""
+        return (self.relays, self.boundary) == (self.relays_at_most, self.boundary_at_most)
+
+    @property
+    @shown()
+    def always_right(self) -> tuple[bool, bool]:
+        """Whether (26) and (27) are the least common dimension of every plant over this graph."""
+        return self.relays_at_most <= 1, self.boundary_at_most <= 1
+
+
+# Sentences about the graph, and about the bound of a plant.
+
+FACTORS = Template(
+    "sharing-gap",
+    "Theorem 2's at most {relays:int} times the least common dimension, "
+    "Remark 2's at most {boundary:int} times",
+    "Open: see proofs/OPEN.md",
+    "bounds over this graph",
+)
+THEOREMS = {"outputs+states": "Theorem 2", "states": "Remark 2"}
+_PROVED = {"outputs+states": "Open: see proofs/OPEN.md", "states": "Open: see proofs/OPEN.md"}
+
+
+def _compared(key: str, share: str, label: str) -> Template:
+    """The sentence that compares the bound of a plant with its least common dimension."""
+    text = (
+        f"{THEOREMS[share]}'s is {{k:count state}}, the least {{c:int}}; over this graph it is "
+        "never more than {factor:int} times the least"
+    )
+    stem = share.replace("+", "-")
+    return Template(f"{key}-{stem}", text, _PROVED[share], label)
+
+
+TABLE = {share: _compared("bound-and-least", share, "bound by each agent") for share in THEOREMS}
+NOTE = {share: _compared("allocate-bound-and-least", share, "") for share in THEOREMS}
+
+GAP_RULES = Rulebook()
+"""Rules of the table of `mcexact analyze`."""
+NOTE_RULES = Rulebook()
+"""Rules of `mcexact allocate`."""
+
+
+@GAP_RULES.rule("table", FACTORS, premises=("sharing_gap",))
+def _factors(sharing_gap: Claim, given: Given) -> Said:
+    yield FACTORS(relays=sharing_gap.relays_at_most, boundary=sharing_gap.boundary_at_most)
+
+
+def _said(template: Template, share: str, bound: Claim, common: Claim, gap: Claim) -> Said:
+    """Compare a bound with the least common dimension, if that is the one and at least 1."""
+    made = [step["construction"] for step in bound.subject]
+    fits = made == ["augmented_outputs"] * (share == "outputs+states")
+    if fits and common.share == share and common.dimension:
+        factor = gap.relays_at_most if share == "outputs+states" else gap.boundary_at_most
+        yield template(k=bound.deficiency, c=common.dimension, factor=factor)
+
+
+def _rules(share: str) -> None:
+    """Make the rules of the comparison for one way of sharing."""
+    stem = share.replace("+", "_")
+
+    @GAP_RULES.rule(
+        "table",
+        TABLE[share],
+        premises=(f"shared_dimension_bound_{stem}", f"common_dimension_{stem}", "sharing_gap"),
+    )
+    def _in_the_table(bound: Claim, common: Claim, gap: Claim, given: Given) -> Said:
+        yield from _said(TABLE[share], share, bound, common, gap)
+
+    @NOTE_RULES.rule(
+        "table.note",
+        NOTE[share],
+        premises=("shared_dimension_bound", "common_dimension", "sharing_gap"),
+    )
+    def _in_the_note(bound: Claim, common: Claim, gap: Claim, given: Given) -> Said:
+        yield from _said(NOTE[share], share, bound, common, gap)
+
+
+for way in THEOREMS:
+    _rules(way)
