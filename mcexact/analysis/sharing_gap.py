@@ -203,21 +203,21 @@ def sharing_gap(
     if type(node_limit) is not int or node_limit < 1:
         expected = f"expected an integer of at least 1, found {node_limit!r}"
         raise UsageError(expected, where="node_limit")
-    if isinstance(system, NeighborGraph) and graph is None:
-        system, graph = _without_states(system), system
+    if isinstance(system, NeighborGraph):
+        system = _without_states(system)
     InputError.require(system, MultiChannelSystem, "system")
-    system, graph = with_graph(system, graph)
+    about, graph = with_graph(system, graph)
     relays, relays_at_most, S, R = _most_relays(graph, node_limit)
     dominating, least, tree = _domination(graph, node_limit)
     return SharingGap(
-        system,
+        about,
         relays=relays,
         relays_at_most=relays_at_most,
         boundary=graph.m - len(dominating),
         boundary_at_most=graph.m - least,
-        receivers=system.named(S),
-        senders=system.named(R),
-        dominating=system.named(dominating),
+        receivers=about.named(S),
+        senders=about.named(R),
+        dominating=about.named(dominating),
         tree=_named(tree, graph.names),
     )
 

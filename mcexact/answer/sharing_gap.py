@@ -65,29 +65,38 @@ class SharingGap(Answer):
 
 # Sentences about the graph, and about the bound of a plant.
 
+OUTPUTS, STATES = "outputs+states", "states"
+_AT_MOST = {
+    OUTPUTS: "extended_bound.extended_no_fixed",
+    STATES: "extended_bound.extended_states_no_fixed",
+}
 FACTORS = Template(
     "sharing-gap",
-    "Theorem 2's at most {relays:int} times the least common dimension, "
-    "Remark 2's at most {boundary:int} times",
-    "Open: see proofs/OPEN.md",
+    "at most {relays:int} times the least common dimension (Theorem 2), at most {boundary:int} "
+    "times without outputs (Remark 2)",
+    ", ".join(_AT_MOST.values()),
     "bounds over this graph",
 )
-THEOREMS = {"outputs+states": "Theorem 2", "states": "Remark 2"}
-_PROVED = {"outputs+states": "Open: see proofs/OPEN.md", "states": "Open: see proofs/OPEN.md"}
+_BOUNDS = {OUTPUTS: "Theorem 2's bound", STATES: "Remark 2's bound"}
+_REASONS = {
+    OUTPUTS: "at most {factor:count agent} can relay between two sets of agents of which one "
+    "receives nothing from the other",
+    STATES: "at most {factor:count agent} can be outside a set of agents and send to it",
+}
 
 
-def _compared(key: str, share: str, label: str) -> Template:
+def _compared(key: str, share: str, label: str = "") -> Template:
     """The sentence that compares the bound of a plant with its least common dimension."""
+    subject = "" if label else f"{_BOUNDS[share]} is "
     text = (
-        f"{THEOREMS[share]}'s is {{k:count state}}, the least {{c:int}}; over this graph it is "
-        "never more than {factor:int} times the least"
+        f"{subject}{{k:count state}} by each agent, and {{c:int}} the least; over this graph "
+        f"it is never more than {{factor:int}} times the least, since {_REASONS[share]}"
     )
-    stem = share.replace("+", "-")
-    return Template(f"{key}-{stem}", text, _PROVED[share], label)
+    return Template(f"{key}-{share.replace('+', '-')}", text, _AT_MOST[share], label)
 
 
-TABLE = {share: _compared("bound-and-least", share, "bound by each agent") for share in THEOREMS}
-NOTE = {share: _compared("allocate-bound-and-least", share, "") for share in THEOREMS}
+TABLE = {share: _compared("bound-and-least", share, _BOUNDS[share]) for share in _BOUNDS}
+NOTE = {share: _compared("allocate-bound-and-least", share) for share in _BOUNDS}
 
 GAP_RULES = Rulebook()
 """Rules of the table of `mcexact analyze`."""
@@ -103,9 +112,9 @@ def _factors(sharing_gap: Claim, given: Given) -> Said:
 def _said(template: Template, share: str, bound: Claim, common: Claim, gap: Claim) -> Said:
     """Compare a bound with the least common dimension, if that is the one and at least 1."""
     made = [step["construction"] for step in bound.subject]
-    fits = made == ["augmented_outputs"] * (share == "outputs+states")
+    fits = made == ["augmented_outputs"] * (share == OUTPUTS)
     if fits and common.share == share and common.dimension:
-        factor = gap.relays_at_most if share == "outputs+states" else gap.boundary_at_most
+        factor = gap.relays_at_most if share == OUTPUTS else gap.boundary_at_most
         yield template(k=bound.deficiency, c=common.dimension, factor=factor)
 
 
@@ -122,7 +131,7 @@ def _rules(share: str) -> None:
         yield from _said(TABLE[share], share, bound, common, gap)
 
     @NOTE_RULES.rule(
-        "table.note",
+        "table.note.more",
         NOTE[share],
         premises=("shared_dimension_bound", "common_dimension", "sharing_gap"),
     )
@@ -130,5 +139,5 @@ def _rules(share: str) -> None:
         yield from _said(NOTE[share], share, bound, common, gap)
 
 
-for way in THEOREMS:
+for way in _BOUNDS:
     _rules(way)

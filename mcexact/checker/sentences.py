@@ -675,7 +675,10 @@ rule("allocate-reason-cut-off", LEAST)(partial(demands, agents="cut off"))
 
 FACTORS = {"outputs+states": "relays_at_most", "states": "boundary_at_most"}
 THEOREMS = {"outputs+states": "Theorem 2", "states": "Remark 2"}
-GAP_PROVED = {"outputs+states": "Open: see proofs/OPEN.md", "states": "Open: see proofs/OPEN.md"}
+AT_MOST = {
+    "outputs+states": "extended_bound.extended_no_fixed",
+    "states": "extended_bound.extended_states_no_fixed",
+}
 
 
 def factor(gap: Premise, share: str) -> str:
@@ -686,7 +689,7 @@ def factor(gap: Premise, share: str) -> str:
     )
 
 
-@rule("sharing-gap", GAP, theorem="Open: see proofs/OPEN.md")
+@rule("sharing-gap", GAP, theorem=", ".join(AT_MOST.values()))
 def _factors(gap: Premise) -> str:
     """The factors of the graph alone."""
     both = " and ".join(factor(gap, share) for share in FACTORS)
@@ -697,7 +700,7 @@ def _enter_gap(keys: str, share: str) -> None:
     """Enter the rules that compare the bound of a plant with its least common dimension."""
     paths = HEARD if share == "outputs+states" else PLANT
 
-    @rule(keys, Role(("deficiency",), paths), COMMON, GAP, theorem=GAP_PROVED[share])
+    @rule(keys, Role(("deficiency",), paths), COMMON, GAP, theorem=AT_MOST[share])
     def _compare(bound: Premise, common: Premise, gap: Premise) -> str:
         common.expect(common["share"] == share, "about the other way of sharing")
         common.expect(common["feasible"] and common["dimension"] > 0, "no dimension to compare")

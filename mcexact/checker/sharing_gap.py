@@ -26,29 +26,30 @@ def check_sharing_gap(claim: Json, witness: Json, system: System) -> None:
     Theorem ``allocation.branch_tree``.
     """
     keys = ("relays", "relays_at_most", "boundary", "boundary_at_most")
-    relays, most, boundary, farthest = (
+    relays, relays_at_most, boundary, boundary_at_most = (
         integer(number, f"claim.{key}")
         for key, number in zip(keys, fields(claim, "claim", *keys), strict=True)
     )
-    listed = fields(witness, "witness", "receivers", "senders", "dominating", "tree")
-    m, N = system.m, [bits(N_i) for N_i in neighbors_of(system, "subject")]
-    spend(10 * m * m + 100)
-    S, R, D = (bits(names(each, "witness", system.names)) for each in listed[:3])
-    apart = not any(S >> i & 1 and N[i] & R for i in range(m))
-    require(apart, "apart", "witness.receivers", "one of these receives messages of a sender")
-    heard = bits(j for j in range(m) if any(S >> i & 1 and N[i] >> j & 1 for i in range(m)))
-    attained = sum(1 for j in range(m) if heard >> j & 1 and N[j] & R)
-    require(attained == relays, "claim", "claim.relays", f"these sets have {attained} relays")
-    require_no_more_relays(N, most)
-    reached = [j for j in range(m) if any(D >> i & 1 and N[i] >> j & 1 for i in range(m))]
-    require(
-        len(reached) == m, "dominating", "witness.dominating", "somebody sends to none of these"
+    receivers, senders, dominating, tree = fields(
+        witness, "witness", "receivers", "senders", "dominating", "tree"
     )
-    outside = m - D.bit_count()
-    require(outside == boundary, "claim", "claim.boundary", f"{outside} agents are outside")
-    cuts = [({i for i in range(m) if N[i] >> j & 1}, 1) for j in range(m)]
-    least = Fraction(m - farthest)
-    Program([Fraction(1)] * m, cuts, "agent", system.names, least).require_bound(listed[3], [1] * m)
+    N = [bits(N_i) for N_i in neighbors_of(system, "subject")]
+    spend(10 * system.m * system.m + 100)
+    S, R, D = (
+        names(listed, f"witness.{key}", system.names)
+        for key, listed in (
+            ("receivers", receivers),
+            ("senders", senders),
+            ("dominating", dominating),
+        )
+    )
+    require_relays(N, S, bits(R), relays)
+    require_no_more_relays(N, relays_at_most)
+    require_boundary(N, D, boundary)
+    cuts = [({i for i, N_i in enumerate(N) if N_i >> j & 1}, 1) for j in range(system.m)]
+    least = Fraction(system.m - boundary_at_most)
+    program = Program([Fraction(1)] * system.m, cuts, "agent", system.names, least)
+    program.require_bound(tree, [1] * system.m)
 
 
 def sharing_gap_statement(claim: Json, system: System) -> str:
@@ -65,6 +66,31 @@ def sharing_gap_statement(claim: Json, system: System) -> str:
     return (
         f"over its neighbor graph, in which every agent receives from itself, of {apart}; {around}"
     )
+
+
+def heard_by(N: list[int], s: list[int]) -> int:
+    """N_s, the union of the N_i of a set of agents."""
+    together = 0
+    for i in s:
+        together |= N[i]
+    return together
+
+
+def require_relays(N: list[int], S: list[int], R: int, relays: int) -> None:
+    """Stop unless S is apart from R, and they have so many relays."""
+    heard = heard_by(N, S)
+    place = "witness.receivers"
+    require(not heard & R, "apart", place, "one of these receives messages of a sender")
+    attained = sum(1 for j, N_j in enumerate(N) if heard >> j & 1 and N_j & R)
+    require(attained == relays, "claim", "claim.relays", f"these sets have {attained} relays")
+
+
+def require_boundary(N: list[int], D: list[int], boundary: int) -> None:
+    """Stop unless N_D has all agents, so that its boundary is its complement, of this size."""
+    m, place = len(N), "witness.dominating"
+    require(heard_by(N, D) == (1 << m) - 1, "dominating", place, "somebody sends to none of these")
+    outside = m - len(D)
+    require(outside == boundary, "claim", "claim.boundary", f"{outside} agents are outside")
 
 
 def require_no_more_relays(N: list[int], most: int) -> None:

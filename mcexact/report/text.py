@@ -199,7 +199,7 @@ def _table(
 ) -> Table:
     """Return the table of the sentences of a place, with its title and notes."""
     rows = [sentence.cells for sentence in sentences.at(place)]
-    note = "".join(sentences.at(f"{place}.note"))
+    note = "; ".join(sentences.at(f"{place}.note", f"{place}.note.more"))
     if place == "fixed-modes" and most is not None and len(rows) > most:
         rows, note = rows[:most], _SHOWN.format(most) + note
     title = title or "".join(sentences.at(f"{place}.title")) or place

@@ -14,6 +14,8 @@ from typing import Any
 
 from flint import fmpq_poly
 
+from tests.oracle.certificates.modes import subsets
+from tests.oracle.certificates.structure import boundary_sizes, numbers_of_relays
 from tests.oracle.sentences.analysis import Judge, judge, lost
 from tests.oracle.sentences.cases import (
     Case,
@@ -261,6 +263,40 @@ def _no_links_needed(said: Said, case: Case) -> bool:
 def _links_in_vain(said: Said, case: Case) -> bool:
     every = list(candidates(case))
     return not leaves(linked(case, every).extended([0] * case.plant.m, OUTPUTS))
+
+
+# How far the bounds can be from the least common dimension.
+
+
+def _graph(case: Case) -> list[set[int]]:
+    return [set(heard) for heard in case.plant.heard or ()]
+
+
+@judge("sharing-gap")
+def _factors(said: Said, case: Case) -> bool:
+    relays, boundary = max(numbers_of_relays(_graph(case))), max(boundary_sizes(_graph(case)))
+    return (said.values["relays"], said.values["boundary"]) == (relays, boundary)
+
+
+def _farthest(share: str) -> Judge:
+    def decides(said: Said, case: Case) -> bool:
+        """The bound is the largest loss of rank, and the least is tried."""
+        base, v = case.heard if share == OUTPUTS else case.own, said.values
+        modes = [p for p, _ in irreducible(base.system.A.charpoly())]
+        every = subsets(base.m)
+        bound = max(base.n - base.rank(s, p) for s in every for p in modes)
+        count = numbers_of_relays if share == OUTPUTS else boundary_sizes
+        sizes = ([v["c"] + more] * base.m for more in (0, -1))
+        enough = [leaves(case.extended(each, share)) for each in sizes]
+        right = v["k"] == bound and v["factor"] == max(count(_graph(case)))
+        return right and enough == [True, False] and bound <= v["factor"] * v["c"]
+
+    return decides
+
+
+for start in ("bound-and-least", "allocate-bound-and-least"):
+    judge(f"{start}-outputs-states")(_farthest(OUTPUTS))
+    judge(f"{start}-states")(_farthest(STATES))
 
 
 # Delays.
