@@ -315,7 +315,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "by which factors the bounds on what agents share can exceed the least, over the graph",
             about="plant",
             needs="neighbors",
-            unbidden=False,
+            by_default=False,
             option="minimal",
         ),
         **{
