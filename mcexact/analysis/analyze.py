@@ -689,7 +689,7 @@ class Analysis(ShownByAccount):
 
 
 ParametricAnalysis = Analysis
-"""The name of the class where the plant has parameters."""
+"""The same class, by the name that stands for a plant with parameters."""
 
 
 def _parameters(plant: Any) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from types import MappingProxyType
 from typing import Any
 
@@ -421,24 +422,21 @@ def _for_all_values(name: str, question: Question, *, several: bool) -> Question
     return asked
 
 
-WITH_ONE_PARAMETER, WITH_SEVERAL_PARAMETERS = (
-    MappingProxyType(
+@cache
+def _with_parameters(*, several: bool) -> Mapping[str, Question]:
+    """The table for one parameter or for several, made when it is first used."""
+    return MappingProxyType(
         {
             name: _for_all_values(name, question, several=several)
             for name, question in QUESTIONS.items()
             if question.for_all_values
         }
     )
-    for several in (False, True)
-)
-"""The questions about a plant with parameters, for all values of which they are decided."""
 
 
 def questions_about(parameters: Sequence[str]) -> Mapping[str, Question]:
     """Return the table of questions about a plant with some parameters, or with none."""
-    if not parameters:
-        return QUESTIONS
-    return WITH_ONE_PARAMETER if len(parameters) == 1 else WITH_SEVERAL_PARAMETERS
+    return _with_parameters(several=len(parameters) > 1) if parameters else QUESTIONS
 
 
 def asked_by(*options: str) -> list[str]:
