@@ -41,10 +41,17 @@ MOST_DEGREE = 1000
 """The largest total degree of a numerator or a denominator."""
 
 
+VARIABLE = "x"
+
+
 @cache
-def _ring(parameters: tuple[str, ...]) -> Any:
-    """The ring of polynomials in these parameters; flint needs at least one."""
-    return flint.fmpq_mpoly_ctx.get(parameters or ("t",), flint.Ordering.lex)
+def ring(parameters: tuple[str, ...]) -> Any:
+    """The ring of polynomials in the parameters and x, which is the last variable.
+
+    Functions alone, which no plant has, may have a parameter x.
+    """
+    last = VARIABLE if VARIABLE not in parameters else "_"
+    return flint.fmpq_mpoly_ctx.get((*parameters, last), flint.Ordering.lex)
 
 
 def _polynomial(names: tuple[str, ...], terms: dict[tuple[int, ...], tuple[int, int]]) -> Any:
@@ -74,7 +81,7 @@ class RationalFunction:
     ----------
     parameters : tuple of str
     numerator, denominator : flint.fmpq_mpoly
-        Never changed.
+        In the ring of the parameters and x, which does not occur.  Never changed.
 
     Examples
     --------
@@ -90,23 +97,23 @@ class RationalFunction:
     @classmethod
     def constant(cls, value: Fraction | int, parameters: tuple[str, ...]) -> RationalFunction:
         """A rational number."""
-        ring = _ring(parameters)
-        return cls(parameters, ring.constant(to_fmpq(value)), ring.constant(1))
+        inside = ring(parameters)
+        return cls(parameters, inside.constant(to_fmpq(value)), inside.constant(1))
 
     @classmethod
     def parameter(cls, name: str, parameters: tuple[str, ...]) -> RationalFunction:
         """One of the parameters."""
-        ring = _ring(parameters)
-        return cls(parameters, ring.gens()[parameters.index(name)], ring.constant(1))
+        inside = ring(parameters)
+        return cls(parameters, inside.gens()[parameters.index(name)], inside.constant(1))
 
     @classmethod
     def from_terms(
         cls, terms: Mapping[tuple[int, ...], Fraction], parameters: tuple[str, ...]
     ) -> RationalFunction:
         """The polynomial with these coefficients, by the exponents of the parameters."""
-        ring = _ring(parameters)
-        coefficients = {tuple(exponents) or (0,): to_fmpq(c) for exponents, c in terms.items()}
-        return _checked(parameters, ring.from_dict(coefficients), ring.constant(1))
+        inside = ring(parameters)
+        coefficients = {(*exponents, 0): to_fmpq(c) for exponents, c in terms.items()}
+        return _checked(parameters, inside.from_dict(coefficients), inside.constant(1))
 
     def terms(self) -> tuple[dict[tuple[int, ...], Fraction], dict[tuple[int, ...], Fraction]]:
         """Numerator and denominator: their coefficients by the exponents of the parameters.
@@ -496,24 +503,12 @@ class FunctionMatrix(MatrixDisplay):
 
 Rows = list[list[Any]]
 """A matrix by its rows, whose entries are polynomials in the parameters."""
-VARIABLE = "x"
-
-
-@cache
-def ring(parameters: tuple[str, ...]) -> Any:
-    """The ring of polynomials in the parameters and x, which is the last variable."""
-    return flint.fmpq_mpoly_ctx.get((*parameters, VARIABLE), flint.Ordering.lex)
 
 
 def cleared(M: FunctionMatrix, parameters: tuple[str, ...]) -> tuple[Rows, Any]:
     """M' and δ with M = M'/δ, δ the least common denominator of the entries."""
-    inside = ring(parameters)
-    entries = [
-        [(e.numerator.project_to_context(inside), e.denominator.project_to_context(inside))
-         for e in row]
-        for row in M.rows
-    ]  # fmt: skip
-    delta = inside.constant(1)
+    entries = [[(e.numerator, e.denominator) for e in row] for row in M.rows]
+    delta = ring(parameters).constant(1)
     for row in entries:
         for _, bottom in row:
             delta = delta * (bottom / delta.gcd(bottom))
@@ -604,5 +599,4 @@ def irreducible_factors(h: Any, parameters: tuple[str, ...]) -> list[RationalFun
 
 def in_parameters(h: Any, parameters: tuple[str, ...]) -> RationalFunction:
     """A polynomial of flint in which x does not occur, as a function of the parameters."""
-    one = RationalFunction.constant(1, parameters).numerator
-    return RationalFunction(parameters, h.project_to_context(one.context()), one)
+    return RationalFunction(parameters, h, ring(parameters).constant(1))

@@ -116,6 +116,8 @@ def test_rational_functions_are_in_lowest_terms() -> None:
     assert str((s - 1) / (s * s) + 1 / (s * s)) == "(1)/(s)"
     assert str(2 - s) == "-s + 2" and s != 1 and hash(s) == hash(s + 0)
     assert (s / 3).substituted([6], RationalFunction.constant(0, ())).value == 2
+    x = RationalFunction.parameter("x", ("x", "s"))
+    assert str((x * x - 1) / (x - 1)) == "x + 1" and x.terms()[0] == {(1, 0): 1}
     with pytest.raises(ZeroDivisionError):
         1 / (s - s)
     with pytest.raises(InputError, match="undefined there"):
