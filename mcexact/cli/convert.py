@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import click
 
@@ -68,10 +68,11 @@ def sizes(text: str) -> tuple[int, ...]:
 )
 @click.option(
     "--rounding",
-    type=click.Choice(["decimal", "dyadic"]),
-    help="How floats in .mat and .npz files become exact: by the shortest decimal that prints them "
-    "(0.1 is 1/10), or by the binary value that is stored. In an output file, numbers become "
-    "floats from which this rounding makes them again.",
+    type=click.Choice(get_args(Rounding)),
+    help="How floats in .mat and .npz files become exact, by default simplest: a short fraction or "
+    "decimal within 4 units in the last place (1/3 comes back), or else decimal: the shortest "
+    "decimal that prints the float (0.1 is 1/10); dyadic: the binary value that is stored. In an "
+    "output file, numbers become floats from which this rounding makes them again.",
 )
 @click.option(
     "--nearest",

@@ -101,7 +101,7 @@ def checked_gains(
     system : MultiChannelSystem
     gains : sequence of m matrices
     widths : sequence of m int
-    rounding : {"decimal", "dyadic"}, optional
+    rounding : {"decimal", "dyadic", "simplest"}, optional
         How floats become exact; see `MultiChannelSystem.from_float`.
 
     Raises

@@ -901,14 +901,33 @@ def largest_entry(matrices: Iterable[Matrix]) -> Fraction:
 
 Rounding = Literal["decimal", "dyadic", "simplest"]
 _ROUNDINGS = get_args(Rounding)
+BINARY: Rounding = "simplest"
+"""The rounding of plants in floats where the caller names none."""
+_READ_AS: dict[Rounding, str] = {
+    "decimal": "the shortest decimal that prints it",
+    "dyadic": "the binary fraction that is stored",
+    "simplest": "a short fraction or decimal within 4 units in the last place, if there is one, or "
+    "else the shortest decimal that prints it",
+}
 
-# Floats hold every integer up to here.
-_EXACT = 2**53
+LARGEST_WHOLE = 2**53
+"""Floats hold every integer up to here."""
 
 
 def finite(number: float) -> float | None:
     """The number; None for what JSON does not have, an infinity or NaN."""
     return number if math.isfinite(number) else None
+
+
+def reading_in_words(rounding: Rounding) -> str:
+    """Say how floats were read.
+
+    Examples
+    --------
+    >>> reading_in_words("dyadic")
+    'each float was read as the binary fraction that is stored (rounding dyadic)'
+    """
+    return f"each float was read as {_READ_AS[rounding]} (rounding {rounding})"
 
 
 def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fraction:
@@ -1107,7 +1126,7 @@ def as_requested(number: Any, *, where: str | None = None) -> Fraction:
     >>> as_requested(0.1), as_requested("1/3"), as_requested(2)
     (Fraction(1, 10), Fraction(1, 3), Fraction(2, 1))
     """
-    if isinstance(number, float) or getattr(getattr(number, "dtype", None), "kind", "") == "f":
+    if _is_float(number):
         return from_float(number, "decimal", where=where)
     return as_fraction(number, where=where)
 
@@ -1204,11 +1223,45 @@ def matrix_from_float(
     return Matrix.from_rows(exact, ncols=ncols, where=where)
 
 
+def has_rounded(M: Any) -> bool:
+    """Whether a matrix-like value has a float that may be a rounded number.
+
+    Integers up to 2**53 are floats, which every rounding reads as these integers.
+
+    Examples
+    --------
+    >>> has_rounded([[1, 2.0]]), has_rounded([[1, 0.5]]), has_rounded([[1e300]])
+    (False, True, True)
+    """
+    if isinstance(M, Matrix):
+        return False
+    if is_sparse_array(M):
+        M = M.tocoo().data
+    kind = getattr(getattr(M, "dtype", None), "kind", "O")
+    if kind == "O":
+        return any(_may_be_rounded(x) for row in rows_of(M, floats=True) for x in row)
+    if kind != "f":
+        return False
+    import numpy as np
+
+    # In half precision the limit would be an infinity.
+    return bool(np.any((np.abs(M) > np.float64(LARGEST_WHOLE)) | (M != np.round(M))))
+
+
+def _may_be_rounded(entry: Any) -> bool:
+    return _is_float(entry) and not (entry == entry // 1 and abs(entry) <= LARGEST_WHOLE)
+
+
+def _is_float(entry: Any) -> bool:
+    """Whether it is a float of Python or numpy."""
+    return isinstance(entry, float) or getattr(getattr(entry, "dtype", None), "kind", "") == "f"
+
+
 def _exact(entry: Any, rounding: Rounding, where: str) -> Fraction | int:
     """Convert one entry; an integer of any length does not change."""
-    kind = getattr(getattr(entry, "dtype", None), "kind", "")
-    if isinstance(entry, float) or kind == "f":
+    if _is_float(entry):
         return from_float(entry, rounding, where=where)
+    kind = getattr(getattr(entry, "dtype", None), "kind", "")
     if hasattr(entry, "__index__") and not isinstance(entry, bool) and kind != "b":
         return int(entry.__index__())
     if isinstance(entry, Fraction):
@@ -1261,7 +1314,7 @@ def matrix_to_float(M: Matrix) -> npt.NDArray[np.float64]:
         table = np.array(M.numerators, dtype=np.int64).reshape(M.shape)
     except OverflowError:
         table = None
-    if table is not None and max(M.denominator, int(np.abs(table).max(initial=0))) <= _EXACT:
+    if table is not None and max(M.denominator, int(np.abs(table).max(initial=0))) <= LARGEST_WHOLE:
         return table / np.float64(M.denominator)
     entries = [[_quotient(entry, M.denominator) for entry in row] for row in M.numerators]
     return np.array(entries, dtype=np.float64).reshape(M.shape)

@@ -58,8 +58,7 @@ _EXPRESSION = re.compile(r"-?[A-Za-z][0-9]?|(?=.*[A-Za-z])(?=.*[*^]).*")
 _GRAMMAR = 'an integer, a decimal such as "-0.25" or "1e-3", or a quotient such as "1/3"'
 TWO_WAYS_IN = (
     "a float is not exact: write the number as an integer, a Fraction or a string such as "
-    '"0.25" or "1/3"; matrices of floats are read by '
-    'MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")'
+    '"0.25" or "1/3"; matrices of floats are read by MultiChannelSystem.from_float(A, B, C)'
 )
 # CPython refuses int() of longer digit strings; below it, conversion is quick enough.
 _CHUNK = 4000
@@ -184,7 +183,7 @@ def as_fraction(entry: Entry, *, where: str | None = None) -> Fraction:
     ...
     mcexact.errors.FloatRefused: a float is not exact: write the number as an integer, a Fraction \
 or a string such as "0.25" or "1/3"; matrices of floats are read by \
-MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
+MultiChannelSystem.from_float(A, B, C)
     """
     if type(entry) is int:
         return Fraction(entry)

@@ -2,8 +2,8 @@
 
 Each of the three kinds is read into `Parts`, its arrays by name, and `system_of` makes the system
 of them; `parts_of` and a writer for each kind lead back.  Arrays become exact by the rules of
-`Reading`: integers and texts are exact; a float needs a rounding, from the caller or the file,
-unless it is an integer.
+`Reading`: integers and texts are exact; floats become exact by a rounding, which the caller or the
+file names, or which is "simplest".
 
 Files of MATLAB, version 5, which ``save -v7`` and ``save -v6`` write, are read here and written
 by scipy.  scipy's reader believes the types, sizes and shapes of a file: one wrong byte ends the
@@ -35,11 +35,14 @@ from typing import Any, cast, get_args
 
 from mcexact.errors import InputError, NotWritten, one_of
 from mcexact.exact.matrix import (
+    BINARY,
+    LARGEST_WHOLE,
     Matrix,
     Rounding,
     common_width,
     from_cells,
     from_float,
+    has_rounded,
     is_sparse_array,
     matrix_from_float,
     matrix_to_float,
@@ -49,7 +52,7 @@ from mcexact.exact.roots import is_discrete
 from mcexact.exact.tables import is_mostly_zero
 from mcexact.model.entries import LONGEST_SIDE, as_matrix, read_number, require_shape
 from mcexact.model.graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, split_by_sizes
+from mcexact.model.system import MultiChannelSystem, read_by, split_by_sizes
 from mcexact.model.text import nearest, quoted, read_bytes, write_text
 
 # Options of readers: limits, rounding, and the sizes of channels.
@@ -62,9 +65,9 @@ class Reading:
     Attributes
     ----------
     limits : Limits
-    rounding : {"decimal", "dyadic"}, optional
+    rounding : {"decimal", "dyadic", "simplest"}, optional
         How floats become exact numbers, as in `MultiChannelSystem.from_float`; without it as the
-        file says, or else a float is accepted only if it is an integer.
+        file says, or else by its default.
     inputs, outputs : sequences of int, optional
         The numbers of inputs and outputs of the channels, where B and C are stacked and the file
         does not say.
@@ -81,13 +84,6 @@ AS_TYPED = Reading()
 
 
 # Arrays in files to exact matrices, and exact matrices to arrays without loss.
-
-HOW = (
-    "a float is not exact: choose how it is rounded, such as by "
-    "'mcexact convert FILE --rounding decimal -o plant.json'"
-)
-WHOLE = 2**53
-"""Floats hold every integer up to here."""
 
 
 def require_sides(sides: Any, where: str) -> None:
@@ -154,7 +150,7 @@ def exact_matrix(
     Raises
     ------
     InputError
-        If the table has another shape or other entries, or a float that needs a rounding.
+        If the table has another shape or other entries.
     """
     if isinstance(value, Matrix):
         M = value
@@ -199,15 +195,10 @@ def _of_numbers(value: Any, where: str, reading: Reading) -> Matrix:
     kind = value.dtype.kind
     if kind == "b":
         value = value.astype("u1")
-    elif kind == "f" and reading.rounding is not None:
-        if is_sparse_array(value):
-            return matrix_from_float(value, reading.rounding, where=where)
-        _require_finite(value.ravel(), where)
-        distinct, places = np.unique(value, return_inverse=True)
-        exact = [from_float(number, reading.rounding, where=where) for number in distinct]
-        return _of_distinct(exact, places.reshape(value.shape).tolist(), value.shape[1])
     elif kind == "f":
-        _require_integers(value, where)
+        _require_finite(value, where)
+        if has_rounded(value):
+            return _of_floats(value, where, reading.rounding or BINARY)
         value = value.astype("i8")
     elif kind not in "iu":
         kind_in_words = {"c": "complex numbers", "O": "objects"}.get(
@@ -222,25 +213,25 @@ def _of_numbers(value: Any, where: str, reading: Reading) -> Matrix:
     return as_matrix(value, where)
 
 
-def _require_finite(entries: Any, where: str) -> None:
+def _of_floats(value: Any, where: str, rounding: Rounding) -> Matrix:
+    """Convert an array of floats; each number is converted once."""
+    import numpy as np
+
+    if is_sparse_array(value):
+        return matrix_from_float(value, rounding, where=where)
+    distinct, places = np.unique(value, return_inverse=True)
+    exact = [from_float(number, rounding, where=where) for number in distinct]
+    return _of_distinct(exact, places.reshape(value.shape).tolist(), value.shape[1])
+
+
+def _require_finite(value: Any, where: str) -> None:
     """Refuse an infinity and NaN."""
     import numpy as np
 
+    entries = value.data if is_sparse_array(value) else value.ravel()
     wrong = entries[~np.isfinite(entries)]
     if wrong.size:
         raise InputError(f"expected finite numbers, found {wrong[0]}", where=where)
-
-
-def _require_integers(value: Any, where: str) -> None:
-    """Refuse floats that are not integers, or so large that floats skip some integers."""
-    import numpy as np
-
-    entries = value.data if is_sparse_array(value) else value.ravel()
-    wrong = entries[~(np.abs(entries) <= WHOLE) | (entries != np.round(entries))]
-    if not wrong.size:
-        return
-    _require_finite(wrong, where)
-    raise InputError(f"found {wrong[0]!s}: {HOW}", where=where)
 
 
 def integers_or_none(M: Matrix) -> Any:
@@ -274,7 +265,7 @@ def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool
             (i, j) for i in range(M.nrows) for j in range(M.ncols) if again[i, j] != M[i, j]
         )
         by = f" with the rounding '{rounding}'" if rounding else ""
-        hint = "" if rounding else "--rounding decimal, or "
+        hint = "" if rounding else "--rounding simplest, or "
         raise InputError(
             f"no float is read as {decimal_or_quotient(M[i, j])}{by}: write .json or .csv files, "
             f"or add {hint}--nearest for the nearest floats",
@@ -341,10 +332,13 @@ def system_of(parts: Parts, reading: Reading) -> MultiChannelSystem:
         If a part is missing, or is not as expected.
     """
 
+    rounding = reading.rounding
     if ROUNDING in parts.texts:
         written = parts.texts[ROUNDING]
         one_of(written, get_args(Rounding), ROUNDING, InputError)
-        reading = replace(reading, rounding=reading.rounding or cast(Rounding, written))
+        reading = replace(reading, rounding=rounding or cast(Rounding, written))
+    elif rounding is None:
+        rounding = BINARY
     require_entries(parts.tables.values(), reading.limits)
 
     def matrix(name: str, nrows: int | None, ncols: int | None) -> Matrix:
@@ -358,7 +352,7 @@ def system_of(parts: Parts, reading: Reading) -> MultiChannelSystem:
     if "D" in parts.tables and not matrix("D", None, None).is_zero():
         raise InputError("expected zeros: outputs are y_i = C_i x, without feedthrough", where="D")
     time, sample_time = _time(parts, matrix)
-    return MultiChannelSystem(
+    made = MultiChannelSystem(
         A,
         B,
         C,
@@ -369,6 +363,8 @@ def system_of(parts: Parts, reading: Reading) -> MultiChannelSystem:
         name=parts.texts.get("name"),
         source=parts.texts.get("source"),
     )
+    # A file that names its rounding was written so that this makes the same numbers again.
+    return made if rounding is None else read_by(rounding, made, parts.tables.values())
 
 
 Read = Callable[[str, int | None, int | None], Matrix]
@@ -853,7 +849,7 @@ def mat_bytes(parts: Parts, rounding: Rounding | None, *, nearest: bool) -> byte
 
 def _is_whole(M: Matrix) -> bool:
     """Whether every entry is an integer that a float represents exactly."""
-    return M.denominator == 1 and all(abs(x) < WHOLE for _, _, x in M.nonzero())
+    return M.denominator == 1 and all(abs(x) <= LARGEST_WHOLE for _, _, x in M.nonzero())
 
 
 def _cell(values: Any) -> Any:

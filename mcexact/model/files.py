@@ -367,9 +367,9 @@ def load_system(
         A JSON file, or one that ends in .mat, .npz, .yaml or .yml; a folder of .csv files; ``-``
         for the standard input; or ``gallery:NAME`` for a published plant.
     limits : Limits, optional
-    rounding : {"decimal", "dyadic"}, optional
+    rounding : {"decimal", "dyadic", "simplest"}, optional
         How the floats of .mat and .npz files become exact, as in `MultiChannelSystem.from_float`;
-        by default as the file says, or else only integers are accepted among floats.
+        by default as the file says, or else "simplest".  Numbers in other files are as typed.
     inputs, outputs : sequences of int, optional
         The numbers of inputs and outputs of the channels, where the file has stacked B and C and
         does not say.
@@ -438,7 +438,7 @@ def save_system(
     path : path
         Its end says the kind: .json, .mat, .npz, .yaml or .yml; a name without one is a folder for
         .csv files, in which those of another system are replaced.
-    rounding : {"decimal", "dyadic"}, optional
+    rounding : {"decimal", "dyadic", "simplest"}, optional
         For .mat and .npz: numbers are written as floats from which this rounding makes them again.
         The file names it, so that `load_system` needs none.
     nearest : bool

@@ -114,6 +114,7 @@ class ParametricSystem(ByChannel[FunctionMatrix]):
     neighbors: ClassVar[None] = None
     sample_time: ClassVar[None] = None
     uncertainty: ClassVar[None] = None
+    rounding: ClassVar[None] = None
 
     parameters: tuple[str, ...]
     ranges: tuple[Range, ...]

@@ -17,6 +17,7 @@ from typing import Any
 from mcexact.errors import FloatRefused, InputError, MissingExtra, UsageError, several
 from mcexact.exact.balls import exponential
 from mcexact.exact.matrix import (
+    BINARY,
     Matrix,
     Rounding,
     as_requested,
@@ -33,7 +34,7 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.entries import as_matrix, require_shape, require_square
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, closed_loop
-from mcexact.model.system import MultiChannelSystem, with_links
+from mcexact.model.system import MultiChannelSystem, read_by, with_links
 from mcexact.model.text import nearest, quoted
 
 # Conversion of python-control systems to plants with channels, and to closed loops.
@@ -47,7 +48,7 @@ def from_statespace(
     statespace: Any,
     channels: Channels,
     *,
-    rounding: Rounding,
+    rounding: Rounding = BINARY,
     neighbors: NeighborGraph | Mapping[str, Iterable[str]] | None = None,
 ) -> MultiChannelSystem:
     """Convert a python-control state-space system to a multi-channel system.
@@ -59,9 +60,9 @@ def from_statespace(
     channels : sequence of m pairs, or mapping from m names to pairs
         The inputs and the outputs of each channel.  A signal is given by its position or its label,
         and several signals by a list; a signal belongs to at most one channel.
-    rounding : {"decimal", "dyadic"}
-        How its floats become exact numbers, as in `MultiChannelSystem.from_float`.  There is no
-        default, since python-control has already rounded fractions, and integers above 2**53.
+    rounding : {"decimal", "dyadic", "simplest"}
+        How its floats become exact numbers, as in `MultiChannelSystem.from_float`.  By default a
+        fraction that python-control rounded, such as 1/3, becomes this fraction again.
     neighbors : optional
         As in `MultiChannelSystem`.
 
@@ -81,10 +82,10 @@ def from_statespace(
     >>> plant = control.ss(
     ...     [[0, 1], [0, -0.1]], [[0], [1]], [[1, 0]], [[0]], inputs=["force"], outputs=["place"]
     ... )
-    >>> found = from_statespace(plant, channels={"cart": ("force", "place")}, rounding="decimal")
+    >>> found = from_statespace(plant, channels={"cart": ("force", "place")})
     >>> found.names, found.A[1, 1]
     (('cart',), Fraction(-1, 10))
-    >>> from_statespace(plant, channels=[("force", "speed")], rounding="decimal")
+    >>> from_statespace(plant, channels=[("force", "speed")])
     Traceback (most recent call last):
         ...
     mcexact.errors.InputError: channels[0] outputs: there is no signal 'speed'; the signals are \
@@ -109,7 +110,7 @@ def from_statespace(
         for side, what, count in ((0, "input", B.ncols), (1, "output", C.nrows))
     )
     time, sample_time = sampling(statespace.dt, rounding)
-    return MultiChannelSystem(
+    made = MultiChannelSystem(
         A,
         [B.take(cols=chosen) for chosen in columns],
         [C.take(rows=chosen) for chosen in rows],
@@ -118,16 +119,17 @@ def from_statespace(
         neighbors=neighbors,
         sample_time=sample_time,
     )
+    return read_by(rounding, made, _tables(statespace, "ABC"))
 
 
-def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannelSystem:
+def loop_from_statespace(statespace: Any, *, rounding: Rounding = BINARY) -> MultiChannelSystem:
     """Convert a closed loop made with python-control, such as ``control.feedback(P, K)``.
 
     Parameters
     ----------
     statespace : control.StateSpace
         Only its matrix A is used; inputs, outputs and D may be arbitrary.
-    rounding : {"decimal", "dyadic"}
+    rounding : {"decimal", "dyadic", "simplest"}
         How its floats become exact numbers, as in `MultiChannelSystem.from_float`.
 
     Returns
@@ -144,13 +146,13 @@ def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannel
     --------
     >>> import control
     >>> loop = control.feedback(control.ss([[1]], [[1]], [[1]], [[0]]), 3)
-    >>> loop_from_statespace(loop, rounding="decimal").A.rows()
+    >>> loop_from_statespace(loop).A.rows()
     ((Fraction(-2, 1),),)
     """
     (A,) = _matrices(statespace, "A", rounding)
     time, sample_time = sampling(statespace.dt, rounding)
     N = A.nrows
-    return MultiChannelSystem(
+    made = MultiChannelSystem(
         A,
         [Matrix.zeros(N, 0)],
         [Matrix.zeros(0, N)],
@@ -158,6 +160,13 @@ def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannel
         names=["loop"],
         sample_time=sample_time,
     )
+    return read_by(rounding, made, _tables(statespace, "A"))
+
+
+def _tables(statespace: Any, parts: str) -> list[Any]:
+    """Some matrices of a state-space system and its sample time, in floats."""
+    dt = statespace.dt
+    return [*(getattr(statespace, part) for part in parts), [[0 if dt is None else dt]]]
 
 
 def _matrices(statespace: Any, parts: str, rounding: Rounding) -> list[Matrix]:
@@ -181,7 +190,7 @@ def sampling(dt: Any, rounding: Rounding) -> tuple[str, Fraction | None]:
     ----------
     dt : None, bool or float
         The attribute ``dt`` of a state-space system.
-    rounding : {"decimal", "dyadic"}
+    rounding : {"decimal", "dyadic", "simplest"}
         How the sample time becomes a rational number, as in `MultiChannelSystem.from_float`.
 
     Examples
@@ -282,8 +291,8 @@ def to_statespace(subject: Any, plant: MultiChannelSystem | None = None) -> Any:
     Notes
     -----
     python-control computes in floating point, so that every entry is rounded to the nearest float.
-    `from_statespace` and `loop_from_statespace` convert back, by a rounding of your choice.  A link
-    with delays makes the messages under way states of the controller.
+    `from_statespace` and `loop_from_statespace` convert back, by the rounding "simplest" or
+    another.  A link with delays makes the messages under way states of the controller.
 
     Examples
     --------
@@ -420,7 +429,7 @@ def local_controllers(
         Each part is four matrices (A, B, C, D) of shapes k×k, k×q_i, p_i×k and p_i×q_i; or a
         `control.StateSpace`; or one matrix D, a static gain.  The sign is u_i = +K y_i: negate a
         controller made for negative feedback.
-    rounding : {"decimal", "dyadic"}, optional
+    rounding : {"decimal", "dyadic", "simplest"}, optional
         How floats become exact numbers; required if there are floats.
 
     Returns

@@ -16,6 +16,7 @@ of stacked matrices B = [B_1 … B_m] and C = [C_1; …; C_m].
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -26,8 +27,17 @@ from math import lcm
 from typing import Any, ClassVar, Generic, Self, SupportsIndex, TypeVar, overload
 
 from mcexact import shown
-from mcexact.errors import InputError, UsageError, several, shown_value
-from mcexact.exact.matrix import Matrix, Rounding, hstack, matrix_from_float, vstack
+from mcexact.errors import FloatRefused, InputError, UsageError, several, shown_value
+from mcexact.exact.matrix import (
+    BINARY,
+    Matrix,
+    Rounding,
+    has_rounded,
+    hstack,
+    matrix_from_float,
+    reading_in_words,
+    vstack,
+)
 from mcexact.exact.rational import as_fraction, rational_text
 from mcexact.exact.rational_functions import FunctionMatrix
 from mcexact.exact.roots import is_discrete, require_time
@@ -44,6 +54,7 @@ from mcexact.model.entries import (
 from mcexact.model.graph import NeighborGraph, graph_for
 from mcexact.model.radii import Radii
 from mcexact.model.text import (
+    LONGEST_TEXT,
     canonical,
     checked_names,
     checked_text,
@@ -378,6 +389,8 @@ def _sentences(system: Any) -> Iterator[str]:
         yield system.neighbors.explain()
     if system.uncertainty is not None:
         yield f"Of the data, {system.uncertainty.explain()}."
+    if system.rounding is not None:
+        yield f"{reading_in_words(system.rounding).capitalize()}."
 
 
 def listed_matrices(value: Any, where: str) -> list[Any]:
@@ -519,6 +532,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
     subject : tuple of mappings
         The constructions that lead from the plant to this system, in order, in the words of the
         certificate format; empty for a plant.
+    rounding : {"decimal", "dyadic", "simplest"} or None
+        How the floats were read of which the plant was made, if some are no integers.
 
     Raises
     ------
@@ -555,6 +570,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
     name: str | None = field(compare=False)
     source: str | None = field(compare=False)
     subject: tuple[Construction, ...] = field(hash=False)
+    rounding: Rounding | None = field(compare=False)
     _plant: MultiChannelSystem | None
 
     def __init__(
@@ -586,6 +602,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             name=None if name is None else checked_text(name, "name"),
             source=None if source is None else checked_text(source, "source"),
             subject=(),
+            rounding=None,
             _plant=None,
         )
         if uncertainty is not None:
@@ -604,7 +621,13 @@ class MultiChannelSystem(ByChannel[Matrix]):
 
     @classmethod
     def from_float(
-        cls, A: Any, B: Sequence[Any], C: Sequence[Any], *, rounding: Rounding, **options: Any
+        cls,
+        A: Any,
+        B: Sequence[Any],
+        C: Sequence[Any],
+        *,
+        rounding: Rounding = BINARY,
+        **options: Any,
     ) -> MultiChannelSystem:
         """Build an exact system from matrices of floats.
 
@@ -612,29 +635,53 @@ class MultiChannelSystem(ByChannel[Matrix]):
         ----------
         A, B, C : matrices of floats
             Shapes as in the constructor.
-        rounding : {"decimal", "dyadic"}
+        rounding : {"decimal", "dyadic", "simplest"}
             How a float becomes exact: "decimal" takes the shortest decimal that prints it (0.1
             becomes 1/10), and "dyadic" its exact binary value (0.1 becomes
-            3602879701896397/36028797018963968).
+            3602879701896397/36028797018963968).  "simplest", the default, takes a short fraction or
+            decimal within 4 units in the last place, if there is one, or else the shortest decimal:
+            what was computed from numbers with few digits becomes what it was before rounding.
         **options
             As in the constructor.
 
+        Returns
+        -------
+        MultiChannelSystem
+            Its ``rounding`` and its ``source`` say how the floats were read, if some are no
+            integers.
+
+        Raises
+        ------
+        InputError
+            If an entry is not a finite real number, or as in the constructor.
+
+        Notes
+        -----
+        What was rounded cannot be known.  "simplest" recovers quotients, sums and inverses of
+        numbers with few digits in most cases, and leaves irrational numbers as they print;
+        `mcexact.exact.matrix.from_float` has the rule, and ``benchmarks/ROUNDING.md`` the counts.
+
         Examples
         --------
-        >>> A, B, C = [[0.1]], [[[1.0]]], [[[1.0]]]
+        >>> A, B, C = [[0.1 + 0.2]], [[[1 / 3]]], [[[1.0]]]
+        >>> plant = MultiChannelSystem.from_float(A, B, C)
+        >>> plant.A[0, 0], plant.B(0)[0, 0]
+        (Fraction(3, 10), Fraction(1, 3))
         >>> MultiChannelSystem.from_float(A, B, C, rounding="decimal").A[0, 0]
-        Fraction(1, 10)
+        Fraction(7500000000000001, 25000000000000000)
         """
 
         def exact(M: Any, where: str) -> Matrix:
             return matrix_from_float(M, rounding, where=where)
 
-        return cls(
+        inputs, outputs = listed_matrices(B, "B"), listed_matrices(C, "C")
+        made = cls(
             exact(A, "A"),
-            [exact(b, f"B[{i}]") for i, b in enumerate(listed_matrices(B, "B"))],
-            [exact(c, f"C[{i}]") for i, c in enumerate(listed_matrices(C, "C"))],
+            [exact(b, f"B[{i}]") for i, b in enumerate(inputs)],
+            [exact(c, f"C[{i}]") for i, c in enumerate(outputs)],
             **options,
         )
+        return read_by(rounding, made, (A, *inputs, *outputs))
 
     @property
     def plant(self) -> MultiChannelSystem:
@@ -718,6 +765,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             name=self.name,
             source=self.source,
             subject=(*self.subject, dict(construction)),
+            rounding=self.rounding,
             _plant=self.plant,
         )
         return system
@@ -833,6 +881,30 @@ def _checked_sample_time(value: Any, time: str) -> Fraction | None:
     return exact
 
 
+def read_by(
+    rounding: Rounding, system: MultiChannelSystem, tables: Iterable[Any]
+) -> MultiChannelSystem:
+    """Return a plant that says how the floats were read of which it was made.
+
+    Parameters
+    ----------
+    rounding : {"decimal", "dyadic", "simplest"}
+    system : MultiChannelSystem
+    tables : iterable of matrix-like values
+        What the plant was made of.  If all floats among them are integers up to 2**53, which
+        every rounding reads alike, nothing is said.
+    """
+    if not any(map(has_rounded, tables)):
+        return system
+    reading = reading_in_words(rounding)
+    source = reading if system.source is None else f"{system.source}; {reading}"
+    other = object.__new__(type(system))
+    other._fill(**{name: getattr(system, name) for name in system.__dataclass_fields__})
+    # A source that is too long for a file stays as it is.
+    other._fill(rounding=rounding, source=source if len(source) <= LONGEST_TEXT else system.source)
+    return other
+
+
 # The neighbor graph over which the agents of a system communicate.
 
 
@@ -903,15 +975,14 @@ def from_stacked(
         The C_i, one below the other.
     inputs, outputs : iterables of m integers
         p_1 … p_m and q_1 … q_m, the numbers of inputs and outputs of the channels.
-    rounding : {"decimal", "dyadic"}, optional
-        How floats become exact numbers, as in `MultiChannelSystem.from_float`; needed for floats.
+    rounding : {"decimal", "dyadic", "simplest"}, optional
+        How floats become exact numbers, as in `MultiChannelSystem.from_float`, whose default it
+        is for matrices with floats.  Without floats, texts such as "1/3" are read as typed.
     **options
         As in `MultiChannelSystem`.
 
     Raises
     ------
-    FloatRefused
-        If an entry is a float, and there is no rounding.
     InputError
         If the sizes do not add up to the shapes, or a matrix is not as expected.
 
@@ -929,15 +1000,17 @@ def from_stacked(
 
     def exact(value: Any, where: str) -> Matrix:
         if rounding is None or isinstance(value, Matrix):
-            return as_matrix(value, where)
-        return matrix_from_float(value, rounding, where=where)
+            with contextlib.suppress(FloatRefused):
+                return as_matrix(value, where)
+        return matrix_from_float(value, rounding or BINARY, where=where)
 
     state = exact(A, "A")
     stacked_B = require_shape(exact(B, "B"), "B", state.nrows, None)
     stacked_C = require_shape(exact(C, "C"), "C", None, state.nrows)
-    return MultiChannelSystem(
+    made = MultiChannelSystem(
         state, *split_by_sizes(stacked_B, stacked_C, inputs, outputs), **options
     )
+    return read_by(rounding or BINARY, made, (A, B, C))
 
 
 def split_by_sizes(

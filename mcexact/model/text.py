@@ -67,7 +67,11 @@ def nearest(name: str, known: Collection[str]) -> str:
     return f" (did you mean {quoted(close[0])}?)" if close else ""
 
 
-def checked_text(text: object, where: str, *, longest: int = 10_000) -> str:
+LONGEST_TEXT = 10_000
+"""The most characters of a name or a source."""
+
+
+def checked_text(text: object, where: str, *, longest: int = LONGEST_TEXT) -> str:
     """Check and return a text such as a system's name or source.
 
     Raises

@@ -613,7 +613,7 @@ def simulate(
         equations.
     digits : int
         The number of decimal digits in multiple precision.
-    rounding : {"decimal", "dyadic"}, optional
+    rounding : {"decimal", "dyadic", "simplest"}, optional
         How floats among the numbers become exact, as in `MultiChannelSystem.from_float`.  By
         default "dyadic" in the arithmetic float, which changes no float; otherwise floats are
         refused.

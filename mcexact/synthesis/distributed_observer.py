@@ -371,7 +371,7 @@ def design_observer(
         "least" uses a channel controller of order one less than the smaller of the two indices,
         instead of m − 1; in floating point it uses an observer of reduced order instead of nm, if
         it can be certified.
-    rounding : {"decimal", "dyadic"}, optional
+    rounding : {"decimal", "dyadic", "simplest"}, optional
         How floats in ``gains`` become exact; see `MultiChannelSystem.from_float`.
     arithmetic : {"exact", "float"}
         "exact" assigns the whole spectrum, for small systems.  "float" designs for a rate or a

@@ -26,17 +26,26 @@ def test_a_plant_goes_through_all_kinds_and_comes_back(tmp_path: Path) -> None:
     assert status == 0 and out == (tmp_path / "d.json").read_text()
 
 
-def test_floats_are_converted_by_a_rounding_only(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("options", "exact"),
+    [
+        ((), "1/3"),
+        (("--rounding", "simplest"), "1/3"),
+        (("--rounding", "decimal"), "3333333333333333/10000000000000000"),
+        (("--rounding", "dyadic"), "6004799503160661/18014398509481984"),
+    ],
+)
+def test_floats_are_converted_by_a_rounding(
+    options: tuple[str, ...], exact: str, tmp_path: Path
+) -> None:
     source, target = tmp_path / "p.mat", tmp_path / "p.json"
-    source.write_bytes(mat(A=np.array([[0.1, 0], [0, 1]]), inputs=None, outputs=None))
+    source.write_bytes(mat(A=np.array([[1 / 3, 0], [0, 1]]), inputs=None, outputs=None))
     sizes = ("--inputs", "1", "--outputs", "1")
-    status, _, said = call("convert", str(source), *sizes, "-o", str(target))
-    assert status == 3 and "A: found 0.1: a float is not exact" in said and not target.exists()
-    assert f"'mcexact convert {source} --rounding decimal -o plant.json'" in said
-    assert call("analyze", str(source))[0] == 3
-    done = call("convert", str(source), *sizes, "--rounding", "decimal", "-o", str(target))
+    done = call("convert", str(source), *sizes, *options, "-o", str(target))
     assert done[:2] == (0, "")
-    assert json.loads(target.read_text())["A"] == [["1/10", 0], [0, 1]]
+    document = json.loads(target.read_text())
+    assert document["A"] == [[exact, 0], [0, 1]]
+    assert document["source"].endswith(f"(rounding {(*options, 'simplest')[:2][-1]})")
 
 
 def test_an_output_that_cannot_hold_the_numbers_is_not_written(tmp_path: Path) -> None:

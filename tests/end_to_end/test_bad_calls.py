@@ -75,9 +75,9 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
     "B171 floats, as other libraries hold them": (
         lambda: system(np.array([[0.5]])),
         FloatRefused,
-        ("A", "float64", "from_float", "decimal", "dyadic"),
+        ("A", "float64", "from_float(A, B, C)"),
     ),
-    "B171 a python-control system, whose floats nobody says how to read": (
+    "B171 a rounding that there is not": (
         lambda: from_statespace(control.ss(0.5, 1, 1, 0), [(0, 0)], rounding=None),
         InputError,
         ("rounding", "decimal", "dyadic"),

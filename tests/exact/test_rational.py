@@ -128,7 +128,7 @@ def test_every_exact_kind_of_entry_is_accepted(entry, value):
     "entry", [0.5, float("nan"), np.float64(0.5), np.float32(0.5), sympy.Float("0.5")]
 )
 def test_a_float_is_refused_and_the_two_ways_in_are_named(entry):
-    with pytest.raises(FloatRefused, match=r'from_float\(\.\.\., rounding="decimal" \| "dyadic"\)'):
+    with pytest.raises(FloatRefused, match=r"from_float\(A, B, C\)"):
         as_fraction(entry)
 
 

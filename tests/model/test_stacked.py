@@ -8,7 +8,7 @@ import pytest
 import scipy.sparse
 import sympy
 
-from mcexact.errors import FloatRefused, InputError
+from mcexact.errors import InputError
 from mcexact.exact.matrix import from_float, matrix_from_float
 from mcexact.model.system import MultiChannelSystem, from_stacked
 
@@ -32,11 +32,23 @@ def test_stacked_matrices_of_every_exact_kind_are_split_in_order(kind):
     assert from_stacked(kind(A), kind(B), kind(C), **SIZES) == EXPECTED
 
 
-def test_floats_need_a_rounding():
+def test_floats_are_read_by_a_rounding_which_is_simplest_by_default():
     floats = [np.array(M, dtype=float) for M in (A, B, C)]
-    with pytest.raises(FloatRefused, match="A: found an array of float64"):
-        from_stacked(*floats, **SIZES)
+    assert from_stacked(*floats, **SIZES) == EXPECTED
     assert from_stacked(*floats, **SIZES, rounding="decimal") == EXPECTED
+    rounded = [[0, 1 / 3], [0, 0.1 + 0.2]]
+    plant = from_stacked(rounded, B, C, **SIZES)
+    assert plant.A.rows() == ((0, Fraction(1, 3)), (0, Fraction(3, 10)))
+    assert plant.rounding == "simplest"
+    stored = from_stacked(rounded, B, C, **SIZES, rounding="dyadic")
+    assert stored.A[0, 1] == Fraction(1 / 3) and stored.rounding == "dyadic"
+
+
+def test_texts_without_floats_are_read_as_typed():
+    plant = from_stacked([[0, "0.30000000000000004"], [0, "1/3"]], B, C, **SIZES)
+    assert plant.A[0, 1] == Fraction("0.30000000000000004") and plant.rounding is None
+    with pytest.raises(InputError, match=r"A\[0\]\[1\]: expected a real number, found str"):
+        from_stacked([[0.5, "1/3"], [0, 0]], B, C, **SIZES)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import pytest
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix, matrix_to_float
+from mcexact.model import gallery
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
@@ -73,9 +74,19 @@ def test_what_does_not_fit_is_refused(statespace, channels, message):
         from_statespace(statespace, channels, rounding="decimal")
 
 
-def test_a_rounding_has_to_be_chosen():
-    with pytest.raises(TypeError, match="rounding"):
-        from_statespace(plant(), [(0, 0)])  # type: ignore[call-arg]
+def test_fractions_that_python_control_rounded_come_back():
+    tanks = gallery.load("quadruple-tank-pminus")
+    again = from_statespace(to_statespace(tanks), {"1": (0, 0), "2": (1, 1)})
+    assert again == tanks and again.rounding == "simplest"
+    loop = loop_from_statespace(to_statespace(tanks))
+    assert loop.A == tanks.A and loop.rounding == "simplest"
+
+
+def test_a_sample_time_is_read_by_the_rounding_too():
+    sampled = control.ss([[1.0]], [[1.0]], [[1.0]], [[0.0]], dt=0.1 + 0.2)
+    system = from_statespace(sampled, [(0, 0)])
+    assert system.sample_time == Fraction(3, 10) and system.rounding == "simplest"
+    assert from_statespace(control.ss(1.0, 1.0, 1.0, 0.0), [(0, 0)]).rounding is None
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])

@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mcexact.errors import InputError, MissingExtra, NotWritten, UsageError
+from mcexact.exact.matrix import Matrix, reading_in_words
 from mcexact.exact.rational import Limits
 from mcexact.model import arrays, gallery
 from mcexact.model.files import load_parametric_system, load_system, save_system
@@ -295,6 +296,94 @@ def test_floats_are_read_in_their_own_precision_and_by_the_rounding(tmp_path: Pa
         path.write_bytes(hostile.mat(A=A))
         assert load_system(path, rounding="decimal").A[0, 0] == Fraction(1, 10)
         assert load_system(path, rounding="dyadic").A[0, 0] == Fraction(*A[0, 0].as_integer_ratio())
+
+
+OFF = [[0.1 + 0.2, 0], [1 / 3, 1]]
+MEANT = Matrix.from_rows([["3/10", 0], ["1/3", 1]])
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64, scipy.sparse.csc_array])
+@pytest.mark.parametrize("write", [hostile.mat, hostile.npz])
+def test_floats_are_read_as_the_simplest_numbers_by_default(
+    write: Any, kind: Any, tmp_path: Path
+) -> None:
+    if write is hostile.npz and kind is scipy.sparse.csc_array:
+        pytest.skip("numpy writes no sparse arrays")
+    path = tmp_path / "p"
+    path.write_bytes(write(A=kind(OFF)))
+    plant = load_system(path)
+    assert plant.A == MEANT and plant.rounding == "simplest"
+    assert plant.source is not None and plant.source.endswith("(rounding simplest)")
+    assert "(rounding simplest)." in plant.explain()
+
+
+def test_half_precision_keeps_too_few_digits_for_most_fractions(tmp_path: Path) -> None:
+    path = tmp_path / "p.npz"
+    path.write_bytes(hostile.npz(A=np.array([[0.5, 0.1], [1 / 3, 2048]], dtype=np.float16)))
+    assert load_system(path).A == Matrix.from_rows([["1/2", "1/10"], ["0.3333", 2048]])
+
+
+@pytest.mark.parametrize("rounding", ["decimal", "dyadic", "simplest"])
+def test_a_system_says_how_its_floats_were_read(rounding: Any, tmp_path: Path) -> None:
+    path = tmp_path / "p.mat"
+    path.write_bytes(hostile.mat(A=np.array(OFF), source="a test"))
+    plant = load_system(path, rounding=rounding)
+    assert plant.rounding == rounding
+    assert plant.source == f"a test; {reading_in_words(rounding)}"
+    # Another file of the same numbers repeats it, whatever its kind, and nothing was read again.
+    for file in ("p.json", "p.yaml", "folder", "p.npz"):
+        save_system(plant, tmp_path / file)
+        again = load_system(tmp_path / file)
+        assert (again, again.source, again.rounding) == (plant, plant.source, None)
+
+
+@pytest.mark.parametrize("A", [[[2.0, 0], [0, 2.0**53]], [[2, 0], [0, -1]]])
+def test_nothing_is_said_of_floats_that_every_rounding_reads_alike(A: Any, tmp_path: Path) -> None:
+    path = tmp_path / "p.mat"
+    path.write_bytes(hostile.mat(A=np.array(A)))
+    plant = load_system(path)
+    assert plant.rounding is None and plant.source is None
+    assert plant == load_system(path, rounding="dyadic")
+
+
+def test_an_integer_that_was_rounded_is_said(tmp_path: Path) -> None:
+    path = tmp_path / "p.mat"
+    path.write_bytes(hostile.mat(A=np.array([[2.9999999999999996, 0], [0, 1]])))
+    assert load_system(path).A[0, 0] == 3
+    assert load_system(path).rounding == "simplest"
+
+
+def test_a_source_that_is_as_long_as_a_file_may_have_stays_as_it_is(tmp_path: Path) -> None:
+    path, source = tmp_path / "p.mat", "x" * 10_000
+    path.write_bytes(hostile.mat(A=np.array(OFF), source=source))
+    plant = load_system(path)
+    assert plant.source == source and plant.rounding == "simplest"
+    save_system(plant, tmp_path / "p.json")
+    assert load_system(tmp_path / "p.json") == plant
+
+
+@pytest.mark.parametrize("file", ["p.json", "p.yaml", "folder", "p.npz"])
+def test_typed_text_is_never_rounded(file: str, tmp_path: Path) -> None:
+    typed = MultiChannelSystem([["0.30000000000000004"]], [[["0.333333333333333"]]], [[[1]]])
+    save_system(typed, tmp_path / file)
+    assert load_system(tmp_path / file) == typed
+    assert load_system(tmp_path / file, rounding="simplest") == typed
+    assert load_system(tmp_path / file).rounding is None
+
+
+@pytest.mark.parametrize("file", ["p.mat", "p.npz"])
+def test_fractions_are_written_as_floats_that_are_read_as_these_fractions(
+    file: str, tmp_path: Path
+) -> None:
+    plant = gallery.load("quadruple-tank-pminus")
+    save_system(plant, tmp_path / file, rounding="simplest")
+    again = load_system(tmp_path / file)
+    assert again == plant and again.rounding is None
+    with pytest.raises(InputError, match="no float is read as"):
+        save_system(plant, tmp_path / file, rounding="decimal")
+    long = MultiChannelSystem([[f"1/{10**9 + 7}"]], [[[1]]], [[[1]]])
+    with pytest.raises(InputError, match=r"no float is read as .* with the rounding 'simplest'"):
+        save_system(long, tmp_path / file, rounding="simplest")
 
 
 def test_sizes_are_given_where_a_file_has_none(tmp_path: Path) -> None:
