@@ -39,6 +39,7 @@ from mcexact.answer.several_parameters import (
     sentences_of_several,
 )
 from mcexact.answer.templates import count
+from mcexact.exact.matrix import reading_in_words
 from mcexact.model.box import radii_in_words
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
@@ -216,7 +217,8 @@ class Account(Shown):
         """Say in plain words what the answers are, one sentence a line."""
         title = [] if self.for_all_values else self.at("title")
         rows = [each.line for each in self.sentences.at("table")]
-        return "\n".join([*self.leading, *title, *self.at(*_ANSWER), *rows])
+        reading = [f"floats: {self.reading}"] if self.reading else []
+        return "\n".join([*self.leading, *title, *self.at(*_ANSWER), *rows, *reading])
 
     # Certificates.
 
@@ -296,6 +298,7 @@ class Account(Shown):
                 "m": system.m,
                 "time": system.time,
                 "channels": list(system.names),
+                **({} if system.rounding is None else {"rounding": system.rounding}),
             },
             **({"parameters": system.document()["parameters"]} if everywhere else {}),
             **more,
@@ -368,6 +371,14 @@ class Account(Shown):
         yield from (("", each) for each in self.leading)
         yield from (("", str(each)) for each in self.at(*_ANSWER))
         yield from ((each.cells[0], str(each)) for each in self.sentences.at("table"))
+        if self.reading:
+            yield "floats", self.reading
+
+    @cached_property
+    def reading(self) -> str:
+        """How the floats of the plant were read; empty if it was made of exact numbers."""
+        rounding = self.given.system.rounding
+        return "" if rounding is None else reading_in_words(rounding)
 
     def _html(self) -> str:
         """Return the sentences and the tables in HTML."""
@@ -385,6 +396,8 @@ class Account(Shown):
             f"<td>{escape(each)}</td></tr>"
             for each in self.sentences.at("table")
         )
+        if self.reading:
+            rows += f"<tr><th>floats</th><td>{escape(self.reading)}</td></tr>"
         title = "".join(self.sentences.at("title"))
         over = f"<caption>{escape(title)}</caption>" if title else ""
         return (f'<ul class="said">{items}</ul>' if items else "") + f"<table>{over}{rows}</table>"

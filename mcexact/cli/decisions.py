@@ -124,7 +124,7 @@ def analyzed(
         words=uncertainty.lead(account, search) + in_lines(account.sentences, lines),
         tables=(
             *uncertainty.tables(search),
-            *tables(account.sentences, most_modes=_MODES),
+            *tables(account.sentences, most_modes=_MODES, note=account.reading),
             *taken,
         ),
         latex=latex(account) if with_latex else "",
@@ -266,7 +266,7 @@ def allocated(
     return Allocated(
         evidence=Evidence.of(account, system_by_digest),
         document=account.as_json(**_shares(account)),
-        tables=tables(account.sentences),
+        tables=tables(account.sentences, note=account.reading),
         page=page,
         feasible=least.feasible,
     )

@@ -133,7 +133,7 @@ def designed(
         account,
         assessment,
         design.loop.closed,
-        tables=(*tables(account.sentences), *_box(every_loop), figures),
+        tables=(*tables(account.sentences, note=account.reading), *_box(every_loop), figures),
         with_page=with_page,
         system_by_digest=system_by_digest,
         document=account.as_json(

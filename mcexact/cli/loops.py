@@ -149,7 +149,7 @@ def certified(
         tables=(
             *uncertainty.tables(search),
             *loops.tables(),
-            *tables(account.sentences),
+            *tables(account.sentences, note=account.reading),
             figures,
         ),
         pictures=uncertainty.pictures(search) if with_page else (),

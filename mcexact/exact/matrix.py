@@ -906,8 +906,8 @@ BINARY: Rounding = "simplest"
 _READ_AS: dict[Rounding, str] = {
     "decimal": "the shortest decimal that prints it",
     "dyadic": "the binary fraction that is stored",
-    "simplest": "a short fraction or decimal within 4 units in the last place, if there is one, or "
-    "else the shortest decimal that prints it",
+    "simplest": "a short fraction or decimal within 4 units in the last place, or else as the "
+    "shortest decimal that prints it",
 }
 
 LARGEST_WHOLE = 2**53
@@ -925,9 +925,9 @@ def reading_in_words(rounding: Rounding) -> str:
     Examples
     --------
     >>> reading_in_words("dyadic")
-    'each float was read as the binary fraction that is stored (rounding dyadic)'
+    'rounding dyadic: each float was read as the binary fraction that is stored'
     """
-    return f"each float was read as {_READ_AS[rounding]} (rounding {rounding})"
+    return f"rounding {rounding}: each float was read as {_READ_AS[rounding]}"
 
 
 def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fraction:

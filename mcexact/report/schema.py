@@ -15,7 +15,7 @@ import json
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from mcexact.answer.account import LABELS
 from mcexact.answer.parameters import WITHIN_RANGES
@@ -28,6 +28,7 @@ from mcexact.answer.schema import (
     witness_schema,
 )
 from mcexact.errors import UsageError
+from mcexact.exact.matrix import Rounding
 from mcexact.model.text import nearest, quoted
 
 # Terms that the schemas share.
@@ -285,8 +286,10 @@ SENTENCES: Schema = {
         says="how many certificates the independent checker accepted, and which it left open",
     ),
 }
+_READ = "how the floats of the file were read, if it has floats that are no integers"
 _SYSTEM_IN_SHORT = record(
-    {"name": some(TEXT), "n": WHOLE, "m": WHOLE, "time": TIME, "channels": rows(TEXT)}
+    {"name": some(TEXT), "n": WHOLE, "m": WHOLE, "time": TIME, "channels": rows(TEXT)},
+    {"rounding": {"enum": list(get_args(Rounding))} | {"description": _READ}},
 )
 
 

@@ -6,7 +6,7 @@ import os
 import shutil
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TextIO
 
 from mcexact.answer.account import Account
@@ -164,7 +164,9 @@ def in_lines(sentences: Sentences, most: int, width: int = WIDTH) -> str:
     return "\n".join(lines) + "\n"
 
 
-def tables(sentences: Sentences, *, most_modes: int | None = None) -> tuple[Table, ...]:
+def tables(
+    sentences: Sentences, *, most_modes: int | None = None, note: str = ""
+) -> tuple[Table, ...]:
     """Return the table of all answers, then the tables about further questions.
 
     Parameters
@@ -172,10 +174,13 @@ def tables(sentences: Sentences, *, most_modes: int | None = None) -> tuple[Tabl
     sentences : Sentences
     most_modes : int, optional
         The largest number of fixed modes in the table, by default all.
+    note : str
+        What stands below the table of all answers.
     """
     rows = sentences.at("table")
     columns = _columns(rows[0]) if rows else ()
-    made = [_table(sentences, "table", columns, "".join(sentences.at("title")))]
+    first = _table(sentences, "table", columns, "".join(sentences.at("title")))
+    made = [replace(first, note="; ".join(filter(None, (first.note, note))))]
     for place in ("fixed-modes", "pencil", "subsystem", "channel", "why"):
         if sentences.at(place):
             made.append(_table(sentences, place, _COLUMNS.get(place, ()), most=most_modes))

@@ -6,7 +6,9 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem, NeighborGraph
+from mcexact.exact.matrix import reading_in_words
 from mcexact.model import gallery
+from mcexact.report.html import shown_plant
 from mcexact.report.text import answer, in_lines, plain, show, tables
 from tests.answer.asking import account_of
 
@@ -37,6 +39,24 @@ def test_the_obstruction_is_named_with_its_channels_and_its_rank() -> None:
     row = next(line for line in text.splitlines() if line.startswith("  x - 1 "))
     assert row.split() == ["x", "-", "1", "1", "no", "3", "1", "{2,", "3}", "2"]
     assert rows_of(MultiChannelSystem(**EXAMPLE))["stabilizable"].startswith("not by linear time")
+
+
+@pytest.mark.parametrize("rounding", ["decimal", "dyadic", "simplest"])
+def test_an_answer_says_how_the_floats_of_its_plant_were_read(rounding: Any) -> None:
+    plant = MultiChannelSystem.from_float([[1 / 3]], [[[1]]], [[[1]]], rounding=rounding)
+    account, reading = account_of(plant), reading_in_words(rounding)
+    assert account.reading == reading
+    assert f"({reading})" in plain(tables(account.sentences, note=account.reading), width=WIDE)
+    assert account.as_json()["system"]["rounding"] == rounding
+    assert account.explain().endswith(f"floats: {reading}")
+    assert reading in account._repr_html_() and reading in plant._repr_html_()
+    assert ("source", reading) in shown_plant(plant)["rows"]
+
+
+def test_an_answer_about_exact_numbers_says_nothing_of_floats() -> None:
+    account = account_of(MultiChannelSystem([["1/3"]], [[[1]]], [[[1]]]))
+    assert account.reading == "" and "rounding" not in account.as_json()["system"]
+    assert "floats" not in account.explain() + account._repr_html_()
 
 
 def test_nothing_is_fixed_is_said_in_words() -> None:

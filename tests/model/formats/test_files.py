@@ -313,8 +313,8 @@ def test_floats_are_read_as_the_simplest_numbers_by_default(
     path.write_bytes(write(A=kind(OFF)))
     plant = load_system(path)
     assert plant.A == MEANT and plant.rounding == "simplest"
-    assert plant.source is not None and plant.source.endswith("(rounding simplest)")
-    assert "(rounding simplest)." in plant.explain()
+    assert plant.source is not None and plant.source.endswith("that prints it")
+    assert "Rounding simplest: " in plant.explain()
 
 
 def test_half_precision_keeps_too_few_digits_for_most_fractions(tmp_path: Path) -> None:
