@@ -4,8 +4,8 @@ A kind of answer is a frozen dataclass in the module of its topic, declared with
 field is a `claim`, which the checker verifies, or a part of the `witness` that proves the claims;
 everything else is a property computed from the fields.  The certificate, reading it back, the JSON
 view, and display on one line, in HTML and in LaTeX are all derived from the fields, so a kind
-writes none of them.  ``HOMES`` names the module of each kind, to import it when a certificate of
-this kind is read.
+writes none of them.  `kind_named` imports the modules in ``TOPICS`` one by one until a kind is
+declared, and `all_kinds` imports all of them.
 
 Certificates are JSON as ``FORMAT.md`` specifies it, and equal answers have equal bytes.  Exact
 computations find the same evidence on every processor; Lyapunov matrices and controllers that were
@@ -181,37 +181,8 @@ class Parts(Shown):
 
 KINDS: dict[str, type[Answer]] = {}
 """The kinds of answers whose modules have been imported, by name."""
-HOMES = {
-    "assignability": "mcexact.answer.modes",
-    "box_controllable": "mcexact.answer.boxes",
-    "box_fixed": "mcexact.answer.boxes",
-    "box_stable": "mcexact.answer.boxes",
-    "closed_loop_spectrum": "mcexact.answer.loops",
-    "common_dimension": "mcexact.answer.sharing",
-    "communication": "mcexact.answer.sharing",
-    "complementary_subsystem": "mcexact.answer.structure",
-    "completeness": "mcexact.answer.modes",
-    "controllability": "mcexact.answer.structure",
-    "controllability_indices": "mcexact.answer.structure",
-    "deficiency": "mcexact.answer.sharing",
-    "distributed_observer": "mcexact.answer.loops",
-    "exceptional_gains": "mcexact.answer.structure",
-    "fixed_spectrum": "mcexact.answer.modes",
-    "neighbor_graph": "mcexact.answer.sharing",
-    "parametric_box_controllable": "mcexact.answer.boxes",
-    "parametric_box_fixed": "mcexact.answer.boxes",
-    "parametric_box_stable": "mcexact.answer.boxes",
-    "parametric_fixed_spectrum": "mcexact.answer.parameters",
-    "parametric_rank": "mcexact.answer.parameters",
-    "pencil_rank": "mcexact.answer.modes",
-    "setpoint": "mcexact.answer.structure",
-    "shared_dimensions": "mcexact.answer.sharing",
-    "sharing_gap": "mcexact.answer.sharing_gap",
-    "single_channel_gains": "mcexact.answer.structure",
-    "stability": "mcexact.answer.loops",
-    "transfer_graph": "mcexact.answer.structure",
-}
-"""The module of each kind of answer."""
+TOPICS = ("structure", "modes", "sharing", "sharing_gap", "loops", "boxes", "parameters")
+"""The modules of this folder that declare kinds."""
 _EXPLAINED = "mcexact.answer.rulebook", "explained"
 """What says an answer in words, which knows the rules of all kinds."""
 
@@ -446,15 +417,25 @@ def answer(kind: str) -> Callable[[type[AnyAnswer]], type[AnyAnswer]]:
 
 
 def kind_named(name: str) -> type[Answer]:
-    """Return the class of a kind of answer, whose module is imported.
+    """Return the class of a kind of answer, and import topics until its own is there.
 
     Raises
     ------
     KeyError
         If there is no such kind.
     """
-    importlib.import_module(HOMES[name])
+    for topic in TOPICS:
+        if name in KINDS:
+            break
+        importlib.import_module(f"mcexact.answer.{topic}")
     return KINDS[name]
+
+
+def all_kinds() -> dict[str, type[Answer]]:
+    """Import all topics, and return the class of every kind by its name, sorted."""
+    for topic in TOPICS:
+        importlib.import_module(f"mcexact.answer.{topic}")
+    return dict(sorted(KINDS.items()))
 
 
 def fields_of(kind: type[Answer], role: str) -> list[dataclasses.Field[Any]]:

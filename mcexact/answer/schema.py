@@ -15,13 +15,12 @@ from functools import cache, cached_property
 from typing import Any, Literal, Union, get_args, get_origin
 
 from mcexact.answer.protocol import (
-    HOMES,
     Answer,
     Part,
+    all_kinds,
     fields_of,
     is_optional,
     key_of,
-    kind_named,
     shown_of,
 )
 from mcexact.exact.linear_algebra import PolynomialMatrix
@@ -70,7 +69,7 @@ _PLAIN: dict[Any, Schema] = {
 @cache
 def kinds() -> dict[str, type[Answer]]:
     """Every kind of answer, by name."""
-    return {name: kind_named(name) for name in sorted(HOMES)}
+    return all_kinds()
 
 
 def claim_schema(kind: type[Answer]) -> Schema:
