@@ -235,7 +235,7 @@ def diagonal(*entries: int) -> Columns:
 
 
 def still_pair() -> Instance:
-    """Two agents that exchange messages, with one state that each controls and observes."""
+    """Two agents that send each other messages, with one state that each controls and observes."""
     one = [[1]]
     plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
     return "A = 0, two equal agents", plant.with_neighbors(NeighborGraph.complete(plant.names))
@@ -302,7 +302,7 @@ def hidden_by_feedback() -> tuple[str, MultiChannelSystem, list[Columns]]:
 
 
 def dependent_inputs() -> tuple[str, MultiChannelSystem, list[Matrix]]:
-    """Two agents, and F_i that are not zero, with B_2 F_2 = 0; agent 1 does not hear agent 2."""
+    """Two agents, and F_i that are not zero, with B_2 F_2 = 0; agent 1 receives nothing."""
     plant = MultiChannelSystem(
         [[0]], [[[1]], [[1, 1]]], [[[1]], [[1]]], neighbors={"1": [], "2": ["1"]}
     )
@@ -335,7 +335,7 @@ def unseen(time: str = "continuous") -> Instance:
 
 
 def two_circles() -> Instance:
-    """Agents 1 and 2 receive from each other, 3 and 4 too: every agent hears another one."""
+    """Agents 1 and 2 receive from each other, and so do 3 and 4: no agent is alone."""
     name, plant = four_agents()
     graph = {"1": ["2"], "2": ["1"], "3": ["4"], "4": ["3"]}
     return f"{name} in two pairs", plant.with_neighbors(graph)

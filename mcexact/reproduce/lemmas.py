@@ -247,10 +247,10 @@ def recipe(note: Notebook) -> None:
     note.print(plant)
     F = [Matrix.from_integers(rows) for rows in entries]
     literal = fed_back(plant, F)
-    lost, stuck = joint_observability(literal), fixed_spectrum(error_system(literal, zeros(plant)))
+    lost, fixed = joint_observability(literal), fixed_spectrum(error_system(literal, zeros(plant)))
     note.check("the plant is jointly observable", joint_observability(plant).controllable)
     note.check("what is fed back is not", not lost.controllable)
-    note.refute("literal", stuck.polynomial == Polynomial.from_roots([-2]))
+    note.refute("literal", fixed.polynomial == Polynomial.from_roots([-2]))
     gains = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
     note.check("(16) has gains, with index m", gains.exists)
     wanted = [-3 - k for k in range(plant.n * plant.m + plant.m - 1)]
@@ -259,7 +259,7 @@ def recipe(note: Notebook) -> None:
         "and its errors get a spectrum without −2",
         design.parts["error_polynomial"] == Polynomial.from_roots(wanted),
     )
-    note.certify(lost, stuck, gains, design.loop.proof)
+    note.certify(lost, fixed, gains, design.loop.proof)
 
 
 LEMMAS: dict[str, Procedure] = {
@@ -466,7 +466,7 @@ def respects(
 
 
 def graphs(note: Notebook) -> None:
-    """The rule respects a graph iff every agent hears all others, unless some B_j F_j is zero."""
+    """The rule respects a graph iff all agents receive from all others, unless a B_j F_j is 0."""
     numbers = Numbers(21)
     complete = three_channels().with_neighbors(NeighborGraph.complete(("1", "2", "3")))
     for plant in note.each(

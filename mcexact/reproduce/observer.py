@@ -363,9 +363,9 @@ def theorem_1(note: Notebook) -> None:
     try:
         design_observer(without_arcs(plant), rate=1)
     except Impossible as refused:
-        stuck = fixed_spectrum(error_system(without_arcs(plant), zeros(plant)))
-        note.refute("any-graph", not stuck.empty)
-        note.certify(stuck, refused.certificate)
+        fixed = fixed_spectrum(error_system(without_arcs(plant), zeros(plant)))
+        note.refute("any-graph", not fixed.empty)
+        note.certify(fixed, refused.certificate)
     _show_example(note)
 
 

@@ -514,8 +514,8 @@ def every_subset_receives(note: Notebook) -> None:
             note.certify(answer)
     note.check("both are among them", both == {True, False})
     plant = note.at(two_circles())
-    hears = all(len(graph_of(plant).neighborhood(i)) > 1 for i in range(plant.m))
-    note.refute("single-agents", hears and not graph_of(plant).is_strongly_connected())
+    receiving = all(len(graph_of(plant).neighborhood(i)) > 1 for i in range(plant.m))
+    note.refute("single-agents", receiving and not graph_of(plant).is_strongly_connected())
     note.certify(neighbor_graph(plant))
 
 

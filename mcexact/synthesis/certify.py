@@ -127,9 +127,9 @@ def certify_controller(
     True
     >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=2).stable
     False
-    >>> stuck = local_controllers(plant, [[["-1.04"]]])
-    >>> certify_controller(plant, stuck).stable, certify_controller(
-    ...     plant, stuck, round_gains=1).stable
+    >>> controller = local_controllers(plant, [[["-1.04"]]])
+    >>> certify_controller(plant, controller).stable, certify_controller(
+    ...     plant, controller, round_gains=1).stable
     (True, False)
     """
     InputError.require(system, MultiChannelSystem, "system")

@@ -20,9 +20,9 @@ import scipy
 
 import mcexact
 from mcexact.analysis import controllability, fixed_modes, sharing, structure
+from mcexact.analysis.questions import QUESTIONS
 from mcexact.analysis.sharing import neighbor_graph
 from mcexact.analysis.stability import open_loop_spectrum
-from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.protocol import encode
 from mcexact.derived.constructions import Share
 from mcexact.derived.drawn.networks import NETWORKS, network_system
@@ -79,16 +79,11 @@ def answers(plant: MultiChannelSystem) -> Answers:
 
 
 def of_the_system(system: MultiChannelSystem) -> Answers:
-    yield "joint_controllability", mcexact.joint_controllability(system)
-    yield "joint_observability", mcexact.joint_observability(system)
+    """Every question that `analyze` asks by default about any system, and other evidence."""
+    for name, question in QUESTIONS.items():
+        if question.by_default and not question.needs:
+            yield name, question.decide(system)
     yield from of_large_systems(system)
-    yield "transfer_graph", mcexact.transfer_graph(system)
-    yield "fixed_spectrum", mcexact.fixed_spectrum(system)
-    yield "completeness", mcexact.completeness(system)
-    yield "controllability_indices", mcexact.controllability_indices(system)
-    yield "observability_indices", mcexact.observability_indices(system)
-    yield "assignability", mcexact.assignability(system)
-    yield "setpoint", setpoint_solvability(system)
 
 
 def of_large_systems(system: MultiChannelSystem) -> Answers:

@@ -321,15 +321,15 @@ def spectral_descent(
         k = int(np.argmax(np.abs(values) if problem.discrete else values.real))
         mode = complex(values[k])
         G = seen.slope(k, mode.conjugate() / max(abs(mode), 1e-300) if problem.discrete else 1.0)
-        height = abs(mode) if problem.discrete else mode.real
-        return height + size * float(x @ x), problem.gradient(G) + 2 * size * x
+        bound = abs(mode) if problem.discrete else mode.real
+        return bound + size * float(x @ x), problem.gradient(G) + 2 * size * x
 
     result, _ = minimize(
         value,
         x,
         steps=steps,
         tolerance=1e-4,
-        enough=lambda height: target.reached(height, _well_inside(target.region)),
+        enough=lambda bound: target.reached(bound, _well_inside(target.region)),
         stop=lambda: effort.over,
     )
     return result

@@ -154,3 +154,14 @@ def exceptional_gains(claim: Any, witness: Any, system: System) -> bool:
         product *= f
     p = polynomial(found["polynomial"], monic=True)
     return p == product and discs_hold(found["roots"], p, real=True)
+
+
+JUDGES = {
+    "completeness": completeness,
+    "deficiency": deficiency,
+    "exceptional_gains": exceptional_gains,
+    "fixed_spectrum": fixed_spectrum,
+    "pencil_rank": rank_of_pencil,
+    "single_channel_gains": single_channel_gains,
+}
+"""The judge of each kind."""

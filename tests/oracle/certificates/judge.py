@@ -12,36 +12,11 @@ from .reading import Unspecified, demand, record
 
 TRUE, FALSE, UNDECIDED = "true", "false", "undecided"
 
-KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
-    "assignability": structure.assignability,
-    "box_controllable": segments.controllable,
-    "box_fixed": segments.fixed,
-    "box_stable": segments.stable,
-    "closed_loop_spectrum": loops.closed_loop_spectrum,
-    "common_dimension": sharing.common_dimension,
-    "communication": sharing.communication,
-    "complementary_subsystem": structure.complementary_subsystem,
-    "completeness": fixed.completeness,
-    "controllability": structure.controllability,
-    "controllability_indices": structure.controllability_indices,
-    "deficiency": fixed.deficiency,
-    "distributed_observer": loops.distributed_observer,
-    "exceptional_gains": fixed.exceptional_gains,
-    "fixed_spectrum": fixed.fixed_spectrum,
-    "neighbor_graph": structure.neighbor_graph,
-    "parametric_box_controllable": ranges.controllable_in_ranges,
-    "parametric_box_fixed": ranges.fixed_in_ranges,
-    "parametric_box_stable": ranges.stable_in_ranges,
-    "parametric_fixed_spectrum": parametric.spectrum,
-    "parametric_rank": parametric_rank.rank,
-    "pencil_rank": fixed.rank_of_pencil,
-    "setpoint": structure.setpoint,
-    "shared_dimensions": sharing.shared_dimensions,
-    "sharing_gap": structure.sharing_gap,
-    "single_channel_gains": fixed.single_channel_gains,
-    "stability": loops.stability,
-    "transfer_graph": structure.transfer_graph,
+_TOPICS = (fixed, loops, parametric, parametric_rank, ranges, segments, sharing, structure)
+KINDS: dict[str, Callable[[Any, Any, Any], bool]] = {
+    kind: judge_of for topic in _TOPICS for kind, judge_of in topic.JUDGES.items()
 }
+"""The judge of each kind, which the module of its topic names."""
 MOST_STATES = 30
 
 

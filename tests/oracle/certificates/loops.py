@@ -77,3 +77,11 @@ def distributed_observer(claim: Any, document: Mapping[str, Any], system: System
     if given != [feedback, error]:
         return False
     return bound is None or all(inside(p, system.time, bound) for p in given)
+
+
+JUDGES = {
+    "closed_loop_spectrum": closed_loop_spectrum,
+    "distributed_observer": distributed_observer,
+    "stability": stability,
+}
+"""The judge of each kind."""

@@ -258,3 +258,9 @@ def _value_text(entry: Any, t: str, leading: str) -> str:
         f"at {roots_text(entry, t)}, real ones where the disc is centered on the real axis, and "
         f"only there, {leading}{modes}"
     )
+
+
+JUDGES = {
+    "parametric_fixed_spectrum": spectrum,
+}
+"""The judge of each kind."""

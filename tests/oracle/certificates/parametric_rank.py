@@ -221,3 +221,9 @@ def rank_sentence(claim: Any, plant: ParametricPlant) -> str:
         roots = roots_text(entry, plant.parameter)
         said += f"; but rank exactly {entry['rank']} at {roots}, {real}"
     return said
+
+
+JUDGES = {
+    "parametric_rank": rank,
+}
+"""The judge of each kind."""

@@ -227,3 +227,11 @@ def _common(f: InX, g: InX, q: fmpq_poly) -> InX:
     while g:
         f, g = g, _divided(f, g, q)[1]
     return f
+
+
+JUDGES = {
+    "parametric_box_controllable": controllable_in_ranges,
+    "parametric_box_fixed": fixed_in_ranges,
+    "parametric_box_stable": stable_in_ranges,
+}
+"""The judge of each kind."""

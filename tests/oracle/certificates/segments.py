@@ -107,3 +107,11 @@ def matrices(system: System, *, ports: bool) -> list[fmpq_mat]:
     """A, and B_1, C_1, … if they are asked for."""
     pairs = zip(system.B, system.C, strict=True) if ports else ()
     return [system.A, *(M for pair in pairs for M in pair)]
+
+
+JUDGES = {
+    "box_controllable": controllable,
+    "box_fixed": fixed,
+    "box_stable": stable,
+}
+"""The judge of each kind."""

@@ -173,3 +173,11 @@ def _widened(plant: System, added: Sequence[tuple[int, int]]) -> System:
         tuple(sorted({*h, *(j for j, k in added if k == i)})) for i, h in enumerate(plant.graph())
     ]
     return replace(plant, heard=tuple(heard))
+
+
+JUDGES = {
+    "common_dimension": common_dimension,
+    "communication": communication,
+    "shared_dimensions": shared_dimensions,
+}
+"""The judge of each kind."""

@@ -177,3 +177,16 @@ def setpoint(claim: Any, witness: Any, system: System) -> bool:
     )
     normal = max((P + k * I).rank() for k in range(101, 101 + n + 1))
     return truth(zero) is (normal == full)
+
+
+JUDGES = {
+    "assignability": assignability,
+    "complementary_subsystem": complementary_subsystem,
+    "controllability": controllability,
+    "controllability_indices": controllability_indices,
+    "neighbor_graph": neighbor_graph,
+    "setpoint": setpoint,
+    "sharing_gap": sharing_gap,
+    "transfer_graph": transfer_graph,
+}
+"""The judge of each kind."""
