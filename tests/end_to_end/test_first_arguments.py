@@ -17,8 +17,8 @@ ABOUT_SYSTEMS = [
 ]
 
 
-def test_there_are_as_many_as_one_would_think() -> None:
-    assert len(ABOUT_SYSTEMS) > 30
+def test_functions_about_systems_are_recognized_by_their_annotations() -> None:
+    assert {"design_observer", "dual"} <= {*ABOUT_SYSTEMS}
 
 
 @pytest.mark.parametrize("name", ABOUT_SYSTEMS)
