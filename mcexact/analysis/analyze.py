@@ -47,7 +47,7 @@ from mcexact.answer.account import (
 )
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rulebook import ALLOCATION, ANALYSIS, LINKS, with_own
-from mcexact.answer.sentence import Given, Sentences
+from mcexact.answer.sentence import Context, Sentences
 from mcexact.derived.constructions import Share
 from mcexact.errors import (
     InputError,
@@ -627,7 +627,7 @@ class Analysis(ShownByAccount):
             return account_for_all_values(self.plant, self.answers)
         answers = self.decided()
         open_ = {*self.left_out, *self.open()} - answers.keys() - self._ended
-        given = Given(self.system, {"information": self.information})
+        given = Context(self.system, {"information": self.information})
         sentences = with_own(ANALYSIS, answers).sentences(answers, given, open_)
         return Account(answers, given, sentences, self.plant.subject, sorted(open_), self.failing())
 
@@ -809,7 +809,7 @@ def account_of_dimensions(
         "common_dimension": common_dimension(system, share=share),
         "sharing_gap": sharing_gap(system),
     }
-    given = Given(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
+    given = Context(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
     return Account(answers, given, ALLOCATION.sentences(answers, given))
 
 
@@ -824,6 +824,6 @@ def account_of_links(system: MultiChannelSystem, **options: Any) -> Account:
         The keywords of `minimal_communication`.
     """
     least = minimal_communication(system, **options)
-    given = Given(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
+    given = Context(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
     answers = {"minimal_communication": least}
     return Account(answers, given, LINKS.sentences(answers, given))

@@ -30,7 +30,7 @@ from mcexact.answer.parameters import (
     undefined_where,
 )
 from mcexact.answer.protocol import Answer
-from mcexact.answer.sentence import MANIFEST, Given, Sentences, manifest
+from mcexact.answer.sentence import MANIFEST, Context, Sentences, manifest
 from mcexact.answer.several_parameters import RULES as SEVERAL
 from mcexact.answer.several_parameters import (
     Hypersurface,
@@ -157,7 +157,7 @@ class Account(Shown):
     answers : mapping
         The answers by name; the name with ``.json`` is that of the certificate's file.  With
         parameters an answer may be a tuple, or be proved by certificates along lines: `parts`.
-    given : Given
+    given : Context
     derived : Sentences
         The sentences that follow by the rules, each with its place and premises.
     subject : sequence of mapping
@@ -175,7 +175,7 @@ class Account(Shown):
     """
 
     answers: Mapping[str, Any]
-    given: Given
+    given: Context
     derived: Sentences
     subject: Sequence[Mapping[str, Any]] = ()
     open: Collection[str] = ()
@@ -451,7 +451,7 @@ def account_for_all_values(plant: ParametricSystem, answers: Mapping[str, Any]) 
         The answers by the names of their questions.
     """
     several = len(plant.parameters) > 1
-    given = Given(plant, _wording(plant, answers))
+    given = Context(plant, _wording(plant, answers))
     derived = (SEVERAL if several else RULES).sentences(by_certificate(answers), given)
     computed = Sentences(sentences_of_several(answers, given) if several else ())
     return Account(answers, given, derived, computed=computed, for_all_values=True)

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
-from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template
 from mcexact.exact.polynomial import product
 from mcexact.exact.roots import exact_decimal, steady_point
@@ -352,18 +352,18 @@ analysis_rule = ANALYSIS_RULES.rule
 Said = Iterator[Sentence]
 
 
-def control(spectrum: Claim, given: Given) -> str:
+def control(spectrum: Claim, context: Context) -> str:
     """The kind of control that moves none of the fixed modes of a certificate."""
-    made = [each["construction"] for each in spectrum.subject]
-    if made[-1:] != ["augmented_outputs"]:
+    constructions = [each["construction"] for each in spectrum.subject]
+    if constructions[-1:] != ["augmented_outputs"]:
         return "own"
-    return "instant" if given.delays == "delays" else "outputs"
+    return "instant" if context.delays == "delays" else "outputs"
 
 
-def slowest(spectrum: Claim, given: Given) -> tuple[str, str, str, bool]:
+def slowest(spectrum: Claim, context: Context) -> tuple[str, str, str, bool]:
     """The data for sentences about the slowest fixed mode."""
     rate = spectrum.best_rate
-    return given.time, rate.lower, rate.upper, spectrum.stabilizable
+    return context.time, rate.lower, rate.upper, spectrum.stabilizable
 
 
 def empty(spectrum: Claim) -> bool:
@@ -375,52 +375,56 @@ def empty(spectrum: Claim) -> bool:
 
 
 @analysis_rule("title", HEADING)
-def _heading(given: Given) -> Said:
+def _heading(context: Context) -> Said:
     yield HEADING(
-        name=given.name or "system", n=given.n, m=given.m, names=given.names, time=given.time
+        name=context.name or "system",
+        n=context.n,
+        m=context.m,
+        names=context.names,
+        time=context.time,
     )
 
 
 @analysis_rule("answer", NOTHING_FIXED, STABLE, UNSTABLE, premises=("linked_fixed_spectrum",))
-def _linked(linked: Claim, given: Given) -> Said:
+def _linked(linked: Claim, context: Context) -> Said:
     """What the agents can do over the existing links: the first sentence of the answer."""
-    heard = control(linked, given)
+    heard = control(linked, context)
     if empty(linked):
         yield NOTHING_FIXED(control=heard)
     else:
-        told = STABLE if linked.stabilizable else UNSTABLE
-        yield told(control=heard, slowest=slowest(linked, given))
+        template = STABLE if linked.stabilizable else UNSTABLE
+        yield template(control=heard, slowest=slowest(linked, context))
 
 
 @analysis_rule("answer", NOTHING_FIXED, premises=("fixed_spectrum",))
-def _nothing_fixed(fixed_spectrum: Claim, given: Given) -> Said:
+def _nothing_fixed(fixed_spectrum: Claim, context: Context) -> Said:
     if empty(fixed_spectrum):
-        yield NOTHING_FIXED(control=control(fixed_spectrum, given))
+        yield NOTHING_FIXED(control=control(fixed_spectrum, context))
 
 
 @analysis_rule("answer", FREE_THROUGH_ANY, premises=("completeness",))
-def _free_through_any(completeness: Claim, given: Given) -> Said:
-    if given.n and completeness.complete:
+def _free_through_any(completeness: Claim, context: Context) -> Said:
+    if context.n and completeness.complete:
         yield FREE_THROUGH_ANY()
 
 
 @analysis_rule("answer", FREE, PARTS, premises=("fixed_spectrum", "assignability", "completeness"))
 def _assigned(
-    fixed_spectrum: Claim, assignability: Claim, completeness: Claim, given: Given
+    fixed_spectrum: Claim, assignability: Claim, completeness: Claim, context: Context
 ) -> Said:
-    if given.n and empty(fixed_spectrum) and not completeness.complete:
+    if context.n and empty(fixed_spectrum) and not completeness.complete:
         parts = [block for block in assignability.blocks if block.dimension]
         yield FREE() if len(parts) <= 1 else PARTS(k=len(parts))
 
 
 @analysis_rule("answer", STABLE, UNSTABLE, premises=("fixed_spectrum",))
-def _stabilized(fixed_spectrum: Claim, given: Given) -> Said:
+def _stabilized(fixed_spectrum: Claim, context: Context) -> Said:
     if not empty(fixed_spectrum):
-        told = STABLE if fixed_spectrum.stabilizable else UNSTABLE
-        by = control(fixed_spectrum, given)
-        if by == "own" and given.neighbors is not None and given.neighbors.edges():
+        template = STABLE if fixed_spectrum.stabilizable else UNSTABLE
+        by = control(fixed_spectrum, context)
+        if by == "own" and context.neighbors is not None and context.neighbors.edges():
             by = "alone"
-        yield told(control=by, slowest=slowest(fixed_spectrum, given))
+        yield template(control=by, slowest=slowest(fixed_spectrum, context))
 
 
 def fewest(links: Claim) -> bool:
@@ -439,15 +443,15 @@ def fewest(links: Claim) -> bool:
     NO_LINKS,
     premises=("minimal_communication", "fixed_spectrum"),
 )
-def _links_remove(minimal_communication: Claim, fixed_spectrum: Claim, given: Given) -> Said:
+def _links_remove(minimal_communication: Claim, fixed_spectrum: Claim, context: Context) -> Said:
     links = minimal_communication
     if empty(fixed_spectrum) or not fewest(links):
         return
     if links.added is None:
         yield NO_LINKS()
     else:
-        some = LINKS[given.neighbors is not None] if links.added else LINKS_NONE
-        yield some(added=links.added, time=given.delays)
+        some = LINKS[context.neighbors is not None] if links.added else LINKS_NONE
+        yield some(added=links.added, time=context.delays)
 
 
 def usual(least: Claim, share: str) -> bool:
@@ -469,7 +473,7 @@ def usual(least: Claim, share: str) -> bool:
     premises=("minimal_shared_dimensions_outputs_states", "fixed_spectrum"),
 )
 def _sharing_removes(
-    minimal_shared_dimensions_outputs_states: Claim, fixed_spectrum: Claim, given: Given
+    minimal_shared_dimensions_outputs_states: Claim, fixed_spectrum: Claim, context: Context
 ) -> Said:
     least = minimal_shared_dimensions_outputs_states
     if empty(fixed_spectrum) or not usual(least, "outputs+states"):
@@ -477,14 +481,14 @@ def _sharing_removes(
     if least.dimensions is None:
         yield NO_SHARING()
     elif any(least.dimensions):
-        sizes = list(zip(given.names, least.dimensions, strict=True))
-        yield SHARING_REMOVES(sizes=sizes, time=given.delays)
+        sizes = list(zip(context.names, least.dimensions, strict=True))
+        yield SHARING_REMOVES(sizes=sizes, time=context.delays)
     else:
-        yield OUTPUTS_REMOVE(time=given.delays)
+        yield OUTPUTS_REMOVE(time=context.delays)
 
 
 @analysis_rule("answer.mode", BLAME, UNCONTROLLED, UNOBSERVED, premises=("fixed_spectrum",))
-def _blame(fixed_spectrum: Claim, given: Given) -> Said:
+def _blame(fixed_spectrum: Claim, context: Context) -> Said:
     """The channels that do not control a mode, and those that do not observe it.
 
     rank P_s < n implies that [λI − A, B_T] and [λI − A; C_s] have rank below n, T the complement of
@@ -492,9 +496,9 @@ def _blame(fixed_spectrum: Claim, given: Given) -> Said:
     """
     for factor in fixed_spectrum.factors.ordered("stable"):
         inside = factor.channels
-        outside = [name for name in given.names if name not in set(inside)]
-        told = BLAME if inside and outside else UNOBSERVED if inside else UNCONTROLLED
-        yield told(
+        outside = [name for name in context.names if name not in set(inside)]
+        template = BLAME if inside and outside else UNOBSERVED if inside else UNCONTROLLED
+        yield template(
             p=factor.polynomial,
             often=(factor.multiplicity_in_A, factor.multiplicity_at_most),
             inside=inside,
@@ -506,60 +510,60 @@ def _blame(fixed_spectrum: Claim, given: Given) -> Said:
 
 
 @analysis_rule("table", INFORMATION)
-def _information(given: Given) -> Said:
-    if given.information == "outputs":
-        yield INFORMATION(information="outputs" if given.delays == "none" else "instant")
+def _information(context: Context) -> Said:
+    if context.information == "outputs":
+        yield INFORMATION(information="outputs" if context.delays == "none" else "instant")
 
 
-def reached(found: Claim, yes: Template, no: Template) -> Said:
+def reached(controllability: Claim, yes: Template, no: Template) -> Said:
     """Whether channels together control or observe every mode."""
-    yield yes() if found.controllable else no(p=found.uncontrollable_polynomial)
+    yield yes() if controllability.controllable else no(p=controllability.uncontrollable_polynomial)
 
 
 @analysis_rule("table", CONTROLLABLE, UNCONTROLLABLE, premises=("joint_controllability",))
-def _controllable(joint_controllability: Claim, given: Given) -> Said:
+def _controllable(joint_controllability: Claim, context: Context) -> Said:
     yield from reached(joint_controllability, CONTROLLABLE, UNCONTROLLABLE)
 
 
 @analysis_rule("table", OBSERVABLE, UNOBSERVABLE, premises=("joint_observability",))
-def _observable(joint_observability: Claim, given: Given) -> Said:
+def _observable(joint_observability: Claim, context: Context) -> Said:
     yield from reached(joint_observability, OBSERVABLE, UNOBSERVABLE)
 
 
 @analysis_rule("table", GRAPH_CONNECTED, GRAPH_PARTS, premises=("transfer_graph",))
-def _graph(transfer_graph: Claim, given: Given) -> Said:
-    told = GRAPH_CONNECTED if transfer_graph.strongly_connected else GRAPH_PARTS
-    yield told(arcs=transfer_graph.arcs, components=transfer_graph.components)
+def _graph(transfer_graph: Claim, context: Context) -> Said:
+    template = GRAPH_CONNECTED if transfer_graph.strongly_connected else GRAPH_PARTS
+    yield template(arcs=transfer_graph.arcs, components=transfer_graph.components)
 
 
 @analysis_rule("table", INACTIVE, premises=("transfer_graph",))
-def _inactive(transfer_graph: Claim, given: Given) -> Said:
-    if given.inactive and transfer_graph.subject == given.system.subject:
-        yield INACTIVE(names=given.inactive)
+def _inactive(transfer_graph: Claim, context: Context) -> Said:
+    if context.inactive and transfer_graph.subject == context.system.subject:
+        yield INACTIVE(names=context.inactive)
 
 
 @analysis_rule("table", FIXED_NONE, FIXED, premises=("fixed_spectrum",))
-def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
+def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
     p = fixed_spectrum.polynomial
     yield FIXED(p=p) if p.degree else FIXED_NONE()
 
 
 @analysis_rule("table", STABILIZABLE, NOT_STABILIZABLE, premises=("fixed_spectrum",))
-def _stabilizable(fixed_spectrum: Claim, given: Given) -> Said:
-    told = STABILIZABLE if fixed_spectrum.stabilizable else NOT_STABILIZABLE
-    yield told(control=control(fixed_spectrum, given))
+def _stabilizable(fixed_spectrum: Claim, context: Context) -> Said:
+    template = STABILIZABLE if fixed_spectrum.stabilizable else NOT_STABILIZABLE
+    yield template(control=control(fixed_spectrum, context))
 
 
 @analysis_rule("table", SLOWEST, ANY_RATE, premises=("fixed_spectrum",))
-def _slowest_mode(fixed_spectrum: Claim, given: Given) -> Said:
+def _slowest_mode(fixed_spectrum: Claim, context: Context) -> Said:
     if empty(fixed_spectrum):
         yield ANY_RATE()
     else:
-        yield SLOWEST(slowest=slowest(fixed_spectrum, given))
+        yield SLOWEST(slowest=slowest(fixed_spectrum, context))
 
 
 @analysis_rule("table", COMPLETE, premises=("completeness",))
-def _complete(completeness: Claim, given: Given) -> Said:
+def _complete(completeness: Claim, context: Context) -> Said:
     yield COMPLETE(complete=completeness.complete)
 
 
@@ -567,12 +571,12 @@ def _index_rules(question: str, one: Template, many: Template, none: Template) -
     """Make the rules of controllability or observability indices, or of their omission."""
 
     @analysis_rule("table", one, many, premises=(question,))
-    def _indices(found: Claim, given: Given) -> Said:
-        told = many if found.index is None else one
-        yield told(indices=found.indices, index=found.index)
+    def _indices(claim: Claim, context: Context) -> Said:
+        template = many if claim.index is None else one
+        yield template(indices=claim.indices, index=claim.index)
 
     @analysis_rule("table", none, missing=question)
-    def _left_out(given: Given) -> Said:
+    def _left_out(context: Context) -> Said:
         yield none()
 
 
@@ -581,7 +585,7 @@ _index_rules("observability_indices", *OBSERVABILITY_INDICES)
 
 
 @analysis_rule("table", SPECTRUM_FREE, SPECTRUM_PARTS, premises=("fixed_spectrum", "assignability"))
-def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim, given: Given) -> Said:
+def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim, context: Context) -> Said:
     if empty(fixed_spectrum):
         blocks = [(block.dimension, block.channels) for block in assignability.blocks]
         free = sum(size > 0 for size, _ in blocks) <= 1
@@ -589,7 +593,7 @@ def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim, given: Given) -
 
 
 def _most(factor: Claim) -> int | None:
-    """How often the roots of a factor may be fixed, as far as its exponents prove it."""
+    """An upper bound, from its exponents, on how often a factor is fixed; None if there is none."""
     in_A: int | None = factor.multiplicity_in_A
     if factor.polynomial.degree > 1:
         return in_A
@@ -600,14 +604,14 @@ def _most(factor: Claim) -> int | None:
 @analysis_rule(
     "table", SPECTRUM_MOVED, SPECTRUM_MOVED_BETWEEN, premises=("fixed_spectrum", "assignability")
 )
-def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -> Said:
+def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, context: Context) -> Said:
     """Bounds on the number of eigenvalues, with multiplicity, that gains can move.
 
     n − deg φ, φ the greatest common divisor of all det(xI − A_F): a factor p of the fixed
     polynomial is in φ at least once and at most as often as in det(xI − A), and if it is x − λ at
-    most as often as in the loop of the certificate.  That loop says less of a longer p, which a
-    certificate does not prove irreducible.  The eigenvalues that belong to no strong component of
-    the transfer graph are roots of φ.
+    most as often as in the loop of the certificate.  For another p that loop proves less, since no
+    certificate proves p irreducible.  The eigenvalues that belong to no strong component of the
+    transfer graph are roots of φ.
     """
     if empty(fixed_spectrum):
         return
@@ -616,17 +620,17 @@ def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -
         return
     stuck = sum(degree * most for degree, most in counted if most is not None)
     stays = max(fixed_spectrum.polynomial.degree, assignability.fixed_degree)
-    told = SPECTRUM_MOVED if stuck == stays else SPECTRUM_MOVED_BETWEEN
-    yield told(k=given.n - stuck, most=given.n - stays, n=given.n)
+    template = SPECTRUM_MOVED if stuck == stays else SPECTRUM_MOVED_BETWEEN
+    yield template(k=context.n - stuck, most=context.n - stays, n=context.n)
 
 
 # Set-points.
 
 
 @analysis_rule("table", SETPOINT_ZERO, SETPOINT_DEPENDENT, premises=("setpoint",))
-def _no_setpoints(setpoint: Claim, given: Given) -> Said:
+def _no_setpoints(setpoint: Claim, context: Context) -> Said:
     if setpoint.invariant_zero:
-        yield SETPOINT_ZERO(place=steady_point(given.time))
+        yield SETPOINT_ZERO(place=steady_point(context.time))
     elif not setpoint.solvable:
         yield SETPOINT_DEPENDENT()
 
@@ -635,7 +639,7 @@ def _no_setpoints(setpoint: Claim, given: Given) -> Said:
     "table", SETPOINT, premises=("setpoint", "joint_controllability", "joint_observability")
 )
 def _setpoints(
-    setpoint: Claim, joint_controllability: Claim, joint_observability: Claim, given: Given
+    setpoint: Claim, joint_controllability: Claim, joint_observability: Claim, context: Context
 ) -> Said:
     if (
         setpoint.solvable
@@ -656,13 +660,13 @@ def _setpoints_beside(
     joint_controllability: Claim,
     joint_observability: Claim,
     fixed_spectrum: Claim,
-    given: Given,
+    context: Context,
 ) -> Said:
     """Modes that are not controllable or not observable are fixed, perhaps stable."""
     reach = (joint_controllability, joint_observability)
-    if not setpoint.solvable or all(found.controllable for found in reach):
+    if not setpoint.solvable or all(claim.controllable for claim in reach):
         return
-    lost = product([found.uncontrollable_polynomial for found in reach])
+    lost = product([claim.uncontrollable_polynomial for claim in reach])
     unstable = product(
         [
             factor.polynomial
@@ -670,25 +674,27 @@ def _setpoints_beside(
             if not factor.stable and factor.polynomial.divides(lost)
         ]
     )
-    told = SETPOINT_UNSTABLE_REST if unstable.degree else SETPOINT_STABLE_REST
-    yield told(p=unstable)
+    template = SETPOINT_UNSTABLE_REST if unstable.degree else SETPOINT_STABLE_REST
+    yield template(p=unstable)
 
 
 @analysis_rule("table", *GAINS["every"].values(), premises=("every_channel",))
-def _every_channel(every_channel: Claim, given: Given) -> Said:
-    yield gains("every", every_channel, given.names)
+def _every_channel(every_channel: Claim, context: Context) -> Said:
+    yield gains("every", every_channel, context.names)
 
 
-def gains(want: str, found: Claim, names: Sequence[str]) -> Sentence:
+def gains(want: str, claim: Claim, names: Sequence[str]) -> Sentence:
     """The indices for gains that exist, or the obstruction."""
-    told = GAINS[want]
-    if found.exists:
-        return told["reached"](reached=found.indices)
-    why = found.proof
+    templates = GAINS[want]
+    if claim.exists:
+        return templates["reached"](reached=claim.indices)
+    why = claim.proof
     if why.has("polynomial"):
-        return told["stuck"](name=why.channel, side=why.side, p=why.polynomial)
+        return templates["stuck"](name=why.channel, side=why.side, p=why.polynomial)
     inside = set(getattr(why.zero, "from"))
-    return told[why.side](name=why.channel, rest=[name for name in names if name not in inside])
+    return templates[why.side](
+        name=why.channel, rest=[name for name in names if name not in inside]
+    )
 
 
 # Templates about single modes, channels, sets of channels, and pictures.
@@ -795,13 +801,13 @@ detail_rule = DETAIL_RULES.rule
 
 
 @detail_rule("fixed-modes.title", FIXED_MODES, premises=("fixed_spectrum",))
-def _fixed_modes(fixed_spectrum: Claim, given: Given) -> Said:
+def _fixed_modes(fixed_spectrum: Claim, context: Context) -> Said:
     if not empty(fixed_spectrum):
-        yield FIXED_MODES(control=control(fixed_spectrum, given))
+        yield FIXED_MODES(control=control(fixed_spectrum, context))
 
 
 @detail_rule("fixed-modes", FIXED_MODE, premises=("fixed_spectrum",))
-def _fixed_mode(fixed_spectrum: Claim, given: Given) -> Said:
+def _fixed_mode(fixed_spectrum: Claim, context: Context) -> Said:
     for factor in fixed_spectrum.factors.ordered("stable"):
         yield FIXED_MODE(
             p=factor.polynomial,
@@ -822,40 +828,40 @@ def _centers(factor: Claim) -> list[tuple[Fraction, Fraction]]:
 
 
 @detail_rule("fixed-modes.note", FIXED_MODES_NOTE, premises=("fixed_spectrum",))
-def _columns(fixed_spectrum: Claim, given: Given) -> Said:
+def _columns(fixed_spectrum: Claim, context: Context) -> Said:
     if not empty(fixed_spectrum):
-        yield FIXED_MODES_NOTE(n=given.n)
+        yield FIXED_MODES_NOTE(n=context.n)
 
 
 # A set of channels.
 
 
 @detail_rule("pencil.title", PENCIL, premises=("spectrum_of_A", "pencil_rank"))
-def _pencil(spectrum_of_A: Claim, pencil_rank: Iterable[Claim], given: Given) -> Said:
-    subsets = [found.subset for found in pencil_rank if found.polynomial.degree]
+def _pencil(spectrum_of_A: Claim, pencil_rank: Iterable[Claim], context: Context) -> Said:
+    subsets = [claim.subset for claim in pencil_rank if claim.polynomial.degree]
     if subsets and spectrum_of_A.polynomial.degree:
         yield PENCIL(s=subsets[0])
 
 
 @detail_rule("pencil", PENCIL_ROW, premises=("pencil_rank",))
-def _ranks(pencil_rank: Iterable[Claim], given: Given) -> Said:
-    for found in pencil_rank:
-        rank = found.rank
-        yield PENCIL_ROW(p=found.polynomial, rank=rank, below=rank < given.n)
+def _ranks(pencil_rank: Iterable[Claim], context: Context) -> Said:
+    for claim in pencil_rank:
+        rank = claim.rank
+        yield PENCIL_ROW(p=claim.polynomial, rank=rank, below=rank < context.n)
 
 
 @detail_rule("subsystem.title", SUBSYSTEM, premises=("complementary_subsystem",))
-def _subsystem(complementary_subsystem: Claim, given: Given) -> Said:
+def _subsystem(complementary_subsystem: Claim, context: Context) -> Said:
     yield SUBSYSTEM(s=complementary_subsystem.subset)
 
 
 @detail_rule("subsystem", NORMAL_RANK, premises=("complementary_subsystem",))
-def _normal_rank(complementary_subsystem: Claim, given: Given) -> Said:
+def _normal_rank(complementary_subsystem: Claim, context: Context) -> Said:
     yield NORMAL_RANK(rank=complementary_subsystem.normal_rank)
 
 
 @detail_rule("subsystem", ZEROS, NO_ZEROS, premises=("complementary_subsystem",))
-def _zeros(complementary_subsystem: Claim, given: Given) -> Said:
+def _zeros(complementary_subsystem: Claim, context: Context) -> Said:
     """The largest invariant polynomial has all invariant zeros: each of the others divides it."""
     polynomials = complementary_subsystem.invariant_polynomials
     if polynomials:
@@ -865,7 +871,7 @@ def _zeros(complementary_subsystem: Claim, given: Given) -> Said:
 
 
 @detail_rule("subsystem", REMNANT, premises=("complementary_subsystem",))
-def _remnant(complementary_subsystem: Claim, given: Given) -> Said:
+def _remnant(complementary_subsystem: Claim, context: Context) -> Said:
     yield REMNANT(p=complementary_subsystem.remnant)
 
 
@@ -874,34 +880,34 @@ def _remnant(complementary_subsystem: Claim, given: Given) -> Said:
     *(SUBSYSTEM_COMPLETE, SUBSYSTEM_ZERO, SUBSYSTEM_DROPS, SUBSYSTEM_BOTH),
     premises=("complementary_subsystem",),
 )
-def _subsystem_complete(complementary_subsystem: Claim, given: Given) -> Said:
+def _subsystem_complete(complementary_subsystem: Claim, context: Context) -> Said:
     """The roots of the remnant polynomial are the points where the rank is below n."""
-    found = complementary_subsystem
-    drops = [p for p, _ in found.remnant.factor()]
-    if found.complete:
+    subsystem = complementary_subsystem
+    drops = [p for p, _ in subsystem.remnant.factor()]
+    if subsystem.complete:
         yield SUBSYSTEM_COMPLETE()
     elif not drops:
         yield SUBSYSTEM_ZERO()
     else:
-        yield (SUBSYSTEM_BOTH if found.transfer_zero else SUBSYSTEM_DROPS)(zeros=drops)
+        yield (SUBSYSTEM_BOTH if subsystem.transfer_zero else SUBSYSTEM_DROPS)(zeros=drops)
 
 
 # A channel.
 
 
 @detail_rule("channel.title", CHANNEL, premises=("channel_controllability",))
-def _channel(channel_controllability: Claim, given: Given) -> Said:
+def _channel(channel_controllability: Claim, context: Context) -> Said:
     [name] = channel_controllability.channels
     yield CHANNEL(name=name)
 
 
 @detail_rule("channel", *ALONE["controllability"], premises=("channel_controllability",))
-def _controlled_alone(channel_controllability: Claim, given: Given) -> Said:
+def _controlled_alone(channel_controllability: Claim, context: Context) -> Said:
     yield from reached(channel_controllability, *ALONE["controllability"])
 
 
 @detail_rule("channel", *ALONE["observability"], premises=("channel_observability",))
-def _observed_alone(channel_observability: Claim, given: Given) -> Said:
+def _observed_alone(channel_observability: Claim, context: Context) -> Said:
     yield from reached(channel_observability, *ALONE["observability"])
 
 
@@ -909,8 +915,8 @@ def _gains_rules(want: str) -> None:
     """Make the rule of gains with which one channel controls or observes everything."""
 
     @detail_rule("channel", *GAINS[want].values(), premises=(f"channel_gains_{want}",))
-    def _with_gains(found: Claim, given: Given) -> Said:
-        yield gains(want, found, given.names)
+    def _with_gains(claim: Claim, context: Context) -> Said:
+        yield gains(want, claim, context.names)
 
 
 for want in ("controllable", "observable", "both"):
@@ -921,38 +927,38 @@ for want in ("controllable", "observable", "both"):
 
 
 @detail_rule("page", PAGE_HEADING)
-def _page_heading(given: Given) -> Said:
-    heard = "outputs" if given.delays == "none" else "instant"
-    information = heard if given.information == "outputs" else "own"
-    yield PAGE_HEADING(n=given.n, m=given.m, time=given.time, information=information)
+def _page_heading(context: Context) -> Said:
+    heard = "outputs" if context.delays == "none" else "instant"
+    information = heard if context.information == "outputs" else "own"
+    yield PAGE_HEADING(n=context.n, m=context.m, time=context.time, information=information)
 
 
 @detail_rule("graphs.title", PICTURE, PICTURE_OUTPUTS)
-def _picture(given: Given) -> Said:
-    yield PICTURE_OUTPUTS() if given.information == "outputs" else PICTURE()
+def _picture(context: Context) -> Said:
+    yield PICTURE_OUTPUTS() if context.information == "outputs" else PICTURE()
 
 
 @detail_rule("graphs", PICTURE_NEIGHBORS)
-def _neighbor_edges(given: Given) -> Said:
-    if given.neighbors is not None:
-        names = given.names
-        edges = [(names[j], names[i]) for j, i in given.neighbors.edges()]
+def _neighbor_edges(context: Context) -> Said:
+    if context.neighbors is not None:
+        names = context.names
+        edges = [(names[j], names[i]) for j, i in context.neighbors.edges()]
         yield PICTURE_NEIGHBORS(arcs=edges)
 
 
 @detail_rule("graphs", PICTURE_TRANSFER, premises=("transfer_graph",))
-def _transfer_edges(transfer_graph: Claim, given: Given) -> Said:
+def _transfer_edges(transfer_graph: Claim, context: Context) -> Said:
     yield PICTURE_TRANSFER(arcs=[edge for edge in transfer_graph.arcs if edge[0] != edge[1]])
 
 
 @detail_rule("graphs", PICTURE_OBSTRUCTION, PICTURE_HEARD, premises=("fixed_spectrum",))
-def _obstruction(fixed_spectrum: Claim, given: Given) -> Said:
+def _obstruction(fixed_spectrum: Claim, context: Context) -> Said:
     """The picture marks the set of the first mode, and the outside agents that send to it."""
     for factor in fixed_spectrum.factors:
         subset = factor.channels
         if subset:
             yield PICTURE_OBSTRUCTION(s=subset, p=factor.polynomial)
-        heard = given.senders(subset) if given.neighbors is not None else []
+        heard = context.senders(subset) if context.neighbors is not None else []
         if heard:
             yield PICTURE_HEARD(heard=heard)
         break
@@ -961,19 +967,19 @@ def _obstruction(fixed_spectrum: Claim, given: Given) -> Said:
 @detail_rule(
     "dimensions.title", PICTURE_DIMENSIONS, premises=("minimal_shared_dimensions_outputs_states",)
 )
-def _dimensions_title(minimal_shared_dimensions_outputs_states: Claim, given: Given) -> Said:
+def _dimensions_title(minimal_shared_dimensions_outputs_states: Claim, context: Context) -> Said:
     if minimal_shared_dimensions_outputs_states.share == "outputs+states":
         yield PICTURE_DIMENSIONS()
 
 
 @detail_rule("latex", LATEX_NOTHING_FIXED, premises=("fixed_spectrum",))
-def _latex_nothing(fixed_spectrum: Claim, given: Given) -> Said:
+def _latex_nothing(fixed_spectrum: Claim, context: Context) -> Said:
     if empty(fixed_spectrum):
         yield LATEX_NOTHING_FIXED()
 
 
 @detail_rule("latex", LATEX_FIXED_MODE, premises=("fixed_spectrum",))
-def _latex_modes(fixed_spectrum: Claim, given: Given) -> Said:
+def _latex_modes(fixed_spectrum: Claim, context: Context) -> Said:
     for factor in fixed_spectrum.factors:
         yield LATEX_FIXED_MODE(
             p=factor.polynomial, in_A=factor.multiplicity_in_A, rank=factor.rank, s=factor.channels

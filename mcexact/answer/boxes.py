@@ -17,7 +17,7 @@ from typing import Any
 from mcexact.answer.evidence import ComplexMatrix, Cover, ExteriorDiscs, InverseFrame
 from mcexact.answer.loops import LyapunovMethod, PolynomialMethod
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
-from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template, allowed
 from mcexact.derived.constructions import ParametricLoop
 from mcexact.exact.matrix import Matrix
@@ -31,7 +31,7 @@ from mcexact.model.parametric import ParametricSystem
 class PencilGains(Part):
     """X and W, block diagonal by channel, of the pencil [λI − A, −B; XC, W].
 
-    Where it is regular, λ is no fixed mode: F = −W⁻¹X moves it, after W is moved a little if it is
+    Where it is regular, λ is no fixed mode: F = −W⁻¹X moves it, after a small change of W if W is
     singular.
 
     Attributes
@@ -48,7 +48,7 @@ class PencilGains(Part):
 
 @dataclass(frozen=True)
 class PencilFrame(Part):
-    """V about the inverse of a pencil at some λ, and weights w > 0 of its rows.
+    """V, approximately the inverse of a pencil at some λ, and weights w > 0 of its rows.
 
     Attributes
     ----------
@@ -77,8 +77,8 @@ class BoxFixedModes(Answer):
         (discrete time): every member has its fixed modes in this region.  With 0, or 1, each
         member is stabilized by a decentralized controller of its own.
     exterior : tuple of ExteriorDiscs
-        Where the eigenvalues of all members are, with gains or without: what is fixed is in a disc
-        of each.
+        Each contains the eigenvalues of all members, with gains or without; so every fixed mode is
+        in a disc of each.
     gains : tuple of PencilGains
     frames : tuple of PencilFrame
     cover : tuple of tuples of int or None
@@ -125,19 +125,19 @@ BOX_FIXED_RULES = Rulebook()
 
 
 @BOX_FIXED_RULES.rule("table", NOTHING_FIXED, premises=("box_fixed_modes",))
-def _nothing_fixed(box_fixed_modes: Claim, given: Given) -> Iterator[Sentence]:
+def _nothing_fixed(box_fixed_modes: Claim, context: Context) -> Iterator[Sentence]:
     if box_fixed_modes.bound is None:
         yield NOTHING_FIXED()
 
 
 @BOX_FIXED_RULES.rule("table", STABILIZABLE, premises=("box_stabilizability",))
-def _stabilizable(box_stabilizability: Claim, given: Given) -> Iterator[Sentence]:
+def _stabilizable(box_stabilizability: Claim, context: Context) -> Iterator[Sentence]:
     if box_stabilizability.bound is not None:
         yield STABILIZABLE()
 
 
 @BOX_FIXED_RULES.rule("table", SETPOINTS, premises=("box_setpoints",))
-def _setpoints(box_setpoints: Claim, given: Given) -> Iterator[Sentence]:
+def _setpoints(box_setpoints: Claim, context: Context) -> Iterator[Sentence]:
     if box_setpoints.bound is not None:
         yield SETPOINTS()
 
@@ -147,7 +147,7 @@ def _setpoints(box_setpoints: Claim, given: Given) -> Iterator[Sentence]:
 
 @dataclass(frozen=True)
 class RightInverseFrame(Part):
-    """R about a right inverse of [cI − A, −B_T] at some c, and weights w > 0 of its rows.
+    """R, approximately a right inverse of [cI − A, −B_T] at some c, and weights w > 0 of its rows.
 
     Attributes
     ----------
@@ -174,8 +174,8 @@ class BoxControllability(Answer):
         None: (A, B_T) is controllable for every member.  A rate ≥ 0 or a radius in (0, 1]: every
         member has its uncontrollable modes in this region.
     exterior : tuple of ExteriorDiscs
-        Where the eigenvalues of all members are, with gains from the state to the channels or
-        without: what is not controlled is in a disc of each.
+        Each contains the eigenvalues of all members, with gains from the state to the channels or
+        without; so every uncontrollable mode is in a disc of each.
     frames : tuple of RightInverseFrame
     cover : tuple of tuples of int or None
         Discs and squares that cover the first discs, each with the frame that proves it, except
@@ -211,14 +211,14 @@ BOX_CONTROLLABLE_RULES = Rulebook()
 
 
 @BOX_CONTROLLABLE_RULES.rule("table", CONTROLLABLE, premises=("box_controllability",))
-def _controllable(box_controllability: Claim, given: Given) -> Iterator[Sentence]:
-    if box_controllability.bound is None and len(box_controllability.channels) == given.m:
+def _controllable(box_controllability: Claim, context: Context) -> Iterator[Sentence]:
+    if box_controllability.bound is None and len(box_controllability.channels) == context.m:
         yield CONTROLLABLE()
 
 
 @BOX_CONTROLLABLE_RULES.rule("table", OBSERVABLE, premises=("box_observability",))
-def _observable(box_observability: Claim, given: Given) -> Iterator[Sentence]:
-    if box_observability.bound is None and len(box_observability.channels) == given.m:
+def _observable(box_observability: Claim, context: Context) -> Iterator[Sentence]:
+    if box_observability.bound is None and len(box_observability.channels) == context.m:
         yield OBSERVABLE()
 
 
@@ -237,15 +237,15 @@ class BoxStability(Answer):
         The radii of the controller's gains, as the object of a controller with the same agents;
         None if they are certain.
     nominal : PolynomialMethod or LyapunovMethod
-        That the nominal values are stable, as in the kind ``stability``.
+        Evidence that the nominal loop is stable, as in the kind ``stability``.
     points : tuple of Fraction
-        Where the upper half of the border of the region is cut.
+        The points that divide the upper half of the border of the region into segments.
     growth : tuple of int or None
         Weights of the states that exclude eigenvalues beyond the last point, in continuous time.
     segments : tuple of int
-        For each part of the border the position of its frame.
+        For each segment of the border the position of its frame.
     frames : tuple of InverseFrame
-        About the pencil of the loop in x, the controller's states, all y_i and all u_i.
+        Frames of the pencil of the loop in x, the controller's states, all y_i and all u_i.
     """
 
     bound: Fraction | None = claim("every eigenvalue of every member")
@@ -275,7 +275,7 @@ Cuts = tuple[int | None, ...]
 
 @dataclass(frozen=True)
 class FixedModesOfCell(Part):
-    """What `BoxFixedModes` needs for the plants at all values of a cell.
+    """The evidence of `BoxFixedModes` for the plants at all values of a cell.
 
     Attributes
     ----------
@@ -327,7 +327,7 @@ class ParametricBoxFixedModes(Answer):
 
 @dataclass(frozen=True)
 class ControlOfCell(Part):
-    """What `BoxControllability` needs for the plants at all values of a cell.
+    """The evidence of `BoxControllability` for the plants at all values of a cell.
 
     Attributes
     ----------
@@ -382,7 +382,7 @@ class ParametricBoxControllability(Answer):
 
 @dataclass(frozen=True)
 class StabilityOfCell(Part):
-    """What `BoxStability` needs for the loops at all values of a cell.
+    """The evidence of `BoxStability` for the loops at all values of a cell.
 
     Attributes
     ----------

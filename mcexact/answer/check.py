@@ -76,13 +76,13 @@ class Verdict(Shown, checker.Verdict):
     verdict : str
         VALID, INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in the checker.
     statement : str
-        The theorem that was proved, in words; else empty.
+        The theorem that was proved, in words; empty if the verdict is not VALID.
     statement_digest, system_digest, controller_digest : str
         The SHA-256 of the statement, of the plant, and of the controller if there is one.
     code, place, message : str
         If it is not VALID, a word for the reason, the place in the document, and a sentence.
     spent : int
-        The units of work that it took.
+        The units of work that the check took.
 
     Examples
     --------
@@ -96,9 +96,9 @@ class Verdict(Shown, checker.Verdict):
     """
 
     @classmethod
-    def of(cls, found: checker.Verdict) -> Verdict:
-        """Return the verdict that the checker found."""
-        return cls(**vars(found))
+    def of(cls, verdict: checker.Verdict) -> Verdict:
+        """Make the verdict from that of the checker."""
+        return cls(**vars(verdict))
 
     @property
     def valid(self) -> bool:
@@ -121,8 +121,8 @@ class Verdict(Shown, checker.Verdict):
         return dict(vars(self))
 
     def __repr__(self) -> str:
-        told = f"VALID: {self.statement}" if self.valid else self.line()
-        return fitting(f"Verdict({told}", shown_LINE - 1) + ")"
+        words = f"VALID: {self.statement}" if self.valid else self.line()
+        return fitting(f"Verdict({words}", shown_LINE - 1) + ")"
 
 
 # Verification by the independent checker, of answers and of files.
@@ -157,7 +157,7 @@ def check(
         claim ``{"kind": …, "claim": …}`` as in the certificate.  Such a claim is about ``system``,
         or else about the plant itself; the key ``"subject"`` names other constructions.
     timeout : float, optional
-        Seconds after which the verdict is INCOMPLETE.  A process of its own checks then.
+        Seconds after which the verdict is INCOMPLETE.  The check then runs in a separate process.
     progress : callable, optional
         It is called with a line of text before the certificate is read and checked.
 
@@ -223,13 +223,13 @@ def _in_time(text: bytes, wanted: Expectation, seconds: float) -> Found:
         if not child.connection.poll(seconds):
             message = f"not decided after {seconds:g} s (timeout= allows more)"
             return Found("INCOMPLETE", code="time", place="checker", message=message)
-        found: Found = child.connection.recv()
+        verdict: Found = child.connection.recv()
     except (EOFError, OSError):
         message = f"the process that checks ended with status {child.exit_status()}"
         return Found("INCOMPLETE", code="memory", place="checker", message=message)
     finally:
         child.end()
-    return found
+    return verdict
 
 
 def _check_in_child(connection: Any, text: bytes, wanted: Expectation) -> None:
@@ -239,9 +239,10 @@ def _check_in_child(connection: Any, text: bytes, wanted: Expectation) -> None:
 def _asked(
     where: str, ask: Callable[[bytes, reading_Limits], Expectation], data: bytes
 ) -> Expectation:
-    """The expectation with what a text adds to it, or an input error that names the argument."""
+    """The expectation that a text expresses, or an input error that names the argument."""
     try:
-        # What a file asks may come from anybody: its work is bounded as on the command line.
+        # A file may come from anybody, so the work that it requests is bounded as on the command
+        # line.
         return ask(data, replace(_limits(len(data)), work=None))
     except Refused as refused:
         raise InputError(refused.message, where=f"{where}: {refused.place}") from None
@@ -298,8 +299,8 @@ def recheck(
     files : mapping from names to texts
         Certificates, and perhaps a manifest, whose sentences are then verified.
     plant : str or mapping
-        The plant as the ``system`` object of a certificate; or of each file its own, that of the
-        manifest being the one of its sentences.
+        The plant as the ``system`` object of a certificate; or such a text for each file, where
+        that of the manifest is the plant of its sentences.
     each : callable, optional
         It is called with the name of a file and its verdict as soon as this is known.
 
@@ -315,17 +316,17 @@ def recheck(
         can be trusted.
     """
     size, verdicts = max(map(len, files.values()), default=0), {}
-    for about, found in _verdicts(files, plant, _limits(size)):
-        if found.verdict not in _ACCEPTED or found.code == "rule":
+    for about, verdict in _verdicts(files, plant, _limits(size)):
+        if verdict.verdict not in _ACCEPTED or verdict.code == "rule":
             [what] = about.values()
             raise InternalError(
-                f"the independent checker does not accept {what} ({found.line()}): "
+                f"the independent checker does not accept {what} ({verdict.line()}): "
                 "the answers of this run cannot be trusted"
             )
         if "file" in about:
-            verdicts[about["file"]] = found
+            verdicts[about["file"]] = verdict
             if each is not None:
-                each(about["file"], found)
+                each(about["file"], verdict)
     return verdicts
 
 
@@ -433,14 +434,14 @@ def load_certificate(
 def answer_of(
     document: Mapping[str, Any], plant: MultiChannelSystem | ParametricSystem | None = None
 ) -> Answer:
-    """Make the answer of a valid certificate's document, about the plant if it is given."""
+    """Make the answer from a valid certificate's document, about `plant` or the document's own."""
     known: Any = _plant(document["system"]) if plant is None else plant
     about = constructed(known, document["subject"])
     return _answer(kind_named(document["kind"]), document, about)
 
 
 def constructed(system: Any, subject: Sequence[Mapping[str, Any]]) -> Any:
-    """Apply constructions, given as plain data of a certificate, to a plant."""
+    """Apply constructions, in the plain data of a certificate, to a plant."""
     if isinstance(system, ParametricSystem):
         if subject and subject[0]["construction"] == constructions_LINE:
             step, *subject = subject
@@ -460,8 +461,8 @@ def _plant(document: Mapping[str, Any]) -> Any:
     return system_file.read_system(text, limits=_roomy(text))
 
 
-def _closed_loop(system: MultiChannelSystem, given: Mapping[str, Any]) -> MultiChannelSystem:
-    text = canonical({"format": controller.FORMAT, "system": "", **given["controller"]})
+def _closed_loop(system: MultiChannelSystem, construction: Mapping[str, Any]) -> MultiChannelSystem:
+    text = canonical({"format": controller.FORMAT, "system": "", **construction["controller"]})
     return closed_loop(system, controller.read_controller(text, _roomy(text))).system
 
 
@@ -471,8 +472,8 @@ def _roomy(text: str) -> rational_Limits:
     return rational_Limits(bytes=max(rational_Limits.bytes, len(text)), digits=digits)
 
 
-def _gains(given: Mapping[str, Any], widths: list[int]) -> list[Matrix]:
-    return [_matrix(F, ncols) for F, ncols in zip(given["gains"], widths, strict=True)]
+def _gains(construction: Mapping[str, Any], widths: list[int]) -> list[Matrix]:
+    return [_matrix(F, ncols) for F, ncols in zip(construction["gains"], widths, strict=True)]
 
 
 _CONSTRUCTIONS: Mapping[
@@ -480,20 +481,20 @@ _CONSTRUCTIONS: Mapping[
 ] = {
     "augmented_outputs": lambda system, _: augmented_outputs(system),
     "dual": lambda system, _: dual(system),
-    "feedback": lambda system, given: feedback(
-        system, _gains(given, [system.q(i) for i in range(system.m)])
+    "feedback": lambda system, data: feedback(
+        system, _gains(data, [system.q(i) for i in range(system.m)])
     ),
-    "full_output": lambda system, given: full_output(system, system.index(given["channel"])),
-    "arcs": lambda system, given: add_links(
-        system, [(system.index(j), system.index(i)) for j, i in given["added"]]
+    "full_output": lambda system, data: full_output(system, system.index(data["channel"])),
+    "arcs": lambda system, data: add_links(
+        system, [(system.index(j), system.index(i)) for j, i in data["added"]]
     ),
-    "extended": lambda system, given: extended_system(system, given["dimensions"], given["share"]),
-    "lifted": lambda system, given: lifted_system(system, given["dimensions"], given["share"]),
-    "held": lambda system, given: held_system(system, given["dimensions"]),
+    "extended": lambda system, data: extended_system(system, data["dimensions"], data["share"]),
+    "lifted": lambda system, data: lifted_system(system, data["dimensions"], data["share"]),
+    "held": lambda system, data: held_system(system, data["dimensions"]),
     "integrators": lambda system, _: setpoint_system(system),
-    "merged": lambda system, given: merged(system, given["parts"]),
-    "restricted": lambda system, given: restricted(system, given["channels"]),
-    "error": lambda system, given: error_system(system, _gains(given, [system.n] * system.m)),
+    "merged": lambda system, data: merged(system, data["parts"]),
+    "restricted": lambda system, data: restricted(system, data["channels"]),
+    "error": lambda system, data: error_system(system, _gains(data, [system.n] * system.m)),
     "closed_loop": _closed_loop,
 }
 
@@ -527,8 +528,8 @@ def _value(wanted: Any, value: Any, about: Any) -> Any:
         if issubclass(wanted, Answer):
             return _answer(wanted, value, about)
         hints = typing.get_type_hints(wanted)
-        given = [f for f in fields(wanted) if key_of(f) in value or not is_optional(f)]
-        return wanted(**{f.name: _value(hints[f.name], value[key_of(f)], about) for f in given})
+        present = [f for f in fields(wanted) if key_of(f) in value or not is_optional(f)]
+        return wanted(**{f.name: _value(hints[f.name], value[key_of(f)], about) for f in present})
     return value
 
 

@@ -64,8 +64,8 @@ class ZeroBlock(Part):
 class KrylovSequence(Part):
     """The numbers s_k = y C_q A_F^k B_q x modulo ℓ, by their least recurrence d, of degree L.
 
-    Whatever divides det(xI − A_F) for all F has a degree of at most n − L.  If L = n, no mode is
-    fixed.
+    A common divisor of det(xI − A_F) over all F has a degree of at most n − L.  If L = n, no mode
+    is fixed.
 
     Attributes
     ----------
@@ -125,7 +125,7 @@ class Block(Part):
         C_i for every channel.
     evidence : KrylovSequence, CoprimePolynomials or None
         About the system of these states and of the channels with a row of B_i and a column of C_i
-        that are not 0 there.  None if nothing is said about their modes.
+        that are not 0 there.  None if all their modes may be fixed.
     """
 
     states: tuple[int, ...]
@@ -228,7 +228,7 @@ class ExteriorDiscs(Part):
 
 @dataclass(frozen=True)
 class InverseFrame(Part):
-    """V about (cE − Z)⁻¹ for a pencil λE − Z, and weights w > 0 of the rows.
+    """V, approximately (cE − Z)⁻¹ for a pencil λE − Z, and weights w > 0 of the rows.
 
     It proves that the pencil is regular for |λ − c| ≤ ρ and all Z within radii D, wherever
     Σ_j |I − V(cE − Z)|_ij w_j + (|V|Dw)_i + ρ(|V|Ew)_i < w_i in every row i.
@@ -242,7 +242,7 @@ Cover = tuple[tuple[int | None, ...], ...]
 """For each exterior disc, in preorder: the position of a frame, or None for a cut into four."""
 
 
-# Evidence for the optimum of a covering program: it suffices, and cuts exclude less.
+# Evidence for the optimum of a covering program: it suffices, and cuts exclude anything smaller.
 
 Tree = Sequence[Mapping[str, Any]]
 """The nodes of a branch tree in preorder, as plain data and Fractions, as in ``FORMAT.md``."""
@@ -313,7 +313,7 @@ class DeficiencyCut(Part):
 
 @dataclass(frozen=True)
 class ConnectivityCut(Part):
-    """Nothing passes from the complement of s to s, so that Σ n_i over N_s∖s is at least 1.
+    """No input outside s acts on an output in s, so that Σ n_i over N_s∖s is at least 1.
 
     Attributes
     ----------

@@ -19,7 +19,7 @@ from typing import Any, Literal
 
 from mcexact.answer.analysis import Said
 from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
-from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Template
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.matrix import Matrix
@@ -39,7 +39,7 @@ class PolynomialMethod(Part):
 
 @dataclass(frozen=True)
 class LyapunovForm(Part):
-    """A Lyapunov matrix for a limit besides the rate, of a matrix that is made from a block.
+    """A Lyapunov matrix for a limit other than the rate, of a matrix derived from a block.
 
     Attributes
     ----------
@@ -321,128 +321,128 @@ EVERY_LOOP_RULES = Rulebook()
 @EVERY_LOOP_RULES.rule(
     "table", EVERY_LOOP, EVERY_LOOP_PART, EVERY_VALUE, premises=("box_stability",)
 )
-def _every_loop(box_stability: Claim, given: Given) -> Said:
+def _every_loop(box_stability: Claim, context: Context) -> Said:
     """The region of the eigenvalues of all loops: within the radii, or the ranges of parameters."""
-    region = StabilityRegion.of(given.time, bound=box_stability.bound)
-    gains = None if box_stability.gain_radii is None else given.part_of_gains
-    if given.has("parameters"):
-        yield EVERY_VALUE(region=region, parameters=given.parameters, gains=gains)
-    elif given.part_of_plant is None:
+    region = StabilityRegion.of(context.time, bound=box_stability.bound)
+    gains = None if box_stability.gain_radii is None else context.part_of_gains
+    if context.has("parameters"):
+        yield EVERY_VALUE(region=region, parameters=context.parameters, gains=gains)
+    elif context.part_of_plant is None:
         yield EVERY_LOOP(region=region, gains=gains)
     else:
-        yield EVERY_LOOP_PART(region=region, part=given.part_of_plant, gains=gains)
+        yield EVERY_LOOP_PART(region=region, part=context.part_of_plant, gains=gains)
 
 
 @EVERY_LOOP_RULES.rule(
     "table", FAILING_PLANT, FAILING_PLANT_RADII, premises=("failing_loop", "loop")
 )
-def _failing_plant(failing_loop: Claim, loop: Claim, given: Given) -> Said:
+def _failing_plant(failing_loop: Claim, loop: Claim, context: Context) -> Said:
     """How near a plant is whose loop with the same controller is not stable."""
-    if not failing_loop.stable and failing_loop.bound is None and inside(loop, given.region):
-        told = FAILING_PLANT_RADII if given.of_radii else FAILING_PLANT
-        yield told(distance=given.fails_within)
+    if not failing_loop.stable and failing_loop.bound is None and inside(loop, context.region):
+        template = FAILING_PLANT_RADII if context.of_radii else FAILING_PLANT
+        yield template(distance=context.fails_within)
 
 
 # Designs.
 
 
 @design_rule("title", OBSERVER, OBSERVER_FLOAT, NETWORK, SETPOINT, LOOP, premises=("loop",))
-def _title(loop: Claim, given: Given) -> Said:
+def _title(loop: Claim, context: Context) -> Said:
     """The heading of a design; without a certified region there is no other sentence."""
-    if not inside(loop, given.region):
+    if not inside(loop, context.region):
         yield LOOP()
-    elif given.has("solvability"):
-        yield SETPOINT(method=given.method)
-    elif given.method == "observer":
-        yield (OBSERVER if given.arithmetic == "exact" else OBSERVER_FLOAT)()
+    elif context.has("solvability"):
+        yield SETPOINT(method=context.method)
+    elif context.method == "observer":
+        yield (OBSERVER if context.arithmetic == "exact" else OBSERVER_FLOAT)()
     else:
-        yield NETWORK(kind=given.network)
+        yield NETWORK(kind=context.network)
 
 
 @design_rule("table", ORDER, ORDER_INTEGRATORS)
-def _order(given: Given) -> Said:
-    told = ORDER_INTEGRATORS if given.has("solvability") else ORDER
-    yield told(order=given.order)
+def _order(context: Context) -> Said:
+    template = ORDER_INTEGRATORS if context.has("solvability") else ORDER
+    yield template(order=context.order)
 
 
 @design_rule("table", OBSERVER_ORDER)
-def _observer_order(given: Given) -> Said:
-    if given.has("observer_order"):
-        yield OBSERVER_ORDER(order=given.observer_order)
+def _observer_order(context: Context) -> Said:
+    if context.has("observer_order"):
+        yield OBSERVER_ORDER(order=context.observer_order)
 
 
 @design_rule("table", SHARED)
-def _shared(given: Given) -> Said:
-    if given.has("network") and given.network != "decentralized":
-        yield SHARED(sizes=list(given.dimensions.items()))
+def _shared(context: Context) -> Said:
+    if context.has("network") and context.network != "decentralized":
+        yield SHARED(sizes=list(context.dimensions.items()))
 
 
 @design_rule("table", CARRIER, CARRIER_FOR)
-def _carrier(given: Given) -> Said:
-    if given.has("agent"):
-        yield CARRIER(agent=given.agent, order=given.channel_order)
-    blocks = given.blocks if given.has("blocks") else ()
-    told = CARRIER if len(blocks) == 1 else CARRIER_FOR
+def _carrier(context: Context) -> Said:
+    if context.has("agent"):
+        yield CARRIER(agent=context.agent, order=context.channel_order)
+    blocks = context.blocks if context.has("blocks") else ()
+    template = CARRIER if len(blocks) == 1 else CARRIER_FOR
     for block in blocks:
-        yield told(agent=block.agent, order=block.order, channels=block.channels)
+        yield template(agent=block.agent, order=block.order, channels=block.channels)
 
 
 @design_rule("table", ASSIGNED, premises=("loop",))
-def _assigned(loop: Claim, given: Given) -> Said:
-    if given.has("blocks") and loop.has("polynomial"):
-        for block in given.blocks:
+def _assigned(loop: Claim, context: Context) -> Said:
+    if context.has("blocks") and loop.has("polynomial"):
+        for block in context.blocks:
             if block.polynomial.divides(loop.polynomial):
                 yield ASSIGNED(p=block.polynomial)
 
 
 @design_rule("table", KEPT, premises=("loop", "fixed_spectrum"))
-def _kept(loop: Claim, fixed_spectrum: Claim, given: Given) -> Said:
+def _kept(loop: Claim, fixed_spectrum: Claim, context: Context) -> Said:
     """The fixed modes that remain under the design."""
-    if given.has("kept") and given.kept.degree and inside(loop, given.region):
+    if context.has("kept") and context.kept.degree and inside(loop, context.region):
         fixed = fixed_spectrum.polynomial
-        if all(p.divides(fixed) for p, _ in given.kept.factor()):
-            yield KEPT(p=given.kept)
+        if all(p.divides(fixed) for p, _ in context.kept.factor()):
+            yield KEPT(p=context.kept)
 
 
 @design_rule("table", FEEDBACK, premises=("loop",))
-def _feedback(loop: Claim, given: Given) -> Said:
+def _feedback(loop: Claim, context: Context) -> Said:
     if loop.has("feedback"):
         yield FEEDBACK(p=loop.feedback)
 
 
 @design_rule("table", ERRORS, premises=("loop",))
-def _errors(loop: Claim, given: Given) -> Said:
+def _errors(loop: Claim, context: Context) -> Said:
     if loop.has("error"):
         yield ERRORS(p=loop.error)
 
 
 @design_rule("table", REGION, premises=("bounded_loop",))
-def _region(bounded_loop: Claim, given: Given) -> Said:
-    loop, bound = bounded_loop, given.region.bound
-    if bound is not None and loop.bound == bound and inside(loop, given.region):
-        yield REGION(region=given.region)
+def _region(bounded_loop: Claim, context: Context) -> Said:
+    loop, bound = bounded_loop, context.region.bound
+    if bound is not None and loop.bound == bound and inside(loop, context.region):
+        yield REGION(region=context.region)
 
 
 @design_rule("table", OUTSIDE, premises=("stability",))
-def _unstable(stability: Claim, given: Given) -> Said:
-    """A loop whose prescribed spectrum is not stable was wanted, and is not to be installed."""
+def _unstable(stability: Claim, context: Context) -> Said:
+    """Warn that the loop, whose prescribed spectrum is not stable, must not be installed."""
     if not stability.stable:
-        yield OUTSIDE(region=given.region)
+        yield OUTSIDE(region=context.region)
 
 
 @design_rule("table", STEADY, premises=("loop",))
-def _steady(loop: Claim, given: Given) -> Said:
-    if given.has("solvability") and inside(loop, given.region):
+def _steady(loop: Claim, context: Context) -> Said:
+    if context.has("solvability") and inside(loop, context.region):
         yield STEADY()
 
 
 @design_rule("table", LONGEST)
-def _longest(given: Given) -> Said:
-    yield LONGEST(bits=given.bits)
+def _longest(context: Context) -> Said:
+    yield LONGEST(bits=context.bits)
 
 
 @design_rule("measured.title", MEASURED)
-def _measured(given: Given) -> Said:
+def _measured(context: Context) -> Said:
     yield MEASURED()
 
 
@@ -455,25 +455,25 @@ design_rule = DESIGN_RULES.rule
 
 
 @design_rule("title", LOOP, premises=("loop",))
-def _verdict(loop: Claim, given: Given) -> Said:
+def _verdict(loop: Claim, context: Context) -> Said:
     """The title of a verdict."""
     _ = loop.stable
     yield LOOP()
 
 
 @design_rule("table", LOOP_STATES)
-def _states(given: Given) -> Said:
-    yield LOOP_STATES(n=given.states)
+def _states(context: Context) -> Said:
+    yield LOOP_STATES(n=context.states)
 
 
 @design_rule("table", INSIDE, OUTSIDE, premises=("loop",))
-def _location(loop: Claim, given: Given) -> Said:
-    if about(loop, given.region):
-        yield (INSIDE if loop.stable else OUTSIDE)(region=given.region)
+def _location(loop: Claim, context: Context) -> Said:
+    if about(loop, context.region):
+        yield (INSIDE if loop.stable else OUTSIDE)(region=context.region)
 
 
 @design_rule("table", DECIDED, DECIDED_BLOCKS, premises=("loop",))
-def _decided(loop: Claim, given: Given) -> Said:
+def _decided(loop: Claim, context: Context) -> Said:
     """The method of the decision, and the blocks to which it was applied."""
     proof = loop.proof
     sizes = [block.size for block in proof.blocks] if proof.has("blocks") else []
@@ -481,9 +481,9 @@ def _decided(loop: Claim, given: Given) -> Said:
 
 
 @design_rule("table", LARGEST, LEAST, premises=("loop",))
-def _largest(loop: Claim, given: Given) -> Said:
-    if given.largest and loop.stable and loop.bound is not None:
-        yield (LEAST if given.region.discrete else LARGEST)(bound=loop.bound)
+def _largest(loop: Claim, context: Context) -> Said:
+    if context.largest and loop.stable and loop.bound is not None:
+        yield (LEAST if context.region.discrete else LARGEST)(bound=loop.bound)
 
 
 VERDICT = Rulebook([*DESIGN_RULES, *EVERY_LOOP_RULES])
@@ -632,7 +632,7 @@ def refusal(place: str, answer: Answer, **asked: Any) -> Impossible:
         If no rule applies to the certificate.
     """
     rules = Rulebook(rule for rule in REFUSAL_RULES if rule.place == place)
-    for sentence in rules.sentences({answer.kind: answer}, Given(answer.about, asked)):
+    for sentence in rules.sentences({answer.kind: answer}, Context(answer.about, asked)):
         return Impossible(sentence, answer)
     raise InternalError(f"no reason follows from a certificate of the kind {answer.kind}: {place}")
 
@@ -646,35 +646,35 @@ def refusal(place: str, answer: Answer, **asked: Any) -> Impossible:
     *INTEGRATORS_UNREACHED.values(),
     premises=("controllability",),
 )
-def _unreached(controllability: Claim, given: Given) -> Said:
+def _unreached(controllability: Claim, context: Context) -> Said:
     if not controllability.controllable:
         p = controllability.uncontrollable_polynomial
-        yield given.told(p=p, region=given.region if given.has("region") else None)
+        yield context.told(p=p, region=context.region if context.has("region") else None)
 
 
 @refusal_rule("not complete", ERRORS_NOT_COMPLETE, premises=("completeness",))
-def _not_complete(completeness: Claim, given: Given) -> Said:
+def _not_complete(completeness: Claim, context: Context) -> Said:
     if not completeness.complete:
         yield ERRORS_NOT_COMPLETE()
 
 
 @refusal_rule("fixed", FIXED, FIXED_SHARED, ERRORS_FIXED, premises=("fixed_spectrum",))
-def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
+def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
     """The first fixed mode that is outside the region."""
     sizes = []
     if fixed_spectrum.subject and "dimensions" in fixed_spectrum.subject[-1]:
-        sizes = list(zip(given.names, fixed_spectrum.subject[-1]["dimensions"], strict=False))
+        sizes = list(zip(context.names, fixed_spectrum.subject[-1]["dimensions"], strict=False))
     for factor in fixed_spectrum.factors:
         p = factor.polynomial
-        if not given.region.contains_roots_of(p):
-            others = [name for name in given.names if name not in factor.channels]
+        if not context.region.contains_roots_of(p):
+            others = [name for name in context.names if name not in factor.channels]
             sides = others, factor.channels
-            yield given.told(p=p, sides=sides, sizes=sizes, region=given.region)
+            yield context.told(p=p, sides=sides, sizes=sizes, region=context.region)
             return
 
 
 @refusal_rule("integrators", INTEGRATORS_FIXED, premises=("fixed_spectrum",))
-def _integrators_fixed(fixed_spectrum: Claim, given: Given) -> Said:
+def _integrators_fixed(fixed_spectrum: Claim, context: Context) -> Said:
     if fixed_spectrum.polynomial.degree:
         yield INTEGRATORS_FIXED(p=fixed_spectrum.polynomial)
 
@@ -687,27 +687,27 @@ def _integrators_fixed(fixed_spectrum: Claim, given: Given) -> Said:
     NO_CONNECTION,
     premises=("shared_dimensions",),
 )
-def _no_dimensions(shared_dimensions: Claim, given: Given) -> Said:
+def _no_dimensions(shared_dimensions: Claim, context: Context) -> Said:
     """A set of agents that need shared states and receive from no other agent."""
     if shared_dimensions.feasible:
         return
     for cut in shared_dimensions.proof.cuts:
-        subset, senders = cut.subset, given.senders(cut.subset)
+        subset, senders = cut.subset, context.senders(cut.subset)
         if senders:
             continue
-        told, p, k = NO_CONNECTION, None, 1
+        template, p, k = NO_CONNECTION, None, 1
         if cut.has("polynomial"):
-            told, p, k = NO_DIMENSIONS, cut.polynomial, cut.deficiency
-            if len(subset) in {0, given.m}:
-                told = NOT_OBSERVED if subset else NOT_CONTROLLED
-        yield told(agents=subset, senders=senders, k=k, p=p)
+            template, p, k = NO_DIMENSIONS, cut.polynomial, cut.deficiency
+            if len(subset) in {0, context.m}:
+                template = NOT_OBSERVED if subset else NOT_CONTROLLED
+        yield template(agents=subset, senders=senders, k=k, p=p)
         return
 
 
 @refusal_rule("outside", REFUSED_OUTSIDE, premises=("stability",))
-def _outside(stability: Claim, given: Given) -> Said:
-    if not stability.stable and about(stability, given.region):
-        yield REFUSED_OUTSIDE(region=given.region)
+def _outside(stability: Claim, context: Context) -> Said:
+    if not stability.stable and about(stability, context.region):
+        yield REFUSED_OUTSIDE(region=context.region)
 
 
 @refusal_rule(
@@ -717,10 +717,10 @@ def _outside(stability: Claim, given: Given) -> Said:
     MODE_OF_THE_INTEGRATORS,
     premises=("setpoint",),
 )
-def _no_equilibrium(setpoint: Claim, given: Given) -> Said:
+def _no_equilibrium(setpoint: Claim, context: Context) -> Said:
     if not setpoint.solvable:
         zero = setpoint.invariant_zero
-        told = NO_EQUILIBRIUM_ZERO if zero else NO_EQUILIBRIUM
-        if not given.combinations:
-            told = MODE_OF_THE_INTEGRATORS
-        yield told(w=given.combinations, place=steady_point(given.time))
+        template = NO_EQUILIBRIUM_ZERO if zero else NO_EQUILIBRIUM
+        if not context.combinations:
+            template = MODE_OF_THE_INTEGRATORS
+        yield template(w=context.combinations, place=steady_point(context.time))

@@ -5,9 +5,10 @@ evidence has two forms: `TwoPolynomials` compares the characteristic polynomials
 closed loop, and `ByBlocks` bounds the number of fixed modes for each block of states, without the
 characteristic polynomial of A, for large systems with few nonzero entries.
 
-`Completeness` is no fixed mode and a strongly connected transfer graph, with evidence for yes or
-for no.  `PencilRank` is the rank of one pencil at the roots of a polynomial.  `Assignability` says
-how the characteristic polynomial of every loop splits over the strong components.
+`Completeness` says whether no mode is fixed and the transfer graph is strongly connected, with
+evidence for yes or for no.  `PencilRank` is the rank of one pencil at the roots of a polynomial.
+`Assignability` says how the characteristic polynomial of every loop splits over the strong
+components.
 """
 
 from __future__ import annotations
@@ -69,12 +70,12 @@ class Completion(Part):
 
 @dataclass(frozen=True)
 class ByBlocks(Part):
-    """Evidence block by block: no more is fixed than the factors, n − rank times each.
+    """Evidence by blocks of states: only the factors are fixed, each at most n − rank times.
 
     Attributes
     ----------
     blocks : tuple of Block
-        They leave as many modes as the degrees of the factors, each taken n − rank times.
+        The modes that may be fixed by them are as many as the factors have, each n − rank times.
     modulus : int or None
         ℓ ≥ 2, modulo which no two factors have a common root and none has a multiple one; None if
         there is no factor.
@@ -89,7 +90,7 @@ class ByBlocks(Part):
 
 @dataclass(frozen=True)
 class TwoPolynomials(Part):
-    """Evidence by two characteristic polynomials: gains move all that is no factor.
+    """Evidence by two characteristic polynomials: gains move every root of no factor.
 
     Attributes
     ----------
@@ -130,7 +131,7 @@ class FixedSpectrum(Answer):
         Encloses minus the largest real part (continuous time) or the largest modulus (discrete
         time) of the fixed modes; None if there is none.
     evidence : ByBlocks or TwoPolynomials
-        The second where the blocks leave more than the factors.
+        The second where the bound by blocks exceeds the degrees of the factors.
     """
 
     polynomial: Polynomial = claim()

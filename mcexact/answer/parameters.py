@@ -23,7 +23,7 @@ from typing import Any
 
 from mcexact.answer.evidence import RootDisc, ZeroBlock
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
-from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template, blame, polynomial_in_x
 from mcexact.errors import InputError
 from mcexact.exact.linear_algebra import PolynomialMatrix
@@ -963,23 +963,23 @@ class Values:
         return {"every": self.almost, "where": self.where}
 
 
-def values_of(claims: Iterable[Claim], given: Given) -> Values:
+def values_of(claims: Iterable[Claim], context: Context) -> Values:
     """The exceptional values of certificates about one parameter."""
     where: dict[str, None] = {}
-    every = f"every value of {given.parameter}{given.apart}"
+    every = f"every value of {context.parameter}{context.apart}"
     for certified in claims:
         if [each.value for each in certified.outside]:
-            every = f"every value of {given.parameters}{given.apart}"
+            every = f"every value of {context.parameters}{context.apart}"
         for each in certified.exceptional:
-            where[value_text(each.value, [*each.roots], given.parameter)] = None
+            where[value_text(each.value, [*each.roots], context.parameter)] = None
     return Values(every, tuple(where))
 
 
-def scaled(given: Given) -> str:
+def scaled(context: Context) -> str:
     """The words for what modes are divided by; empty unless A has denominators."""
-    if given.scale.degree < 1:
+    if context.scale.degree < 1:
         return ""
-    return f", divided by {in_parameter(given.scale, given.parameter)}"
+    return f", divided by {in_parameter(context.scale, context.parameter)}"
 
 
 def fixed(modes: str, values: Values) -> Said:
@@ -1067,99 +1067,99 @@ def setpoints(rank: int, full: int, values: Values, t: str) -> Said:
 
 
 @rule("title", HEADING)
-def _heading(given: Given) -> Said:
-    yield heading(given)
+def _heading(context: Context) -> Said:
+    yield heading(context)
 
 
-def heading(given: Given) -> Sentence:
+def heading(context: Context) -> Sentence:
     """The sizes of the system, and its parameters."""
     return HEADING(
-        name=given.name or "system",
-        n=given.n,
-        m=given.m,
-        names=given.names,
-        time=given.time,
-        parameters=given.parameters,
-        undefined=given.undefined,
+        name=context.name or "system",
+        n=context.n,
+        m=context.m,
+        names=context.names,
+        time=context.time,
+        parameters=context.parameters,
+        undefined=context.undefined,
     )
 
 
-def modes_of(spectrum: Claim, given: Given) -> str:
+def modes_of(spectrum: Claim, context: Context) -> str:
     """The generic modes of a certificate, with what all are divided by; nothing if it has none."""
-    modes = ", ".join(mode_text(p, given.parameter) for p in spectrum.generic)
-    return modes and modes + scaled(given)
+    modes = ", ".join(mode_text(p, context.parameter) for p in spectrum.generic)
+    return modes and modes + scaled(context)
 
 
 RANGE_RULES = Rulebook()
 """The rules about all values within ranges, of which there may be several."""
 
 
-def _within_ranges(question: str, holds: Callable[[Claim, Given], bool]) -> None:
+def _within_ranges(question: str, holds: Callable[[Claim, Context], bool]) -> None:
     @RANGE_RULES.rule("answer", RANGES[question], premises=(question,))
-    def _said(found: Claim, given: Given) -> Said:
-        if holds(found, given):
-            yield RANGES[question](parameters=given.parameters)
+    def _said(found: Claim, context: Context) -> Said:
+        if holds(found, context):
+            yield RANGES[question](parameters=context.parameters)
 
 
-_within_ranges("box_fixed_modes", lambda found, given: found.bound is None)
-_within_ranges("box_stabilizability", lambda found, given: found.bound is not None)
+_within_ranges("box_fixed_modes", lambda found, context: found.bound is None)
+_within_ranges("box_stabilizability", lambda found, context: found.bound is not None)
 for each in ("box_controllability", "box_observability"):
     _within_ranges(
-        each, lambda found, given: found.bound is None and len(found.channels) == given.m
+        each, lambda found, context: found.bound is None and len(found.channels) == context.m
     )
 RULES.extend(RANGE_RULES)
 
 
 @rule("answer", FIXED, NOTHING_FIXED, premises=("fixed_spectrum",))
-def _fixed(fixed_spectrum: Claim, given: Given) -> Said:
-    yield from fixed(modes_of(fixed_spectrum, given), values_of([fixed_spectrum], given))
+def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
+    yield from fixed(modes_of(fixed_spectrum, context), values_of([fixed_spectrum], context))
 
 
 @rule("answer", ANOTHER, premises=("fixed_spectrum",))
-def _another(fixed_spectrum: Claim, given: Given) -> Said:
-    yield from another(modes_of(fixed_spectrum, given), values_of([fixed_spectrum], given))
+def _another(fixed_spectrum: Claim, context: Context) -> Said:
+    yield from another(modes_of(fixed_spectrum, context), values_of([fixed_spectrum], context))
 
 
 def _of_modes(question: str) -> None:
     @rule("table", *MODES[question], premises=(question,))
-    def _row(found: Claim, given: Given) -> Said:
-        yield from in_table(question, modes_of(found, given), values_of([found], given))
+    def _row(found: Claim, context: Context) -> Said:
+        yield from in_table(question, modes_of(found, context), values_of([found], context))
 
 
 for each in ("joint_controllability", "joint_observability"):
     _of_modes(each)
 
 
-def _columns(edges: Iterable[Claim], given: Given) -> list[tuple[Edge, int, Values]]:
+def _columns(edges: Iterable[Claim], context: Context) -> list[tuple[Edge, int, Values]]:
     return [
-        ((getattr(each.matrix, "from"), each.matrix.to), each.rank, values_of([each], given))
+        ((getattr(each.matrix, "from"), each.matrix.to), each.rank, values_of([each], context))
         for each in edges
     ]
 
 
 @rule("table", *GRAPH, premises=("transfer_graph",))
-def _graph(transfer_graph: Iterable[Claim], given: Given) -> Said:
-    yield from graph(_columns(transfer_graph, given))
+def _graph(transfer_graph: Iterable[Claim], context: Context) -> Said:
+    yield from graph(_columns(transfer_graph, context))
 
 
 _of_modes("fixed_spectrum")
 
 
 @rule("table", *COMPLETE, premises=("fixed_spectrum", "transfer_graph"))
-def _complete(fixed_spectrum: Claim, transfer_graph: Iterable[Claim], given: Given) -> Said:
+def _complete(fixed_spectrum: Claim, transfer_graph: Iterable[Claim], context: Context) -> Said:
     yield from complete(
-        given.names,
-        modes_of(fixed_spectrum, given),
-        values_of([fixed_spectrum], given),
-        _columns(transfer_graph, given),
-        given.parameter,
+        context.names,
+        modes_of(fixed_spectrum, context),
+        values_of([fixed_spectrum], context),
+        _columns(transfer_graph, context),
+        context.parameter,
     )
 
 
 def _of_indices(name: str) -> None:
     @rule("table", *INDICES[name], premises=(f"{name}_indices",))
-    def _row(found: Iterable[Claim], given: Given) -> Said:
-        parts = [(each.rank, values_of([each], given)) for each in found]
+    def _row(found: Iterable[Claim], context: Context) -> Said:
+        parts = [(each.rank, values_of([each], context)) for each in found]
         every = max((values.every for _, values in parts), key=len)
         where = dict.fromkeys(at for _, values in parts for at in values.where)
         yield from indices(name, [rank for rank, _ in parts], Values(every, tuple(where)))
@@ -1170,9 +1170,9 @@ for each in INDICES:
 
 
 @rule("table", *SETPOINT, premises=("setpoint",))
-def _setpoints(setpoint: Claim, given: Given) -> Said:
-    values = values_of([setpoint], given)
-    yield from setpoints(setpoint.rank, given.n + given.outputs, values, given.parameter)
+def _setpoints(setpoint: Claim, context: Context) -> Said:
+    values = values_of([setpoint], context)
+    yield from setpoints(setpoint.rank, context.n + context.outputs, values, context.parameter)
 
 
 for each in ("channel_controllability", "channel_observability"):

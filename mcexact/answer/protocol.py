@@ -138,7 +138,7 @@ def flat(value: Any) -> Any:
 
 
 def displayed(value: Any) -> Any:
-    """Return a value as notebooks show it: parts as a table, and what is long shortened."""
+    """Return a value as notebooks show it: parts as a table, and long values shortened."""
     if isinstance(value, tuple) and value and len(value) <= _MOST and _is_part(value[0]):
         return Parts(value)
     if isinstance(value, (bool, Matrix, Polynomial)) or _is_part(value):
@@ -200,7 +200,7 @@ def claim(label: str = "", *, key: str = "", optional: bool = False) -> Any:
     key : str
         Its key in the certificate, if that is not the name of the field.
     optional : bool
-        By default it is None, and then the certificate leaves it out.
+        Whether the field is None by default; the certificate then leaves it out.
     """
     metadata = {"role": "claim", "label": label, "key": key, "optional": optional}
     default: Any = None if optional else dataclasses.MISSING
@@ -247,7 +247,7 @@ class Part(Shown):
         return _by_key(self, dataclasses.fields(self))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the same as plain data."""
+        """Return the object as plain data."""
         return {key: plain_view(value) for key, value in self.document().items()}
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
@@ -286,14 +286,14 @@ class Answer(Shown):
 
     @classmethod
     def known(cls, argument: Any, system: Any, where: str) -> Self | None:
-        """An argument that is this answer about a system, if it is known; None if it is not.
+        """Return an argument that has to be None or an answer of this kind about a system.
 
-        Radii are of no account: answers about a box are searched beside that about its center.
+        Radii are not compared: the search about a box takes the answer about its center.
 
         Raises
         ------
         InputError
-            If it is another answer.
+            If it is an answer of another kind.
         UsageError
             If it is about another system.
         """
@@ -346,7 +346,7 @@ class Answer(Shown):
         return {key: plain_view(value) for key, _, value in self.entries()}
 
     def to_row(self) -> dict[str, Any]:
-        """Return one flat row for a table: of long claims, such as factors, their number.
+        """Return one flat row for a table; a long claim, such as factors, becomes their number.
 
         Examples
         --------
@@ -385,8 +385,8 @@ class Answer(Shown):
     def explain(self) -> str:
         """Say in plain words what is decided, in the sentences of `analyze`.
 
-        An answer about which these have no sentence is stated as a theorem, in the words of the
-        independent checker, which verifies it for this.
+        If there is no sentence about this answer, the text is the statement of the independent
+        checker, which verifies the answer first.
         """
         module, name = _EXPLAINED
         words: str = getattr(importlib.import_module(module), name)(self)

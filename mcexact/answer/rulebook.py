@@ -16,7 +16,7 @@ from mcexact.answer import (
     sharing,
     sharing_gap,
 )
-from mcexact.answer.sentence import Given, Rulebook
+from mcexact.answer.sentence import Context, Rulebook
 from mcexact.answer.templates import Template, templates
 
 if TYPE_CHECKING:
@@ -61,12 +61,12 @@ _OUTPUTS = "augmented_outputs"
 
 def question_of(answer: Answer) -> str:
     """Return the question that rules about an answer name; empty if it depends on the caller."""
-    made = [each["construction"] for each in answer.subject]
-    if (answer.kind, made) == ("box_fixed", ["integrators"]):
+    constructions = [each["construction"] for each in answer.subject]
+    if (answer.kind, constructions) == ("box_fixed", ["integrators"]):
         return "box_setpoints"
-    if made not in ([], ["dual"], [_OUTPUTS], [_OUTPUTS, "dual"]):
+    if constructions not in ([], ["dual"], [_OUTPUTS], [_OUTPUTS, "dual"]):
         return ""
-    claim, dual = answer.claim(), made[-1:] == ["dual"]
+    claim, dual = answer.claim(), constructions[-1:] == ["dual"]
     if answer.kind == "controllability":
         whose = "joint" if len(claim["channels"]) == answer.about.m else "channel"
         return f"{whose}_{'observability' if dual else 'controllability'}"
@@ -87,26 +87,26 @@ def explained(answer: Answer) -> str:
     """Return the sentences about an answer, or else the statement that the checker verifies."""
     name = question_of(answer)
     own = "outputs" if any(each["construction"] == _OUTPUTS for each in answer.subject) else "own"
-    given = Given(answer.about.plant, {"information": own})
+    context = Context(answer.about.plant, {"information": own})
     rules = with_own(ANALYSIS, {name: answer})
-    said = [
+    sentences = [
         each
         for rule in rules
         if name and rule.premises
-        for each in rule.apply({name: answer}, given, ())
+        for each in rule.apply({name: answer}, context, ())
         if each.place in _PLACES
     ]
-    if said:
-        return in_words(said)
+    if sentences:
+        return in_words(sentences)
     from mcexact.answer.check import check
 
-    found = check(answer)
-    return found.statement or found.line()
+    verdict = check(answer)
+    return verdict.statement or verdict.line()
 
 
-def in_words(said: Iterable[Sentence]) -> str:
+def in_words(sentences: Iterable[Sentence]) -> str:
     """Return sentences, one a line, each after its label if it has one."""
-    return "\n".join(each.line for each in said)
+    return "\n".join(each.line for each in sentences)
 
 
 # The list of all sentences, which is written to `SENTENCES.md`.

@@ -93,18 +93,18 @@ def view_schema(kind: type[Answer]) -> Schema:
         shown = vars(kind)[name]
         get = shown.func if isinstance(shown, cached_property) else shown.fget
         typed[name] = typing.get_type_hints(get)["return"]
-    made = _object(typed | {"certificate": str}, "view")
-    return _without_optional(made, fields_of(kind, "claim"))
+    schema = _object(typed | {"certificate": str}, "view")
+    return _without_optional(schema, fields_of(kind, "claim"))
 
 
 def view_schemas(kind: type[Answer]) -> list[Schema]:
     """The schema of the view, and that of an answer about a dual system, if it has other keys."""
-    made = view_schema(kind)
+    schema = view_schema(kind)
     if not kind.dual_keys:
-        return [made]
-    named = {kind.dual_keys.get(key, key): each for key, each in made["properties"].items()}
-    required = [kind.dual_keys.get(key, key) for key in made["required"]]
-    return [made, made | {"properties": named, "required": required}]
+        return [schema]
+    named = {kind.dual_keys.get(key, key): each for key, each in schema["properties"].items()}
+    required = [kind.dual_keys.get(key, key) for key in schema["required"]]
+    return [schema, schema | {"properties": named, "required": required}]
 
 
 def _typed(kind: type[Any], fields: Sequence[dataclasses.Field[Any]]) -> dict[str, Any]:
@@ -118,14 +118,14 @@ def _of_fields(kind: type[Any], fields: Sequence[dataclasses.Field[Any]], form: 
     return _without_optional(_object(_typed(kind, fields), form), fields)
 
 
-def _without_optional(made: Schema, fields: Sequence[dataclasses.Field[Any]]) -> Schema:
-    """Let keys be left out, and never null, where their fields say so."""
+def _without_optional(schema: Schema, fields: Sequence[dataclasses.Field[Any]]) -> Schema:
+    """Make the keys of optional fields optional, and never null."""
     for key in (key_of(each) for each in fields if is_optional(each)):
-        made["required"].remove(key)
-        [made["properties"][key]] = [
-            each for each in made["properties"][key]["anyOf"] if each != _PLAIN[type(None)]
+        schema["required"].remove(key)
+        [schema["properties"][key]] = [
+            each for each in schema["properties"][key]["anyOf"] if each != _PLAIN[type(None)]
         ]
-    return made
+    return schema
 
 
 def _object(typed: Mapping[str, Any], form: Form) -> Schema:

@@ -4,7 +4,7 @@ A `Rule` is a generator that takes the answers that it names as premises, and yi
 sees an answer only as a `Claim`, which records the place and the value of all that is read.  So
 each sentence knows the values that it depends on, and `manifest` writes them beside it; the checker
 verifies the sentence by rules of its own.  What a rule may repeat without a premise, such as names
-and sizes, is in `Given`.
+and sizes, is in `Context`.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ F = TypeVar("F", bound=Callable[..., Iterator[Sentence]])
 
 
 @dataclass(frozen=True)
-class Given:
-    """The user's input, which a sentence may repeat without a premise.
+class Context:
+    """The context of sentences: the user's input, which they may repeat without a premise.
 
     Attributes
     ----------
@@ -104,7 +104,7 @@ class Claim:
         return key in self._value
 
     def ordered(self, by: str) -> Iterator[Any]:
-        """Return the members in the order of one of their values, which is no premise."""
+        """Return the members in the order of one of their values, not read as a premise."""
         places = sorted(range(len(self._value)), key=lambda k: _keys(self._value[k])[by])
         return _each(self._read, [self._part(k) for k in places])
 
@@ -175,7 +175,7 @@ class Rule:
     templates : tuple of Template
         The templates that it may use.
     says : callable
-        A function that yields sentences; it takes the claims of the premises, and ``given``.
+        A function that yields sentences; it takes the claims of the premises, and the `Context`.
     premises : tuple of str
         The questions whose answers it reads, in the order of its arguments.
     missing : str
@@ -189,7 +189,7 @@ class Rule:
     missing: str
 
     def apply(
-        self, answers: Mapping[str, Answer], given: Given, missing: Collection[str]
+        self, answers: Mapping[str, Answer], context: Context, missing: Collection[str]
     ) -> Iterator[Sentence]:
         """Return the sentences that follow, each with its premises."""
         if self.missing and self.missing not in missing:
@@ -198,7 +198,7 @@ class Rule:
         claims = [_claims(question, answers, read) for question in self.premises]
         if any(claim is None for claim in claims):
             return
-        for sentence in self.says(*claims, given):
+        for sentence in self.says(*claims, context):
             because = tuple((*at, plain(value)) for at, value in read.items())
             yield sentence.bound(self.place, because)
 
@@ -244,11 +244,11 @@ class Rulebook(list[Rule]):
         return enter
 
     def sentences(
-        self, answers: Mapping[str, Answer], given: Given, missing: Collection[str] = ()
+        self, answers: Mapping[str, Answer], context: Context, missing: Collection[str] = ()
     ) -> Sentences:
         """Return all sentences that follow from answers, keyed by questions."""
         return Sentences(
-            sentence for rule in self for sentence in rule.apply(answers, given, missing)
+            sentence for rule in self for sentence in rule.apply(answers, context, missing)
         )
 
 

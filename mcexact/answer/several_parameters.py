@@ -49,7 +49,7 @@ from mcexact.answer.parameters import (
     value_text,
     within,
 )
-from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, blame, polynomial_in_x
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_latex, rational_text
@@ -436,25 +436,25 @@ RULES = Rulebook()
 
 
 @RULES.rule("title", say.HEADING)
-def _heading(given: Given) -> Said:
-    yield heading(given)
+def _heading(context: Context) -> Said:
+    yield heading(context)
 
 
 RULES.extend(RANGE_RULES)
 
 
-def _almost(question: str, place: str, holds: Callable[[Claim, Given], bool]) -> None:
+def _almost(question: str, place: str, holds: Callable[[Claim, Context], bool]) -> None:
     """Add the rule of a sentence about almost all values that one certificate implies."""
 
     @RULES.rule(place, say.ALMOST[question], premises=(question,))
-    def _said(found: Iterable[Claim], given: Given) -> Said:
+    def _said(found: Iterable[Claim], context: Context) -> Said:
         for each in found:
-            if holds(each, given):
-                yield say.ALMOST[question](parameters=given.parameter)
+            if holds(each, context):
+                yield say.ALMOST[question](parameters=context.parameter)
                 return
 
 
-def _nothing(found: Claim, given: Given) -> bool:
+def _nothing(found: Claim, context: Context) -> bool:
     return not len(found.generic)
 
 
@@ -462,7 +462,9 @@ _almost("fixed_spectrum", "answer", _nothing)
 for each in MODES:
     if each != "fixed_spectrum":
         _almost(each, "proved", _nothing)
-_almost("setpoint", "proved", lambda found, given: bool(found.rank == given.n + given.outputs))
+_almost(
+    "setpoint", "proved", lambda found, context: bool(found.rank == context.n + context.outputs)
+)
 
 
 def _edges(found: Iterable[Claim]) -> list[Edge]:
@@ -472,28 +474,28 @@ def _edges(found: Iterable[Claim]) -> list[Edge]:
 
 
 @RULES.rule("proved", say.ALMOST["transfer_graph"], premises=("transfer_graph",))
-def _graph(transfer_graph: Iterable[Claim], given: Given) -> Said:
+def _graph(transfer_graph: Iterable[Claim], context: Context) -> Said:
     if edges := _edges(transfer_graph):
-        yield say.ALMOST["transfer_graph"](parameters=given.parameter, edges=edges)
+        yield say.ALMOST["transfer_graph"](parameters=context.parameter, edges=edges)
 
 
 @RULES.rule("proved", say.ALMOST["completeness"], premises=("fixed_spectrum", "transfer_graph"))
 def _completeness(
-    fixed_spectrum: Iterable[Claim], transfer_graph: Iterable[Claim], given: Given
+    fixed_spectrum: Iterable[Claim], transfer_graph: Iterable[Claim], context: Context
 ) -> Said:
-    free = any(_nothing(each, given) for each in fixed_spectrum)
-    if free and connects(given.names, _edges(transfer_graph)):
-        yield say.ALMOST["completeness"](parameters=given.parameter)
+    free = any(_nothing(each, context) for each in fixed_spectrum)
+    if free and connects(context.names, _edges(transfer_graph)):
+        yield say.ALMOST["completeness"](parameters=context.parameter)
 
 
-def _on_line(question: str, told: Callable[[Claim, str, Given], str]) -> None:
+def _on_line(question: str, told: Callable[[Claim, str, Context], str]) -> None:
     """Add the rule that repeats what each certificate says of its line."""
 
     @RULES.rule("line", say.ON_LINE[question], premises=(question,))
-    def _said(found: Iterable[Claim], given: Given) -> Said:
+    def _said(found: Iterable[Claim], context: Context) -> Said:
         for each in found:
             line, s = _line(each.subject[0])
-            yield say.ON_LINE[question](line=line, found=told(each, s, given))
+            yield say.ON_LINE[question](line=line, found=told(each, s, context))
 
 
 def _line(step: Mapping[str, Any]) -> tuple[str, str]:
@@ -510,15 +512,15 @@ def _conditions(found: Claim, s: str) -> str:
     return " or ".join(value_text(each.value, each.roots, s) for each in found.exceptional)
 
 
-def _modes_there(found: Claim, s: str, given: Given) -> str:
+def _modes_there(found: Claim, s: str, context: Context) -> str:
     """The modes for every value of s, and where others are."""
     modes = ", ".join(mode_text(p, s) for p in found.generic)
-    always = f"the roots of {modes}{given.divided}" if modes else "none"
+    always = f"the roots of {modes}{context.divided}" if modes else "none"
     where = _conditions(found, s)
     return always + (f"{'; others, too,' if modes else ', but'} where {where}" if where else "")
 
 
-def _ranks_there(found: Claim, s: str, given: Given) -> str:
+def _ranks_there(found: Claim, s: str, context: Context) -> str:
     """The rank for almost every value of s, and where it is less."""
     matrix, where = found.matrix, _conditions(found, s)
     named = ""
@@ -533,37 +535,37 @@ for each in say.ON_LINE:
     _on_line(each, _modes_there if each in MODES else _ranks_there)
 
 
-def sentences_of_several(answers: Mapping[str, Any], given: Given) -> Iterator[Sentence]:
+def sentences_of_several(answers: Mapping[str, Any], context: Context) -> Iterator[Sentence]:
     """Yield the sentences that no certificate implies, each with its place."""
     if "fixed_spectrum" in answers:
         spectrum = answers["fixed_spectrum"]
-        modes, values = _hypersurface_modes(spectrum), _values(spectrum, given)
+        modes, values = _hypersurface_modes(spectrum), _values(spectrum, context)
         for said in (*(fixed(modes, values) if modes else ()), *another(modes, values)):
             yield said.bound("answer", ())
     for name, decided in answers.items():
         if name.startswith("box_"):  # it is about ranges, and not about almost all values
             continue
-        for said in _row(name, decided, answers, given):
+        for said in _row(name, decided, answers, context):
             yield said.bound("table", ())
 
 
-def _row(name: str, answer: Any, answers: Mapping[str, Any], given: Given) -> Said:
-    t = given.parameter
+def _row(name: str, answer: Any, answers: Mapping[str, Any], context: Context) -> Said:
+    t = context.parameter
     if name in MODES:
-        yield from in_table(name, _hypersurface_modes(answer), _values(answer, given))
+        yield from in_table(name, _hypersurface_modes(answer), _values(answer, context))
     elif name == "setpoint":
-        values = _values(answer, given)
-        yield from setpoints(answer.rank, given.n + given.outputs, values, t)
+        values = _values(answer, context)
+        yield from setpoints(answer.rank, context.n + context.outputs, values, t)
     elif name == "transfer_graph":
-        yield from graph(_hypersurface_columns(answer, given))
+        yield from graph(_hypersurface_columns(answer, context))
     elif name == "completeness":
-        modes, values = _hypersurface_modes(answer.spectrum), _values(answer.spectrum, given)
+        modes, values = _hypersurface_modes(answer.spectrum), _values(answer.spectrum, context)
         yield from complete(
-            given.names, modes, values, _hypersurface_columns(answer.graph, given), t
+            context.names, modes, values, _hypersurface_columns(answer.graph, context), t
         )
     else:
-        where = dict.fromkeys(at for each in answer for at in _values(each, given).where)
-        values = Values(_every(given), tuple(where))
+        where = dict.fromkeys(at for each in answer for at in _values(each, context).where)
+        values = Values(_every(context), tuple(where))
         ranks = [each.rank for each in answer]
         yield from indices(name.removesuffix("_indices"), ranks, values)
 
@@ -573,13 +575,13 @@ def _hypersurface_modes(spectrum: Any) -> str:
     return modes and modes + spectrum.divided
 
 
-def _every(given: Given) -> str:
-    return f"almost all values of {given.parameter}"
+def _every(context: Context) -> str:
+    return f"almost all values of {context.parameter}"
 
 
-def _values(answer: Hypersurfaces[Any], given: Given) -> Values:
-    return Values(_every(given), tuple(map(str, answer.hypersurfaces)))
+def _values(answer: Hypersurfaces[Any], context: Context) -> Values:
+    return Values(_every(context), tuple(map(str, answer.hypersurfaces)))
 
 
-def _hypersurface_columns(found: Any, given: Given) -> list[Any]:
-    return [(edge, each.rank, _values(each, given)) for edge, each in found.columns.items()]
+def _hypersurface_columns(found: Any, context: Context) -> list[Any]:
+    return [(edge, each.rank, _values(each, context)) for edge, each in found.columns.items()]

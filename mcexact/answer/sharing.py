@@ -28,7 +28,7 @@ from mcexact.answer.evidence import (
     Tree,
 )
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
-from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -88,7 +88,7 @@ class RankLoss(Part):
 
 @dataclass(frozen=True)
 class ByBlocks(Part):
-    """Evidence block by block: no more is fixed than the factors, as often as they lose rank.
+    """Evidence by blocks of states: only the factors are fixed, at most as often as they lose rank.
 
     Attributes
     ----------
@@ -121,7 +121,8 @@ class Deficiency(Answer):
         plant is jointly controllable and observable, the extended system with n_i ≥ ρ for every
         agent has no fixed mode.
     evidence : ByCompletion or ByBlocks
-        The second for large systems, where the blocks leave no more than the factors.
+        The second for large systems, if the bound by blocks does not exceed the degrees of the
+        factors.
     """
 
     deficiency: int = claim()
@@ -152,7 +153,7 @@ class Deficiency(Answer):
 
 @answer("shared_dimensions")
 class SharedDimensions(Answer):
-    """The least dimensions for which the extended system has no fixed mode, or that none suffice.
+    """The least dimensions with which the extended system has no fixed mode, if any exist.
 
     Attributes
     ----------
@@ -255,11 +256,11 @@ def _rule(share: str) -> None:
     question = f"common_dimension_{share.replace('+', '_')}"
 
     @COMMON_DIMENSION_RULES.rule("table", some, none, impossible, premises=(question,))
-    def least(found: Claim, given: Given) -> Iterator[Sentence]:
-        k = found.dimension
-        if found.share == share:
-            told = impossible if k is None else some if k else none
-            yield told(k=k, total=k and k * given.m, time=given.delays)
+    def least(claim: Claim, context: Context) -> Iterator[Sentence]:
+        k = claim.dimension
+        if claim.share == share:
+            template = impossible if k is None else some if k else none
+            yield template(k=k, total=k and k * context.m, time=context.delays)
 
 
 for way in WORDS:
@@ -271,7 +272,7 @@ for way in WORDS:
 
 @answer("communication")
 class MinimalCommunication(Answer):
-    """The cheapest links with which no mode is fixed, or that no candidates suffice.
+    """The cheapest links with which no mode is fixed, or the fact that no candidates suffice.
 
     Attributes
     ----------
@@ -328,35 +329,35 @@ sharing_rule = SHARING_RULES.rule
 
 @sharing_rule(
     "table",
-    *[told for key, told in say.TABLE_LINKS.items() if key != "limit"],
+    *[template for key, template in say.TABLE_LINKS.items() if key != "limit"],
     premises=("minimal_communication",),
 )
-def _links_in_the_table(minimal_communication: Claim, given: Given) -> Said:
-    found = minimal_communication
-    if fewest(found):
-        which = "impossible" if found.added is None else "some" if found.added else "none"
-        yield say.TABLE_LINKS[which](added=found.added, time=given.delays)
+def _links_in_the_table(minimal_communication: Claim, context: Context) -> Said:
+    links = minimal_communication
+    if fewest(links):
+        which = "impossible" if links.added is None else "some" if links.added else "none"
+        yield say.TABLE_LINKS[which](added=links.added, time=context.delays)
 
 
 @sharing_rule("table", say.TABLE_LINKS["limit"], missing="minimal_communication")
-def _links_open(given: Given) -> Said:
+def _links_open(context: Context) -> Said:
     yield say.TABLE_LINKS["limit"]()
 
 
 @sharing_rule("table", say.CONNECTED, say.NOT_CONNECTED, premises=("neighbor_graph",))
-def _connected(neighbor_graph: Claim, given: Given) -> Said:
+def _connected(neighbor_graph: Claim, context: Context) -> Said:
     yield say.CONNECTED() if neighbor_graph.strongly_connected else say.NOT_CONNECTED()
 
 
 @sharing_rule("table", say.NEVER_CONTROLLED, premises=("joint_controllability",))
-def _never_controlled(joint_controllability: Claim, given: Given) -> Said:
-    if given.neighbors is not None and not joint_controllability.controllable:
+def _never_controlled(joint_controllability: Claim, context: Context) -> Said:
+    if context.neighbors is not None and not joint_controllability.controllable:
         yield say.NEVER_CONTROLLED(p=joint_controllability.uncontrollable_polynomial)
 
 
 @sharing_rule("table", say.NEVER_OBSERVED, premises=("joint_observability",))
-def _never_observed(joint_observability: Claim, given: Given) -> Said:
-    if given.neighbors is not None and not joint_observability.controllable:
+def _never_observed(joint_observability: Claim, context: Context) -> Said:
+    if context.neighbors is not None and not joint_observability.controllable:
         yield say.NEVER_OBSERVED(p=joint_observability.uncontrollable_polynomial)
 
 
@@ -366,16 +367,19 @@ def _never_observed(joint_observability: Claim, given: Given) -> Said:
     premises=("neighbor_graph", "joint_controllability", "joint_observability"),
 )
 def _no_bound(
-    neighbor_graph: Claim, joint_controllability: Claim, joint_observability: Claim, given: Given
+    neighbor_graph: Claim,
+    joint_controllability: Claim,
+    joint_observability: Claim,
+    context: Context,
 ) -> Said:
     reach = (joint_controllability, joint_observability)
-    if not neighbor_graph.strongly_connected and all(found.controllable for found in reach):
+    if not neighbor_graph.strongly_connected and all(claim.controllable for claim in reach):
         yield say.NO_BOUND()
 
 
 def theorem_2(graph: Claim, *reach: Claim) -> bool:
     """Whether the hypotheses of Theorem 2 and Remark 2 hold."""
-    return bool(graph.strongly_connected and all(found.controllable for found in reach))
+    return bool(graph.strongly_connected and all(claim.controllable for claim in reach))
 
 
 def _sharing_rules(share: str, stem: str) -> None:
@@ -398,11 +402,11 @@ def _sharing_rules(share: str, stem: str) -> None:
         neighbor_graph: Claim,
         joint_controllability: Claim,
         joint_observability: Claim,
-        given: Given,
+        context: Context,
     ) -> Said:
         if theorem_2(neighbor_graph, joint_controllability, joint_observability):
             k = bound.deficiency
-            yield (some if k else none)(k=k, total=k * given.m, time=given.delays)
+            yield (some if k else none)(k=k, total=k * context.m, time=context.delays)
 
 
 def _least_rules(share: str, stem: str) -> None:
@@ -411,24 +415,24 @@ def _least_rules(share: str, stem: str) -> None:
     question = f"minimal_shared_dimensions_{stem}"
 
     @sharing_rule("table", some, none, impossible, premises=(question,))
-    def _least_of(least: Claim, given: Given) -> Said:
+    def _least_of(least: Claim, context: Context) -> Said:
         if not usual(least, share):
             return
         if least.dimensions is None:
             yield impossible()
         else:
-            sizes = list(zip(given.names, least.dimensions, strict=True))
-            yield (some if any(least.dimensions) else none)(sizes=sizes, time=given.delays)
+            sizes = list(zip(context.names, least.dimensions, strict=True))
+            yield (some if any(least.dimensions) else none)(sizes=sizes, time=context.delays)
 
     @sharing_rule("table", limit, missing=question)
-    def _least_open(given: Given) -> Said:
+    def _least_open(context: Context) -> Said:
         yield limit()
 
 
 SHARES = {"outputs+states": "outputs_states", "states": "states"}
-for made in (_sharing_rules, _least_rules):
+for make_rules in (_sharing_rules, _least_rules):
     for share, stem in SHARES.items():
-        made(share, stem)
+        make_rules(share, stem)
 
 
 def _delayed_rules(network: str) -> None:
@@ -436,10 +440,10 @@ def _delayed_rules(network: str) -> None:
     nothing, something = say.DELAYED[network]
 
     @sharing_rule("table", nothing, something, premises=(f"{network}_fixed_spectrum",))
-    def _delayed(spectrum: Claim, given: Given) -> Said:
+    def _delayed(spectrum: Claim, context: Context) -> Said:
         [step] = spectrum.subject
-        told = nothing if empty(spectrum) else something
-        yield told(p=spectrum.polynomial, k=step["dimensions"][0])
+        template = nothing if empty(spectrum) else something
+        yield template(p=spectrum.polynomial, k=step["dimensions"][0])
 
 
 for network in ("lifted", "held"):
@@ -493,16 +497,16 @@ allocation_rule = ALLOCATION_RULES.rule
 
 
 @allocation_rule("title", LEAST, IMPOSSIBLE, premises=("minimal_shared_dimensions",))
-def _least(minimal_shared_dimensions: Claim, given: Given) -> Said:
-    found = minimal_shared_dimensions
-    told = IMPOSSIBLE if found.dimensions is None else LEAST
-    yield told(
-        name=given.name or "system",
-        share=found.share,
-        scope=(given.time, found.bound, found.free_assignability),
-        price="least" if all(cost == 1 for cost in found.costs) else "cheapest",
-        limits="none" if all(most is None for most in found.upper) else "upper",
-        time=given.delays,
+def _least(minimal_shared_dimensions: Claim, context: Context) -> Said:
+    least = minimal_shared_dimensions
+    template = IMPOSSIBLE if least.dimensions is None else LEAST
+    yield template(
+        name=context.name or "system",
+        share=least.share,
+        scope=(context.time, least.bound, least.free_assignability),
+        price="least" if all(cost == 1 for cost in least.costs) else "cheapest",
+        limits="none" if all(most is None for most in least.upper) else "upper",
+        time=context.delays,
     )
 
 
@@ -526,35 +530,35 @@ def _rows(
     neighbor_graph: Claim,
     joint_controllability: Claim,
     joint_observability: Claim,
-    given: Given,
+    context: Context,
 ) -> Said:
     """The least dimensions, with the bound of the theorem if its hypotheses hold.
 
     Theorem 2 says that no mode is fixed, but not that the whole spectrum is assignable.
     """
-    found, reach = minimal_shared_dimensions, (joint_controllability, joint_observability)
-    if found.dimensions is None:
+    least, reach = minimal_shared_dimensions, (joint_controllability, joint_observability)
+    if least.dimensions is None:
         return
     row, total, k = ROW, TOTAL, 0
-    outputs = found.share == "outputs+states"
+    outputs = least.share == "outputs+states"
     fits = [each["construction"] for each in shared_dimension_bound.subject]
     if (
         fits == ["augmented_outputs"] * outputs
-        and not found.free_assignability
+        and not least.free_assignability
         and theorem_2(neighbor_graph, *reach)
     ):
         row, total, k = ROW_BOUND, TOTAL_BOUND, shared_dimension_bound.deficiency
-    for agent, size in zip(given.names, found.dimensions, strict=True):
+    for agent, size in zip(context.names, least.dimensions, strict=True):
         yield row(agent=agent, size=size, bound=k)
-    yield total(size=sum(found.dimensions), bound=k * given.m)
+    yield total(size=sum(least.dimensions), bound=k * context.m)
 
 
 @allocation_rule("table.note", PROOF, COST_PROOF, premises=("minimal_shared_dimensions",))
-def _proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
-    found = minimal_shared_dimensions
-    if found.dimensions is not None:
-        told = PROOF if all(cost == 1 for cost in found.costs) else COST_PROOF
-        yield told(cost=found.cost, cuts=given.cuts, nodes=given.nodes)
+def _proof(minimal_shared_dimensions: Claim, context: Context) -> Said:
+    least = minimal_shared_dimensions
+    if least.dimensions is not None:
+        template = PROOF if all(cost == 1 for cost in least.costs) else COST_PROOF
+        yield template(cost=least.cost, cuts=context.cuts, nodes=context.nodes)
 
 
 @allocation_rule(
@@ -564,26 +568,26 @@ def _proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
     *REASON_UNREACHED.values(),
     premises=("minimal_shared_dimensions",),
 )
-def _reasons(minimal_shared_dimensions: Claim, given: Given) -> Said:
+def _reasons(minimal_shared_dimensions: Claim, context: Context) -> Said:
     """The active cuts, which the dimensions meet with equality; if no dimensions suffice, all cuts.
 
     The cuts of the empty set and of all agents do not depend on sharing.
     """
-    found = minimal_shared_dimensions
+    least = minimal_shared_dimensions
     sizes = None
-    if found.dimensions is not None:
-        sizes = dict(zip(given.names, found.dimensions, strict=True))
-    for cut in found.proof.cuts:
-        subset, senders = cut.subset, given.senders(cut.subset)
+    if least.dimensions is not None:
+        sizes = dict(zip(context.names, least.dimensions, strict=True))
+    for cut in least.proof.cuts:
+        subset, senders = cut.subset, context.senders(cut.subset)
         demand = cut.deficiency if cut.has("deficiency") else 1
         if sizes is not None and sum(sizes[name] for name in senders) > demand:
             continue
-        told, p = REASON_CUT_OFF, None
+        template, p = REASON_CUT_OFF, None
         if cut.has("polynomial"):
-            told, p = REASON, cut.polynomial
-            if len(subset) in {0, given.m}:
-                told = REASON_UNREACHED["observe" if subset else "control"]
-        yield told(subset=subset, senders=senders, deficiency=demand, p=p)
+            template, p = REASON, cut.polynomial
+            if len(subset) in {0, context.m}:
+                template = REASON_UNREACHED["observe" if subset else "control"]
+        yield template(subset=subset, senders=senders, deficiency=demand, p=p)
 
 
 # Templates of `mcexact allocate --links`.
@@ -615,30 +619,30 @@ link_rule = LINK_RULES.rule
 
 
 @link_rule("title", LINKS_LEAST, LINKS_IMPOSSIBLE, NONE_NEEDED, premises=("minimal_communication",))
-def _links(minimal_communication: Claim, given: Given) -> Said:
-    found = minimal_communication
-    told = LINKS_LEAST if found.added else NONE_NEEDED
-    yield (LINKS_IMPOSSIBLE if found.added is None else told)(
-        name=given.name or "system",
-        scope=(given.time, found.bound, False),
-        what=(found.share, found.dimensions),
-        price="least" if all(price == 1 for *_, price in found.candidates) else "cheapest",
-        time=given.delays,
+def _links(minimal_communication: Claim, context: Context) -> Said:
+    links = minimal_communication
+    template = LINKS_LEAST if links.added else NONE_NEEDED
+    yield (LINKS_IMPOSSIBLE if links.added is None else template)(
+        name=context.name or "system",
+        scope=(context.time, links.bound, False),
+        what=(links.share, links.dimensions),
+        price="least" if all(price == 1 for *_, price in links.candidates) else "cheapest",
+        time=context.delays,
     )
 
 
 @link_rule("table", LINKS_ROW, LINKS_TOTAL, premises=("minimal_communication",))
-def _added(minimal_communication: Claim, given: Given) -> Said:
-    found = minimal_communication
-    if found.added:
-        prices = {(j, i): price for j, i, price in found.candidates}
-        for j, i in found.added:
+def _added(minimal_communication: Claim, context: Context) -> Said:
+    links = minimal_communication
+    if links.added:
+        prices = {(j, i): price for j, i, price in links.candidates}
+        for j, i in links.added:
             yield LINKS_ROW(start=j, end=i, cost=prices[j, i])
-        yield LINKS_TOTAL(cost=found.cost)
+        yield LINKS_TOTAL(cost=links.cost)
 
 
 @link_rule("table.note", LINKS_PROOF, premises=("minimal_communication",))
-def _proof_of_links(minimal_communication: Claim, given: Given) -> Said:
+def _proof_of_links(minimal_communication: Claim, context: Context) -> Said:
     """The proof of what the certificate claims, feasible or not."""
     _ = minimal_communication.feasible
-    yield LINKS_PROOF(cuts=given.cuts, nodes=given.nodes)
+    yield LINKS_PROOF(cuts=context.cuts, nodes=context.nodes)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from mcexact.answer.analysis import Said
 from mcexact.answer.evidence import Tree
 from mcexact.answer.protocol import Answer, answer, claim, shown, witness
-from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Template
 
 # Answer: the factors of a neighbor graph.
@@ -105,7 +105,7 @@ NOTE_RULES = Rulebook()
 
 
 @GAP_RULES.rule("table", FACTORS, premises=("sharing_gap",))
-def _factors(sharing_gap: Claim, given: Given) -> Said:
+def _factors(sharing_gap: Claim, context: Context) -> Said:
     yield FACTORS(relays=sharing_gap.relays_at_most, boundary=sharing_gap.boundary_at_most)
 
 
@@ -127,7 +127,7 @@ def _rules(share: str) -> None:
         TABLE[share],
         premises=(f"shared_dimension_bound_{stem}", f"common_dimension_{stem}", "sharing_gap"),
     )
-    def _in_the_table(bound: Claim, common: Claim, gap: Claim, given: Given) -> Said:
+    def _in_the_table(bound: Claim, common: Claim, gap: Claim, context: Context) -> Said:
         yield from _said(TABLE[share], share, bound, common, gap)
 
     @NOTE_RULES.rule(
@@ -135,7 +135,7 @@ def _rules(share: str) -> None:
         NOTE[share],
         premises=("shared_dimension_bound", "common_dimension", "sharing_gap"),
     )
-    def _in_the_note(bound: Claim, common: Claim, gap: Claim, given: Given) -> Said:
+    def _in_the_note(bound: Claim, common: Claim, gap: Claim, context: Context) -> Said:
         yield from _said(NOTE[share], share, bound, common, gap)
 
 

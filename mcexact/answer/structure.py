@@ -89,7 +89,7 @@ class JointControllability(Answer):
         Monic, of degree n − d: the characteristic polynomial of A on the quotient by ⟨A | B_T⟩.
         Its roots are the modes that T does not control.
     evidence : ByRank or ByBlocks
-        The second for large systems, where such blocks are found.
+        The second for large systems, if the search yields such blocks.
     """
 
     dual_keys: ClassVar[Mapping[str, str]] = MappingProxyType(
@@ -190,10 +190,10 @@ class TransferGraph(Answer):
     @cached_property
     def successors(self) -> dict[str, tuple[str, ...]]:
         """For each channel that an edge leaves, the channels at the ends of its edges."""
-        found: dict[str, list[str]] = {}
+        receivers: dict[str, list[str]] = {}
         for j, i in self.arcs:
-            found.setdefault(j, []).append(i)
-        return {j: tuple(reached) for j, reached in found.items()}
+            receivers.setdefault(j, []).append(i)
+        return {j: tuple(reached) for j, reached in receivers.items()}
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the graph; see `mcexact.plot.graph`."""
@@ -326,7 +326,7 @@ class SetpointSolvability(Answer):
     @cached_property
     @shown("conditions on set-points")
     def combinations(self) -> Matrix:
-        """Rows w ≠ 0 with w · r = 0 for every vector r of set-points that an equilibrium holds.
+        """Rows w ≠ 0 with w · r = 0 for every vector r of set-points that some equilibrium has.
 
         A row has one entry for each output; there are no rows if every set-point can be held.
         """

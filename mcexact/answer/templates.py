@@ -43,7 +43,7 @@ def modes(p: Polynomial, limit: int = 30) -> str:
 
 
 def allowed(region: object | None) -> str:
-    """Where modes may be that members of a box have, such as fixed ones; None for nowhere.
+    """Say where members of a box may have modes of some kind, such as fixed ones; None is nowhere.
 
     Examples
     --------
@@ -186,12 +186,12 @@ def _behavior(slowest: tuple[str, str, str, bool]) -> str:
 
 def _roots(centers: Sequence[tuple[Fraction, Fraction]]) -> str:
     """Write centers of root discs with six digits, conjugate pairs as one; of many the first."""
-    told = [
+    roots = [
         rounded(re) if not im else f"{rounded(re)} ± {rounded(im)}i"
         for re, im in centers
         if im >= 0
     ]
-    return ", ".join(cut(told, 6))
+    return ", ".join(cut(roots, 6))
 
 
 def _blocks(blocks: Sequence[tuple[int, Sequence[str]]]) -> str:
@@ -209,17 +209,17 @@ def _indices(numbers: Sequence[int]) -> str:
     return ", ".join(cut([str(k) for k in numbers], 15)) or "none"
 
 
-def _reached(found: Sequence[Sequence[int]]) -> str:
+def _reached(lengths: Sequence[Sequence[int]]) -> str:
     """Write the least lengths k with which each channel reaches all states."""
-    single = len(found) == 1 and len(found[0]) == 1
-    listed_pairs = cut([" and ".join(map(str, k)) for k in found], 8)
+    single = len(lengths) == 1 and len(lengths[0]) == 1
+    listed_pairs = cut([" and ".join(map(str, k)) for k in lengths], 8)
     return f"{'index' if single else 'indices'} {', '.join(listed_pairs)}"
 
 
 def _shared(sizes: Sequence[tuple[str, int]]) -> str:
     """Write the number of states that each agent shares, without agents that share none."""
-    told = [f"{count(size, 'state')} by agent {name_text(name)}" for name, size in sizes if size]
-    return ", ".join(cut(told, 11, "by {} more agents"))
+    parts = [f"{count(size, 'state')} by agent {name_text(name)}" for name, size in sizes if size]
+    return ", ".join(cut(parts, 11, "by {} more agents"))
 
 
 def _scope(counted: tuple[str, Fraction | None, bool]) -> str:
@@ -238,11 +238,11 @@ def _sides(sides: tuple[Sequence[str], Sequence[str]]) -> str:
     if len(verbs) == 1:
         return f"all channels together do not {verbs[0]}"
     do = _agreeing("does", "do")
-    told = [
+    clauses = [
         f"{channels(names)} {do(names)} not {verb}"
         for names, verb in zip(sides, verbs, strict=True)
     ]
-    return " and ".join(told)
+    return " and ".join(clauses)
 
 
 def _carried(sent: tuple[str, Sequence[int] | None]) -> str:
@@ -271,8 +271,8 @@ def _region(region: StabilityRegion) -> str:
 
 def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:
     """Write combinations of set-points that no equilibrium has."""
-    told = ["(" + ", ".join(number(Fraction(x)) for x in row) + ") r ≠ 0" for row in rows]
-    return " or ".join(told)
+    inequalities = ["(" + ", ".join(number(Fraction(x)) for x in row) + ") r ≠ 0" for row in rows]
+    return " or ".join(inequalities)
 
 
 def _gains(part: Fraction | None) -> str:
@@ -288,8 +288,8 @@ def _gains(part: Fraction | None) -> str:
 
 def _arrows(edges: Sequence[tuple[str, str]]) -> str:
     """Write every edge of a graph, as text that replaces a picture."""
-    told = [f"{name_text(start)} → {name_text(end)}" for start, end in edges]
-    return ", ".join(cut(told, 40)) or "none"
+    arrows = [f"{name_text(start)} → {name_text(end)}" for start, end in edges]
+    return ", ".join(cut(arrows, 40)) or "none"
 
 
 def _capital(text: str) -> str:
@@ -298,11 +298,11 @@ def _capital(text: str) -> str:
 
 def _lost(edges: Sequence[tuple[tuple[str, str], Sequence[str]]]) -> str:
     """Write at which values which edges vanish."""
-    told = [
+    clauses = [
         f"{name_text(start)} -> {name_text(end)} vanishes where {_values(where)}"
         for (start, end), where in edges
     ]
-    return "; ".join(cut(told, 12))
+    return "; ".join(cut(clauses, 12))
 
 
 def _values(where: Sequence[str]) -> str:
@@ -353,7 +353,7 @@ FORMS: dict[str, Write] = {
     "blocks": _blocks,
     "components": _components,
     "indices": _indices,
-    "factors": lambda found: ", ".join(cut([polynomial(p, 30) for p in found], 6)),
+    "factors": lambda factors: ", ".join(cut([polynomial(p, 30) for p in factors], 6)),
     "side": choice(controllable="controllable", observable="observable"),
     "reached": _reached,
     "arrows": _arrows,
@@ -436,15 +436,15 @@ class Sentence(str):
     def __new__(
         cls, text: str, template: Template, cells: tuple[str, ...], values: Mapping[str, Any]
     ) -> Sentence:
-        made = super().__new__(cls, text)
-        made.template, made.cells, made.values = template, cells, values
-        return made
+        self = super().__new__(cls, text)
+        self.template, self.cells, self.values = template, cells, values
+        return self
 
     def bound(self, place: str, because: tuple[Premise, ...]) -> Sentence:
         """Return the sentence with its place and premises."""
-        made = Sentence(str(self), self.template, self.cells, self.values)
-        made.place, made.because = place, because
-        return made
+        sentence = Sentence(str(self), self.template, self.cells, self.values)
+        sentence.place, sentence.because = place, because
+        return sentence
 
     @property
     def line(self) -> str:

@@ -17,7 +17,7 @@ from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.account import Account
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.protocol import Answer
-from mcexact.answer.sentence import Given, Sentences
+from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import Sentence
 from mcexact.cli.files import system_in
 from mcexact.cli.loops import assessed, read_weights
@@ -114,7 +114,7 @@ def designed(
         reason, proof = refused.message, refused.certificate
         region = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
         sentences = Sentences([reason] if isinstance(reason, Sentence) else [])
-        account = Account({proof.kind: proof}, Given(system), sentences)
+        account = Account({proof.kind: proof}, Context(system), sentences)
         return Refused(
             evidence=Evidence.of(account, system_by_digest),
             document=account.as_json(design=name, possible=False, reason=reason),

@@ -33,7 +33,7 @@ from mcexact.answer.account import Account
 from mcexact.answer.boxes import BoxStability
 from mcexact.answer.loops import EVERY_LOOP, EVERY_LOOP_PART, EVERY_LOOP_RULES, StabilityVerdict
 from mcexact.answer.protocol import Answer
-from mcexact.answer.sentence import Given, Sentences
+from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import count
 from mcexact.cli import uncertainty
 from mcexact.cli.files import plant_in, system_in
@@ -444,7 +444,7 @@ def _account_of_ranges(
 ) -> Account:
     """The proof for the whole ranges with its sentence, if there is one."""
     ranges = ", ".join(system.parameters_in_words)
-    asked = Given(system, {"parameters": ranges, "part_of_gains": gains})
+    asked = Context(system, {"parameters": ranges, "part_of_gains": gains})
     whole = search.proof is not None and search.lower == 1
     answers: dict[str, Any] = {"box_stability": search.proof} if whole else {}
     return Account(answers, asked, EVERY_LOOP_RULES.sentences(answers, asked))
@@ -521,7 +521,7 @@ def simulated(
         wanted = wanted | {"initial": wanted["initial"] * system.n}
     simulation = simulated_loop(system, controller, **wanted)
     report = SimulationReport(simulation, fractions)
-    account = Account({}, Given(system), Sentences([]))
+    account = Account({}, Context(system), Sentences([]))
     evidence = Evidence({}, {}, system.canonical_text())
     if simulation.envelope is not None:
         account = account_of_verdict(simulation.envelope.proof, largest=False)

@@ -39,7 +39,7 @@ from mcexact.answer.evidence import RootDisc
 from mcexact.answer.loops import StabilityVerdict
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rulebook import VERDICT
-from mcexact.answer.sentence import Given
+from mcexact.answer.sentence import Context
 from mcexact.errors import InputError, LimitReached, UsageError, one_of, telling
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 from mcexact.exact.rational import Entry
@@ -263,7 +263,7 @@ def account_of_verdict(
     if failing is not None and failing.refutation is not None:
         answers[FAILING] = failing.refutation
         asked |= failing.facts(verdict.about.plant)
-    context = Given(verdict.about.plant, asked)
+    context = Context(verdict.about.plant, asked)
     sentences = VERDICT.sentences(answers, context)
     return Account(answers, context, sentences, verdict.about.subject[:-1], nearby=(FAILING,))
 

@@ -13,7 +13,7 @@ from mcexact.analysis.stability import certify_stability
 from mcexact.answer.account import Account, ShownByAccount
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rulebook import DESIGN
-from mcexact.answer.sentence import Given
+from mcexact.answer.sentence import Context
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import finite, matrix_to_float, to_float
 from mcexact.exact.polynomial import Polynomial
@@ -146,7 +146,7 @@ class Design(ShownByAccount):
         if failing is not None and failing.refutation is not None:
             answers[FAILING] = failing.refutation
             facts |= failing.facts(closed.plant)
-        context = Given(closed.plant, {**facts, **self.parts})
+        context = Context(closed.plant, {**facts, **self.parts})
         sentences = DESIGN.sentences(answers, context)
         return Account(answers, context, sentences, closed.subject[:-1], nearby=(FAILING,))
 

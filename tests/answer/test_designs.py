@@ -12,7 +12,7 @@ import pytest
 
 from mcexact.analysis.analyze import account_of_dimensions, account_of_links
 from mcexact.answer.account import Account
-from mcexact.answer.sentence import Given, Sentences
+from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import Sentence
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.kinds import Expectation
@@ -107,7 +107,7 @@ def test_what_is_said_of_designs_and_of_refusals(name: str, seed: int, tmp_path:
     except Impossible as refusal:
         said, proof = refusal.message, refusal.certificate
         assert isinstance(said, Sentence) and said.template.key.startswith("refused-")
-        account = Account({proof.kind: proof}, Given(plant), Sentences([said]))
+        account = Account({proof.kind: proof}, Context(plant), Sentences([said]))
         require_certified(account, "design, if there is none")
         account.save(tmp_path)
         valid, implied = manifest_verdicts(str(tmp_path), Expectation(), Limits())

@@ -27,7 +27,7 @@ from mcexact.answer import protocol
 from mcexact.answer.account import Account
 from mcexact.answer.loops import EVERY_LOOP_RULES
 from mcexact.answer.rulebook import everything
-from mcexact.answer.sentence import Given
+from mcexact.answer.sentence import Context
 from mcexact.answer.templates import Sentence
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion
@@ -409,7 +409,7 @@ def loop(rng: random.Random) -> Iterator[Judged]:
     except LimitReached:
         return
     if wide.proof is not None and wide.lower == 1:
-        given = Given(
+        given = Context(
             family, {"parameters": ", ".join(family.parameters_in_words), "part_of_gains": gains}
         )
         answers = {"box_stability": wide.proof}
