@@ -39,7 +39,7 @@ def exponential(M: Matrix, decimals: int) -> Matrix:
     ----------
     M : Matrix, n × n
     decimals : int
-        After the decimal point.
+        The number of digits after the decimal point.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def power_above(base: Fraction, exponent: int) -> float:
 
 
 def _above(ball: flint.arb) -> float:
-    """The least float that is at least everything in a ball of numbers at most 1."""
+    """The least float that no number in a ball exceeds; the numbers are at most 1."""
     upper = ball.upper()
     if upper <= 0:
         return 0.0
@@ -121,8 +121,8 @@ def _enclosed(entries: list[list[flint.fmpq]], bits: int) -> list[list[flint.arb
         before = flint.ctx.prec
         flint.ctx.prec = bits
         try:
-            found = flint.arb_mat([[flint.arb(x) for x in row] for row in entries]).exp()
-            return [[found[i, j] for j in range(len(entries))] for i in range(len(entries))]
+            balls = flint.arb_mat([[flint.arb(x) for x in row] for row in entries]).exp()
+            return [[balls[i, j] for j in range(len(entries))] for i in range(len(entries))]
         finally:
             flint.ctx.prec = before
 
@@ -154,7 +154,8 @@ def states_at_doubling_steps(
     first : float
         X = exp(M·first), or X = M if this is 0.
     whole : int
-        So many single powers come first; then the step is an eighth of this, and at least 1.
+        The number of single powers at the beginning; then the step is an eighth of this, at least
+        1.
     end : float
         The power at which the doubling ends.
 
@@ -166,8 +167,8 @@ def states_at_doubling_steps(
     Examples
     --------
     >>> start = Matrix.identity(1)
-    >>> found = states_at_doubling_steps(start * 2, start, 1, first=0, whole=0, end=2)
-    >>> [int(each[0, 0]) for each in found]
+    >>> states = states_at_doubling_steps(start * 2, start, 1, first=0, whole=0, end=2)
+    >>> [int(each[0, 0]) for each in states]
     [2, 4, 8, 16, 32, 64, 128, 256]
     """
 
@@ -208,8 +209,8 @@ def even_powers(M: Matrix, columns: int, interval: float, count: int) -> list[Fl
 
     Examples
     --------
-    >>> found = even_powers(Matrix.from_rows([[-1, 1], [0, -1]]), 2, 1.0, 3)
-    >>> [float(each[0, 1].round(6)) for each in found]
+    >>> powers = even_powers(Matrix.from_rows([[-1, 1], [0, -1]]), 2, 1.0, 3)
+    >>> [float(each[0, 1].round(6)) for each in powers]
     [0.0, 0.367879, 0.270671]
     """
 
@@ -248,20 +249,20 @@ def response(A: Matrix, B: Matrix, C: Matrix, z: complex) -> npt.NDArray[np.comp
 def _accurate(
     states: Callable[[Callable[[flint.arb_mat], bool]], bool], rows: int
 ) -> list[Floats] | None:
-    """The floats of all matrices that a computation shows, with as many bits as they need."""
+    """The floats of all matrices that `states` passes on, with as many bits as they need."""
     bits = _STATE_BITS
     while bits <= _MOST_STATE_BITS:
-        found = list[Floats]()
+        floats = list[Floats]()
 
-        def seen(moved: flint.arb_mat, found: list[Floats] = found) -> bool:
+        def seen(moved: flint.arb_mat, floats: list[Floats] = floats) -> bool:
             shown = _floats(moved, rows)
             if shown is not None:
-                found.append(shown)
+                floats.append(shown)
             return shown is not None
 
         with PRECISION, flint.ctx.workprec(bits):
             if states(seen):
-                return found
+                return floats
         bits *= 2
     return None
 

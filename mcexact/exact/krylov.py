@@ -80,9 +80,9 @@ def least_recurrence(sequence: Sequence[int], ell: int) -> ModularPolynomial:
     if not any(sequence):
         return ModularPolynomial.from_coefficients([1], ell)
     coefficients = list(map(int, ring.minpoly(list(sequence)).coeffs()))
-    found = ModularPolynomial(ell, flint.nmod_poly(coefficients, ell))
-    found.__dict__["coefficients"] = tuple(coefficients)
-    return found
+    recurrence = ModularPolynomial(ell, flint.nmod_poly(coefficients, ell))
+    recurrence.__dict__["coefficients"] = tuple(coefficients)
+    return recurrence
 
 
 def cofactors(
@@ -248,8 +248,8 @@ class KrylovSteps:
             if g % self.at_once == 0:
                 reduce(rows[g], self.ell)
         numbers = reduce(reduce(rows, self.ell) @ columns.T, self.ell).ravel()[: 2 * n]
-        found: list[int] = (numbers.astype(np.int64) % self.ell).tolist()
-        return found
+        terms: list[int] = (numbers.astype(np.int64) % self.ell).tolist()
+        return terms
 
 
 def loop_sequences(
@@ -273,13 +273,12 @@ def loop_sequences(
 
 
 def products_at_once(growth: int, ell: int, exact: int) -> int:
-    """The number of products with a matrix after which residues are still exact, to be reduced.
+    """The number of products with a matrix after which residues have to be reduced to stay exact.
 
     Parameters
     ----------
     growth : int
-        The largest sum of the sizes of entries that are multiplied: of a row in M v, of a column in
-        v M.
+        The largest 1-norm of what a vector is multiplied by: of a row in M v, of a column in v M.
     ell : int
     exact : int
         Integers of at most this size are exact.
@@ -329,17 +328,17 @@ def residues(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) ->
 
     words = [_words(M, ell) for M in parts]
     together = np.frombuffer(words[0] if len(words) == 1 else b"".join(words), dtype=np.int64)
-    found = together.astype(kind)
-    most = max(found.max(initial=0), -found.min(initial=0))
+    table = together.astype(kind)
+    most = max(table.max(initial=0), -table.min(initial=0))
     if most >= _EXACT_IN_SINGLE // 2:
-        found[:] = together % ell
+        table[:] = together % ell
     if most > ell // 2:
-        reduce(found, ell)
+        reduce(table, ell)
     if any(M.denominator != 1 for M in parts):
         inverses = [pow(M.denominator, -1, ell) for M in parts]
-        found *= np.array(inverses, kind).repeat([M.nrows * M.ncols for M in parts])
-        reduce(found, ell)
-    return found
+        table *= np.array(inverses, kind).repeat([M.nrows * M.ncols for M in parts])
+        reduce(table, ell)
+    return table
 
 
 def _words(M: Matrix, ell: int) -> array[int]:
@@ -444,10 +443,10 @@ class SparseLoop:
         """The matrix in symmetric residues modulo ℓ, without stored zeros."""
         import scipy.sparse
 
-        found = scipy.sparse.csr_array(M)
-        found.data = _symmetric(found.data, self.ell)
-        found.eliminate_zeros()
-        return found
+        reduced = scipy.sparse.csr_array(M)
+        reduced.data = _symmetric(reduced.data, self.ell)
+        reduced.eliminate_zeros()
+        return reduced
 
     def sequences(self, M: Integers, starts: Iterable[Start]) -> Iterator[list[int]] | None:
         """The numbers y C_q Mᵏ B_q x modulo ℓ, k < 2n, for each (q, x, y).
@@ -469,9 +468,9 @@ class SparseLoop:
     def _placed(self, entries: Sequence[int], start: int, size: int) -> Any:
         import numpy as np
 
-        found = np.zeros(size, dtype=np.int64)
-        found[start : start + len(entries)] = entries
-        return found
+        vector = np.zeros(size, dtype=np.int64)
+        vector[start : start + len(entries)] = entries
+        return vector
 
 
 def steps_at_once(M: Integers, ell: int, exact: int) -> int:
@@ -497,7 +496,7 @@ def sequence(M: Integers, row: Any, column: Any, ell: int, length: int) -> list[
     step.indices, step.indptr = step.indices.astype(np.int32), step.indptr.astype(np.int32)
     where = np.flatnonzero(row)
     v: Any = column.astype(kind)
-    found: list[int] = []
+    numbers: list[int] = []
     for start in range(0, length, _TOGETHER):
         seen = np.empty((min(_TOGETHER, length - start), len(where)), dtype=np.int64)
         for k in range(len(seen)):
@@ -505,8 +504,8 @@ def sequence(M: Integers, row: Any, column: Any, ell: int, length: int) -> list[
             v = step @ v
             if (start + k) % steps == steps - 1:
                 v = reduce(v, ell)
-        found += (seen % ell @ row[where] % ell).tolist()
-    return found
+        numbers += (seen % ell @ row[where] % ell).tolist()
+    return numbers
 
 
 def _residues(
@@ -516,11 +515,11 @@ def _residues(
     import numpy as np
     import scipy.sparse
 
-    found: list[tuple[int, int, int]] = []
+    entries: list[tuple[int, int, int]] = []
     for M, top, left in parts:
         factor = pow(M.denominator, -1, ell)
-        found += [(top + i, left + j, x * factor % ell) for i, j, x in M.nonzero()]
-    table = np.array(found, dtype=np.int64).reshape(-1, 3)
+        entries += [(top + i, left + j, x * factor % ell) for i, j, x in M.nonzero()]
+    table = np.array(entries, dtype=np.int64).reshape(-1, 3)
     values = _symmetric(table[:, 2], ell)
     return scipy.sparse.csr_array((values, (table[:, 0], table[:, 1])), shape=shape)
 
@@ -553,11 +552,11 @@ class SparsePowers:
         import numpy as np
 
         V = reduce(np.array(V, dtype=np.float64), self.ell)
-        found: Floats = np.zeros_like(V)
+        image: Floats = np.zeros_like(V)
         for c in reversed(p.coefficients):
             factor = c - self.ell if 2 * c > self.ell else c
-            found = reduce(self.M @ found + factor * V, self.ell)
-        return self._residues(found)
+            image = reduce(self.M @ image + factor * V, self.ell)
+        return self._residues(image)
 
     def product(self, V: Any) -> Residues:
         """M V modulo ℓ, V n × k residues."""
@@ -568,8 +567,8 @@ class SparsePowers:
     def _residues(self, table: Floats) -> Residues:
         import numpy as np
 
-        found: Residues = table.astype(np.int64) % self.ell
-        return found
+        residues: Residues = table.astype(np.int64) % self.ell
+        return residues
 
     def minimal_polynomial(self, rng: random.Random) -> ModularPolynomial:
         """The least recurrence of c Mᵏ b, c and b drawn: mostly all of the minimal polynomial."""
@@ -591,21 +590,21 @@ def row_echelon(rows: Residues, ell: int) -> tuple[Residues, tuple[int, ...]]:
     import numpy as np
 
     left, pivots = np.array(rows, dtype=np.int64) % ell, []
-    found = 0
-    while found < len(left):
-        columns = np.flatnonzero(left[found:].any(axis=0))
+    rank = 0
+    while rank < len(left):
+        columns = np.flatnonzero(left[rank:].any(axis=0))
         if not len(columns):
             break
         column = int(columns[0])
-        at = found + int(np.flatnonzero(left[found:, column])[0])
-        left[[found, at]] = left[[at, found]]
-        left[found] = left[found] * pow(int(left[found, column]), -1, ell) % ell
+        at = rank + int(np.flatnonzero(left[rank:, column])[0])
+        left[[rank, at]] = left[[at, rank]]
+        left[rank] = left[rank] * pow(int(left[rank, column]), -1, ell) % ell
         for i in range(len(left)):
-            if i != found and left[i, column]:
-                left[i] = (left[i] - left[i, column] * left[found]) % ell
+            if i != rank and left[i, column]:
+                left[i] = (left[i] - left[i, column] * left[rank]) % ell
         pivots.append(column)
-        found += 1
-    return left[:found], tuple(pivots)
+        rank += 1
+    return left[:rank], tuple(pivots)
 
 
 def largest_prime(n: int, terms: int) -> int:
@@ -687,16 +686,16 @@ def krylov_rows(A: Matrix, B: Matrix, ell: int) -> tuple[ModularMatrix, tuple[in
     Notes
     -----
     With S' a basis of im [B, …, A^{k−1}B], [S, A^k S] spans the first 2k blocks: at most 1 + log₂ n
-    products.  A doubling that adds nothing ends it.
+    products.  The iteration ends when a doubling does not raise the rank.
     """
     n = A.nrows
     span, pivots = _row_space(modular_residues(B.T, ell))
     power = modular_residues(A.T, ell)
     while 0 < span.nrows < n:
-        wider, found = _row_space(vstack([span, span @ power]))
+        wider, wider_pivots = _row_space(vstack([span, span @ power]))
         if wider.nrows == span.nrows:
             break
-        span, pivots = wider, found
+        span, pivots = wider, wider_pivots
         if span.nrows < n:
             power = power @ power
     return span, pivots
@@ -756,9 +755,9 @@ def controllable_subspace(A: Matrix, B: Matrix, rng: random.Random) -> Invariant
             table, modulus, count = combine(table, modulus, rows, ell), modulus * ell, count + 1
         last = ell
         if count & (count - 1) == 0:
-            found = _verified(A, B, table, modulus, tuple(pivots))
-            if found is not None:
-                return InvariantSubspace(found, tuple(pivots), last)
+            X = _verified(A, B, table, modulus, tuple(pivots))
+            if X is not None:
+                return InvariantSubspace(X, tuple(pivots), last)
     raise InternalError("the stream of primes is endless")
 
 
@@ -766,10 +765,10 @@ def _verified(
     A: Matrix, B: Matrix, table: list[list[int]], modulus: int, pivots: tuple[int, ...]
 ) -> Matrix | None:
     """The rational matrix with these residues, if im X is invariant and contains im B."""
-    found = rationals(table, modulus)
-    if found is None:
+    candidate = rationals(table, modulus)
+    if candidate is None:
         return None
-    X = Matrix.from_integers(found[0], found[1], ncols=A.nrows).T
+    X = Matrix.from_integers(candidate[0], candidate[1], ncols=A.nrows).T
     AX = A @ X
     if X @ AX.take(rows=pivots) != AX or X @ B.take(rows=pivots) != B:
         return None

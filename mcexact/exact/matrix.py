@@ -83,59 +83,6 @@ class MatrixDisplay:
         return rf"$\displaystyle {self._latex()}$"
 
 
-class MatrixForms(MatrixDisplay):
-    """The conversions of `Matrix`, which alone inherits them."""
-
-    def tolist(self: Any) -> list[list[Fraction]]:
-        """The rows as lists of Fractions."""
-        return lists_of(self)
-
-    def __array__(
-        self: Any, dtype: npt.DTypeLike | None = None, copy: bool | None = None
-    ) -> npt.NDArray[Any]:
-        if copy is False:
-            raise ValueError("numpy cannot use the memory of a matrix: leave out copy=False")
-        return array_for_caller(self, dtype)
-
-    def to_numpy(self: Any, dtype: npt.DTypeLike | None = None) -> npt.NDArray[Any]:
-        """The matrix as an array of numpy, in floats unless another dtype is given.
-
-        Parameters
-        ----------
-        dtype : dtype, optional
-            By default float64: each entry is rounded to the float nearest to it.  ``object`` keeps
-            the entries as Fractions, and integers stay integers.
-
-        Raises
-        ------
-        ValueError
-            Integers are asked for, and an entry is not one, or does not fit.
-
-        Examples
-        --------
-        >>> from mcexact.exact.matrix import Matrix
-        >>> M = Matrix.from_rows([[1, "1/3"]])
-        >>> M.to_numpy()
-        array([[1.        , 0.33333333]])
-        >>> M.to_numpy(object)
-        array([[Fraction(1, 1), Fraction(1, 3)]], dtype=object)
-        """
-        return array_of(self, dtype)
-
-    def to_sympy(self: Any) -> Any:
-        """The matrix as one of sympy, with equal entries; ``sympy.Matrix(M)`` gives the same.
-
-        Examples
-        --------
-        >>> from mcexact.exact.matrix import Matrix
-        >>> Matrix.from_rows([[1, "1/3"]]).to_sympy()
-        Matrix([[1, 1/3]])
-        """
-        return symbolic(self)
-
-    _sympy_ = to_sympy
-
-
 def row_of(M: Matrix, i: Any) -> tuple[Fraction, ...]:
     """Return a row as a tuple.
 
@@ -239,11 +186,11 @@ def shortened(M: Any) -> list[list[Any]]:
     down, across = shown.kept(M.nrows, MOST_SHOWN), shown.kept(M.ncols, MOST_SHOWN)
     rows, cols = [i for i in down if i is not None], [j for j in across if j is not None]
     entries = iter(M.take(rows=rows, cols=cols).tolist())
-    found: list[list[Any]] = []
+    lines: list[list[Any]] = []
     for i in down:
         row: Any = iter(()) if i is None else iter(next(entries))
-        found.append([_GAPS[i is None, j is None] if None in (i, j) else next(row) for j in across])
-    return found
+        lines.append([_GAPS[i is None, j is None] if None in (i, j) else next(row) for j in across])
+    return lines
 
 
 def aligned(M: Any) -> str:
@@ -384,9 +331,9 @@ def rows_of(value: Any, where: str | None = None, *, floats: bool = False) -> li
     if hasattr(value, "tolist"):
         value = [_scalars(row) for row in value] if _is_of_other_length(value) else value.tolist()
     if not _is_sequence(value):
-        found = "a string" if isinstance(value, (str, bytes)) else type(value).__name__
+        kind = "a string" if isinstance(value, (str, bytes)) else type(value).__name__
         raise InputError(
-            f"expected a matrix as a list of rows, found {found}; write [[1, 2], [3, 4]]",
+            f"expected a matrix as a list of rows, found {kind}; write [[1, 2], [3, 4]]",
             where=where,
         )
     copied = []
@@ -419,15 +366,15 @@ def _require_numbers(value: Any, where: str | None, floats: bool) -> None:
 
 
 def _is_of_other_length(array: Any) -> bool:
-    """Whether it holds floats of another length than Python's, such as single precision."""
+    """Whether an array holds floats of another length than Python's, such as single precision."""
     dtype: Any = getattr(array, "dtype", None)
     return getattr(dtype, "kind", "") == "f" and dtype.itemsize != 8
 
 
 def _scalars(array: Any) -> list[Any]:
     """The numbers of an array of one dimension; ``tolist`` would widen floats to Python's."""
-    found: list[Any] = list(array) if _is_of_other_length(array) else array.tolist()
-    return found
+    scalars: list[Any] = list(array) if _is_of_other_length(array) else array.tolist()
+    return scalars
 
 
 def is_sparse_array(value: Any) -> bool:
@@ -450,13 +397,13 @@ def entries_of(
         If it is not a matrix of numbers.
     """
     _require_numbers(value, where, floats)
-    found: dict[tuple[int, int], Any] = {}
+    value_at: dict[tuple[int, int], Any] = {}
     stored = value.tocoo()
     for i, j, entry in zip(
         stored.row.tolist(), stored.col.tolist(), _scalars(stored.data), strict=True
     ):
-        found[i, j] = found[i, j] + entry if (i, j) in found else entry
-    return [(i, j, entry) for (i, j), entry in found.items()]
+        value_at[i, j] = value_at[i, j] + entry if (i, j) in value_at else entry
+    return [(i, j, entry) for (i, j), entry in value_at.items()]
 
 
 def _is_sequence(value: Any) -> bool:
@@ -469,7 +416,7 @@ def common_width(rows: Sequence[Sequence[Any]], where: str | None = None) -> int
     Raises
     ------
     InputError
-        If they differ.
+        If the rows have different numbers of entries.
     """
     for k, row in enumerate(rows):
         if len(row) != len(rows[0]):
@@ -484,7 +431,7 @@ def common_width(rows: Sequence[Sequence[Any]], where: str | None = None) -> int
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Matrix(MatrixForms):
+class Matrix(MatrixDisplay):
     """A rational matrix, M = N / d with integer N and d ≥ 1 in lowest terms.
 
     Attributes
@@ -592,21 +539,21 @@ class Matrix(MatrixForms):
         """
         r, c = shape
         require_sides(r, c)
-        found: dict[int, Entry] = {}
+        value_at: dict[int, Entry] = {}
         for i, j, value in entries:
             if not (0 <= i < r and 0 <= j < c):
                 raise InputError(
                     f"expected a position inside {r} × {c}, found ({i}, {j})", where=where
                 )
-            if i * c + j in found:
+            if i * c + j in value_at:
                 raise InputError(f"the position ({i}, {j}) is given twice", where=where)
-            found[i * c + j] = value
-        cells = sorted(found)
-        if not {type(value) for value in found.values()} <= {int}:
-            for k, value in found.items():
-                found[k] = as_fraction(value, where=f"{where or ''}[{k // c}][{k % c}]")
-        denominator = math.lcm(*{value.denominator for value in found.values()})
-        values = (found[k].numerator * (denominator // found[k].denominator) for k in cells)
+            value_at[i * c + j] = value
+        cells = sorted(value_at)
+        if not {type(value) for value in value_at.values()} <= {int}:
+            for k, value in value_at.items():
+                value_at[k] = as_fraction(value, where=f"{where or ''}[{k // c}][{k % c}]")
+        denominator = math.lcm(*{value.denominator for value in value_at.values()})
+        values = (value_at[k].numerator * (denominator // value_at[k].denominator) for k in cells)
         return from_cells(shape, cells, values, denominator)
 
     @classmethod
@@ -790,8 +737,8 @@ class Matrix(MatrixForms):
             return NotImplemented
         if self.ncols != other.nrows:
             raise _shapes_do_not_match("@", self, other)
-        made = tables.product(self._table, other._table)
-        return _lowest(made, self.denominator * other.denominator)
+        table = tables.product(self._table, other._table)
+        return _lowest(table, self.denominator * other.denominator)
 
     def __mul__(self, factor: int | Fraction) -> Matrix:
         if isinstance(factor, bool) or not isinstance(factor, (int, Fraction)):
@@ -813,6 +760,53 @@ class Matrix(MatrixForms):
         lengths = (int(x.bit_length()) for x in self._integer.entries())
         k = require_power(k, max(self.denominator.bit_length(), *lengths, 1))
         return from_flint(self._integer**k, self.denominator**k)
+
+    def tolist(self) -> list[list[Fraction]]:
+        """The rows as lists of Fractions."""
+        return lists_of(self)
+
+    def __array__(
+        self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
+    ) -> npt.NDArray[Any]:
+        if copy is False:
+            raise ValueError("numpy cannot use the memory of a matrix: leave out copy=False")
+        return array_for_caller(self, dtype)
+
+    def to_numpy(self, dtype: npt.DTypeLike | None = None) -> npt.NDArray[Any]:
+        """The matrix as an array of numpy, in floats unless another dtype is given.
+
+        Parameters
+        ----------
+        dtype : dtype, optional
+            By default float64: each entry is rounded to the float nearest to it.  ``object`` keeps
+            the entries as Fractions, and integers stay integers.
+
+        Raises
+        ------
+        ValueError
+            Integers are asked for, and an entry is not one, or does not fit.
+
+        Examples
+        --------
+        >>> M = Matrix.from_rows([[1, "1/3"]])
+        >>> M.to_numpy()
+        array([[1.        , 0.33333333]])
+        >>> M.to_numpy(object)
+        array([[Fraction(1, 1), Fraction(1, 3)]], dtype=object)
+        """
+        return array_of(self, dtype)
+
+    def to_sympy(self) -> Any:
+        """The matrix as one of sympy, with equal entries; ``sympy.Matrix(M)`` gives the same.
+
+        Examples
+        --------
+        >>> Matrix.from_rows([[1, "1/3"]]).to_sympy()
+        Matrix([[1, 1/3]])
+        """
+        return symbolic(self)
+
+    _sympy_ = to_sympy
 
     def __reduce__(self) -> tuple[Any, ...]:
         if isinstance(self._table, SparseTable):
@@ -838,8 +832,8 @@ def from_cells(
     """
     require_sides(*shape)
     pairs = [(cell, value) for cell, value in zip(cells, values, strict=True) if value]
-    made = tables.table_of_cells(*shape, [cell for cell, _ in pairs], [x for _, x in pairs])
-    return _lowest(made, denominator)
+    table = tables.table_of_cells(*shape, [cell for cell, _ in pairs], [x for _, x in pairs])
+    return _lowest(table, denominator)
 
 
 def from_flint(table: flint.fmpz_mat, denominator: int = 1) -> Matrix:
@@ -1106,7 +1100,7 @@ def _digits(text: str) -> int:
 
 
 def as_requested(number: Any, *, where: str | None = None) -> Fraction:
-    """Convert a number by which a caller asks for something, such as a rate.
+    """Convert a number that a caller requests, such as a rate.
 
     Parameters
     ----------
@@ -1156,12 +1150,12 @@ def float_above(q: Fraction) -> float:
     >>> float_above(Fraction(0.1)), 0.1 < Fraction(0.1)
     (0.10000000000000002, False)
     """
-    found = to_float(q)
-    if found == -math.inf:
-        found = math.nextafter(found, 0.0)
-    while math.isfinite(found) and min(Fraction(found), Fraction(repr(found))) < q:
-        found = math.nextafter(found, math.inf)
-    return found
+    above = to_float(q)
+    if above == -math.inf:
+        above = math.nextafter(above, 0.0)
+    while math.isfinite(above) and min(Fraction(above), Fraction(repr(above))) < q:
+        above = math.nextafter(above, math.inf)
+    return above
 
 
 def float_below(q: Fraction) -> float:
@@ -1418,30 +1412,30 @@ def kronecker(A: Matrix, B: Matrix) -> Matrix:
     """
     shape = A.nrows * B.nrows, A.ncols * B.ncols
     small = list(B.nonzero())
-    found = {
+    value_at = {
         (i * B.nrows + k) * shape[1] + j * B.ncols + l: a * b
         for i, j, a in A.nonzero()
         for k, l, b in small
     }
-    cells = sorted(found)
-    return from_cells(shape, cells, map(found.__getitem__, cells), A.denominator * B.denominator)
+    cells = sorted(value_at)
+    return from_cells(shape, cells, map(value_at.__getitem__, cells), A.denominator * B.denominator)
 
 
 def _placed(shape: tuple[int, int], parts: Sequence[tuple[Matrix, int, int]]) -> Matrix:
-    """The matrix with each part at the place where its first row and column go, and zeros."""
+    """The matrix that is 0 except for parts, each with the position of its first row and column."""
     require_sides(*shape)
     denominator = math.lcm(*(M.denominator for M, _, _ in parts))
-    found = {
+    value_at = {
         (top + i) * shape[1] + left + j: x * (denominator // M.denominator)
         for M, top, left in parts
         for i, j, x in M.nonzero()
     }
-    cells = sorted(found)
-    return from_cells(shape, cells, map(found.__getitem__, cells), denominator)
+    cells = sorted(value_at)
+    return from_cells(shape, cells, map(value_at.__getitem__, cells), denominator)
 
 
 def offsets(sizes: Iterable[int]) -> list[int]:
-    """Where parts of these sizes begin, one after the other, and where the last one ends.
+    """The positions where consecutive parts of these sizes begin, and where the last one ends.
 
     Examples
     --------
@@ -1452,14 +1446,14 @@ def offsets(sizes: Iterable[int]) -> list[int]:
 
 
 def _common(
-    matrices: Sequence[Matrix], sizes: list[int], given: int | None, name: str, caller: str
+    matrices: Sequence[Matrix], sizes: list[int], number: int | None, name: str, caller: str
 ) -> int:
-    found = set(sizes) | (set() if given is None else {given})
-    if not found:
+    numbers = set(sizes) | (set() if number is None else {number})
+    if not numbers:
         raise InputError(f"{caller}: expected at least one matrix, or the number of {name}")
-    if len(found) > 1:
-        raise InputError(f"{caller}: expected equal numbers of {name}, found {sorted(found)}")
-    return found.pop()
+    if len(numbers) > 1:
+        raise InputError(f"{caller}: expected equal numbers of {name}, found {sorted(numbers)}")
+    return numbers.pop()
 
 
 def _over_one_denominator(matrices: Sequence[Matrix]) -> tuple[list[Rows], int]:

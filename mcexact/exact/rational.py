@@ -346,7 +346,7 @@ def decimal_or_quotient(q: Fraction, most: int = 15) -> int | str:
 
 
 class Terms(Protocol):
-    """What is shortened term by term: a polynomial."""
+    """A polynomial, as these functions shorten it: term by term."""
 
     @property
     def degree(self) -> int: ...
@@ -423,7 +423,7 @@ def digits_outward(x: Fraction, *, up: bool, digits: int = 4) -> str:
     ----------
     x : Fraction
     up : bool
-        Whether what is written is at least x, and otherwise at most x.
+        Whether the result is at least x; otherwise it is at most x.
     digits : int
 
     Examples
@@ -435,8 +435,8 @@ def digits_outward(x: Fraction, *, up: bool, digits: int = 4) -> str:
     """
     rounding = ROUND_CEILING if up else ROUND_FLOOR
     with localcontext(prec=digits, rounding=rounding, Emax=MAX_EMAX, Emin=MIN_EMIN):
-        found = (Decimal(x.numerator) / Decimal(x.denominator)).normalize()
-    return f"{found:f}" if -5 <= found.adjusted() <= 5 else f"{found:e}"
+        decimal = (Decimal(x.numerator) / Decimal(x.denominator)).normalize()
+    return f"{decimal:f}" if -5 <= decimal.adjusted() <= 5 else f"{decimal:e}"
 
 
 def power_of_ten_above(x: Fraction) -> int:

@@ -1,8 +1,8 @@
 """Roots of polynomials: enclosures, time domains and stability regions.
 
-`root_discs` and `real_root_intervals` say where the roots are: flint proposes centers, and discs
-and intervals in short decimals are verified in rational arithmetic, each with exactly one root.
-They locate roots; whether all roots lie in a region is decided without them.
+`root_discs` and `real_root_intervals` enclose the roots: flint proposes centers, and discs and
+intervals in short decimals are verified in rational arithmetic, each with exactly one root. They
+locate roots; whether all roots lie in a region is decided without them.
 
 `StabilityRegion` says where eigenvalues should lie: a half-plane Re λ < −R in continuous time, a
 disc |λ| < R in discrete time, and in continuous time also a least damping ratio and a largest
@@ -152,7 +152,7 @@ def _flint_roots(p: Polynomial, bits: int) -> list[flint.acb]:
 def _on_grid(p: Polynomial, digits: int) -> list[_GridDisc] | None:
     """Discs around the roots, rounded to the grid with this many decimals; None if a test fails."""
     size = max(abs(c) for c in p.numerators).bit_length()
-    found = []
+    discs = []
     for root in _flint_roots(p, 64 + 4 * digits + size):
         re, im = _rounded(root.real, digits), _rounded(root.imag, digits)
         if im < 0 or (im == 0 and not root.imag.is_zero()):
@@ -163,10 +163,10 @@ def _on_grid(p: Polynomial, digits: int) -> list[_GridDisc] | None:
         radius = _radius(p, re, im, 10**digits)
         if radius is None:
             return None
-        found.append(_GridDisc(re, im, radius))
+        discs.append(_GridDisc(re, im, radius))
         if im:
-            found.append(_GridDisc(re, -im, radius))
-    return found if len(found) == p.degree else None
+            discs.append(_GridDisc(re, -im, radius))
+    return discs if len(discs) == p.degree else None
 
 
 def _rounded(value: flint.arb, digits: int) -> int:
@@ -496,13 +496,13 @@ class StabilityRegion:
     def _read_limits(self, discrete: bool) -> None:
         """Convert the damping ratio and the largest modulus to rationals in their ranges."""
         for name in LIMITS:
-            given = getattr(self, name)
-            if given is None:
+            requested = getattr(self, name)
+            if requested is None:
                 continue
-            limit, most = as_requested(given, where=name), 1 if name == "damping" else None
+            limit, most = as_requested(requested, where=name), 1 if name == "damping" else None
             if discrete:
-                told = "damping ratio" if name == "damping" else "largest modulus"
-                raise UsageError(f"a {told} is certified in continuous time only", where=name)
+                words = "damping ratio" if name == "damping" else "largest modulus"
+                raise UsageError(f"a {words} is certified in continuous time only", where=name)
             if limit <= 0 or (most is not None and limit >= most):
                 above = "a number above 0" + (" and below 1" if most else "")
                 raise UsageError(f"expected {above}, found {written(limit)}", where=name)
@@ -542,28 +542,29 @@ class StabilityRegion:
         """
         discrete = is_discrete(time)
         own, other = ("radius", "rate") if discrete else ("rate", "radius")
-        given = {"rate": rate, "radius": radius, "bound": bound}
-        given = {name: entry for name, entry in given.items() if entry is not None}
-        if other in given:
+        bounds = {"rate": rate, "radius": radius, "bound": bound}
+        bounds = {name: entry for name, entry in bounds.items() if entry is not None}
+        if other in bounds:
             elsewhere = TIMES[not discrete]
             raise UsageError(f"a {other} is for {elsewhere} time; give a {own}")
-        if len(given) > 1:
+        if len(bounds) > 1:
             raise UsageError(f"give a bound or a {own}, not both")
-        for name, entry in given.items():
-            found = as_requested(entry, where=name)
-            return cls(time, None if name == "bound" and not discrete and found == 0 else found)
+        for name, entry in bounds.items():
+            R = as_requested(entry, where=name)
+            return cls(time, None if name == "bound" and not discrete and R == 0 else R)
         return cls(time)
 
     @classmethod
     def asked(
         cls, time: str, region: StabilityRegion | None, rate: Any = None, radius: Any = None
     ) -> StabilityRegion | None:
-        """Return the region that is given, or that of a rate or a radius; None without any.
+        """Return a region, or else that of a rate or a radius; None if there is none of them.
 
         Raises
         ------
         UsageError
-            If a region is given with a number, or belongs to the other time domain; or as in `of`.
+            If there are both a region and a number, or the region belongs to the other time domain;
+            or as in `of`.
         """
         if region is None:
             return None if rate is None and radius is None else cls.of(time, rate, radius)
@@ -584,9 +585,9 @@ class StabilityRegion:
 
     @property
     def limits(self) -> dict[str, Fraction]:
-        """The damping ratio and the largest modulus, as far as they are given."""
-        given = {name: getattr(self, name) for name in LIMITS}
-        return {name: limit for name, limit in given.items() if limit is not None}
+        """The damping ratio and the largest modulus, without those that are None."""
+        values = {name: getattr(self, name) for name in LIMITS}
+        return {name: limit for name, limit in values.items() if limit is not None}
 
     @property
     def discrete(self) -> bool:
@@ -685,13 +686,13 @@ class StabilityRegion:
         return decay <= 0 or decay**2 <= zeta**2 * squared
 
     def bounds(self) -> list[tuple[str, Fraction]]:
-        """Return the inequalities of the region, each as what is compared, and the number."""
-        found = [(f"{self.measure} <", self.limit)]
+        """Return the inequalities of the region, each as left side with sign, and number."""
+        inequalities = [(f"{self.measure} <", self.limit)]
         if self.largest_modulus is not None:
-            found.append(("|λ| <", self.largest_modulus))
+            inequalities.append(("|λ| <", self.largest_modulus))
         if self.damping is not None:
-            found.append(("damping ratio >", self.damping))
-        return found
+            inequalities.append(("damping ratio >", self.damping))
+        return inequalities
 
     def __str__(self) -> str:
         *others, last = [f"{compared} {written(number)}" for compared, number in self.bounds()]

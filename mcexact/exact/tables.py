@@ -41,7 +41,7 @@ def is_mostly_zero(cells: int, nonzero: int) -> bool:
 
 
 def _are_mostly_zero(entries: Sequence[int]) -> bool:
-    """The same for all entries of a table; of a dense one an eighth is looked at."""
+    """As `is_mostly_zero`, for the entries of a table; of a dense one, an eighth is read."""
     nonzero = 0
     for start in range(0, len(entries), LEAST_SPARSE):
         if not is_mostly_zero(len(entries), nonzero):
@@ -106,7 +106,7 @@ class DenseTable:
         return table_of_rows(table, self.ncols if cols is None else len(cols))
 
     def reduced(self, denominator: int) -> tuple[DenseTable, int]:
-        """The table and a denominator, not 0, both divided by what they have in common."""
+        """The table and a denominator, not 0, both divided by their greatest common divisor."""
         if denominator == 1:
             return self, 1
         numerators, least = (flint.fmpq_mat(self.integer) / denominator).numer_denom()
@@ -114,7 +114,7 @@ class DenseTable:
 
 
 class SparseTable:
-    """A table of integers of which those that are not 0 are listed.
+    """A table of integers that lists those that are not 0.
 
     Parameters
     ----------
@@ -142,10 +142,10 @@ class SparseTable:
         return self._written_out()
 
     def _written_out(self) -> flint.fmpz_mat:
-        made = flint.fmpz_mat(self.nrows, self.ncols)
+        table = flint.fmpz_mat(self.nrows, self.ncols)
         for cell, value in self.nonzero():
-            made[divmod(cell, self.ncols)] = value
-        return made
+            table[divmod(cell, self.ncols)] = value
+        return table
 
     @cached_property
     def rows(self) -> Rows:
@@ -174,10 +174,10 @@ class SparseTable:
             If the table is too large.
         """
         self._require_room()
-        found, values = array("q", bytes(8 * self.nrows * self.ncols)), _words(self.values)
+        dense, values = array("q", bytes(8 * self.nrows * self.ncols)), _words(self.values)
         for cell, value in zip(self.cells, values or (), strict=False):
-            found[cell] = value
-        return None if values is None else found
+            dense[cell] = value
+        return None if values is None else dense
 
     @property
     def T(self) -> SparseTable:
@@ -210,16 +210,16 @@ class SparseTable:
     def take(self, rows: Sequence[int] | None, cols: Sequence[int] | None) -> Table:
         """The rows and columns chosen, in this order; None takes all."""
         down, across = _places(rows), _places(cols)
-        width, found = self.ncols if cols is None else len(cols), []
+        width, entries = self.ncols if cols is None else len(cols), []
         for cell, value in self.nonzero():
             i, j = divmod(cell, self.ncols)
             for a in (i,) if down is None else down.get(i, ()):
                 for b in (j,) if across is None else across.get(j, ()):
-                    found.append((a * width + b, value))
-        return table_of_cells(self.nrows if rows is None else len(rows), width, *_sorted(found))
+                    entries.append((a * width + b, value))
+        return table_of_cells(self.nrows if rows is None else len(rows), width, *_sorted(entries))
 
     def reduced(self, denominator: int) -> tuple[SparseTable, int]:
-        """The table and a denominator, not 0, both divided by what they have in common."""
+        """The table and a denominator, not 0, both divided by their greatest common divisor."""
         common = gcd(denominator, *self.values) * (-1 if denominator < 0 else 1)
         if common == 1:
             return self, denominator
@@ -228,11 +228,11 @@ class SparseTable:
 
     def lines(self) -> dict[int, list[tuple[int, int]]]:
         """The columns and values of the entries of each row that has any."""
-        found: dict[int, list[tuple[int, int]]] = {}
+        by_row: dict[int, list[tuple[int, int]]] = {}
         for cell, value in self.nonzero():
             i, j = divmod(cell, self.ncols)
-            found.setdefault(i, []).append((j, value))
-        return found
+            by_row.setdefault(i, []).append((j, value))
+        return by_row
 
     def _require_room(self) -> None:
         if self.nrows * self.ncols > LARGEST_WRITTEN_OUT:
@@ -251,21 +251,21 @@ def table_of_rows(rows: Sequence[Sequence[int]], ncols: int) -> Table:
     if _are_mostly_zero(entries):
         cells = [k for k, x in enumerate(entries) if x]
         return SparseTable(len(rows), ncols, cells, (entries[k] for k in cells))
-    made = DenseTable(flint.fmpz_mat(len(rows), ncols, entries))
-    made.__dict__["words"] = _words(entries)
-    return made
+    table = DenseTable(flint.fmpz_mat(len(rows), ncols, entries))
+    table.__dict__["words"] = _words(entries)
+    return table
 
 
 def table_of_cells(nrows: int, ncols: int, cells: Cells, values: Iterable[int]) -> Table:
     """The table with these entries, none of them 0, in the form that suits it."""
-    found = SparseTable(nrows, ncols, cells, values)
-    if is_mostly_zero(nrows * ncols, len(found.values)):
-        return found
-    return DenseTable(found._written_out())
+    table = SparseTable(nrows, ncols, cells, values)
+    if is_mostly_zero(nrows * ncols, len(table.values)):
+        return table
+    return DenseTable(table._written_out())
 
 
 def suited(table: Table) -> Table:
-    """The same table, in the form that suits it, whatever it was computed from."""
+    """The table in the form, dense or sparse, that suits its size and its entries."""
     if isinstance(table, DenseTable) and table.nrows * table.ncols >= LEAST_SPARSE:
         words = table.words
         if _are_mostly_zero(list(chain.from_iterable(table.rows)) if words is None else words):
@@ -288,14 +288,14 @@ def total(left: Table, right: Table, sign: int) -> Table:
     if isinstance(left, DenseTable) or isinstance(right, DenseTable):
         a, b = left.integer, right.integer
         return DenseTable(a + b if sign > 0 else a - b)
-    found = dict(left.nonzero())
+    sums = dict(left.nonzero())
     for cell, value in right.nonzero():
-        found[cell] = found.get(cell, 0) + sign * value
-    return table_of_cells(left.nrows, left.ncols, *_sorted(x for x in found.items() if x[1]))
+        sums[cell] = sums.get(cell, 0) + sign * value
+    return table_of_cells(left.nrows, left.ncols, *_sorted(x for x in sums.items() if x[1]))
 
 
 def product(left: Table, right: Table) -> Table:
-    """left · right; entries that are 0 are passed over where that is less work."""
+    """left · right; entries that are 0 are skipped where that is less work."""
     if isinstance(left, DenseTable) and isinstance(right, DenseTable):
         return DenseTable(left.integer * right.integer)
     a, lines = listed(left), listed(right).lines()
@@ -304,13 +304,13 @@ def product(left: Table, right: Table) -> Table:
         largest = max(left.nrows * left.ncols, right.nrows * right.ncols)
         if largest <= LARGEST_WRITTEN_OUT:
             return DenseTable(left.integer * right.integer)
-    found: dict[int, int] = {}
+    sums: dict[int, int] = {}
     for cell, value in a.nonzero():
         i, k = divmod(cell, a.ncols)
         start = i * right.ncols
         for j, factor in lines.get(k, ()):
-            found[start + j] = found.get(start + j, 0) + value * factor
-    return table_of_cells(left.nrows, right.ncols, *_sorted(x for x in found.items() if x[1]))
+            sums[start + j] = sums.get(start + j, 0) + value * factor
+    return table_of_cells(left.nrows, right.ncols, *_sorted(x for x in sums.items() if x[1]))
 
 
 def listed(table: Table) -> SparseTable:
@@ -328,13 +328,13 @@ def _sorted(pairs: Iterable[tuple[int, int]]) -> tuple[list[int], list[int]]:
 
 
 def _places(chosen: Sequence[int] | None) -> dict[int, list[int]] | None:
-    """Where each position goes; None if all stay."""
+    """The new positions of each old one; None if all stay."""
     if chosen is None:
         return None
-    found: dict[int, list[int]] = {}
+    positions: dict[int, list[int]] = {}
     for new, old in enumerate(chosen):
-        found.setdefault(old, []).append(new)
-    return found
+        positions.setdefault(old, []).append(new)
+    return positions
 
 
 def _words(entries: Sequence[int]) -> array[int] | None:

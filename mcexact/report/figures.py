@@ -21,7 +21,7 @@ from mcexact.report.html import Picture
 from mcexact.simulation.envelope import Envelope, SimulatedLoop
 from mcexact.simulation.trajectory import Trajectory
 
-# Pictures of trajectories with what is proved of them, and of the eigenvalues of a closed loop.
+# Pictures of trajectories with their proved bounds, and of the eigenvalues of a closed loop.
 
 
 def simulation_pictures(done: SimulatedLoop) -> list[Picture]:
@@ -30,8 +30,8 @@ def simulation_pictures(done: SimulatedLoop) -> list[Picture]:
     outputs, inputs = (one_axis(None, *PANEL) for _ in range(2))
     responses(run, [outputs, inputs], envelope=envelope)
     drawn = [
-        Picture(outputs.figure, "Outputs", _outputs_told(run, envelope)),
-        Picture(inputs.figure, "Inputs", _range_told(run, "inputs")),
+        Picture(outputs.figure, "Outputs", _outputs_in_words(run, envelope)),
+        Picture(inputs.figure, "Inputs", _range_in_words(run, "inputs")),
         *decay_pictures(run, _at_rest(done, spectrum), "Decay", envelope),
     ]
     if spectrum is not None:
@@ -49,12 +49,12 @@ def gains_pictures(controller: Controller) -> list[Picture]:
     largest = to_float(controller.largest_entry())
     if not largest:
         return []
-    told = (
+    words = (
         f"Every entry of the agents' programs, the largest {largest:.3g}: rows are what is "
         "computed (u inputs, x shared states, z private states), columns what it is computed from "
         "(y outputs, r set-points). Red is positive, blue negative, white zero."
     )
-    return [Picture(gains(controller), "Gains of the controller", told)]
+    return [Picture(gains(controller), "Gains of the controller", words)]
 
 
 def simulation_png(done: SimulatedLoop) -> bytes:
@@ -103,13 +103,13 @@ def response_picture(run: Trajectory, title: str, envelope: Envelope | None = No
     envelope : Envelope, optional
         Proved bounds.
     """
-    words = f"{_outputs_told(run, envelope)} {_range_told(run, 'inputs')}"
+    words = f"{_outputs_in_words(run, envelope)} {_range_in_words(run, 'inputs')}"
     return Picture(responses(run, envelope=envelope), title, words)
 
 
-def _outputs_told(run: Trajectory, envelope: Envelope | None) -> str:
-    """What the picture of the outputs shows, in words."""
-    words = _range_told(run, "outputs")
+def _outputs_in_words(run: Trajectory, envelope: Envelope | None) -> str:
+    """The content of the picture of the outputs, in words."""
+    words = _range_in_words(run, "outputs")
     if any(map(any, run.values("reference").values())):
         words += " Dashed: set-points."
     if has_bounds(run, envelope):
@@ -117,7 +117,7 @@ def _outputs_told(run: Trajectory, envelope: Envelope | None) -> str:
     return words
 
 
-def _range_told(run: Trajectory, kind: str) -> str:
+def _range_in_words(run: Trajectory, kind: str) -> str:
     """The range of a signal in words."""
     curves = run.values(kind)
     values = [v for each in curves.values() for v in each if math.isfinite(v)]
@@ -141,8 +141,8 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
     title : str
     """
     figure = eigenvalues(spectrum, one_axis(None, *PANEL), time=time, title=title)
-    told = ", ".join(_point(disc.re, disc.im) for disc in spectrum.discs[:20])
-    told += ", …" if len(spectrum.discs) > 20 else ""
+    places = ", ".join(_point(disc.re, disc.im) for disc in spectrum.discs[:20])
+    places += ", …" if len(spectrum.discs) > 20 else ""
     largest = max((Fraction(disc.radius) for disc in spectrum.discs), default=Fraction(0))
     verdict = "all in the stability region" if spectrum.stable else "not all stable"
     sure = (
@@ -150,7 +150,9 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
         if largest
         else "known exactly"
     )
-    words = f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each is {sure}."
+    words = (
+        f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {places}; each is {sure}."
+    )
     return Picture(figure, title, words)
 
 
@@ -172,7 +174,7 @@ def decay_pictures(
     ----------
     run : Trajectory
     spectrum : LoopSpectrum, optional
-        Whose rate is drawn as a line.
+        The spectrum whose rate is drawn as a line.
     title : str
     envelope : Envelope, optional
         Proved bounds.
@@ -218,20 +220,20 @@ def dimensions_picture(account: Account) -> Picture:
     account : Account
         An account with the least dimensions for some way of sharing.
     """
-    names, said, answers = account.given.names, account.sentences, account.answers
+    names, sentences, answers = account.given.names, account.sentences, account.answers
     least = {share: answers[name] for share, name in LEAST.items() if name in answers}
-    told = [each for each in said.at("table") if each.template.label in _SHARING]
-    read = {file for each in told for file, *_ in each.because}
+    lines = [each for each in sentences.at("table") if each.template.label in _SHARING]
+    read = {file for each in lines for file, *_ in each.because}
     holds = any(file.startswith("shared_dimension_bound") for file in read)
     figure = empty_figure(4.4 * len(least), 3.2)
-    for axis, (share, found) in zip(
+    for axis, (share, answer) in zip(
         figure.subplots(1, len(least), squeeze=False)[0], least.items(), strict=True
     ):
-        sizes = (0,) * len(names) if found.dimensions is None else found.dimensions
+        sizes = (0,) * len(names) if answer.dimensions is None else answer.dimensions
         bound = answers[_BOUNDS[share]].deficiency if holds else None
         _draw_bars(axis, names, sizes, bound, share)
-    caption = "; ".join(each.line for each in told) + "."
-    return Picture(figure, "".join(said.at("dimensions.title")), caption)
+    caption = "; ".join(each.line for each in lines) + "."
+    return Picture(figure, "".join(sentences.at("dimensions.title")), caption)
 
 
 def allocation_picture(account: Account) -> Picture:
@@ -242,8 +244,8 @@ def allocation_picture(account: Account) -> Picture:
     account : Account
         An account as `account_of_dimensions` returns it, with dimensions that suffice.
     """
-    least, said = account.answers["minimal_shared_dimensions"], account.sentences
-    compared = any(each.template.key == "allocate-total-bound" for each in said.at("table"))
+    least, sentences = account.answers["minimal_shared_dimensions"], account.sentences
+    compared = any(each.template.key == "allocate-total-bound" for each in sentences.at("table"))
     bound = account.answers["shared_dimension_bound"].deficiency if compared else None
     names = account.given.names
     figure = empty_figure(max(4.4, min(1.5 + 0.3 * len(names), 9.0)), 3.2)
@@ -291,16 +293,16 @@ def graph_pictures(account: Account) -> list[Picture]:
     account : Account
         An account with the transfer graph and the fixed spectrum; see `structure`.
     """
-    system, said, answers = account.given.system, account.sentences, account.answers
+    system, sentences, answers = account.given.system, account.sentences, account.answers
     panels = [_NEIGHBORS, _TRANSFER] if system.neighbors is not None else [_TRANSFER]
     axes = [one_axis(None, *graph_size(system.m)) for _ in panels]
     structure(system, answers["fixed_spectrum"], answers["transfer_graph"], axes)
-    title, sentences = "".join(said.at("graphs.title")), said.at("graphs")
+    title, captions = "".join(sentences.at("graphs.title")), sentences.at("graphs")
     pictures = []
     for panel, axis in zip(panels, axes, strict=True):
         others = {_NEIGHBORS, _TRANSFER} - {panel}
-        told = [each for each in sentences if each.template.key not in others]
-        pictures.append(Picture(axis.figure, title, "; ".join(told) + "."))
+        words = [each for each in captions if each.template.key not in others]
+        pictures.append(Picture(axis.figure, title, "; ".join(words) + "."))
     return pictures
 
 
@@ -317,6 +319,6 @@ def links_picture(account: Account) -> Picture:
     edges = [] if there is None else [(names[j], names[i]) for j, i in there.edges()]
     axis = one_axis(None, *graph_size(system.m))
     graph((names, [*edges, *added]), axis, added=added, title="neighbor graph")
-    told = ", ".join(f"{start} → {end}" for start, end in added)
-    words = f"Blue: the links to add, {told}." if added else "No links have to be added."
+    links = ", ".join(f"{start} → {end}" for start, end in added)
+    words = f"Blue: the links to add, {links}." if added else "No links have to be added."
     return Picture(axis.figure, "Links", words)

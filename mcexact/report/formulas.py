@@ -3,7 +3,7 @@
 Sentences are written once, as plain text with formulas such as ``A + Σ B_i F_i`` and ``[λI − A,
 B_i; C_s, 0]``.  `formulas` finds these formulas by a small grammar and reads them into trees of
 `Node`; `typeset_latex` and `typeset` write the trees as LaTeX and as MathML, and escape the rest of
-the text.  Whatever the grammar does not read as a formula stays text.
+the text.  Text that the grammar does not read as a formula stays text.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from html import escape
 
 from mcexact.shown import escaped
 
-# Reading: formulas are found in plain text, and read into trees.
+# Reading formulas in plain text into trees.
 
 RELATIONS = ["=", "≠", "≥", "≤", "<", ">", "∈", "⊂", "→"]
 OPERATORS = ["+", "−", "∖", "∪", "∩", "·", "×", "⊗", "/"]
 BRACKETS = {"(": ")", "[": "]", "{": "}"}
 NAMES = ("rank", "det", "column", "diag", "exp", "min")
 PRODUCTS = ("BF", "KC", "Fx", "Fe", "BFe", "Ax", "Mt", "ct", "mn", "nm", "mr", "gA", "sI", "λI")
-"""Products of letters without a space, which cannot be told from words by their form."""
+"""Products of letters without a space, which have the form of words."""
 
 _LETTER = "[A-Za-zΑ-ΩΣα-ω][\u0302\u0303\u0304\u0307]?"
 _TOKEN = re.compile(
@@ -103,11 +103,11 @@ class _Reader:
     def _sign(self, signs: list[str]) -> str | None:
         """Step over one of these signs, with spaces around it."""
         at = self._past_spaces(self.at)
-        found = next((sign for sign in signs if self.text.startswith(sign, at, self.end)), None)
-        if found is None:
+        first = next((sign for sign in signs if self.text.startswith(sign, at, self.end)), None)
+        if first is None:
             return None
-        self.at = self._past_spaces(at + len(found))
-        return found
+        self.at = self._past_spaces(at + len(first))
+        return first
 
     def _past_spaces(self, at: int) -> int:
         while at < self.end and self.text[at] == " ":
@@ -132,16 +132,16 @@ class _Reader:
         return parts[0] if len(parts) == 1 else Node("row", parts=tuple(parts))
 
     def _factor(self) -> Node:
-        found = self._primary()
+        factor = self._primary()
         if self.at < self.end and (index := _INDEX.match(self.text, self.at, self.end)):
             inside = index[1].strip("{}")
             self.at = index.end()
-            found = Node("index", parts=(found, _index(inside)))
+            factor = Node("index", parts=(factor, _index(inside)))
         if power := _POWER.match(self.text, self.at, self.end):
             self.at = power.end()
             raised = power[0].translate(_DIGITS)
-            found = Node("power", parts=(found, _index(raised)))
-        return found
+            factor = Node("power", parts=(factor, _index(raised)))
+        return factor
 
     def _primary(self) -> Node:
         if self.at >= self.end:
@@ -152,22 +152,22 @@ class _Reader:
         if token is None or _within_a_word(self.text, self.at):
             raise _NoFormula
         self.at = token.end()
-        kind, said = str(token.lastgroup), token[0]
+        kind, text = str(token.lastgroup), token[0]
         if kind == "product":
-            return Node("row", parts=tuple(Node("letter", each) for each in said))
+            return Node("row", parts=tuple(Node("letter", each) for each in text))
         kinds = {"symbol": "letter", "sum": "sum"}
-        return Node(kinds.get(kind, kind), said)
+        return Node(kinds.get(kind, kind), text)
 
     def _bracket(self) -> Node:
         opening = self.text[self.at]
         close = _closing(self.text, self.at, self.end)
         inside = (self.at + 1, close)
         if opening == "[":
-            made = _matrix(self.text, *inside)
+            node = _matrix(self.text, *inside)
         else:
-            made = Node("fenced", opening + BRACKETS[opening], _listed(self.text, *inside))
+            node = Node("fenced", opening + BRACKETS[opening], _listed(self.text, *inside))
         self.at = close + 1
-        return made
+        return node
 
 
 def _within_a_word(text: str, at: int) -> bool:
@@ -218,10 +218,10 @@ def _whole(text: str, start: int, end: int) -> Node:
     while start < end and text[end - 1] == " ":
         end -= 1
     reader = _Reader(text, start, end)
-    made = reader.relation()
+    node = reader.relation()
     if reader.at != end:
         raise _NoFormula
-    return made
+    return node
 
 
 def _listed(text: str, start: int, end: int) -> tuple[Node, ...]:
@@ -256,22 +256,22 @@ def _index(text: str) -> Node:
 def _sign_of_index(sign: str, index: str) -> Node:
     """A letter of an index, which may have one of its own, a number, or a sign."""
     kind = "number" if sign.isdigit() else "letter" if sign.isalpha() else "operator"
-    found = Node(kind, sign)
-    return Node("index", parts=(found, _index(index))) if index else found
+    node = Node(kind, sign)
+    return Node("index", parts=(node, _index(index))) if index else node
 
 
-def _is_worth_setting(made: Node, text: str, start: int, end: int) -> bool:
-    """Whether what was read is a formula, and no word, number or reference to an equation."""
-    if made.any("index", "power", "operator", "sum", "matrix", "name"):
-        return made.kind != "name"
-    if made.kind == "fenced":
-        numbers = all(part.kind == "number" for part in made.parts)
-        return not (numbers and len(made.parts) == 1 and made.text == "()")
-    if made.kind == "row":
+def _is_worth_setting(node: Node, text: str, start: int, end: int) -> bool:
+    """Whether a node is a formula, and not a word, a number or a reference to an equation."""
+    if node.any("index", "power", "operator", "sum", "matrix", "name"):
+        return node.kind != "name"
+    if node.kind == "fenced":
+        numbers = all(part.kind == "number" for part in node.parts)
+        return not (numbers and len(node.parts) == 1 and node.text == "()")
+    if node.kind == "row":
         return True
-    if made.kind != "letter" or made.text in ("a", "I", "V", "…"):
+    if node.kind != "letter" or node.text in ("a", "I", "V", "…"):
         return False
-    article = made.text == "A" and re.match(r" (?!(?:and|is|has) )[a-z]{2}", text[end:])
+    article = node.text == "A" and re.match(r" (?!(?:and|is|has) )[a-z]{2}", text[end:])
     begins = start == 0 or text[:start].rstrip().endswith((".", ":"))
     hyphened = text[end : end + 1] == "-" or text[start - 1 : start] == "-"
     return not (article and begins) and not hyphened
@@ -300,15 +300,15 @@ def formulas(text: str) -> Iterator[str | Node]:
         try:
             if at and (plain[at - 1].isalnum() or plain[at - 1] in "`_.'’"):
                 raise _NoFormula
-            made = reader.relation()
-            if not _is_worth_setting(made, plain, at, reader.at):
+            node = reader.relation()
+            if not _is_worth_setting(node, plain, at, reader.at):
                 raise _NoFormula
         except _NoFormula:
             at += 1
             continue
         if words < at:
             yield unicodedata.normalize("NFC", plain[words:at])
-        yield made
+        yield node
         at = words = reader.at
     if words < len(plain):
         yield unicodedata.normalize("NFC", plain[words:])
@@ -355,11 +355,11 @@ def typeset_latex(text: str) -> str:
     >>> print(typeset_latex("if n_i ≥ 1"))
     if $n_{i} \ge 1$
     """
-    made = [
+    pieces = [
         rf"\texttt{{{escaped(piece)}}}" if k % 2 else _with_formulas(piece)
         for k, piece in enumerate(text.split("`"))
     ]
-    return "".join(made)
+    return "".join(pieces)
 
 
 def _with_formulas(text: str) -> str:
@@ -407,7 +407,7 @@ _MATHML_ACCENTS = {"\u0302": "^", "\u0303": "~", "\u0304": "¯", "\u0307": "˙"}
 
 
 class Markup(str):
-    """A text in which everything is escaped that has to be."""
+    """A text in which all special characters are escaped."""
 
     __slots__ = ()
 
@@ -429,26 +429,26 @@ def typeset(text: str) -> Markup:
     'if <math><msub><mi>n</mi><mi>i</mi></msub><mo>&lt;</mo><mi>m</mi></math>'
     """
     pieces = text.split("`")
-    made = [
+    written = [
         f"<code>{escape(piece, quote=False)}</code>" if k % 2 else _with_mathml(piece)
         for k, piece in enumerate(pieces)
     ]
-    return Markup("".join(made))
+    return Markup("".join(written))
 
 
 def _with_mathml(text: str) -> str:
     """A text without code; a sign after a formula stays on its line."""
-    made: list[str] = []
+    written: list[str] = []
     for each in formulas(text):
         if isinstance(each, Node):
-            made.append(f"<math>{_mathml_set(each)}</math>")
+            written.append(f"<math>{_mathml_set(each)}</math>")
             continue
-        said = escape(each, quote=False)
-        if made and said[0] in ",.;:)":
-            made[-1] = f'<span class="kept">{made[-1]}{said[0]}</span>'
-            said = said[1:]
-        made.append(said)
-    return "".join(made)
+        word = escape(each, quote=False)
+        if written and word[0] in ",.;:)":
+            written[-1] = f'<span class="kept">{written[-1]}{word[0]}</span>'
+            word = word[1:]
+        written.append(word)
+    return "".join(written)
 
 
 def matrix(name: str, rows: Sequence[Sequence[str]]) -> Markup:
@@ -512,9 +512,9 @@ def _mathml_set(node: Node) -> str:
 
 def _one(node: Node) -> str:
     """A formula as one element."""
-    made = _mathml_set(node)
+    element = _mathml_set(node)
     single = node.kind in ("letter", "number", "operator", "index", "power", "sum")
-    return made if single and made.count("<mo>′") == 0 else f"<mrow>{made}</mrow>"
+    return element if single and element.count("<mo>′") == 0 else f"<mrow>{element}</mrow>"
 
 
 def _mathml_letter(text: str) -> str:

@@ -187,12 +187,12 @@ class AnswerPage:
         """
         evidence = []
         for name, text in (certificates or {}).items():
-            said = (verdicts or {}).get(name)
+            verdict = (verdicts or {}).get(name)
             evidence.append(
                 {
                     "title": name,
-                    "verdict": said.verdict if said is not None else "not re-checked",
-                    "theorem": said.line() if said is not None else "",
+                    "verdict": verdict.verdict if verdict is not None else "not re-checked",
+                    "theorem": verdict.line() if verdict is not None else "",
                     "text": text,
                 }
             )
@@ -224,7 +224,7 @@ def shown_plant(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]
         entries as labels and texts, and ``notes`` that say what was cut or rounded.
     """
     shown = _first(system.m)
-    # Columns beside columns and rows beside rows take the least room.
+    # Matrices of columns side by side, and matrices of rows side by side, take the least room.
     named: list[tuple[str, Any]] = [
         ("A", system.A),
         *((f"B_{k + 1}", system.B(k)) for k in range(shown)),
@@ -284,8 +284,8 @@ def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, st
         edges = sum(1 for j, i in system.neighbors.edges() if i != j)
         rows.append(("links between agents", count(edges, "link")))
     if system.uncertainty is not None:
-        told = radii_in_words(system)
-        rows.append(("uncertainty", f"{told}; the matrices are those of the nominal values"))
+        radii = radii_in_words(system)
+        rows.append(("uncertainty", f"{radii}; the matrices are those of the nominal values"))
     rows.append(("source", system.source or "not stated in the system file"))
     rows.append(("SHA-256 of the system", system.digest()))
     return tuple(rows)

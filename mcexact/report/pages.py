@@ -40,14 +40,14 @@ _LINKS = (
 
 def account_page(account: Account) -> AnswerPage:
     """Return the page of an analysis."""
-    system, said = account.given.system, account.sentences
-    first, *rest = tables(said)
+    system, sentences = account.given.system, account.sentences
+    first, *rest = tables(sentences)
     spectrum = account.answers.get("fixed_spectrum")
     return AnswerPage(
         title=system.name or "A multi-channel system",
-        heading="".join(said.at("page")),
+        heading="".join(sentences.at("page")),
         good=spectrum is None or spectrum.stabilizable,
-        answer=tuple(answer(said)),
+        answer=tuple(answer(sentences)),
         pictures=tuple(drawn.embedded() for drawn in _pictures(account)),
         tables=(replace(first, title="All answers"), *rest),
         plant=shown_plant(system),
@@ -72,23 +72,23 @@ def allocation_page(account: Account) -> AnswerPage:
     account : Account
         As `account_of_dimensions` or `account_of_links` returns it.
     """
-    system, said = account.given.system, account.sentences
+    system, sentences = account.given.system, account.sentences
     linked = account.answers.get("minimal_communication")
     least = account.answers["minimal_shared_dimensions"] if linked is None else linked
     heading, title = _SHARED if linked is None else _LINKS
     drawn = []
     if least.feasible:
         drawn.append((allocation_picture if linked is None else links_picture)(account))
-    first, *rest = tables(said)
-    found = [replace(first, title=title)] if first.rows else []
-    words = said.at("title", *([] if first.rows else ["table.note"]))
+    first, *rest = tables(sentences)
+    answers = [replace(first, title=title)] if first.rows else []
+    words = sentences.at("title", *([] if first.rows else ["table.note"]))
     return AnswerPage(
         title=system.name or "A multi-channel system",
         heading=heading,
         good=least.feasible,
         answer=tuple(words),
         pictures=tuple(each.embedded() for each in drawn),
-        tables=(*found, *rest),
+        tables=(*answers, *rest),
         plant=shown_plant(system),
     )
 
@@ -99,7 +99,7 @@ def allocation_page(account: Account) -> AnswerPage:
 def loop_page(
     account: Account,
     install: str,
-    said: Sequence[str],
+    words: Sequence[str],
     tables: Sequence[Table],
     curves: LoopCurves | None,
     controller: Controller,
@@ -110,7 +110,7 @@ def loop_page(
     ----------
     account : Account
     install : {"yes", "with care", "no"}
-    said : sequence of str
+    words : sequence of str
         The verdict, warnings and notes.
     tables : sequence of Table
     curves : LoopCurves or None
@@ -124,7 +124,7 @@ def loop_page(
         heading="A controller and its closed loop. Its figures are computed, not certified; the "
         "certificates prove where the eigenvalues lie.",
         good=install == "yes",
-        answer=tuple(said),
+        answer=tuple(words),
         pictures=tuple(each.embedded() for each in pictures),
         tables=tuple(tables),
         plant=shown_plant(system),
@@ -138,73 +138,73 @@ def loop_pictures(curves: LoopCurves) -> list[Picture]:
 
 
 def _picture(
-    draw: Callable[[LoopCurves, Any], Any], curves: LoopCurves, title: str, told: str
+    draw: Callable[[LoopCurves, Any], Any], curves: LoopCurves, title: str, words: str
 ) -> Picture:
     """A picture of half the width of a page."""
     figure = draw(curves, one_axis(None, *PANEL))
-    return Picture(figure, title, f"{told} Computed, not certified.")
+    return Picture(figure, title, f"{words} Computed, not certified.")
 
 
 def _eigenvalues(curves: LoopCurves) -> Picture:
     count, within = len(curves.eigenvalues), sum(map(curves.keeps, curves.eigenvalues))
     many = f"The {count} eigenvalues" if count != 1 else "The eigenvalue"
     inside = "inside" if within == count else f"{within} of them inside"
-    told = f"{many} of the loop, {inside} {' and '.join(_edges(curves))}."
-    return _picture(poles, curves, "Eigenvalues", told)
+    words = f"{many} of the loop, {inside} {' and '.join(_edges(curves))}."
+    return _picture(poles, curves, "Eigenvalues", words)
 
 
 def _edges(curves: LoopCurves) -> list[str]:
-    """The lines that bound the region that was asked for, as they are drawn."""
+    """The lines that bound the requested region, as they are drawn."""
     region = curves.region
     limits = region.limits
     if region.discrete:
         return [f"the dashed circle of radius {digits_outward(region.edge, up=True)}"]
-    found = [f"the dashed line at {digits_outward(-region.edge, up=True)}"]
+    lines = [f"the dashed line at {digits_outward(-region.edge, up=True)}"]
     if "damping" in limits:
         ratio = digits_outward(limits["damping"], up=False)
-        found.append(f"the dashed lines of the damping ratio {ratio}")
+        lines.append(f"the dashed lines of the damping ratio {ratio}")
     if "largest_modulus" in limits:
         circle = f"circle of radius {digits_outward(limits['largest_modulus'], up=True)}"
         near = circle_near(curves.eigenvalues, limits)
-        found.append(f"the dashed {circle}" if near else f"the {circle}, beyond the picture")
-    return found
+        lines.append(f"the dashed {circle}" if near else f"the {circle}, beyond the picture")
+    return lines
 
 
 def _sensitivity(curves: LoopCurves) -> Picture:
     largest = max(curves.sensitivity, default=0.0)
     margin = "infinite" if not largest else f"{1 / largest:.3g}"
-    told = (
+    words = (
         "The complementary sensitivity T at all inputs of the plant together, at most "
         f"{largest:.3g}, so that the margin is {margin}. It should stay below the dashed line, "
         "which is a margin of 0.3."
     )
-    return _picture(sensitivity, curves, "Robustness", told)
+    return _picture(sensitivity, curves, "Robustness", words)
 
 
 def _decay(curves: LoopCurves) -> Picture:
-    told = (
+    words = (
         "The largest norm of the plant's state from a start of norm 1, at most "
         f"{max(curves.growth, default=0.0):.3g}."
     )
-    return _picture(loop_decay, curves, "Decay", told)
+    return _picture(loop_decay, curves, "Decay", words)
 
 
 def _effort(curves: LoopCurves) -> Picture:
-    told = (
+    words = (
         "The largest norm of all inputs from the same start, at most "
         f"{max(curves.effort, default=0.0):.3g}."
     )
-    return _picture(effort, curves, "Effort", told)
+    return _picture(effort, curves, "Effort", words)
 
 
 def _steps(curves: LoopCurves) -> Picture:
-    told = (
+    words = (
         "Each output after a unit step of its own set-point, at most "
         f"{max(max(each) for _, each in curves.steps):.3g}."
     )
     if len(curves.steps) > NAMED:
-        told += f" Of {len(curves.steps)} outputs the first {NAMED} are named."
-    return _picture(steps, curves, "Step responses", told)
+        words += f" Of {len(curves.steps)} outputs the first {NAMED} are named."
+    return _picture(steps, curves, "Step responses", words)
 
 
 # The answers about a system with parameters: tables, a page, and LaTeX.
@@ -219,14 +219,14 @@ def parameter_tables(account: Account, *, whole: bool = False) -> tuple[Table, .
     whole : bool
         Whether all questions have a table, and not only those about modes: on a page.
     """
-    said = account.sentences
-    rows = tuple(each.cells for each in said.at("table"))
-    title = "All answers" if whole else "".join(said.at("title"))
+    sentences = account.sentences
+    rows = tuple(each.cells for each in sentences.at("table"))
+    title = "All answers" if whole else "".join(sentences.at("title"))
     first = (Table(title, (), rows),) if rows else ()
     shown = account.detailed(LABELS) if whole else account.detailed(MODES)
     proofs = account.proofs(LABELS if whole else MODES)
-    told = (Table(PROVED, PROOFS, proofs),) if proofs else ()
-    return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *told)
+    proved = (Table(PROVED, PROOFS, proofs),) if proofs else ()
+    return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *proved)
 
 
 def parameter_page(account: Account) -> AnswerPage:
@@ -244,13 +244,13 @@ def parameter_page(account: Account) -> AnswerPage:
 
 def _parameter_pictures(account: Account) -> list[Picture]:
     """The modes against one parameter, or the hypersurfaces of two."""
-    spectrum, said = account.answers.get("fixed_spectrum"), " ".join(account.at("answer")[:2])
+    spectrum, words = account.answers.get("fixed_spectrum"), " ".join(account.at("answer")[:2])
     if spectrum is None:
         return []
     if not isinstance(spectrum, Hypersurfaces):
-        return [Picture(parameter_modes(spectrum), "Modes against the parameter", said)]
+        return [Picture(parameter_modes(spectrum), "Modes against the parameter", words)]
     if len(account.given.system.parameters) == 2 and spectrum.hypersurfaces:
-        return [Picture(hypersurfaces(spectrum), "Where another mode is fixed", said)]
+        return [Picture(hypersurfaces(spectrum), "Where another mode is fixed", words)]
     return []
 
 
@@ -260,8 +260,8 @@ def parameter_latex(account: Account) -> str:
         f"% {escaped(account.given.system.name or 'system')}",
         rf"\[ {account.given.system._latex()} \]",
     ]
-    lines += [escaped(said) for said in account.at("answer")]
-    lines += [escaped(said.line) for said in account.sentences.at("table")]
+    lines += [escaped(sentence) for sentence in account.at("answer")]
+    lines += [escaped(each.line) for each in account.sentences.at("table")]
     for name in account.detailed():
         rows = ((where, "; ".join(filter(None, rest))) for where, *rest in account.rows(name))
         lines.append(rf"\[ {array(rows)} \]")

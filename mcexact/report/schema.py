@@ -1,6 +1,6 @@
 """JSON Schemas of files and of what commands print.
 
-Every file format and every ``--json`` output has a JSON Schema (2020-12), made by one function each
+Every file format and every ``--json`` output has a JSON Schema (2020-12), declared by a function
 (`DOCUMENTS`), so that the schemas share their terms.  `main` writes them into the folder from which
 they ship.
 
@@ -68,13 +68,13 @@ def record(
     required: Schema, optional: Schema | None = None, *, closed: bool = False, says: str = ""
 ) -> Schema:
     """An object with some keys, and others unless it is closed."""
-    made: Schema = {"description": says} if says else {}
-    made |= {
+    schema: Schema = {"description": says} if says else {}
+    schema |= {
         "type": "object",
         "properties": required | (optional or {}),
         "required": list(required),
     }
-    return made | ({"additionalProperties": False} if closed else {})
+    return schema | ({"additionalProperties": False} if closed else {})
 
 
 def named(format_name: str) -> Schema:
@@ -345,7 +345,7 @@ EVERY_LOOP = record(
 
 def design() -> Schema:
     """The JSON of `mcexact design`."""
-    made = {
+    designed = {
         "method": TEXT,
         "arithmetic": TEXT,
         "order": WHOLE,
@@ -365,11 +365,11 @@ def design() -> Schema:
         )
     }  # fmt: skip
     refused = {"possible": {"const": False}, "reason": TEXT}
-    schema = _account({"design": TEXT}, made | parts | refused | {"every_loop": EVERY_LOOP})
+    schema = _account({"design": TEXT}, designed | parts | refused | {"every_loop": EVERY_LOOP})
     return schema | {
         "if": {"required": ["possible"]},
         "then": {"required": ["reason"]},
-        "else": {"required": list(made)},
+        "else": {"required": list(designed)},
     }
 
 
@@ -478,8 +478,10 @@ def simulate() -> Schema:
 def allocate() -> Schema:
     """The JSON of `mcexact allocate`."""
     sizes = record({"least": WHOLE, "bound": some(WHOLE)})
-    said = "the least dimensions, and those of the theorem's bound where its hypotheses hold"
-    return _account({}, {"shares": record({"by_agent": table(sizes), "total": sizes}, says=said)})
+    meaning = "the least dimensions, and those of the theorem's bound where its hypotheses hold"
+    return _account(
+        {}, {"shares": record({"by_agent": table(sizes), "total": sizes}, says=meaning)}
+    )
 
 
 def check() -> Schema:
@@ -539,7 +541,7 @@ def demo() -> Schema:
 
 
 def error() -> Schema:
-    """What a command prints that fails."""
+    """The JSON that a failing command prints."""
     return record(
         named("mcexact-error/1")
         | {
@@ -630,8 +632,8 @@ system files."""
 
 
 @cache
-def made(name: str) -> str:
-    """The text of a schema, made from its declaration."""
+def schema_file(name: str) -> str:
+    """The text of the file of a schema, written from its declaration."""
     maker, title = DOCUMENTS[name]
     head = {"$schema": _DIALECT, "title": f"mcexact {name}: {title}"}
     return json.dumps(_shared(head | maker()), indent=1, ensure_ascii=True) + "\n"
@@ -641,15 +643,15 @@ _SHARED = {"rational": RATIONAL, "number": NUMBER, "matrix": MATRIX}
 
 
 def _shared(schema: Schema) -> Schema:
-    """The schema with what occurs often written once."""
-    found = {name: each for name, each in _SHARED.items() if _occurs(each, schema)}
-    if not found:
+    """The schema with each shared part written once, as a definition."""
+    shared = {name: each for name, each in _SHARED.items() if _occurs(each, schema)}
+    if not shared:
         return schema
     definitions = {
-        name: {key: _replaced(value, found) for key, value in each.items()}
-        for name, each in found.items()
+        name: {key: _replaced(value, shared) for key, value in each.items()}
+        for name, each in shared.items()
     }
-    replaced: Schema = _replaced(schema, found)
+    replaced: Schema = _replaced(schema, shared)
     return replaced | {"$defs": definitions}
 
 
@@ -694,7 +696,7 @@ def main() -> None:
     for path in FOLDER.glob("*.json"):
         path.unlink()
     for name in DOCUMENTS:
-        (FOLDER / f"{name}.json").write_text(made(name), encoding="utf-8")
+        (FOLDER / f"{name}.json").write_text(schema_file(name), encoding="utf-8")
 
 
 if __name__ == "__main__":

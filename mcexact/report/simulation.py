@@ -71,9 +71,9 @@ def decimal_text(x: Fraction, digits: int = _DIGITS) -> str:
     '1E-400'
     """
     with localcontext(prec=digits, Emax=MAX_EMAX, Emin=MIN_EMIN):
-        found = (Decimal(x.numerator) / Decimal(x.denominator)).normalize()
-    short = -_DIGITS <= found.adjusted() <= _DIGITS
-    return f"{found:f}" if short else str(found)
+        decimal = (Decimal(x.numerator) / Decimal(x.denominator)).normalize()
+    short = -_DIGITS <= decimal.adjusted() <= _DIGITS
+    return f"{decimal:f}" if short else str(decimal)
 
 
 def shown_times(run: Trajectory, lines: int) -> list[int]:
@@ -105,17 +105,17 @@ class SimulationReport:
     fractions: bool = False
 
     def facts(self) -> list[str]:
-        """Return exact statements about the loop, and what was simulated."""
-        run, found = self.done.run, self.done.spectrum
+        """Return exact statements about the loop and the simulation."""
+        run, spectrum = self.done.run, self.done.spectrum
         unit = "steps" if is_discrete(run.time) else "units of time"
         lines = [
             f"{run.time} time, {run.arithmetic} arithmetic, {to_float(run.times[-1]):g} {unit}"
         ]
-        if found is not None and found.rate is not None:
-            stable = "" if found.stable else "not "
+        if spectrum is not None and spectrum.rate is not None:
+            stable = "" if spectrum.stable else "not "
             what = "spectral radius" if is_discrete(run.time) else "decay rate"
-            between = f"between {found.rate.lower} and {found.rate.upper}"
-            size = found.rate.lower if found.rate.lower == found.rate.upper else between
+            between = f"between {spectrum.rate.lower} and {spectrum.rate.upper}"
+            size = spectrum.rate.lower if spectrum.rate.lower == spectrum.rate.upper else between
             lines.append(f"the closed loop is {stable}stable; its {what} is {size}")
         if run.loop.dimension > LARGEST:
             lines.append(
@@ -191,13 +191,13 @@ class SimulationReport:
 
         A number that exceeds floats is None.
         """
-        run, found, envelope = self.done.run, self.done.spectrum, self.done.envelope
+        run, spectrum, envelope = self.done.run, self.done.spectrum, self.done.envelope
         snapshots = run.snapshots
         return {
             "time": run.time,
             "arithmetic": run.arithmetic,
-            "stable": None if found is None else found.stable,
-            "rate": None if found is None or found.rate is None else found.rate.document(),
+            "stable": None if spectrum is None else spectrum.stable,
+            "rate": None if spectrum is None or spectrum.rate is None else spectrum.rate.document(),
             "warnings": list(self.done.warnings),
             "times": [self._number(t) for t in run.times],
             "state": [self._numbers(each.plant) for each in snapshots],
@@ -269,22 +269,22 @@ class SimulationReport:
 
 def radius_text(bound: Fraction) -> str:
     """A radius, rounded up to at least four digits; if it is below 1, to a number below 1."""
-    digits, told = 4, digits_outward(bound, up=True)
-    while bound < 1 <= Fraction(told):
+    digits, text = 4, digits_outward(bound, up=True)
+    while bound < 1 <= Fraction(text):
         digits += 2
-        told = digits_outward(bound, up=True, digits=digits)
-    return told
+        text = digits_outward(bound, up=True, digits=digits)
+    return text
 
 
 def _bounds_in_digits(rest: Fraction, size: Fraction) -> tuple[str, str, str]:
     """The value at rest, rounded, the size, rounded up, and at least the error of the former."""
-    told = digits_outward(rest, up=rest < 0, digits=6)
-    off = abs(rest - Fraction(told))
-    return told, digits_outward(size, up=True), digits_outward(off, up=True, digits=2)
+    value = digits_outward(rest, up=rest < 0, digits=6)
+    off = abs(rest - Fraction(value))
+    return value, digits_outward(size, up=True), digits_outward(off, up=True, digits=2)
 
 
 def _bounds_in_floats(rest: Fraction, size: Fraction) -> dict[str, float | None]:
-    """The same as floats for JSON; None for what exceeds these."""
+    """The value at rest and the size as floats for JSON; None for a number that exceeds floats."""
     near = finite(to_float(rest))
     off = None
     if near is not None:

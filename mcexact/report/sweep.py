@@ -17,7 +17,7 @@ from mcexact.plot.parameters import uncertainty_shares
 from mcexact.report.html import AnswerPage, Picture
 from mcexact.report.text import Table, shorten
 
-# Sweeps over tolerances: up to which part of the entries properties are proved, or fail.
+# Sweeps over tolerances: the part of the entries up to which properties are proved, or fail.
 
 _WITHIN = re.compile(r"within ([0-9]+(?:/[0-9]+)?)")
 
@@ -26,7 +26,7 @@ Document = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Known:
-    """Up to which part of its entries a property of a plant is proved, and within which it fails.
+    """The tolerance up to which a property of a plant is proved, and one within which it fails.
 
     Attributes
     ----------
@@ -63,18 +63,18 @@ def tolerance_tables(documents: Sequence[Document], questions: Sequence[str]) ->
 
 def tolerances(documents: Sequence[Document], questions: Sequence[str]) -> list[dict[str, Any]]:
     """For each question and each part of `tolerance_variants`, the numbers of plants."""
-    found, members = [], [*_members(documents)]
+    rows, members = [], [*_members(documents)]
     for question in filter(PROPERTIES.__contains__, questions):
         for part in sorted({at for _, at, _ in members}):
             known = [_verdict(document, question) for _, at, document in members if at == part]
             of: dict[str, Any] = {"question": question, "part": written(part)}
             numbers = {"proved": known.count(True), "failing": known.count(False)}
-            found.append(of | {"plants": len(known)} | numbers)
-    return found
+            rows.append(of | {"plants": len(known)} | numbers)
+    return rows
 
 
 def pictures(documents: Sequence[Document], questions: Sequence[str]) -> list[Picture]:
-    """Draw of which share of the plants each property is proved, against the part."""
+    """Draw the share of the plants for which each property is proved, against the part."""
     drawn, members = [], [*_members(documents)]
     for question in filter(PROPERTIES.__contains__, questions if members else ()):
         known = list(_known(members, question).values())
@@ -91,19 +91,19 @@ def pictures(documents: Sequence[Document], questions: Sequence[str]) -> list[Pi
 
 
 def _known(members: Sequence[tuple[str, Fraction, Document]], question: str) -> dict[str, Known]:
-    """What is known of each plant, by its name."""
-    found: dict[str, Known] = {}
+    """The tolerances that are known for each plant, by its name."""
+    by_plant: dict[str, Known] = {}
     for name, part, document in members:
         lower, upper = Fraction(0), None
-        if name in found:
-            lower, upper = found[name].lower, found[name].upper
+        if name in by_plant:
+            lower, upper = by_plant[name].lower, by_plant[name].upper
         verdict = _verdict(document, question)
         if verdict is True:
             lower = max(lower, part)
         if verdict is False:
             upper = part if upper is None else min(upper, part)
-        found[name] = Known(PROPERTIES[question], lower, upper)
-    return found
+        by_plant[name] = Known(PROPERTIES[question], lower, upper)
+    return by_plant
 
 
 def _members(documents: Sequence[Document]) -> Iterator[tuple[str, Fraction, Document]]:
@@ -161,7 +161,7 @@ def skipped_table(skipped: Sequence[tuple[str, str]]) -> Table:
 def counts(documents: Sequence[Document]) -> dict[str, int]:
     """Return the table of counts: systems, decided systems, and systems with each property."""
     decided = [document["answers"] for document in documents if "error" not in document]
-    found = {"systems": len(documents), "decided": len(decided)}
+    numbers = {"systems": len(documents), "decided": len(decided)}
     for question, key in (
         ("fixed_spectrum", "with_fixed_modes"),
         ("fixed_spectrum", "not_stabilizable"),
@@ -172,8 +172,8 @@ def counts(documents: Sequence[Document]) -> dict[str, int]:
     ):
         claims = [answers[question]["claim"] for answers in decided if question in answers]
         if claims:
-            found[key] = sum(map(_COUNTED[key], claims))
-    return found
+            numbers[key] = sum(map(_COUNTED[key], claims))
+    return numbers
 
 
 _COUNTED = {
@@ -208,7 +208,7 @@ def sweep_page(
         answer=(*words, *([summed.note.capitalize()] if summed.note else [])),
         pictures=tuple(each.embedded() for each in pictures(documents, questions)),
         tables=tuple(
-            replace(found, title=(found.title or "every system").capitalize()) for found in tables
+            replace(table, title=(table.title or "every system").capitalize()) for table in tables
         ),
     )
 
@@ -227,9 +227,9 @@ def sweep_tables(
     short = _short_names(documents)
     rows = tuple(_row(short[document["name"]], document, questions) for document in shown)
     named = counts(documents)
-    said = tuple((key.replace("_", " "), str(number)) for key, number in named.items())
+    totals = tuple((key.replace("_", " "), str(number)) for key, number in named.items())
     stays = _NOT_STABILIZABLE if named.get("not_stabilizable") else ""
-    return (Table("", columns, rows, note), Table("of all systems", (), said, stays))
+    return (Table("", columns, rows, note), Table("of all systems", (), totals, stays))
 
 
 def _tells(document: Document) -> int:
@@ -245,7 +245,7 @@ def _short_names(documents: Sequence[Document]) -> dict[str, str]:
     names = {document["name"] for document in documents}
     if len(names) > 1 and len({name.partition(": ")[0] for name in names}) == 1:
         return {name: shorten(name.partition(": ")[2], 60) for name in names}
-    # Behind a colon stands which member of a family it is, possibly with quotients.
+    # The text after a colon names a member of a family, possibly with quotients.
     paths = (name.partition(": ")[0] for name in names)
     folders = {os.path.dirname(path) for path in paths if os.sep in path}
     try:
@@ -259,9 +259,9 @@ def _row(name: str, document: Document, questions: Sequence[str]) -> tuple[str, 
     if "answers" not in document:
         return (name, "", "", shorten(document["error"]["message"], 70), *[""] * len(questions))
     system, answers = document["system"], document["answers"]
-    said = [_said(each, answers[each]) if each in answers else "open" for each in questions]
+    claims = [_said(each, answers[each]) if each in answers else "open" for each in questions]
     seconds = f"{document['seconds']:.3g}"
-    return (name, str(system["n"]), str(system["m"]), *said, seconds)
+    return (name, str(system["n"]), str(system["m"]), *claims, seconds)
 
 
 def _said(question: str, answer: Mapping[str, Any]) -> str:

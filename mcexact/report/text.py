@@ -150,14 +150,14 @@ def in_lines(sentences: Sentences, most: int, width: int = WIDTH) -> str:
     width : int
         The largest number of characters in a line.
     """
-    said, modes = sentences.at("answer"), sentences.at("answer.mode")
+    first, modes = sentences.at("answer"), sentences.at("answer.mode")
     for shown in range(len(modes), -1, -1):
         more = [_MORE] if 0 < shown < len(modes) else []
-        lines = [line for each in (*said, *modes[:shown], *more) for line in wrapped(each, width)]
+        lines = [line for each in (*first, *modes[:shown], *more) for line in wrapped(each, width)]
         if len(lines) <= most:
             return "\n".join(lines) + "\n"
     lines = []
-    for each in said:
+    for each in first:
         if len(lines) + len(wrapped(each, width)) > most:
             break
         lines += wrapped(each, width)
@@ -180,11 +180,11 @@ def tables(
     rows = sentences.at("table")
     columns = _columns(rows[0]) if rows else ()
     first = _table(sentences, "table", columns, "".join(sentences.at("title")))
-    made = [replace(first, note="; ".join(filter(None, (first.note, note))))]
+    all_tables = [replace(first, note="; ".join(filter(None, (first.note, note))))]
     for place in ("fixed-modes", "pencil", "subsystem", "channel", "why"):
         if sentences.at(place):
-            made.append(_table(sentences, place, _COLUMNS.get(place, ()), most=most_modes))
-    return tuple(made)
+            all_tables.append(_table(sentences, place, _COLUMNS.get(place, ()), most=most_modes))
+    return tuple(all_tables)
 
 
 def _columns(row: Sentence) -> tuple[str, ...]:
@@ -214,7 +214,7 @@ def _table(
 def measured(
     figures: Mapping[str, float | None],
     assessed: Sequence[tuple[str, str]],
-    said: Sentences,
+    sentences: Sentences,
     discrete: bool,
 ) -> Table:
     """Return the figures of a loop that are not proved; a dash if numbers exceed floats.
@@ -225,7 +225,7 @@ def measured(
         The robustness measures of the loop.
     assessed : sequence of pairs
         Labels and texts of further figures, which come first.
-    said : Sentences
+    sentences : Sentences
     discrete : bool
     """
     labels = {
@@ -236,10 +236,10 @@ def measured(
         ),
     }
     rows = [
-        (label, "–" if (value := figures.get(name)) is None else f"{value:.3g} ({told})")
-        for name, (label, told) in labels.items()
+        (label, "–" if (value := figures.get(name)) is None else f"{value:.3g} ({meaning})")
+        for name, (label, meaning) in labels.items()
     ]
-    return Table("".join(said.at("measured.title")), (), (*assessed, *rows))
+    return Table("".join(sentences.at("measured.title")), (), (*assessed, *rows))
 
 
 def _matrix(M: Matrix) -> str:
@@ -257,11 +257,11 @@ def latex(account: Account) -> str:
             rf"B_{{{k}}} &= {_matrix(channel.B)}, & C_{{{k}}} &= {_matrix(channel.C)}{last}"
         )
     lines.append(r"\end{align*}")
-    said: list[str] = [*account.sentences.at("latex")]
+    formulas: list[str] = [*account.sentences.at("latex")]
     if any(sentence.template.key == "latex-fixed-mode" for sentence in account.sentences):
         head = r"mode & in $A$ & $\operatorname{rank} P_{\mathbf s}$ & $\mathbf s$ \\ \hline"
-        said = [r"\begin{tabular}{lrrl}", head, *said, r"\end{tabular}"]
-    return "\n".join([*lines, *said]) + "\n"
+        formulas = [r"\begin{tabular}{lrrl}", head, *formulas, r"\end{tabular}"]
+    return "\n".join([*lines, *formulas]) + "\n"
 
 
 # Results as tables of pandas.
@@ -290,8 +290,8 @@ def to_pandas(results: Any) -> Any:
     --------
     >>> from mcexact import analyze
     >>> from mcexact.model import gallery
-    >>> found = analyze(gallery.load("hidden-triple-mode"), ["fixed_spectrum", "completeness"])
-    >>> to_pandas(found)[["question", "polynomial", "complete"]]
+    >>> analysis = analyze(gallery.load("hidden-triple-mode"), ["fixed_spectrum", "completeness"])
+    >>> to_pandas(analysis)[["question", "polynomial", "complete"]]
              question polynomial complete
     0  fixed_spectrum      x - 1      NaN
     1    completeness        NaN    False
@@ -302,12 +302,12 @@ def to_pandas(results: Any) -> Any:
     if hasattr(results, "to_rows"):
         return pandas.DataFrame(results.to_rows())
     several = isinstance(results, Iterable) and not isinstance(results, str)
-    found = list(results) if several and not hasattr(results, "to_row") else [results]
-    for each in found:
+    members = list(results) if several and not hasattr(results, "to_row") else [results]
+    for each in members:
         if not hasattr(each, "to_row"):
             raise InputError(
                 "expected an analysis, a trajectory, answers, or records of a sweep, "
                 f"found {type(each).__name__}",
                 where="results",
             )
-    return pandas.DataFrame([each.to_row() for each in found])
+    return pandas.DataFrame([each.to_row() for each in members])

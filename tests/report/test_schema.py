@@ -15,7 +15,7 @@ from mcexact.model.controller import save_controller
 from mcexact.model.files import load_system, save_system
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.schema import DOCUMENTS, FOLDER, made, schema_text
+from mcexact.report.schema import DOCUMENTS, FOLDER, schema_file, schema_text
 from tests.cli.calling import call
 from tests.report.schemas import faults, validator
 
@@ -24,7 +24,7 @@ PRINT_SYSTEMS = {"sample", "convert", "c2d", "schema"}
 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_a_shipped_schema_is_made_from_the_declarations(name: str) -> None:
-    assert schema_text(name) == made(name), "run make schemas"
+    assert schema_text(name) == schema_file(name), "run make schemas"
     Draft202012Validator.check_schema(json.loads(schema_text(name)))
 
 
