@@ -29,13 +29,13 @@ class ClosedLoop:
 
     Attributes
     ----------
-    given : MultiChannelSystem
-        A plant or a derived system.
+    plant : MultiChannelSystem
+        The plant, or a system derived from one.
     controller : Controller
     graph : NeighborGraph
     """
 
-    given: MultiChannelSystem
+    plant: MultiChannelSystem
     controller: Controller
     graph: NeighborGraph
 
@@ -60,15 +60,15 @@ class ClosedLoop:
     @cached_property
     def blocks(self) -> Mapping[tuple[str, int, int], tuple[int, int]]:
         """Position and size of the blocks ("x", 0, 0), ("x_", j, δ), ("z_", j, 0), ("y_", j, δ)."""
-        places: dict[tuple[str, int, int], tuple[int, int]] = {("x", 0, 0): (0, self.given.n)}
-        position = self.given.n
+        places: dict[tuple[str, int, int], tuple[int, int]] = {("x", 0, 0): (0, self.plant.n)}
+        position = self.plant.n
         order: list[tuple[str, int, int, int]] = []
         for j, agent in enumerate(self.controller.agents):
             order += [("x_", j, 0, agent.shared), ("z_", j, 0, agent.private)]
         for j, agent in enumerate(self.controller.agents):
             b, a = self.oldest[j]
             order += [("x_", j, delta, agent.shared) for delta in range(1, b + 1)]
-            order += [("y_", j, delta, self.given.q(j)) for delta in range(1, a + 1)]
+            order += [("y_", j, delta, self.plant.q(j)) for delta in range(1, a + 1)]
         for kind, j, delta, size in order:
             places[kind, j, delta] = (position, size)
             position += size
@@ -77,10 +77,10 @@ class ClosedLoop:
     @cached_property
     def matrix(self) -> Matrix:
         """The matrix of the closed loop, N×N, assembled from the agents' programs."""
-        plant = self.given.A @ self.pick("x")
+        state = self.plant.A @ self.pick("x")
         for i, agent in enumerate(self.controller.agents):
-            plant = plant + self.given.B(i) @ self.rows(agent.input, i, self.given.p(i))
-        rows = [plant]
+            state = state + self.plant.B(i) @ self.rows(agent.input, i, self.plant.p(i))
+        rows = [state]
         for i, agent in enumerate(self.controller.agents):
             rows.append(self.rows(agent.shared_update, i, agent.shared))
             rows.append(self.rows(agent.private_update, i, agent.private))
@@ -93,12 +93,12 @@ class ClosedLoop:
     def system(self) -> MultiChannelSystem:
         """The loop as a system without channels, which records the plant and the controller."""
         construction = {"construction": "closed_loop", "controller": self.controller.document()}
-        return self.given.derived(self.matrix, (), (), construction)
+        return self.plant.derived(self.matrix, (), (), construction)
 
     @cached_property
     def reference(self) -> Matrix:
         """The matrix by which the set-points (r_1, …, r_m) act on the loop, N×Σ q_i."""
-        counts = [self.given.q(i) for i in range(self.given.m)]
+        counts = [self.plant.q(i) for i in range(self.plant.m)]
 
         def spread(each: LinearMap, i: int, nrows: int) -> Matrix:
             parts = [Matrix.zeros(nrows, count) for count in counts]
@@ -106,10 +106,10 @@ class ClosedLoop:
                 parts[i] = each.reference
             return hstack(parts, nrows=nrows)
 
-        plant = Matrix.zeros(self.given.n, sum(counts))
+        state = Matrix.zeros(self.plant.n, sum(counts))
         for i, agent in enumerate(self.controller.agents):
-            plant = plant + self.given.B(i) @ spread(agent.input, i, self.given.p(i))
-        rows = [plant]
+            state = state + self.plant.B(i) @ spread(agent.input, i, self.plant.p(i))
+        rows = [state]
         for i, agent in enumerate(self.controller.agents):
             rows.append(spread(agent.shared_update, i, agent.shared))
             rows.append(spread(agent.private_update, i, agent.private))
@@ -123,9 +123,9 @@ class ClosedLoop:
 
         The gain is Σ q_i × Σ q_i; it is None if the loop has this eigenvalue.
         """
-        place = steady_point(self.given.time)
+        place = steady_point(self.plant.time)
         steady = solve(Matrix.identity(self.dimension) * place - self.matrix, self.reference)
-        return None if steady is None else self.given.output_matrix() @ self.pick("x") @ steady
+        return None if steady is None else self.plant.output_matrix() @ self.pick("x") @ steady
 
     @property
     def dimension(self) -> int:
@@ -135,7 +135,7 @@ class ClosedLoop:
     def pick(self, kind: str, j: int = 0, delta: int = 0) -> Matrix:
         """Return the rows that select a block of the state; y_j at delay 0 is C_j x."""
         if kind == "y_" and not delta:
-            return self.given.C(j) @ self.pick("x")
+            return self.plant.C(j) @ self.pick("x")
         start, size = self.blocks[kind, j, delta]
         before, after = Matrix.zeros(size, start), self.dimension - start - size
         return hstack([before, Matrix.identity(size), Matrix.zeros(size, after)])
@@ -168,8 +168,8 @@ class LoopPencil(ClosedLoop):
         """The blocks of the loop, then ("y_", j, 0) and ("u_", j, 0)."""
         places = dict(super().blocks)
         position = sum(size for _, size in places.values())
-        signals = [("y_", j, self.given.q(j)) for j in range(self.given.m)]
-        signals += [("u_", j, self.given.p(j)) for j in range(self.given.m)]
+        signals = [("y_", j, self.plant.q(j)) for j in range(self.plant.m)]
+        signals += [("u_", j, self.plant.p(j)) for j in range(self.plant.m)]
         for kind, j, size in signals:
             places[kind, j, 0] = (position, size)
             position += size
@@ -178,8 +178,8 @@ class LoopPencil(ClosedLoop):
     @property
     def states(self) -> int:
         """The dimension of the loop's state."""
-        m = self.given.m
-        return self.dimension - sum(self.given.p(j) + self.given.q(j) for j in range(m))
+        m = self.plant.m
+        return self.dimension - sum(self.plant.p(j) + self.plant.q(j) for j in range(m))
 
     def pick(self, kind: str, j: int = 0, delta: int = 0) -> Matrix:
         """Return the rows that select a block."""
@@ -190,7 +190,7 @@ class LoopPencil(ClosedLoop):
     @cached_property
     def matrix(self) -> Matrix:
         """The matrix Z0."""
-        return self.with_entries(self.given, self.controller, 1)
+        return self.with_entries(self.plant, self.controller, 1)
 
     def with_entries(self, plant: MultiChannelSystem, controller: Controller, one: int) -> Matrix:
         """Put the entries of another plant and controller of the same shapes into the places of Z0.
@@ -202,7 +202,7 @@ class LoopPencil(ClosedLoop):
         one : int
             The entry for each 1 of an identity: 0 when the entries are radii, since a 1 is certain.
         """
-        agents, m = controller.agents, self.given.m
+        agents, m = controller.agents, self.plant.m
         rows = [plant.A @ self.pick("x")]
         for j in range(m):
             rows[0] = rows[0] + plant.B(j) @ self.pick("u_", j)

@@ -304,7 +304,7 @@ def to_statespace(subject: Any, plant: MultiChannelSystem | None = None) -> Any:
     loop = getattr(subject, "loop", subject)
     loop = getattr(loop, "closed", loop)
     if isinstance(loop, ClosedLoop):
-        return _statespace(loop.given, _of_loop(loop), ("d", "r")[: 1 + _tracks(loop)], ("y",))
+        return _statespace(loop.plant, _of_loop(loop), ("d", "r")[: 1 + _tracks(loop)], ("y",))
     if isinstance(subject, MultiChannelSystem):
         B, C = subject.input_matrix(), subject.output_matrix()
         parts = subject.A, B, C, Matrix.zeros(C.nrows, B.ncols)
@@ -329,7 +329,7 @@ def _tracks(loop: ClosedLoop) -> int:
 
 def _of_loop(loop: ClosedLoop) -> Parts:
     """The loop from disturbances of all inputs, and set-points if it has some, to all outputs."""
-    plant, N = loop.given, loop.dimension
+    plant, N = loop.plant, loop.dimension
     disturbed = plant.input_matrix()
     B = vstack([disturbed, Matrix.zeros(N - plant.n, disturbed.ncols)], ncols=disturbed.ncols)
     if _tracks(loop):
@@ -360,19 +360,19 @@ def _without_dynamics(plant: MultiChannelSystem, controller: Controller) -> Clos
 
 def _of_controller(loop: ClosedLoop) -> Parts:
     """The controller from all outputs, and set-points if it uses some, to all inputs."""
-    agents, given = loop.controller.agents, loop.given
-    signals, states = range(given.n), range(given.n, loop.dimension)
+    agents, plant = loop.controller.agents, loop.plant
+    signals, states = range(plant.n), range(plant.n, loop.dimension)
     used = vstack(
-        [loop.rows(agent.input, i, given.p(i)) for i, agent in enumerate(agents)],
+        [loop.rows(agent.input, i, plant.p(i)) for i, agent in enumerate(agents)],
         ncols=loop.dimension,
     )
     B, D = loop.matrix.take(rows=states, cols=signals), used.take(cols=signals)
     if _tracks(loop):
         direct = [
-            _spread(agent.input.reference, i, given.p(i), given) for i, agent in enumerate(agents)
+            _spread(agent.input.reference, i, plant.p(i), plant) for i, agent in enumerate(agents)
         ]
         B = hstack([B, loop.reference.take(rows=states)], nrows=len(states))
-        D = hstack([D, vstack(direct, ncols=given.n)], nrows=D.nrows)
+        D = hstack([D, vstack(direct, ncols=plant.n)], nrows=D.nrows)
     return loop.matrix.take(rows=states, cols=states), B, used.take(cols=states), D
 
 

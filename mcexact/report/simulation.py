@@ -263,7 +263,7 @@ class SimulationReport:
                 replace(each, title=title)
                 for each, title in zip(self.tables(), _TITLES, strict=False)
             ),
-            plant=shown_plant(done.run.loop.given),
+            plant=shown_plant(done.run.loop.plant),
         )
 
 

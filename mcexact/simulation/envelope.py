@@ -140,7 +140,7 @@ def _distance_from_rest(run: Trajectory) -> Matrix | None:
     for shared, private in zip(run.start.shared, run.start.private, strict=True):
         state += [*shared, *private]
     start = Matrix.column([*state, *[zero] * (N - len(state))])
-    plant = loop.given
+    plant = loop.plant
     inputs = hstack([plant.B(i) for i in range(plant.m)], nrows=plant.n)
     pushed = vstack([inputs, Matrix.zeros(N - plant.n, inputs.ncols)], ncols=inputs.ncols)
     constant = loop.reference @ vstack(run.drive.references.at(zero), ncols=1)
@@ -169,7 +169,7 @@ def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Mat
         return tuple(intervals)
 
     bound = proof.region.edge
-    return Envelope(proof, run.time, bound, bounds(loop.given.output_matrix() @ x), bounds(x))
+    return Envelope(proof, run.time, bound, bounds(loop.plant.output_matrix() @ x), bounds(x))
 
 
 def _first(run: Trajectory, rows: Matrix, k: int) -> Fraction:

@@ -277,7 +277,7 @@ def chosen_grid(
     Eigenvalues in floating point; only in discrete time the characteristic polynomial as well,
     which says exactly how many eigenvalues are 0, where floating point cannot.
     """
-    if is_discrete(loop.given.time):
+    if is_discrete(loop.plant.time):
         chosen = last + _steps(loop, _eigenvalues(loop)) if horizon is None else horizon
         return Grid(tuple(Fraction(k) for k in range(math.ceil(chosen) + 1)))
     modes = _eigenvalues(loop)
@@ -690,7 +690,7 @@ def _grid(
     loop: ClosedLoop, drive: Drive, horizon: Any, points: int | None, rounding: Rounding | None
 ) -> Grid:
     """The times of a run, and the fastest mode."""
-    discrete = is_discrete(loop.given.time)
+    discrete = is_discrete(loop.plant.time)
     end = None
     if horizon is not None:
         [end] = numbers_of([horizon], rounding, "horizon")

@@ -401,7 +401,7 @@ def assess(
             "no search found a controller: this is the one of the theorem, whose dynamics are all "
             "in one agent of each strong component"
         )
-    if "observer_gains" in parts and design.order > design.loop.closed.given.m:
+    if "observer_gains" in parts and design.order > design.loop.closed.plant.m:
         other = "`design setpoint`" if design.name == "setpoint" else "`--order low`"
         notes.append(
             "every agent of a distributed observer estimates the whole state, with "
@@ -417,7 +417,7 @@ def assess(
         diagnosis=parts.get("diagnosis"),
         shape=(aims or Aims()).shape,
     )
-    if design.loop.closed.given.uncertainty is None:
+    if design.loop.closed.plant.uncertainty is None:
         return assessment
     return replace(
         assessment, within_radii="open" if every_loop is None else every_loop.within_radii
@@ -450,7 +450,7 @@ def assessed_loop(
     shape : Shape
         The limits on the eigenvalues that were aimed at.
     """
-    plant, places = loop.given, integrators_of(loop)
+    plant, places = loop.plant, integrators_of(loop)
     about, weighed = as_plant(plant), Weights.of(plant, weights)
     if places:
         about, weighed = integrated_plant(plant), weighed.with_integrators(plant)

@@ -313,7 +313,7 @@ def unsafe_rounding(
             if is_within(matrix_to_float(replace(loop, controller=rounded).matrix), region):
                 continue
             bound: dict[str, Any] = {region.word: region.bound}
-            verdict = certify_controller(loop.given, rounded, loop.graph, **bound)
+            verdict = certify_controller(loop.plant, rounded, loop.graph, **bound)
             if not verdict.stable:
                 return rounded, verdict
     return None
@@ -364,7 +364,7 @@ def _roundings(
 
 def _slopes(loop: ClosedLoop, count: int, k: int, discrete: bool) -> Floats | None:
     """How fast the k-th slowest eigenvalue gets slower where each entry grows."""
-    signals = LoopPencil(loop.given, loop.controller, loop.graph)
+    signals = LoopPencil(loop.plant, loop.controller, loop.graph)
     Z, N = matrix_to_float(signals.matrix), signals.states
     static = np.linalg.solve(Z[N:, N:], np.hstack([Z[N:, :N], np.eye(len(Z) - N)]))
     M = Z[:N, :N] - Z[:N, N:] @ static[:, :N]
@@ -387,7 +387,7 @@ def _slopes(loop: ClosedLoop, count: int, k: int, discrete: bool) -> Floats | No
 
 def _places(signals: LoopPencil, count: int) -> tuple[list[int], list[int]]:
     """The row and the column in the pencil of each entry of the controller."""
-    plant = signals.given
+    plant = signals.plant
     nothing = MultiChannelSystem(
         plant.A * 0, [M * 0 for M in plant.B], [M * 0 for M in plant.C], time=plant.time
     )

@@ -178,11 +178,11 @@ def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -
     >>> 0.2 < loops.part < loops.failing.distance < 0.4, loops.gains == SIX_DIGITS
     (True, True)
     """
-    whole = StabilityRegion(loop.given.time)
-    if loop.given.subject:
+    whole = StabilityRegion(loop.plant.time)
+    if loop.plant.subject:
         return EveryLoop(whole, None, None, None, "not tried, as the system is a derived one")
     require_seconds(effort, "effort")
-    ports = sum(loop.given.p(i) + loop.given.q(i) for i in range(loop.given.m))
+    ports = sum(loop.plant.p(i) + loop.plant.q(i) for i in range(loop.plant.m))
     size = loop.matrix.nrows + ports
     if size > _MOST_SIGNALS:
         return EveryLoop(
@@ -215,15 +215,15 @@ def failing_plant(loop: ClosedLoop) -> FailingPlant | None:
         None if none was found, which proves nothing.
     """
     with one_thread():
-        return _failing(StabilitySearch(loop, StabilityRegion(loop.given.time)))
+        return _failing(StabilitySearch(loop, StabilityRegion(loop.plant.time)))
 
 
 def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLoop:
     """As `every_loop`, for a loop that is not too large."""
-    whole, own = StabilityRegion(loop.given.time), loop.given.uncertainty is not None
-    unit = loop.given if own else Box.relative(loop.given, 1).system
+    whole, own = StabilityRegion(loop.plant.time), loop.plant.uncertainty is not None
+    unit = loop.plant if own else Box.relative(loop.plant, 1).system
     with one_thread():
-        search = StabilitySearch(replace(loop, given=unit), whole)
+        search = StabilitySearch(replace(loop, plant=unit), whole)
         failing = _failing(search)
         if own:
             boxes = [(loop, each) for each in (StabilityRegion(whole.time, region.bound), whole)]
@@ -246,13 +246,13 @@ def _smaller(search: StabilitySearch, parts: tuple[float, ...]) -> Iterator[Clos
     for times in parts:
         part = short(times * min(largest, 1e6))
         if part:
-            yield replace(search.loop, given=Box(search.loop.given).scaled(part).system)
+            yield replace(search.loop, plant=Box(search.loop.plant).scaled(part).system)
 
 
 def _failing(search: StabilitySearch) -> FailingPlant | None:
     """A plant nearby whose loop is not stable, which is decided exactly."""
     nearest = failing_loop(search, _POINTS)
-    plant = search.loop.given
+    plant = search.loop.plant
     known = [*([] if nearest is None else [nearest]), *severed_plants(plant, Box(plant).radii)]
     for near in sorted(known, key=lambda each: each.distance):
         refutation = refuted_loop(search, near.plant)

@@ -67,7 +67,7 @@ def test_proved_bounds_are_named_as_proved_and_contain_the_curves() -> None:
 
 
 def test_decay_shows_the_slope_and_the_bound() -> None:
-    done = simulated_loop(run_of().loop.given, run_of().loop.controller)
+    done = simulated_loop(run_of().loop.plant, run_of().loop.controller)
     [axis] = decay(done.run, spectrum=done.spectrum, envelope=done.envelope).axes
     assert axis.get_yscale() == "log"
     assert labels(axis) == [

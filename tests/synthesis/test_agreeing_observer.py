@@ -36,7 +36,7 @@ def with_ring(name: str) -> MultiChannelSystem:
 )
 def test_half_the_states_and_a_margin_suffice(name, rate):
     design = design_observer(with_ring(name), rate=rate, arithmetic="float")
-    plant = design.loop.closed.given
+    plant = design.loop.closed.plant
     assert check_document(encode(design.loop.proof).encode()).verdict == "VALID"
     assert design.order == plant.n * plant.m
     found = assess(design)

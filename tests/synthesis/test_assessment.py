@@ -51,7 +51,7 @@ def loop_of(gain: str) -> ClosedLoop:
 def test_the_figures_of_a_loop_are_those_of_the_search(design, time, options) -> None:
     made = design(coupled(time), aims=Aims(effort=2), **options)
     searched = made.parts["optimum"].figures
-    found = figures_of_loop(made.loop.closed, Weights.unit(made.loop.closed.given))
+    found = figures_of_loop(made.loop.closed, Weights.unit(made.loop.closed.plant))
     for name in ("order", "largest_gain", "bound", "peak", "cost"):
         assert getattr(found, name) == pytest.approx(getattr(searched, name), rel=1e-6), name
     # The margin is that of a grid, which is not the same one.
@@ -74,7 +74,7 @@ def _power_of(loop: ClosedLoop, k: int) -> float:
     """Σ_t x'x + u'u after an impulse of noise k at time 0, by the programs of the agents."""
     from mcexact.exact.matrix import matrix_to_float
 
-    plant, agents = loop.given, loop.controller.agents
+    plant, agents = loop.plant, loop.controller.agents
     A = matrix_to_float(plant.A)
     B = [matrix_to_float(plant.B(i)) for i in range(plant.m)]
     C = [matrix_to_float(plant.C(i)) for i in range(plant.m)]

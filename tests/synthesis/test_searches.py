@@ -228,4 +228,4 @@ def test_set_points_are_held_without_a_graph_as_with_an_empty_one() -> None:
     tanks = two_tanks().with_neighbors(None)
     design = design_setpoint(tanks, rate="1/100")
     assert design.method == "decentralized" and not design.controller.edges()
-    assert design.loop.closed.given.neighbors is None
+    assert design.loop.closed.plant.neighbors is None

@@ -98,8 +98,8 @@ def _values(controller: Controller) -> list[list[Fraction]]:
 
 def _slowness(controller: Controller, loop: ClosedLoop, k: int) -> float:
     """The k-th slowest eigenvalue's real part or modulus, of those that are not below the axis."""
-    M = matrix_to_float(closed_loop(loop.given, controller).matrix)
+    M = matrix_to_float(closed_loop(loop.plant, controller).matrix)
     values = [value for value in np.linalg.eigvals(M) if value.imag >= 0]
-    discrete = loop.given.time == "discrete"
+    discrete = loop.plant.time == "discrete"
     sizes = sorted((abs(v) if discrete else v.real for v in values), reverse=True)
     return float(sizes[k])

@@ -624,7 +624,7 @@ def largest_loop_uncertainty(
 
 def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> StabilityVerdict | None:
     """The exact answer that the loop of a plant leaves the region; None if it does not."""
-    loop = replace(search.loop, given=plant).system
+    loop = replace(search.loop, plant=plant).system
     # With an eigenvalue on the border only the polynomial decides.
     verdict = certify_stability(loop, search.region, method="polynomial")
     return None if verdict.stable else verdict
@@ -639,10 +639,10 @@ def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
     tries : int
         How many points of the border are tried, those that seem nearest first.
     """
-    loop, nominal = search.loop, Box(search.loop.given).nominal
-    signals = LoopPencil(loop.given, loop.controller, loop.graph)
-    spread = Box(loop.given).radii
-    plant = MultiChannelSystem(spread.A, spread.B, spread.C, time=loop.given.time)
+    loop, nominal = search.loop, Box(search.loop.plant).nominal
+    signals = LoopPencil(loop.plant, loop.controller, loop.graph)
+    spread = Box(loop.plant).radii
+    plant = MultiChannelSystem(spread.A, spread.B, spread.C, time=loop.plant.time)
     D = signals.with_entries(plant, gain_radii(loop.controller, 0), 0)
     pencil = Uncertain(signals.matrix, D, signals.states, signals.dimension - 1)
     freedom: Freedom = "circle" if search.region.discrete else "line"

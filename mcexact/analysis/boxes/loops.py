@@ -193,8 +193,8 @@ class StabilitySearch:
     def __post_init__(self) -> None:
         from scipy.linalg import matrix_balance
 
-        signals = LoopPencil(self.loop.given, self.loop.controller, self.loop.graph)
-        plant = self.loop.given
+        signals = LoopPencil(self.loop.plant, self.loop.controller, self.loop.graph)
+        plant = self.loop.plant
         members = self.members or Members(plant, Box(plant).radii)
         A, B, C = members.radii.A, members.radii.B, members.radii.C
         radii = MultiChannelSystem(A, B, C, time=plant.time)
@@ -279,7 +279,7 @@ class StabilitySearch:
         """The loop of the box whose radii are multiplied by a factor."""
         if factor == 1:
             return self.loop.system
-        return replace(self.loop, given=Box(self.loop.given).scaled(factor).system).system
+        return replace(self.loop, plant=Box(self.loop.plant).scaled(factor).system).system
 
 
 def _scaled(radii: Controller, factor: Fraction) -> Controller:

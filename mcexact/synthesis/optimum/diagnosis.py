@@ -96,7 +96,7 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
     >>> figures.bound, round(figures.margin, 3), round(figures.cost, 3)
     (-2.0, 0.667, 2.815)
     """
-    M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.given.time)
+    M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.plant.time)
     order, gain = loop.controller.order, to_float(loop.controller.largest_entry())
     form = SchurForm.of(M, discrete=discrete)
     if form is None or not form.bound < (1.0 if discrete else 0.0):
@@ -106,7 +106,7 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
         gain,
         form.bound,
         margin_of(loop),
-        peak_of_state(M, loop.given.n, form),
+        peak_of_state(M, loop.plant.n, form),
         _cost(loop, form, weights, integrators),
         *damping_and_fastest(form.eigenvalues, discrete=discrete),
     )
@@ -138,7 +138,7 @@ def sure_figures(loop: ClosedLoop, weights: Weights, integrators: Sequence[int] 
     >>> figures.bound, figures.damping, round(figures.peak, 3)
     (-1.0, 1.0, 3.351)
     """
-    M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.given.time)
+    M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.plant.time)
     order, gain = loop.controller.order, to_float(loop.controller.largest_entry())
     form, limit = SchurForm.of(M, discrete=discrete), 1.0 if discrete else 0.0
     values = loop_eigenvalues(loop.matrix, discrete=discrete)
@@ -152,8 +152,8 @@ def sure_figures(loop: ClosedLoop, weights: Weights, integrators: Sequence[int] 
         values, peak = form.eigenvalues, np.nan
         if again is not None and again.bound < limit:
             peaks = [
-                peak_of_state(M, loop.given.n, form),
-                peak_of_state(other, loop.given.n, again),
+                peak_of_state(M, loop.plant.n, form),
+                peak_of_state(other, loop.plant.n, again),
             ]
             peak = peaks[0] if _agree(peaks) else np.nan
         stays = True
@@ -219,7 +219,7 @@ def _is_stable_in_doubles(loop: ClosedLoop, M: Floats) -> bool:
     if not np.all(np.isfinite(M)):
         return False
     rounded = matrix_from_float(M, "dyadic")
-    region = StabilityRegion(loop.given.time)
+    region = StabilityRegion(loop.plant.time)
     return region.contains_roots_of(characteristic_polynomial(rounded))
 
 
@@ -259,9 +259,9 @@ def _trajectory(
 
 def _sure_peak(loop: ClosedLoop, values: Complexes) -> float:
     """The peak of the state, as `peak_of_state` has it."""
-    n, N = loop.given.n, loop.dimension
+    n, N = loop.plant.n, loop.dimension
     start = Matrix.identity(N).take(cols=range(n))
-    states = _trajectory(loop.matrix, start, values, n, discrete=is_discrete(loop.given.time))
+    states = _trajectory(loop.matrix, start, values, n, discrete=is_discrete(loop.plant.time))
     if states is None:
         return np.nan
     return max(1.0, max((norm(E) for E in states), default=1.0))
@@ -289,16 +289,16 @@ def step_peak(loop: ClosedLoop) -> float:
     >>> 1 <= step_peak(closed_loop(plant, controller)) < 10
     True
     """
-    discrete, N, n = is_discrete(loop.given.time), loop.dimension, loop.given.n
+    discrete, N, n = is_discrete(loop.plant.time), loop.dimension, loop.plant.n
     values = loop_eigenvalues(loop.matrix, discrete=discrete)
-    at_rest = Matrix.identity(N) * Fraction(steady_point(loop.given.time))
+    at_rest = Matrix.identity(N) * Fraction(steady_point(loop.plant.time))
     rest = solve_nonsingular(at_rest - loop.matrix, loop.reference)
     if values is None or rest is None:
         return np.nan
     states = _trajectory(loop.matrix, rest, values, n, discrete=discrete)
     if states is None:
         return np.nan
-    C = matrix_to_float(loop.given.output_matrix())
+    C = matrix_to_float(loop.plant.output_matrix())
     reached = C @ matrix_to_float(rest.take(rows=range(n)))
     peaks = (float(np.max(np.abs(reached - C @ E), initial=0.0)) for E in states)
     return max(peaks, default=0.0)
@@ -306,7 +306,7 @@ def step_peak(loop: ClosedLoop) -> float:
 
 def _confirmed_margin(loop: ClosedLoop, values: Complexes) -> float:
     """The margin of a stable loop; NaN if ball arithmetic has another one at its frequency."""
-    discrete = is_discrete(loop.given.time)
+    discrete = is_discrete(loop.plant.time)
     response = input_response(loop)
     points = boundary_points(values, discrete=discrete)
     sizes = response.sizes(points)
@@ -326,8 +326,8 @@ def _is_confirmed(loop: ClosedLoop, z: complex, size: float) -> bool:
 
 def _ball_response(loop: ClosedLoop, z: complex) -> float:
     """The largest singular value of T(z), from ball arithmetic; NaN if it is not accurate."""
-    N, n = loop.dimension, loop.given.n
-    entering = loop.given.input_matrix()
+    N, n = loop.dimension, loop.plant.n
+    entering = loop.plant.input_matrix()
     B = vstack([entering, Matrix.zeros(N - n, entering.ncols)], ncols=entering.ncols)
     T = response(loop.matrix, B, _inputs(loop), z)
     return np.nan if T is None else norm(T)
@@ -336,19 +336,19 @@ def _ball_response(loop: ClosedLoop, z: complex) -> float:
 def plain_figures(loop: ClosedLoop) -> Figures:
     """Compute the figures of a closed loop for weights of 1, without warnings about its numbers."""
     with quiet_floats():
-        return figures_of_loop(loop, Weights.unit(loop.given))
+        return figures_of_loop(loop, Weights.unit(loop.plant))
 
 
 def input_response(loop: ClosedLoop) -> Response:
     """Return the complementary sensitivity at all inputs of the plant together."""
-    M, B = matrix_to_float(loop.matrix), matrix_to_float(loop.given.input_matrix())
+    M, B = matrix_to_float(loop.matrix), matrix_to_float(loop.plant.input_matrix())
     entering = np.vstack([B, np.zeros((len(M) - len(B), B.shape[1]))])
-    return Response(M, entering, input_rows(loop), discrete=is_discrete(loop.given.time))
+    return Response(M, entering, input_rows(loop), discrete=is_discrete(loop.plant.time))
 
 
 def margin_of(loop: ClosedLoop) -> float:
     """Compute the margin of a stable loop at the inputs of the plant."""
-    response, discrete = input_response(loop), is_discrete(loop.given.time)
+    response, discrete = input_response(loop), is_discrete(loop.plant.time)
     largest = response.peak(boundary_points(response.eigenvalues, discrete=discrete))
     return 1 / largest if largest else np.inf
 
@@ -372,7 +372,7 @@ def _inputs(loop: ClosedLoop) -> Matrix:
     """Return U exactly, the rows of all inputs over the state of the loop."""
     agents = enumerate(loop.controller.agents)
     return vstack(
-        [loop.rows(agent.input, i, loop.given.p(i)) for i, agent in agents], ncols=loop.dimension
+        [loop.rows(agent.input, i, loop.plant.p(i)) for i, agent in agents], ncols=loop.dimension
     )
 
 
@@ -388,7 +388,7 @@ def _cost(
     The form is that of D⁻¹MD, D with scales on the diagonal if there are some.
     """
     U = input_rows(loop)
-    size, n = loop.dimension, loop.given.n
+    size, n = loop.dimension, loop.plant.n
     places = np.array([*range(n), *integrators], dtype=np.intp)
     N, D = _noise(loop)
     if integrators:
@@ -417,8 +417,8 @@ def _with_integrals(
     N, measured = N.copy(), measured.copy()
     N[places] = measured[places] = 0.0
     columns, start = list[tuple[Floats, Floats]](), 0
-    for i in range(loop.given.m):
-        own = slice(start, start + loop.given.q(i))
+    for i in range(loop.plant.m):
+        own = slice(start, start + loop.plant.q(i))
         columns += [(measured[:, own], U[:, places[own]]), (N[:, own], D[:, own])]
         start = own.stop
     return np.hstack([each for each, _ in columns]), np.hstack([each for _, each in columns])
@@ -426,7 +426,7 @@ def _with_integrals(
 
 def _noise(loop: ClosedLoop) -> tuple[Floats, Floats]:
     """Return N and D: how noise of all outputs enters the state of the loop, and the inputs."""
-    plant, agents = loop.given, loop.controller.agents
+    plant, agents = loop.plant, loop.controller.agents
     starts = np.concatenate([[0], np.cumsum([plant.q(j) for j in range(plant.m)])]).astype(int)
 
     def at_once(each: LinearMap, i: int, nrows: int) -> Floats:
@@ -464,7 +464,7 @@ def integrators_of(loop: ClosedLoop) -> tuple[int, ...]:
     """
     places: list[int] = []
     for i, agent in enumerate(loop.controller.agents):
-        q, update = loop.given.q(i), agent.private_update
+        q, update = loop.plant.q(i), agent.private_update
         own, less = update.outputs.get(i), update.reference
         if q and (own is None or less is None or agent.private < q):
             return ()
@@ -498,7 +498,7 @@ def digits_that_suffice(
     """
 
     def holds(digits: int) -> bool:
-        rounded = closed_loop(loop.given, rounded_controller(loop.controller, digits), loop.graph)
+        rounded = closed_loop(loop.plant, rounded_controller(loop.controller, digits), loop.graph)
         if not _is_inside(rounded.matrix, region):
             return False
         return margin <= 0 or margin_of(rounded) >= margin
@@ -634,7 +634,7 @@ def curves_of(loop: ClosedLoop, region: StabilityRegion) -> Curves | None:
     (3.0, [(-2+0j)])
     >>> curves_of(closed_loop(plant, local_controllers(plant, [[[0]]])), region)
     """
-    M, n = matrix_to_float(loop.matrix), loop.given.n
+    M, n = matrix_to_float(loop.matrix), loop.plant.n
     with quiet_floats():
         form = SchurForm.of(M, discrete=region.discrete)
         if form is None or not form.bound < (1.0 if region.discrete else 0.0):
@@ -688,7 +688,7 @@ def _steps(
     """Each output after a unit step of its own set-point; () without integrators."""
     if not integrators_of(loop):
         return []
-    n, plant = loop.given.n, loop.given
+    n, plant = loop.plant.n, loop.plant
     C, R = matrix_to_float(plant.output_matrix()), matrix_to_float(loop.reference)
     at_rest = np.linalg.solve((np.eye(len(M)) if discrete else 0.0) - M, R)
     names = [

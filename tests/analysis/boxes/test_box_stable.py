@@ -105,7 +105,7 @@ def test_signals_that_are_eliminated_from_the_pencil_leave_the_loop(
     system, rng = drawn.system, random.Random(seed)
     controller = drawn_controller(system, rng)
     loop = closed_loop(system, controller)
-    pencil = LoopPencil(loop.given, controller, loop.graph)
+    pencil = LoopPencil(loop.plant, controller, loop.graph)
     Z0, N, k = pencil.matrix, pencil.states, pencil.dimension
     assert N == loop.dimension
     S = Z0.take(range(N, k), range(N, k))

@@ -53,18 +53,18 @@ def norm_at(n: int, t: Fraction) -> float:
 @pytest.mark.parametrize("n", [4, 8, 12])
 def test_eigenvalues_of_defective_loops_are_exact(n: int) -> None:
     loop = defective(n, "-1")
-    found = sure_figures(loop, Weights.unit(loop.given))
+    found = sure_figures(loop, Weights.unit(loop.plant))
     assert (found.bound, found.damping, found.fastest) == (-1.0, 1.0, 1.0)
-    quick = figures_of_loop(loop, Weights.unit(loop.given))
+    quick = figures_of_loop(loop, Weights.unit(loop.plant))
     assert n == 4 or abs(quick.bound + 1) > 1e-3
     steps = defective(n, "1/2", "discrete")
-    assert sure_figures(steps, Weights.unit(steps.given)).bound == 0.5
+    assert sure_figures(steps, Weights.unit(steps.plant)).bound == 0.5
 
 
 @pytest.mark.parametrize("n", [4, 8, 12])
 def test_the_peak_is_that_of_the_closed_form(n: int) -> None:
     loop = defective(n, "-1")
-    found = sure_figures(loop, Weights.unit(loop.given)).peak
+    found = sure_figures(loop, Weights.unit(loop.plant)).peak
     true = max(norm_at(n, Fraction(k, 2)) for k in range(1, 60))
     assert 0.97 * true <= found <= 1.05 * true
 
@@ -106,7 +106,7 @@ for n, eigenvalue, time in (
     (6, "-1", "continuous"), (9, "-1", "continuous"), (6, "1/2", "discrete")
 ):
     loop = defective(n, eigenvalue, time)
-    found = vars(sure_figures(loop, Weights.unit(loop.given)))
+    found = vars(sure_figures(loop, Weights.unit(loop.plant)))
     print({name: shown(value) for name, value in found.items()})
 """
 
