@@ -193,5 +193,5 @@ def kept(size: int, most: int) -> list[int | None]:
     """
     if size <= most:
         return list(range(size))
-    edge = most // 2
-    return [*range(edge), None, *range(size - edge, size)]
+    half = most // 2
+    return [*range(half), None, *range(size - half, size)]

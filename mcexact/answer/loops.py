@@ -450,29 +450,29 @@ DESIGN = Rulebook([*DESIGN_RULES, *EVERY_LOOP_RULES])
 
 # Verdicts.
 
-DESIGN_RULES = Rulebook()
-design_rule = DESIGN_RULES.rule
+VERDICT_RULES = Rulebook()
+verdict_rule = VERDICT_RULES.rule
 
 
-@design_rule("title", LOOP, premises=("loop",))
+@verdict_rule("title", LOOP, premises=("loop",))
 def _verdict(loop: Claim, context: Context) -> Said:
     """The title of a verdict."""
     _ = loop.stable
     yield LOOP()
 
 
-@design_rule("table", LOOP_STATES)
+@verdict_rule("table", LOOP_STATES)
 def _states(context: Context) -> Said:
     yield LOOP_STATES(n=context.states)
 
 
-@design_rule("table", INSIDE, OUTSIDE, premises=("loop",))
+@verdict_rule("table", INSIDE, OUTSIDE, premises=("loop",))
 def _location(loop: Claim, context: Context) -> Said:
     if about(loop, context.region):
         yield (INSIDE if loop.stable else OUTSIDE)(region=context.region)
 
 
-@design_rule("table", DECIDED, DECIDED_BLOCKS, premises=("loop",))
+@verdict_rule("table", DECIDED, DECIDED_BLOCKS, premises=("loop",))
 def _decided(loop: Claim, context: Context) -> Said:
     """The method of the decision, and the blocks to which it was applied."""
     proof = loop.proof
@@ -480,13 +480,13 @@ def _decided(loop: Claim, context: Context) -> Said:
     yield DECIDED_BLOCKS(sizes=sizes) if len(sizes) > 1 else DECIDED(method=proof.method)
 
 
-@design_rule("table", LARGEST, LEAST, premises=("loop",))
+@verdict_rule("table", LARGEST, LEAST, premises=("loop",))
 def _largest(loop: Claim, context: Context) -> Said:
     if context.largest and loop.stable and loop.bound is not None:
         yield (LEAST if context.region.discrete else LARGEST)(bound=loop.bound)
 
 
-VERDICT = Rulebook([*DESIGN_RULES, *EVERY_LOOP_RULES])
+VERDICT = Rulebook([*VERDICT_RULES, *EVERY_LOOP_RULES])
 
 
 # Templates of refusals.
@@ -623,7 +623,7 @@ def refusal(place: str, answer: Answer, **asked: Any) -> Impossible:
         The place of the rules.
     answer : Answer
     **asked
-        The request, such as the ``region``; and the template ``told``, if the certificate does not
+        The request, such as the ``region``; and the `template`, if the certificate does not
         determine it.
 
     Raises
@@ -649,7 +649,7 @@ def refusal(place: str, answer: Answer, **asked: Any) -> Impossible:
 def _unreached(controllability: Claim, context: Context) -> Said:
     if not controllability.controllable:
         p = controllability.uncontrollable_polynomial
-        yield context.told(p=p, region=context.region if context.has("region") else None)
+        yield context.template(p=p, region=context.region if context.has("region") else None)
 
 
 @refusal_rule("not complete", ERRORS_NOT_COMPLETE, premises=("completeness",))
@@ -669,7 +669,7 @@ def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
         if not context.region.contains_roots_of(p):
             others = [name for name in context.names if name not in factor.channels]
             sides = others, factor.channels
-            yield context.told(p=p, sides=sides, sizes=sizes, region=context.region)
+            yield context.template(p=p, sides=sides, sizes=sizes, region=context.region)
             return
 
 

@@ -174,18 +174,18 @@ def states_at_doubling_steps(
 
     def states(seen: Callable[[flint.arb_mat], bool]) -> bool:
         state, step = _balls(start), _step(M, first)
-        moved = state
+        current = state
         for _ in range(whole):
-            moved = step * moved
-            if not seen(moved):
+            current = step * current
+            if not seen(current):
                 return False
         elapsed = max(whole // 8, 1)
         step = step**elapsed
         while elapsed < end:
-            moved = state
+            current = state
             for _ in range(8):
-                moved = step * moved
-                if not seen(moved):
+                current = step * current
+                if not seen(current):
                     return False
             step, elapsed = step * step, 2 * elapsed
         return True
@@ -216,11 +216,11 @@ def even_powers(M: Matrix, columns: int, interval: float, count: int) -> list[Fl
 
     def states(seen: Callable[[flint.arb_mat], bool]) -> bool:
         step = _step(M, interval)
-        moved = _balls(Matrix.identity(M.nrows).take(cols=range(columns)))
+        current = _balls(Matrix.identity(M.nrows).take(cols=range(columns)))
         for _ in range(count):
-            if not seen(moved):
+            if not seen(current):
                 return False
-            moved = step * moved
+            current = step * current
         return True
 
     return _accurate(states, M.nrows)
@@ -254,8 +254,8 @@ def _accurate(
     while bits <= _MOST_STATE_BITS:
         floats = list[Floats]()
 
-        def seen(moved: flint.arb_mat, floats: list[Floats] = floats) -> bool:
-            shown = _floats(moved, rows)
+        def seen(state: flint.arb_mat, floats: list[Floats] = floats) -> bool:
+            shown = _floats(state, rows)
             if shown is not None:
                 floats.append(shown)
             return shown is not None
@@ -277,9 +277,9 @@ def _balls(M: Matrix) -> flint.arb_mat:
     return flint.arb_mat(M.nrows, M.ncols, entries)
 
 
-def _floats(moved: flint.arb_mat, rows: int) -> Floats | None:
+def _floats(state: flint.arb_mat, rows: int) -> Floats | None:
     """The first rows as floats; None if they are not accurate."""
-    balls = [[moved[i, j] for j in range(moved.ncols())] for i in range(rows)]
+    balls = [[state[i, j] for j in range(state.ncols())] for i in range(rows)]
     middle = np.array([[float(x.mid()) for x in row] for row in balls]).reshape(rows, -1)
     error = np.array([[float(x.rad()) for x in row] for row in balls]).reshape(rows, -1)
     size = max(1.0, float(np.max(np.abs(middle), initial=0.0)))

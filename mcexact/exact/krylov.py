@@ -198,9 +198,9 @@ class FloatLoop:
                 if rows:
                     F[top:bottom, left:right] = rows
             heard = reduce(F, self.ell) @ self.C
-        moved = self.B @ reduce(heard, self.ell)
-        moved += self.A
-        return reduce(moved, self.ell)
+        closed = self.B @ reduce(heard, self.ell)
+        closed += self.A
+        return reduce(closed, self.ell)
 
     def ends(self, q: int, x: Sequence[int], y: Sequence[int]) -> tuple[Floats, Floats]:
         """The row y C_q and the column B_q x."""
@@ -230,8 +230,8 @@ class KrylovSteps:
         self.at_once = 1
         if 0 < len(M) < _REDUCED_ALWAYS:
             exact = _EXACT_IN_SINGLE if M.dtype == np.float32 else _EXACT
-            growth = np.abs(self.power, out=other).sum(axis=0).max()
-            self.at_once = products_at_once(int(growth), ell, exact)
+            norm = np.abs(self.power, out=other).sum(axis=0).max()
+            self.at_once = products_at_once(int(norm), ell, exact)
 
     def sequence(self, row: Floats, column: Floats) -> list[int]:
         """The numbers c Mᵏ b, k < 2n: (c M^{hg})(M^j b) for k = hg + j, j < h."""
@@ -272,12 +272,12 @@ def loop_sequences(
     return (steps.sequence(row, column) for row, column in ends)
 
 
-def products_at_once(growth: int, ell: int, exact: int) -> int:
+def products_at_once(norm: int, ell: int, exact: int) -> int:
     """The number of products with a matrix after which residues have to be reduced to stay exact.
 
     Parameters
     ----------
-    growth : int
+    norm : int
         The largest 1-norm of what a vector is multiplied by: of a row in M v, of a column in v M.
     ell : int
     exact : int
@@ -289,8 +289,8 @@ def products_at_once(growth: int, ell: int, exact: int) -> int:
     (2, 6)
     """
     largest, products = ell // 2 + 3, 0
-    while products < 64 and largest * growth <= exact - ell:
-        largest, products = largest * growth, products + 1
+    while products < 64 and largest * norm <= exact - ell:
+        largest, products = largest * norm, products + 1
     return products
 
 
@@ -436,8 +436,8 @@ class SparseLoop:
         places = np.array(listed_gains, dtype=np.int64).reshape(-1, 3)
         shape = self.inputs[-1], self.outputs[-1]
         F = scipy.sparse.csr_array((places[:, 2], (places[:, 0], places[:, 1])), shape=shape)
-        moved = self._reduced(self.B @ self._reduced(F @ self.C))
-        return self._reduced(self.A + moved)
+        feedback = self._reduced(self.B @ self._reduced(F @ self.C))
+        return self._reduced(self.A + feedback)
 
     def _reduced(self, M: Any) -> Integers:
         """The matrix in symmetric residues modulo ℓ, without stored zeros."""

@@ -435,10 +435,10 @@ def is_schur(p: Polynomial) -> bool:
     (True, False)
     """
     plus, minus = Polynomial.of(1, 1), Polynomial.of(1, -1)
-    moved, power = Polynomial.of(), Polynomial.of(1)
+    mapped, power = Polynomial.of(), Polynomial.of(1)
     for c in reversed(p.coefficients):
-        moved, power = moved * plus + power * c, power * minus
-    return moved.degree == p.degree and is_hurwitz(moved)
+        mapped, power = mapped * plus + power * c, power * minus
+    return mapped.degree == p.degree and is_hurwitz(mapped)
 
 
 @dataclass(frozen=True)

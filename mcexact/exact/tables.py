@@ -182,8 +182,8 @@ class SparseTable:
     @property
     def T(self) -> SparseTable:
         """The transpose."""
-        moved = [(cell % self.ncols) * self.nrows + cell // self.ncols for cell in self.cells]
-        return SparseTable(self.ncols, self.nrows, *_sorted(zip(moved, self.values, strict=True)))
+        cells = [(cell % self.ncols) * self.nrows + cell // self.ncols for cell in self.cells]
+        return SparseTable(self.ncols, self.nrows, *_sorted(zip(cells, self.values, strict=True)))
 
     def entry(self, i: int, j: int) -> int:
         """One entry."""

@@ -378,7 +378,7 @@ def _channels(
     n: int,
     sizes: Sizes,
 ) -> tuple[list[Matrix], list[Matrix]]:
-    """Read B_i and C_i, which are given one by one or stacked."""
+    """Read B_i and C_i, which the file has one by one or stacked."""
     blocks = {(m[1], int(m[2])) for name in parts.tables if (m := NUMBERED.fullmatch(name))}
     if not blocks:
         return _stacked(parts, matrix, n, _sizes(parts, matrix, sizes))

@@ -79,7 +79,7 @@ class Box(Shown):
 
     @classmethod
     def relative(cls, system: MultiChannelSystem, radius: Any) -> Box:
-        """The plants each of whose entries differs by at most a given part of its modulus.
+        """The plants each of whose entries differs by at most a part, such as 1 %, of its modulus.
 
         Zeros are certain.
 
@@ -99,7 +99,7 @@ class Box(Shown):
         B: Sequence[Any] | None = None,
         C: Sequence[Any] | None = None,
     ) -> Box:
-        """The plants with given radii; what is left out is certain.
+        """The plants within these radii of the entries of A, B_i and C_i; the default is 0.
 
         Parameters
         ----------

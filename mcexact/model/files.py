@@ -133,7 +133,7 @@ def read_yaml(data: bytes, limits: Limits) -> Any:
 
 
 def _plain(yaml: Any, text: str, limits: Limits) -> Any:
-    """The plain data of the only document, made in one pass over the events of the parser.
+    """The plain data of the only document, read in one pass over the events of the parser.
 
     Anchors, which can expand beyond the memory, and deep nesting are refused where they begin.  The
     parser in C is used where it is installed, since it is ten times as fast.

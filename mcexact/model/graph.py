@@ -478,7 +478,7 @@ class NeighborGraph(Shown):
 
 
 def _agents(names: Sequence[str] | int) -> tuple[Any, ...]:
-    """Return the names of agents that are given, or of a number of them."""
+    """Return names of agents as a tuple; a number of agents stands for "1", "2" and so on."""
     if isinstance(names, int) and not isinstance(names, bool):
         if names < 0:
             raise InputError(f"expected a number of agents >= 0, found {names}", where="names")
@@ -489,7 +489,7 @@ def _agents(names: Sequence[str] | int) -> tuple[Any, ...]:
 def graph_for(
     graph: NeighborGraph | Mapping[str, Iterable[str]] | None, names: tuple[str, ...]
 ) -> NeighborGraph | None:
-    """Return a graph on the given channels, from a graph or a mapping of names.
+    """Return a graph on the channels with these names, from a graph or a mapping of names.
 
     Raises
     ------

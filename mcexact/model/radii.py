@@ -1,4 +1,4 @@
-"""Radii of uncertain entries: how far each entry of a system may be from the value given.
+"""Radii of uncertain entries: how far each entry of a system may be from its value.
 
 `Radii` holds one exact number, at least 0, for each entry of A, B_i and C_i; 0 means that the
 entry is certain.  `read_radii` reads the key ``uncertainty`` of a system file, which gives a
@@ -68,7 +68,7 @@ class Radii(Shown):
 
     @classmethod
     def relative(cls, A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], radius: Any) -> Radii:
-        """The radii that are a given part of the moduli of the entries.
+        """The radii that are a part, the same for all, of the moduli of the entries.
 
         Raises
         ------

@@ -82,8 +82,8 @@ def from_statespace(
     >>> plant = control.ss(
     ...     [[0, 1], [0, -0.1]], [[0], [1]], [[1, 0]], [[0]], inputs=["force"], outputs=["place"]
     ... )
-    >>> found = from_statespace(plant, channels={"cart": ("force", "place")})
-    >>> found.names, found.A[1, 1]
+    >>> cart = from_statespace(plant, channels={"cart": ("force", "place")})
+    >>> cart.names, cart.A[1, 1]
     (('cart',), Fraction(-1, 10))
     >>> from_statespace(plant, channels=[("force", "speed")])
     Traceback (most recent call last):
@@ -242,7 +242,7 @@ def _split(
 
 
 def _position(signal: int | str, known: list[str], count: int, place: str) -> int:
-    """Return the position of a signal that is given by its position or its label."""
+    """Return the position of a signal, from its position or its label."""
     if isinstance(signal, str):
         if signal not in known:
             hint = nearest(signal, known) or f"; the signals are {', '.join(map(quoted, known))}"

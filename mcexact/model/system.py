@@ -122,7 +122,7 @@ class ChannelMatrices(tuple[AnyMatrix, ...]):
     def __getitem__(self, channel: slice) -> tuple[AnyMatrix, ...]: ...
 
     def __getitem__(self, channel: Any) -> Any:
-        """Return the matrix of a channel, which is given by its position from 0, or its name."""
+        """Return the matrix of a channel, by the position of the channel, from 0, or its name."""
         if isinstance(channel, str):
             channel = position(channel, self.names)
         return super().__getitem__(channel)
@@ -1035,7 +1035,7 @@ def split_by_sizes(
 
 
 def _parts(sizes: Iterable[int], count: int, where: str, what: str) -> list[Sequence[int]]:
-    """Split the positions below a count into consecutive parts of given sizes."""
+    """Split the positions below a count into consecutive parts of these sizes."""
     known = []
     for k, size in enumerate(several(sizes, where, "integers")):
         if isinstance(size, bool) or not hasattr(size, "__index__") or size < 0:

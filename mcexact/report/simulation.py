@@ -138,8 +138,8 @@ class SimulationReport:
             )
             for k in chosen
         )
-        moved = Table(title, ("t", *columns), rows, note=note)
-        return (moved, *self._bounds())
+        signals = Table(title, ("t", *columns), rows, note=note)
+        return (signals, *self._bounds())
 
     def _shown(self) -> tuple[dict[str, list[float]], str]:
         """Every output and input if there are few, otherwise the largest ones; then the norms."""

@@ -16,14 +16,14 @@ _MOST = 256
 
 
 class Workers:
-    """A given executor, or processes that are started when they are needed, and again if one dies.
+    """The caller's executor, or processes that are started when needed, and again if one dies.
 
     Parameters
     ----------
     executor : concurrent.futures.Executor, optional
-        A given executor is not shut down after the sweep.
+        The caller's executor, which is not shut down after the sweep.
     count : int
-        The number of processes; for a given executor, half the number of jobs it gets at once.
+        The number of processes; for the caller's executor, half the number of jobs it gets at once.
 
     Raises
     ------
@@ -58,7 +58,7 @@ class Workers:
         Raises
         ------
         BrokenExecutor
-            If a given executor has lost its processes.
+            If the caller's executor has lost its processes.
         """
         if self._given is not None:
             return self._given.submit(work, *arguments)

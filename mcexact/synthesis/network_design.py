@@ -316,7 +316,7 @@ def require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: Stabilit
     """
     if fixed.outside(region):
         words = say.FIXED if network.graph is None else say.FIXED_SHARED
-        raise refusal("fixed", fixed, told=words, region=region)
+        raise refusal("fixed", fixed, template=words, region=region)
 
 
 def _choices(

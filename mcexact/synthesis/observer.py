@@ -363,7 +363,7 @@ def _candidates(task: ObserverTask) -> list[ReachingGains]:
         return gains
     observable = joint_observability(system)
     if not observable.controllable:
-        raise refusal("unreached", observable, told=say.NOT_OBSERVABLE)
+        raise refusal("unreached", observable, template=say.NOT_OBSERVABLE)
     decision = completeness(task.error)
     if not decision.complete:
         raise refusal("not complete", decision)
@@ -932,9 +932,9 @@ def refuse_if_impossible(
         ("see", joint_observability(system)),
     ):
         if not region.contains_roots_of(answer.uncontrollable_polynomial):
-            raise refusal("unreached", answer, told=say.UNREACHED[verb], region=region)
+            raise refusal("unreached", answer, template=say.UNREACHED[verb], region=region)
     if gains is None:
         return
     decision = fixed_spectrum(error_system(system, gains, graph))
     if decision.outside(region):
-        raise refusal("fixed", decision, told=say.ERRORS_FIXED, region=region)
+        raise refusal("fixed", decision, template=say.ERRORS_FIXED, region=region)

@@ -251,7 +251,7 @@ def _require_reachable(augmented: MultiChannelSystem, region: StabilityRegion) -
     for decide, verb in ((joint_controllability, "control"), (joint_observability, "observe")):
         decision = decide(augmented)
         if not region.contains_roots_of(decision.uncontrollable_polynomial):
-            raise refusal("unreached", decision, told=say.INTEGRATORS_UNREACHED[verb])
+            raise refusal("unreached", decision, template=say.INTEGRATORS_UNREACHED[verb])
 
 
 def _proposals(

@@ -101,7 +101,7 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
     """
     controllable = joint_controllability(system)
     if not controllable.controllable:
-        raise refusal("unreached", controllable, told=say.NOT_CONTROLLABLE)
+        raise refusal("unreached", controllable, template=say.NOT_CONTROLLABLE)
     B = system.input_matrix()
     F = assigning_feedback(system.A, B, polynomial)
     return given_feedback(system, split_by_channel(system, F))
@@ -711,7 +711,7 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
         return given_feedback(system, gains)
     rest = decided.uncontrollable_polynomial
     if not region.contains_roots_of(rest):
-        raise refusal("unreached", decided, told=say.NOT_CONTROLLABLE_IN, region=region)
+        raise refusal("unreached", decided, template=say.NOT_CONTROLLABLE_IN, region=region)
     subspace = controllable_subspace(system.A, B, generator(system, "controllability"))
     pivots = list(subspace.pivots)
     A1 = (system.A @ subspace.X).take(rows=pivots)
