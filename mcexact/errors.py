@@ -266,7 +266,7 @@ def several(value: Any, where: str, what: str = "names") -> tuple[Any, ...]:
     where : str
         The name of the argument.
     what : str
-        What a list is expected of, for the message.
+        The expected members of the list, for the message.
 
     Raises
     ------

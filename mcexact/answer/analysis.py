@@ -387,7 +387,7 @@ def _heading(context: Context) -> Said:
 
 @analysis_rule("answer", NOTHING_FIXED, STABLE, UNSTABLE, premises=("linked_fixed_spectrum",))
 def _linked(linked: Claim, context: Context) -> Said:
-    """What the agents can do over the existing links: the first sentence of the answer."""
+    """Say in the first sentence of the answer what the agents can do over the existing links."""
     heard = control(linked, context)
     if empty(linked):
         yield NOTHING_FIXED(control=heard)

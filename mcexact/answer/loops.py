@@ -337,7 +337,7 @@ def _every_loop(box_stability: Claim, context: Context) -> Said:
     "table", FAILING_PLANT, FAILING_PLANT_RADII, premises=("failing_loop", "loop")
 )
 def _failing_plant(failing_loop: Claim, loop: Claim, context: Context) -> Said:
-    """How near a plant is whose loop with the same controller is not stable."""
+    """Say how near a plant is whose loop with the same controller is not stable."""
     if not failing_loop.stable and failing_loop.bound is None and inside(loop, context.region):
         template = FAILING_PLANT_RADII if context.of_radii else FAILING_PLANT
         yield template(distance=context.fails_within)

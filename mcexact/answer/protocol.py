@@ -184,7 +184,7 @@ KINDS: dict[str, type[Answer]] = {}
 TOPICS = ("structure", "modes", "sharing", "sharing_gap", "loops", "boxes", "parameters")
 """The modules of this folder that declare kinds."""
 _EXPLAINED = "mcexact.answer.rulebook", "explained"
-"""What says an answer in words, which knows the rules of all kinds."""
+"""Module and name of the function that explains any answer; it knows the rules of all kinds."""
 
 AnyAnswer = TypeVar("AnyAnswer", bound="Answer")
 AnyFunction = TypeVar("AnyFunction", bound=Callable[..., Any])

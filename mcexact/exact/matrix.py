@@ -616,7 +616,7 @@ class Matrix(MatrixDisplay):
         return isinstance(self._table, SparseTable)
 
     def suited(self) -> Matrix:
-        """The same matrix, sparse if its size and its entries suit that."""
+        """The matrix in sparse form if its size and its entries suit that, otherwise in dense form."""
         return Matrix(tables.suited(self._table), self.denominator)
 
     @property

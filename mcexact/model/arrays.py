@@ -277,7 +277,7 @@ def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool
 # From the arrays of a file, by name, to a system, and back.
 
 ROUNDING = "rounding"
-"""How the floats of a file are read where the caller does not say."""
+"""The rounding of the floats of a file, where the caller does not choose one."""
 TEXTS = ("time", "name", "source", ROUNDING)
 TABLES = ("neighbors", "delays", "inputs", "outputs", "sample_time")
 KEYS = ("A", "B", "C", "D", *TABLES, *TEXTS, "names")
@@ -514,12 +514,12 @@ _STORED = {
     **dict(enumerate(("i1", "u1", "i2", "u2", "i4", "u4", "f4"), start=1)),
     **dict(zip((9, 12, 13), ("f8", "i8", "u8"), strict=True)),
 }
-"""How numpy calls the types of elements that hold numbers."""
+"""The names in numpy of the types of elements that hold numbers."""
 _MEANT = {
     **dict(enumerate(("f8", "f8", "f4", "i1", "u1", "i2", "u2"), start=_SPARSE)),
     **dict(enumerate(("i4", "u4", "i8", "u8"), start=12)),
 }
-"""How numpy calls the classes of matrices; a class is stored in any type that holds its numbers."""
+"""The names in numpy of the classes of matrices; a class is stored in any type that fits."""
 _ENCODINGS = {1: "ascii", 2: "latin-1", 4: "utf-16", 16: "utf-8", 17: "utf-16", 18: "utf-32"}
 """The types of elements that hold texts."""
 

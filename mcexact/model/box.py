@@ -253,7 +253,7 @@ class Box(Shown):
 
 
 def radii_in_words(system: MultiChannelSystem) -> str:
-    """How many entries of a system are uncertain, and how large a part of them the radii are.
+    """Say how many entries of a system are uncertain, and how large a part of them the radii are.
 
     Examples
     --------

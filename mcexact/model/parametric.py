@@ -110,7 +110,7 @@ class ParametricSystem(ByChannel[FunctionMatrix]):
         "MultiChannelSystem": "give values to its parameters, plant.at({…}); `analyze`, "
         "`fixed_spectrum` and joint controllability are decided for all values"
     }
-    """What an error says to a caller who gives this in place of something else."""
+    """Advice in an error for a caller who passes such a system in place of something else."""
     neighbors: ClassVar[None] = None
     sample_time: ClassVar[None] = None
     uncertainty: ClassVar[None] = None

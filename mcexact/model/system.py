@@ -557,7 +557,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
         "MultiChannelSystem(A, B, C), where B and C list a matrix for each channel, "
         "or with load_system(file) or from_statespace(model, …)"
     )
-    """What an error says to a caller who gives something else."""
+    """Advice in an error for a caller who passes something else."""
     parameters: ClassVar[tuple[str, ...]] = ()
     """`ParametricSystem` has some."""
 

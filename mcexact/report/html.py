@@ -292,7 +292,7 @@ def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, st
 
 
 def _first(number: int) -> int:
-    """How many of a number of channels a page shows."""
+    """The number of channels, out of all, that a page shows."""
     return number if number <= LARGEST else CUT
 
 

@@ -135,8 +135,7 @@ def sweep_view(
 ) -> dict[str, Any]:
     """Return counts, all records, and the skipped files with reasons, as plain data.
 
-    Where plants were asked about within parts of their entries, ``tolerances`` has the numbers of
-    plants by question and part.
+    If the sweep was over tolerances, ``tolerances`` has the numbers of plants by question and part.
     """
     return {
         "counts": counts(documents),

@@ -325,7 +325,7 @@ def systems_on_graphs(
     Parameters
     ----------
     base : SearchStrategy of Drawn, optional
-        Where the systems come from; `jointly_controllable_systems` by default, in discrete time if
+        A strategy for the systems; `jointly_controllable_systems` by default, in discrete time if
         there are delays.
     strongly_connected : bool, optional
         Any graph by default.  False leaves out systems of one channel.
