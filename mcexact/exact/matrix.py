@@ -616,7 +616,7 @@ class Matrix(MatrixDisplay):
         return isinstance(self._table, SparseTable)
 
     def suited(self) -> Matrix:
-        """The matrix in sparse form if its size and its entries suit that, otherwise in dense form."""
+        """The matrix in the form, sparse or dense, that suits its size and its entries."""
         return Matrix(tables.suited(self._table), self.denominator)
 
     @property

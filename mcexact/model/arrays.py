@@ -277,7 +277,7 @@ def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool
 # From the arrays of a file, by name, to a system, and back.
 
 ROUNDING = "rounding"
-"""The rounding of the floats of a file, where the caller does not choose one."""
+"""The key of the rounding of floats in a file, used where the caller does not choose one."""
 TEXTS = ("time", "name", "source", ROUNDING)
 TABLES = ("neighbors", "delays", "inputs", "outputs", "sample_time")
 KEYS = ("A", "B", "C", "D", *TABLES, *TEXTS, "names")

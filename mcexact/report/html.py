@@ -204,8 +204,8 @@ class AnswerPage:
 # The display of a system: its matrices, of large ones a corner, and its properties.
 
 LARGEST, CUT = 12, 8
-"""Up to how many rows and columns a matrix is shown whole, and how many are shown of a larger one;
-the same for channels."""
+"""The most rows and columns of a matrix that is shown whole, and those shown of a larger one.  The
+same numbers hold for channels."""
 _SINGLE = re.compile(r"\((\w+(?:\^\d+)?)\)")
 """A number, a parameter or its power in parentheses, which it does not need."""
 
