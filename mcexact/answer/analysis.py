@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
-from mcexact.answer.sentence import Claim, Context, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook, Several
 from mcexact.answer.templates import Sentence, Template
 from mcexact.exact.polynomial import product
 from mcexact.exact.roots import exact_decimal, steady_point
@@ -494,7 +494,7 @@ def _blame(fixed_spectrum: Claim, context: Context) -> Said:
     rank P_s < n implies that [λI − A, B_T] and [λI − A; C_s] have rank below n, T the complement of
     s.
     """
-    for factor in fixed_spectrum.factors.ordered("stable"):
+    for factor in fixed_spectrum.factors.separately("stable"):
         inside = factor.channels
         outside = [name for name in context.names if name not in set(inside)]
         template = BLAME if inside and outside else UNOBSERVED if inside else UNCONTROLLED
@@ -808,7 +808,7 @@ def _fixed_modes(fixed_spectrum: Claim, context: Context) -> Said:
 
 @detail_rule("fixed-modes", FIXED_MODE, premises=("fixed_spectrum",))
 def _fixed_mode(fixed_spectrum: Claim, context: Context) -> Said:
-    for factor in fixed_spectrum.factors.ordered("stable"):
+    for factor in fixed_spectrum.factors.separately("stable"):
         yield FIXED_MODE(
             p=factor.polynomial,
             roots=_centers(factor),
@@ -844,8 +844,8 @@ def _pencil(spectrum_of_A: Claim, pencil_rank: Iterable[Claim], context: Context
 
 
 @detail_rule("pencil", PENCIL_ROW, premises=("pencil_rank",))
-def _ranks(pencil_rank: Iterable[Claim], context: Context) -> Said:
-    for claim in pencil_rank:
+def _ranks(pencil_rank: Several, context: Context) -> Said:
+    for claim in pencil_rank.separately():
         rank = claim.rank
         yield PENCIL_ROW(p=claim.polynomial, rank=rank, below=rank < context.n)
 
@@ -954,7 +954,7 @@ def _transfer_edges(transfer_graph: Claim, context: Context) -> Said:
 @detail_rule("graphs", PICTURE_OBSTRUCTION, PICTURE_HEARD, premises=("fixed_spectrum",))
 def _obstruction(fixed_spectrum: Claim, context: Context) -> Said:
     """The picture marks the set of the first mode, and the outside agents that send to it."""
-    for factor in fixed_spectrum.factors:
+    for factor in fixed_spectrum.factors.separately():
         subset = factor.channels
         if subset:
             yield PICTURE_OBSTRUCTION(s=subset, p=factor.polynomial)
@@ -980,7 +980,7 @@ def _latex_nothing(fixed_spectrum: Claim, context: Context) -> Said:
 
 @detail_rule("latex", LATEX_FIXED_MODE, premises=("fixed_spectrum",))
 def _latex_modes(fixed_spectrum: Claim, context: Context) -> Said:
-    for factor in fixed_spectrum.factors:
+    for factor in fixed_spectrum.factors.separately():
         yield LATEX_FIXED_MODE(
             p=factor.polynomial, in_A=factor.multiplicity_in_A, rank=factor.rank, s=factor.channels
         )

@@ -664,7 +664,7 @@ def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
     sizes = []
     if fixed_spectrum.subject and "dimensions" in fixed_spectrum.subject[-1]:
         sizes = list(zip(context.names, fixed_spectrum.subject[-1]["dimensions"], strict=False))
-    for factor in fixed_spectrum.factors:
+    for factor in fixed_spectrum.factors.separately():
         p = factor.polynomial
         if not context.region.contains_roots_of(p):
             others = [name for name in context.names if name not in factor.channels]
@@ -691,7 +691,7 @@ def _no_dimensions(shared_dimensions: Claim, context: Context) -> Said:
     """A set of agents that need shared states and receive from no other agent."""
     if shared_dimensions.feasible:
         return
-    for cut in shared_dimensions.proof.cuts:
+    for cut in shared_dimensions.proof.cuts.separately():
         subset, senders = cut.subset, context.senders(cut.subset)
         if senders:
             continue

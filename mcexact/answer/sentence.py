@@ -80,9 +80,8 @@ class Claim:
     """A part of a certificate as rules read it, by attribute, item or iteration.
 
     An object or a list of objects is again such a part; any other value is returned, and recorded
-    with its place.  When the iteration over a list goes on to the next member, the values read of
-    the previous member are dropped, so that the premises of a sentence about one member contain
-    that member alone.
+    with its place.  A rule with a sentence about each member of a list, or about the first that has
+    a property, takes the members by `separately`.
     """
 
     def __init__(self, value: Any, file: str, pointer: str, read: Read) -> None:
@@ -97,16 +96,27 @@ class Claim:
         return self._part(key)
 
     def __iter__(self) -> Iterator[Any]:
-        return _each(self._read, [self._part(k) for k in range(len(self._value))])
+        return (self._part(k) for k in range(len(self._value)))
 
     def has(self, key: str) -> bool:
         """Whether the part has a key."""
         return key in self._value
 
-    def ordered(self, by: str) -> Iterator[Any]:
-        """Return the members in the order of one of their values, not read as a premise."""
-        places = sorted(range(len(self._value)), key=lambda k: _keys(self._value[k])[by])
-        return _each(self._read, [self._part(k) for k in places])
+    def separately(self, by: str = "") -> Iterator[Any]:
+        """Yield the members such that a sentence about one has no other as its premise.
+
+        When the next member is taken, the values read of the one before are dropped from the
+        record; at the end of the list all are premises.
+
+        Parameters
+        ----------
+        by : str
+            The key of a value, which is no premise, in whose order the members are.
+        """
+        places: Iterable[int] = range(len(self._value))
+        if by:
+            places = sorted(places, key=lambda k: _keys(self._value[k])[by])
+        return _separately(self._read, [self._part(k) for k in places])
 
     def _part(self, key: str | int) -> Any:
         value, pointer = self._value[key], f"{self._pointer}/{key}"
@@ -121,7 +131,7 @@ class Claim:
 class _Nothing(tuple[Any, ...]):
     """A list without members."""
 
-    def ordered(self, by: str) -> Iterator[Any]:
+    def separately(self, by: str = "") -> Iterator[Any]:
         return iter(())
 
 
@@ -134,7 +144,7 @@ def _keys(value: Any) -> Mapping[str, Any]:
     return document
 
 
-def _each(read: Read, parts: Iterable[Any]) -> Iterator[Any]:
+def _separately(read: Read, parts: Iterable[Any]) -> Iterator[Any]:
     """Yield the parts; the values read of a part are dropped at the next one."""
     before, seen = dict(read), dict(read)
     for part in parts:
@@ -211,18 +221,22 @@ def _claims(name: str, answers: Mapping[str, Answer], read: Read) -> Any:
     several: list[Certified] = []
     while (each := f"{name}_{len(several) + 1}") in answers:
         several.append(Certified(answers[each], f"{each}.json", read))
-    return _Several(read, several) if several else None
+    return Several(several, read) if several else None
 
 
-@dataclass(frozen=True)
-class _Several:
-    """Several answers to one question."""
+class Several(tuple[Certified, ...]):
+    """Several answers to one question, numbered."""
 
-    read: Read
-    answers: Sequence[Certified]
+    _read: Read
 
-    def __iter__(self) -> Iterator[Claim]:
-        return _each(self.read, self.answers)
+    def __new__(cls, answers: Iterable[Certified], read: Read) -> Several:
+        several = super().__new__(cls, answers)
+        several._read = read
+        return several
+
+    def separately(self) -> Iterator[Certified]:
+        """Yield the answers such that a sentence about one has no other as its premise."""
+        return _separately(self._read, self)
 
 
 class Rulebook(list[Rule]):

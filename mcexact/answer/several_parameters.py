@@ -49,7 +49,7 @@ from mcexact.answer.parameters import (
     value_text,
     within,
 )
-from mcexact.answer.sentence import Claim, Context, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook, Several
 from mcexact.answer.templates import Sentence, blame, polynomial_in_x
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_latex, rational_text
@@ -447,8 +447,8 @@ def _almost(question: str, place: str, holds: Callable[[Claim, Context], bool]) 
     """Add the rule of a sentence about almost all values that one certificate implies."""
 
     @RULES.rule(place, say.ALMOST[question], premises=(question,))
-    def _said(found: Iterable[Claim], context: Context) -> Said:
-        for each in found:
+    def _said(found: Several, context: Context) -> Said:
+        for each in found.separately():
             if holds(each, context):
                 yield say.ALMOST[question](parameters=context.parameter)
                 return
@@ -481,9 +481,9 @@ def _graph(transfer_graph: Iterable[Claim], context: Context) -> Said:
 
 @RULES.rule("proved", say.ALMOST["completeness"], premises=("fixed_spectrum", "transfer_graph"))
 def _completeness(
-    fixed_spectrum: Iterable[Claim], transfer_graph: Iterable[Claim], context: Context
+    fixed_spectrum: Several, transfer_graph: Iterable[Claim], context: Context
 ) -> Said:
-    free = any(_nothing(each, context) for each in fixed_spectrum)
+    free = any(_nothing(each, context) for each in fixed_spectrum.separately())
     if free and connects(context.names, _edges(transfer_graph)):
         yield say.ALMOST["completeness"](parameters=context.parameter)
 
@@ -492,8 +492,8 @@ def _on_line(question: str, told: Callable[[Claim, str, Context], str]) -> None:
     """Add the rule that repeats what each certificate says of its line."""
 
     @RULES.rule("line", say.ON_LINE[question], premises=(question,))
-    def _said(found: Iterable[Claim], context: Context) -> Said:
-        for each in found:
+    def _said(found: Several, context: Context) -> Said:
+        for each in found.separately():
             line, s = _line(each.subject[0])
             yield say.ON_LINE[question](line=line, found=told(each, s, context))
 

@@ -577,7 +577,7 @@ def _reasons(minimal_shared_dimensions: Claim, context: Context) -> Said:
     sizes = None
     if least.dimensions is not None:
         sizes = dict(zip(context.names, least.dimensions, strict=True))
-    for cut in least.proof.cuts:
+    for cut in least.proof.cuts.separately():
         subset, senders = cut.subset, context.senders(cut.subset)
         demand = cut.deficiency if cut.has("deficiency") else 1
         if sizes is not None and sum(sizes[name] for name in senders) > demand:

@@ -245,8 +245,20 @@ def test_what_was_read_of_one_member_of_a_list_is_no_premise_of_the_next() -> No
     plant = MultiChannelSystem([[1, 0], [0, 2]], [[[0], [0]]], [[[1, 1]]])
     seen = Certified(asking(plant).fixed_spectrum, "file", read)
     places = []
-    for factor in seen.factors:
+    for factor in seen.factors.separately():
         _ = factor.rank
         places.append([pointer for _, pointer in read])
     assert places == [["/claim/factors/0/rank"], ["/claim/factors/1/rank"]]
     assert len(read) == 2
+
+
+def test_iterating_over_a_claim_records_nothing_and_drops_nothing() -> None:
+    read: Any = {}
+    plant = MultiChannelSystem([[1, 0], [0, 2]], [[[0], [0]]], [[[1, 1]]])
+    seen = Certified(asking(plant).fixed_spectrum, "file", read)
+    _ = seen.stabilizable
+    assert len(list(seen.factors)) == 2
+    assert [pointer for _, pointer in read] == ["/claim/stabilizable"]
+    assert next(iter(seen.factors)).rank == next(factor.rank for factor in seen.factors)
+    assert any(factor.rank for factor in seen.factors)
+    assert [pointer for _, pointer in read] == ["/claim/stabilizable", "/claim/factors/0/rank"]
