@@ -809,7 +809,12 @@ def account_of_dimensions(
         "common_dimension": common_dimension(system, share=share),
         "sharing_gap": sharing_gap(system),
     }
-    given = Context(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
+    proof = {
+        "cuts": len(least.cuts),
+        "nodes": len(least.tree),
+        "multiplicities": least.multiplicities,
+    }
+    given = Context(system, proof)
     return Account(answers, given, ALLOCATION.sentences(answers, given))
 
 

@@ -329,6 +329,23 @@ def _relaxation(
     return np.asarray(optimum.x), -np.asarray(optimum.ineqlin.marginals)
 
 
+def linear_optimum(
+    program: CoveringProgram,
+) -> tuple[list[float], list[list[tuple[int, Fraction]]]]:
+    """Propose an optimum of the linear program without upper limits, and multipliers of the cuts.
+
+    Returns
+    -------
+    tuple
+        A point in floating point, and pairs of cuts with positive multipliers for each of several
+        denominators; nothing is verified.
+    """
+    size = len(program.costs)
+    point, duals = _relaxation(program, (0,) * size, (None,) * size)
+    proposals = [_multipliers(program, duals, each) for each in _MULTIPLIER_DENOMINATORS]
+    return [float(x) for x in point], proposals
+
+
 def _proving_multipliers(
     program: CoveringProgram,
     lower: Sequence[int],

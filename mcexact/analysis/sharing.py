@@ -43,6 +43,7 @@ from mcexact.analysis.covering import (
     minimize,
 )
 from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.nested_sets import Inequalities, largest_lower_bound, nested_sets
 from mcexact.analysis.structure import (
     strong_components,
     suspected_edges,
@@ -299,6 +300,9 @@ class CoveringProblem:
         The region in which modes may be fixed; None if no mode may be.
     connected : bool
         Whether the transfer graph has to be strongly connected as well.
+    by_factor : callable
+        The inequalities of each factor at whose roots rank is lost, from which nested sets may be
+        chosen: for one factor alone they prove the optimum in place of a branch tree.
     """
 
     kind: str
@@ -307,6 +311,7 @@ class CoveringProblem:
     violated: Callable[[Sequence[int], MultiChannelSystem], list[CoveringCut]]
     region: StabilityRegion | None = None
     connected: bool = False
+    by_factor: Callable[[], Sequence[Inequalities]] = tuple
 
 
 @dataclass(frozen=True)
@@ -335,6 +340,7 @@ class CoveringOptimum:
         """The same proof without the cuts that no leaf names."""
         named = {node["violated"] for node in self.nodes if "violated" in node}
         named |= {k for node in self.nodes for k, _ in node.get("multipliers", ())}
+        named |= {k for node in self.nodes for k, _ in node.get("nested", ())}
         used = sorted(named)
         place = {k: new for new, k in enumerate(used)}
 
@@ -343,6 +349,8 @@ class CoveringOptimum:
                 return {"violated": place[node["violated"]]}
             if "multipliers" in node:
                 return {"multipliers": [[place[k], y] for k, y in node["multipliers"]]}
+            if "nested" in node:
+                return {"nested": [[place[k], y] for k, y in node["nested"]]}
             return node
 
         cuts = tuple(self.cuts[k] for k in used)
@@ -396,23 +404,43 @@ def covering_optimum(problem: CoveringProblem, node_limit: int) -> CoveringOptim
         canonical = canonical or not cuts
         program = replace(program, cuts=(*program.cuts, *cuts))
     cost = program.cost(values)
-    proof = _proof(program, cost, node_limit)
+    proof = _by_nested_sets(problem, program, cost) or _proof(
+        program, cost, node_limit, problem.by_factor
+    )
     rng = generator(system, problem.kind)
     evidence = absence(system, problem.region, rng, connected=problem.connected)
     return CoveringOptimum(values, cost, evidence, *proof)
 
 
+def _by_nested_sets(
+    problem: CoveringProblem, program: CoveringProgram, cost: Fraction
+) -> tuple[tuple[CoveringCut, ...], Tree] | None:
+    """The cuts of nested sets that prove the cost, if one factor alone loses rank."""
+    if not cost or any(limit is not None for limit in program.upper):
+        return None
+    factors = problem.by_factor()
+    proof = nested_sets(program, cost, factors[0]) if len(factors) == 1 else None
+    return None if proof is None else (proof.cuts, proof.tree)
+
+
 def _proof(
-    program: CoveringProgram, cost: Fraction | None, node_limit: int
+    program: CoveringProgram,
+    cost: Fraction | None,
+    node_limit: int,
+    by_factor: Callable[[], Sequence[Inequalities]] = tuple,
 ) -> tuple[tuple[CoveringCut, ...], Tree]:
-    """The cuts and the branch tree that prove that nothing is cheaper."""
+    """The cuts and the branch tree that prove that nothing is cheaper.
+
+    At the node limit nested sets of each factor give another lower bound.
+    """
     try:
         return program.cuts, branch_tree(program, cost, node_limit=node_limit)
     except LimitReached as error:
         if error.lower is None:
             raise
-        message = f"{error.message}; the least cost is between {error.lower} and {cost}"
-        raise LimitReached(message, lower=error.lower, upper=cost) from None
+        lower = max(error.lower, largest_lower_bound(program, by_factor()))
+        message = f"{error.message}; the least cost is between {lower} and {cost}"
+        raise LimitReached(message, lower=lower, upper=cost) from None
 
 
 # The largest deficiency n − rank P_s(λ): on (A, B_i, C_{N_i}) it is the bound of Theorem 2.
@@ -586,8 +614,9 @@ def minimal_shared_dimensions(
     and λ.  An integer program proposes dimensions.  The fixed spectrum of the extended system
     either confirms them or gives a subset that they violate, which becomes a cut.  The certificate
     proves that the optimum suffices, proves every cut, and excludes a lower cost by a branch tree.
-    The problem is NP-hard (it contains vertex cover).  Among optimal dimensions the
-    lexicographically least are taken.
+    Where the roots of one irreducible factor alone lose rank, nested sets exclude a lower cost in
+    place of the tree (`nested_sets`).  The problem is NP-hard (it contains vertex cover).  Among
+    optimal dimensions the lexicographically least are taken.
 
     Examples
     --------
@@ -612,13 +641,14 @@ def minimal_shared_dimensions(
         cuts = violated_subsets(base, extended, factors, sizes, neighbors, rng)
         return cuts or (_connectivity_cuts(base, extended, neighbors) if free_assignability else [])
 
+    def extended(sizes: Sequence[int]) -> MultiChannelSystem:
+        return extended_system(system, sizes, share)
+
+    def by_factor() -> list[Inequalities]:
+        return _by_factor(base, factors, neighbors, extended) if not free_assignability else []
+
     problem = CoveringProblem(
-        SharedDimensions.kind,
-        program,
-        lambda sizes: extended_system(system, sizes, share),
-        violated,
-        region,
-        free_assignability,
+        SharedDimensions.kind, program, extended, violated, region, free_assignability, by_factor
     )
     least = covering_optimum(problem, node_limit).with_cuts_of_leaves()
     return SharedDimensions(
@@ -635,6 +665,44 @@ def minimal_shared_dimensions(
         cuts=tuple(cut.evidence for cut in least.cuts),
         tree=least.tree("agent", system.names),
     )
+
+
+def _by_factor(
+    base: MultiChannelSystem,
+    factors: Sequence[Polynomial],
+    graph: NeighborGraph,
+    extended: Callable[[Sequence[int]], MultiChannelSystem],
+) -> list[Inequalities]:
+    """The inequalities of each factor at whose roots pencils lose rank."""
+    deficient = {each.polynomial for each in decide(base, generator(base, "nested")).obstructions}
+    return [_of_factor(base, p, graph, extended) for p in factors if p in deficient]
+
+
+def _of_factor(
+    base: MultiChannelSystem,
+    p: Polynomial,
+    graph: NeighborGraph,
+    extended: Callable[[Sequence[int]], MultiChannelSystem],
+) -> Inequalities:
+    """The inequalities of one factor."""
+    rng = generator(base, "nested")
+
+    def cut(s: Iterable[int]) -> CoveringCut | None:
+        members = tuple(sorted(s))
+        subspace = exact_subspace(base, complement(base.m, members), p)
+        if subspace is None:
+            return None
+        lost = subspace.deficiency
+        shrunk = DeficiencyCut(base.named(members), p, lost, evidence(base, subspace))
+        return CoveringCut(boundary(graph, members), lost, shrunk)
+
+    def violated(sizes: Sequence[int]) -> list[CoveringCut]:
+        return violated_subsets(base, extended(sizes), [p], sizes, graph, rng)
+
+    def subset(known: CoveringCut) -> frozenset[int]:
+        return frozenset(base.indices(known.evidence.subset))
+
+    return Inequalities(cut, subset, violated)
 
 
 def plant_with_graph(

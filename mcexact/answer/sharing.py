@@ -196,6 +196,12 @@ class SharedDimensions(Answer):
         """Σ n_i."""
         return None if self.dimensions is None else sum(self.dimensions)
 
+    @property
+    def multiplicities(self) -> tuple[Fraction, ...] | None:
+        """The multipliers of nested sets; None if a branch tree proves the cost."""
+        nested = self.tree[0].get("nested") if self.tree else None
+        return None if nested is None else tuple(Fraction(y) for _, y in nested)
+
 
 # Answer: the least common dimension of shared sub-states that suffices, or that none does.
 
@@ -474,6 +480,15 @@ COST_PROOF = Template(
     "least cost {cost:number}; proved with {cuts:count subset} and a branch tree of "
     "{nodes:count node}",
 )
+NESTED_PROOF = Template(
+    "allocate-nested-proof",
+    "proved by {cuts:count nested subset} with pairwise disjoint boundaries",
+)
+NESTED_COST_PROOF = Template(
+    "allocate-nested-cost-proof",
+    "least cost {cost:number}; proved by {cuts:count nested subset}, with multiplicities whose sum "
+    "around an agent is at most its price",
+)
 REASON = Template(
     "allocate-reason", "{subset:names} | {senders:names} | {deficiency:int} | {p:modes}"
 )
@@ -553,11 +568,23 @@ def _rows(
     yield total(size=sum(least.dimensions), bound=k * context.m)
 
 
-@allocation_rule("table.note", PROOF, COST_PROOF, premises=("minimal_shared_dimensions",))
+@allocation_rule(
+    "table.note",
+    PROOF,
+    COST_PROOF,
+    NESTED_PROOF,
+    NESTED_COST_PROOF,
+    premises=("minimal_shared_dimensions",),
+)
 def _proof(minimal_shared_dimensions: Claim, context: Context) -> Said:
     least = minimal_shared_dimensions
     if least.dimensions is not None:
-        template = PROOF if all(cost == 1 for cost in least.costs) else COST_PROOF
+        equal, weights = all(cost == 1 for cost in least.costs), context.multiplicities
+        if weights is None:
+            template = PROOF if equal else COST_PROOF
+        else:
+            disjoint = equal and all(y == 1 for y in weights)
+            template = NESTED_PROOF if disjoint else NESTED_COST_PROOF
         yield template(cost=least.cost, cuts=context.cuts, nodes=context.nodes)
 
 

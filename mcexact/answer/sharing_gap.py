@@ -131,7 +131,7 @@ def _rules(share: str) -> None:
         yield from _said(TABLE[share], share, bound, common, gap)
 
     @NOTE_RULES.rule(
-        "table.note.more",
+        "bound and least",
         NOTE[share],
         premises=("shared_dimension_bound", "common_dimension", "sharing_gap"),
     )

@@ -639,6 +639,18 @@ def _proved(least: Premise) -> str:
     return f"{least.statement}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
 
 
+@rule("allocate-nested-proof allocate-nested-cost-proof", LEAST)
+def _nested(least: Premise) -> str:
+    """The claim, with the nested sets that prove that nothing costs less."""
+    tree = least.witness["tree"]
+    least.expect(bool(tree) and "nested" in tree[0], "proved by a branch tree")
+    listed = ", ".join(
+        f"{channel_set(least.witness['cuts'][number]['subset'])} {y} times"
+        for number, y in tree[0]["nested"]
+    )
+    return f"{least.statement}, by the boundaries of the nested sets {listed or 'none'}"
+
+
 def demands(least: Premise, agents: str, alone: bool = False) -> str:
     """Cuts of the evidence in words, and why: a mode, or no transfer to their agents.
 

@@ -128,10 +128,11 @@ def check_shared_dimensions(claim: Json, witness: Json, system: System) -> None:
     ceilings = items(most, "claim.upper", system.m)
     upper = [None if u is None else reading.integer(u, "claim.upper") for u in ceilings]
     base = augmented_outputs(system, {}, "claim.share") if share == "outputs+states" else system
-    N, cuts = neighbors_of(system, "claim"), []
+    N, cuts, subsets = neighbors_of(system, "claim"), [], []
     for k, entry in enumerate(items(listed, "witness.cuts")):
         s, demand = read_cut(entry, f"witness.cuts[{k}]", base, bound, connected)
         cuts.append(({j for i in s for j in N[i]} - set(s), demand))
+        subsets.append(set(s))
     value = modes.claimed_cost(claim, "dimensions", absence)
     if value is not None:
         subject = extended(system, {"share": share, "dimensions": sizes}, "claim")
@@ -140,7 +141,46 @@ def check_shared_dimensions(claim: Json, witness: Json, system: System) -> None:
         total = sum(n_i * c for n_i, c in zip(sizes, costs, strict=True))
         right = fits and value == total
         require(right, "claim", "claim.cost", "not the cost of dimensions below `upper`")
-    Program(costs, cuts, "agent", system.names, value).require_bound(tree, upper)
+    program = Program(costs, cuts, "agent", system.names, value)
+    first = tree[0] if isinstance(tree, list) and tree else None
+    if isinstance(first, dict) and "nested" in first:
+        require(not connected, "nested", "witness.tree", "expected a branch tree")
+        require_nested(items(tree, "witness.tree", 1)[0], program, subsets)
+    else:
+        program.require_bound(tree, upper)
+
+
+def require_nested(node: Json, program: Program, subsets: list[set[int]]) -> None:
+    """Stop unless nested sets prove that no dimensions cost less than ``value``.
+
+    The sets ascend.  Their multipliers are positive, and for every agent those of the sets whose
+    boundary has it sum up to at most its cost.
+
+    Theorem ``allocation.branch_tree``.
+    """
+    place = "witness.tree[0]"
+    (listed,) = fields(node, place, "nested")
+    require(program.value is not None, "nested", place, "expected a violated cut")
+    around, proved, inner = [Fraction(0)] * len(program.costs), Fraction(0), None
+    longest = budget.limbs_of((*program.costs, program.value or 0))
+    for entry in items(listed, place):
+        number, weight = items(entry, place, 2)
+        if integer(number, place) >= len(subsets):
+            malformed(place, f"expected the number of a cut, below {len(subsets)}")
+        (support, demand), y = program.cuts[number], rational(weight, place)
+        require(y > 0, "nested", place, "expected positive multipliers")
+        nested = inner is None or inner < subsets[number]
+        require(nested, "nested", place, "the sets are not nested, in ascending order")
+        inner = subsets[number]
+        longest += budget.limbs_of((y, demand))
+        spend(budget.fractions(len(support) + 2, longest) + 10 * len(inner))
+        proved += y * demand
+        for i in support:
+            around[i] += y
+    spend(budget.fractions(len(around) + 1, longest))
+    fits = all(y <= c for y, c in zip(around, program.costs, strict=True))
+    require(fits, "nested", place, "an agent is in boundaries of more than its cost")
+    require(proved >= (program.value or 0), "nested", place, f"proves only {proved}")
 
 
 def shared_dimensions_statement(claim: Json, system: System) -> str:

@@ -181,7 +181,7 @@ def tables(
     columns = _columns(rows[0]) if rows else ()
     first = _table(sentences, "table", columns, "".join(sentences.at("title")))
     all_tables = [replace(first, note="; ".join(filter(None, (first.note, note))))]
-    for place in ("fixed-modes", "pencil", "subsystem", "channel", "why"):
+    for place in ("fixed-modes", "pencil", "subsystem", "channel", "bound and least", "why"):
         if sentences.at(place):
             all_tables.append(_table(sentences, place, _COLUMNS.get(place, ()), most=most_modes))
     return tuple(all_tables)
@@ -204,7 +204,7 @@ def _table(
 ) -> Table:
     """Return the table of the sentences of a place, with its title and notes."""
     rows = [sentence.cells for sentence in sentences.at(place)]
-    note = "; ".join(sentences.at(f"{place}.note", f"{place}.note.more"))
+    note = "".join(sentences.at(f"{place}.note"))
     if place == "fixed-modes" and most is not None and len(rows) > most:
         rows, note = rows[:most], _SHOWN.format(most) + note
     title = title or "".join(sentences.at(f"{place}.title")) or place

@@ -48,6 +48,7 @@ CHROME = {
     "factor | roots, about | stable | in A | fixed | s | rank",
     "factor of det(xI-A) | rank | below n",
     "All answers",
+    "bound and least",
     "Evidence",
     "Every answer has a certificate, which mcexact check verifies independently. Click once on a "
     "block to select all of it.",

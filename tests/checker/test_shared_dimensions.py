@@ -27,15 +27,34 @@ SQUARE = MultiChannelSystem(
     neighbors={"1": ["2"], "2": ["1"]},
 )
 
-BOTH = document(minimal_shared_dimensions(PLANT, RING))
-STATES = document(minimal_shared_dimensions(PLANT, RING, "states"))
-MOVED = by_polynomials(minimal_shared_dimensions, PLANT, RING, "states")
+
+def by_a_tree(found: Document) -> Document:
+    """The same with a branch tree of one leaf, whose multipliers are those of the nested sets."""
+    [node] = found["witness"]["tree"]
+    return changed(found, ("witness.tree", [{"multipliers": node["nested"]}]))
+
+
+ROW = MultiChannelSystem(
+    [[1]],
+    [[[1]], [[0]], [[0]], [[0]], [[0]]],
+    [[[0]], [[0]], [[0]], [[0]], [[1]]],
+    neighbors={"1": ["2"], "2": ["3"], "3": ["4"], "4": ["5"]},
+)
+"""Agents in a row: what the last measures has to reach the first, which alone controls the mode."""
+
+NESTED = document(minimal_shared_dimensions(ROW))
+PRICED = document(minimal_shared_dimensions(ROW, costs=[1, 2, 1, "1/2", 1]))
+BOTH = by_a_tree(document(minimal_shared_dimensions(PLANT, RING)))
+STATES = by_a_tree(document(minimal_shared_dimensions(PLANT, RING, "states")))
+MOVED = by_a_tree(by_polynomials(minimal_shared_dimensions, PLANT, RING, "states"))
 CONNECTED = by_polynomials(
     minimal_shared_dimensions, SQUARE, share="states", free_assignability=True
 )
 NOTHING = document(minimal_shared_dimensions(PLANT, NeighborGraph.empty(PLANT.names)))
 FREE = document(minimal_shared_dimensions(SQUARE, share="states", free_assignability=True))
-STABLE = document(minimal_shared_dimensions(PLANT, RING, "states", rate=1, costs=[2, 1, "1/3"]))
+STABLE = by_a_tree(
+    document(minimal_shared_dimensions(PLANT, RING, "states", rate=1, costs=[2, 1, "1/3"]))
+)
 SPLIT: list[Document] = [{"agent": "1", "at_most": 0}, {"violated": 0}, {"violated": 0}]
 
 DECAYS = changed(
@@ -67,6 +86,12 @@ ACCEPTED = [
             *101 * STATES["witness"]["tree"],
         ]),
     )),
+    ("nested sets", NESTED),
+    ("nested sets with multiplicities", PRICED),
+    ("the same sets in a tree", by_a_tree(NESTED)),
+    ("nested sets below upper bounds, which they need not", changed(
+        NESTED, ("claim.upper", [0, 1, 1, 1, 0])
+    )),
     ("an upper bound that does not bind", changed(BOTH, ("claim.upper", [0, 0, 1]))),
 ]  # fmt: skip
 
@@ -87,6 +112,37 @@ def impossible(sources: list[str], X: list[list[int]]) -> tuple[tuple[str, Any],
 
 
 REJECTED = [
+    ("nested sets, the largest first", NESTED, ("witness.tree.0.nested", [[2, 1], [1, 1], [0, 1]])),
+    ("one nested set three times", NESTED, ("witness.tree.0.nested", [[0, 1], [0, 1], [0, 1]])),
+    ("a nested set left out", NESTED, ("witness.tree.0.nested", [[0, 1], [2, 1]])),
+    ("no nested set", NESTED, ("witness.tree.0.nested", [])),
+    ("a nested set for more than an agent costs", NESTED, ("witness.tree.0.nested", [[0, 3]])),
+    ("multipliers above the price by half", PRICED, ("witness.tree.0.nested.0.1", "5/2")),
+    ("the prices of others", PRICED, ("claim.costs", [1, 1, 2, 1, 1])),
+    ("a multiplier of 0", NESTED, ("witness.tree.0.nested.0.1", 0)),
+    ("a negative multiplier of a nested set", NESTED, (
+        "witness.tree.0.nested", [[0, 1], [1, -1], [2, 3]]
+    )),
+    ("a nested set that is not there", NESTED, ("witness.tree.0.nested.2.0", 3)),
+    ("a nested set before the first", NESTED, ("witness.tree.0.nested.0.0", -1)),
+    ("a nested set by its name", NESTED, ("witness.tree.0.nested.0.0", "1")),
+    ("nested sets and a leaf", NESTED, ("witness.tree", [
+        *NESTED["witness"]["tree"], {"multipliers": []}
+    ])),
+    ("nested sets in a branch", NESTED, ("witness.tree", [
+        {"agent": "1", "at_most": 0}, *2 * NESTED["witness"]["tree"]
+    ])),
+    ("nested sets and a cut at once", NESTED, ("witness.tree.0.violated", 0)),
+    ("nested sets for a connected graph", NESTED, ("claim.free_assignability", True)),
+    ("nested sets where nothing suffices", NESTED, (
+        ("claim.feasible", False), ("claim.dimensions", None), ("claim.cost", None),
+        ("witness.absence", None),
+    )),
+    ("more dimensions than the nested sets prove", NESTED, (
+        ("claim.dimensions", [0, 1, 1, 1, 1]), ("claim.cost", 4)
+    )),
+    ("a set that another one crosses", NESTED, ("witness.cuts.1.subset", ["2", "3"])),
+    ("a node that is no object", NESTED, ("witness.tree", ["nested"])),
     ("a mode that may stay where it is", DECAYS, ("claim.bound", 1)),
     ("an unknown way of sharing, in which nothing suffices", NOTHING, ("claim.share", "outputs")),
     ("a cut of connectivity that something crosses", FREE, ("system.channels.1.C", [[1, 1]])),

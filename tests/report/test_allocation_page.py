@@ -31,7 +31,8 @@ def test_the_least_dimensions_stand_beside_the_bound() -> None:
     [axis] = allocation_picture(account).figure.axes
     assert sorted(bar.get_height() for bar in axis.patches) == [0, 0, 1, 1, 1, 1]
     page = allocation_page(account)
-    assert page.good and [each.title for each in page.tables] == ["The least dimensions", "why"]
+    titles = ["The least dimensions", "bound and least", "why"]
+    assert page.good and [each.title for each in page.tables] == titles
     assert page.answer == ("liu2020_3ch_no_communication: least shared states in addition to "
                            "outputs so that no mode is fixed",)  # fmt: skip
 
@@ -61,7 +62,7 @@ def test_where_nothing_is_missing_the_page_has_no_empty_table() -> None:
 def test_the_impossible_is_not_drawn() -> None:
     page = allocation_page(account_of_dimensions(ring(), upper=[0, 0, 0]))
     assert page.good is False and page.pictures == ()
-    assert [each.title for each in page.tables] == ["why"]
+    assert [each.title for each in page.tables] == ["bound and least", "why"]
 
 
 def decided(number: int) -> dict[str, object]:
@@ -92,7 +93,7 @@ def test_commands_write_their_pages(command: str, tmp_path: Path) -> None:
     assert ended.value.code == 0
     text = page.read_text(encoding="utf-8")
     assert external_addresses(text) == []
-    assert text.count(': <span class="yes">VALID') == (5 if command == "allocate" else 0)
+    assert text.count(': <span class="yes">VALID') == (7 if command == "allocate" else 0)
     with pytest.raises(SystemExit) as ended:
         main([command, str(plant), "--html", str(plant)])
     assert ended.value.code == 3

@@ -128,7 +128,7 @@ def test_allocate_compares_the_bound_with_the_least_common_dimension(
     share: Share,
 ) -> None:
     plant = extremal_plant(sharing_gap(diamond(5)), share, dimension=2)
-    said = account_of_dimensions(plant, share=share).sentences.at("table.note.more")
+    said = account_of_dimensions(plant, share=share).sentences.at("bound and least")
     [compared] = said
     values = {pointer: value for _, pointer, value in compared.because}
     key = "relays_at_most" if share == "outputs+states" else "boundary_at_most"

@@ -399,7 +399,7 @@ def _allocated_total_bound(said: Said, case: Case) -> bool:
     return _allocated_total(said, case) and bound
 
 
-@judge("allocate-cost-proof")
+@judge("allocate-cost-proof", "allocate-nested-cost-proof")
 def _allocated_cost(said: Said, case: Case) -> bool:
     """The cost of the table, and how the search proved it is not judged."""
     costs = [Fraction(c) for c in case.asked["costs"]]

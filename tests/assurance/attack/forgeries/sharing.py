@@ -133,6 +133,30 @@ def other_dimensions(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def other_nested(rng: random.Random, document: Document) -> Forged:
+    """More than is needed, by sets that are not nested, or taken too often, or not at all."""
+    system, claim, witness = subject_of(document), document["claim"], document["witness"]
+    if not claim["feasible"]:
+        return None
+    cuts = false_cuts(rng, document, system) if rng.random() < 0.4 else []
+    claim["free_assignability"] = rng.random() < 0.1
+    sizes = [d + rng.choice((0, 0, 1, 2)) for d in claim["dimensions"]]
+    costs = [Fraction(c) for c in claim["costs"]]
+    value = sum((c * d for c, d in zip(costs, sizes, strict=True)), Fraction(0))
+    claim |= {"dimensions": sizes, "cost": number(value)}
+    built = extended(system, {"share": claim["share"], "dimensions": sizes})
+    witness["absence"] = absence(rng, built, connected=claim["free_assignability"])
+    count = len(witness["cuts"])
+    weights = (1, 1, 1, 0, -1, 2, "1/2", 100)
+    numbers = [k for k in range(count) for _ in range(rng.choice((0, 1, 1, 2)))]
+    rng.shuffle(numbers)
+    entries = [[k, rng.choice(weights)] for k in sorted(numbers) or [0]]
+    if cuts and rng.random() < 0.3:
+        entries.append([count, 100])
+    witness["tree"] = [{"nested": entries}]
+    return document
+
+
 def false_cuts(rng: random.Random, document: Document, system: System) -> list[Cut]:
     """The cuts of the witness, some about another subset, or by a zero transfer of nothing."""
     claim, witness = document["claim"], document["witness"]
@@ -366,7 +390,7 @@ def other_bound(rng: random.Random, document: Document) -> Forged:
 
 DIMENSIONS = (
     other_dimensions, other_dimensions, other_dimensions, nothing_suffices, free_cost, other_bound,
-    slack_cut, unbounded_leaf, beyond_bounds,
+    slack_cut, unbounded_leaf, beyond_bounds, other_nested, other_nested,
 )  # fmt: skip
 COMMON = (other_common_dimension, another_cut)
 LINKS = (other_links, other_links, nothing_suffices, free_cost, other_bound)
