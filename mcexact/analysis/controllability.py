@@ -7,8 +7,9 @@ of states (`blocks`) are tried first, O(n³): those with the outputs of the syst
 are asked about; else, and if these leave modes, the channels measure states, because the modes that
 they do not control are fixed whatever they measure.
 
-`controllability_indices` has the ranks of [B … A^{k−1}B]: modulo a prime from below, and by one
-matrix W, the first n − r_k rows of which annihilate the first k blocks, from above.
+`controllability_indices` has the ranks of [B … A^{k−1}B]: modulo a prime from below; from above by
+the relations among the columns of these blocks, after which ranks grow less.  A plant whose ranks
+are generic has none, and a prime is all the evidence.
 
 Observability is controllability of the dual system.  With one parameter in the plant, both are
 decided for all its values (`parameters`).
@@ -42,6 +43,7 @@ from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.parameters import ParametricFixedSpectrum, ParametricRank
 from mcexact.answer.structure import (
     ByBlocks,
+    ByGrowth,
     ByRank,
     ControllabilityIndices,
     ExceptionalFactor,
@@ -49,7 +51,7 @@ from mcexact.answer.structure import (
     JointControllability,
 )
 from mcexact.derived.constructions import dual
-from mcexact.derived.modular import generator, residue_systems
+from mcexact.derived.modular import generator, residue_systems, short_modulus
 from mcexact.errors import Impossible, InputError, InternalError
 from mcexact.exact.krylov import InvariantSubspace, controllable_subspace
 from mcexact.exact.linear_algebra import (
@@ -59,8 +61,9 @@ from mcexact.exact.linear_algebra import (
     field_kernel,
     solve_nonsingular,
 )
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.matrix import Matrix, hstack
 from mcexact.exact.modular import ModularMatrix, polynomial_residues, primes, residues
+from mcexact.exact.modular import hstack as hstack_residues
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import root_discs
 from mcexact.model.entries import as_matrix, require_shape
@@ -261,18 +264,6 @@ def _by_rank(system: MultiChannelSystem, T: Sequence[int]) -> JointControllabili
 # Controllability and observability indices of some channels, by the ranks of [B … A^{k−1}B].
 
 
-@dataclass(frozen=True)
-class _Profile:
-    """Ranks r_1 < … < r_ν modulo ℓ; r_k independent columns and rows of [B … A^{k−1}B]."""
-
-    columns: list[list[int]]
-    rows: list[tuple[int, ...]]
-
-    @property
-    def ranks(self) -> tuple[int, ...]:
-        return tuple(map(len, self.rows))
-
-
 @overload
 def controllability_indices(
     system: MultiChannelSystem, channels: Iterable[str] | None = None
@@ -300,10 +291,11 @@ def controllability_indices(
 
     Notes
     -----
-    Exact.  The ranks modulo a prime bound them from below.  From above: W, whose first n − r_k rows
-    annihilate the first k blocks.  With independent rows P and columns J of the first k blocks K,
-    each row f outside P that block k + 1 no longer leaves dependent gives one row of W, the
-    solution of w_P K_{P,J} = −K_{f,J}.
+    Exact.  The ranks modulo a prime bound them from below.  From above: the steps from one rank to
+    the next do not grow, a relation Σ A^i B v_i = 0 of degree k takes one input from all steps
+    after the first k, and W with WA = ZW, WB = 0 bounds all ranks.  A relation is found for each
+    input whose column A^k b depends on those before it, if a step is less than these bounds
+    without it.  O(n³) word operations if ranks are generic, else for each word of a relation.
 
     Examples
     --------
@@ -323,10 +315,10 @@ def controllability_indices(
     B = system.input_matrix(T)
     rng = generator(system, "controllability_indices")
     for modular in residue_systems(system, rng, bits=61):
-        profile = _profile(modular.A, residues(B, modular.modulus))
-        W = _index_annihilator(system.A, B, profile)
-        if W is not None:
-            return _indices(system, T, profile.ranks, modular.modulus, W)
+        degrees = _column_degrees(modular.A, residues(B, modular.modulus))
+        evidence = _growth(system.A, B, degrees, modular.modulus, rng)
+        if evidence is not None:
+            return _indices(system, T, _ranks(degrees), evidence)
     raise InternalError("the stream of primes is endless")
 
 
@@ -359,75 +351,112 @@ def observability_indices(
     return controllability_indices(dual(system), channels)
 
 
-def _profile(A: ModularMatrix, B: ModularMatrix) -> _Profile:
-    """Independent columns and rows of the first k blocks modulo ℓ, until the rank stops growing."""
-    n, p = A.nrows, B.ncols
-    columns: list[list[int]] = []
-    rows: list[tuple[int, ...]] = []
-    chosen: list[int] = []
-    block, basis = B, ModularMatrix.zeros(0, n, A.modulus)
-    for k in range(n):
-        table = basis.rows() + block.T.rows()
-        stacked = ModularMatrix.from_rows(table, A.modulus, ncols=n)
-        _, independent = stacked.T.rref()
-        new = [j - basis.nrows for j in independent if j >= basis.nrows]
-        if not new:
-            break
-        chosen = chosen + [k * p + j for j in new]
-        basis, places = stacked.take(rows=independent).rref()
-        columns.append(chosen)
-        rows.append(places)
-        block = A @ block
-    return _Profile(columns, rows)
+def _column_degrees(A: ModularMatrix, B: ModularMatrix) -> list[int]:
+    """The degree κ_j of each input j: A^i b_j depends on the columns before it iff i ≥ κ_j.
 
-
-def _index_annihilator(A: Matrix, B: Matrix, profile: _Profile) -> Matrix | None:
-    """W, its first n − r_k rows annihilating the first k blocks; None if the ranks are larger."""
-    n, ranks = A.nrows, profile.ranks
-    if not ranks:
-        return Matrix.identity(n) if B.is_zero() else None
-    blocks = [B]
-    for _ in ranks:
-        blocks.append(A @ blocks[-1])
-    K = hstack(blocks, nrows=n)
-    W = Matrix.zeros(0, n)
-    for k in reversed(range(len(ranks))):
-        J, P = profile.columns[k], profile.rows[k]
-        later = set(profile.rows[k + 1]) if k + 1 < len(ranks) else set(range(n))
-        part = _rows_of(K.take(cols=J), P, sorted(later - set(P)))
-        W = vstack([W, part], ncols=n)
-        last = blocks[: k + 2] if k + 1 == len(ranks) else blocks[: k + 1]
-        if not all((part @ block).is_zero() for block in last):
-            return None
-    return W
-
-
-def _rows_of(K: Matrix, P: tuple[int, ...], wanted: list[int]) -> Matrix:
-    """For each wanted f, a primitive integer row with support in f and P, wK = 0; K n × |P|.
-
-    The rows have no denominators: one for all of W would be as long as all of theirs together.
+    The columns are those of [B, AB, …] in this order.  Several blocks are eliminated at once: as
+    many as a generic pair needs for rank n.
     """
-    n = K.nrows
-    solution = solve_nonsingular(K.take(rows=P).T, -K.take(rows=wanted).T)
-    if solution is None:
-        raise InternalError("independent rows and columns make a nonsingular matrix")
-    table = []
-    for i, f in enumerate(wanted):
-        row = [0] * n
-        for j, entries in zip(P, solution.numerators, strict=True):
-            row[j] = entries[i]
-        row[f] = solution.denominator
-        content = math.gcd(*row)
-        table.append([entry // content for entry in row])
-    return Matrix.from_integers(table, ncols=n)
+    n, p, blocks = A.nrows, B.ncols, 0
+    degrees, live, power = [0] * p, list(range(p)), B
+    basis = ModularMatrix.zeros(n, 0, A.modulus)
+    while live and basis.ncols < n:
+        turns = -(-(n - basis.ncols) // len(live))
+        parts = [power]
+        for _ in range(turns - 1):
+            parts.append(A @ parts[-1])
+        places = [(blocks + turn, j) for turn in range(turns) for j in live]
+        table = hstack_residues([basis, *parts])
+        independent = table.rref()[1]
+        grown = {places[c - basis.ncols] for c in independent if c >= basis.ncols}
+        for block, j in grown:
+            degrees[j] = max(degrees[j], block + 1)
+        blocks += turns
+        kept = [k for k, j in enumerate(live) if degrees[j] == blocks]
+        live = [live[k] for k in kept]
+        power = A @ parts[-1].take(cols=kept)
+        basis = table.take(cols=independent)
+    return degrees
+
+
+def _ranks(degrees: Sequence[int]) -> tuple[int, ...]:
+    """The ranks of the first 1, 2, … blocks, until they stop growing."""
+    return tuple(sum(min(d, k) for d in degrees) for k in range(1, max(degrees, default=0) + 1))
+
+
+def _growth(
+    A: Matrix, B: Matrix, degrees: Sequence[int], modulus: int, rng: Random
+) -> ByGrowth | None:
+    """The evidence that the ranks are at most those modulo a prime; None if they are larger."""
+    n, p, ranks = A.nrows, B.ncols, (0, *_ranks(degrees))
+    W, pivots = Matrix.zeros(0, n), tuple[int, ...]()
+    if 0 < ranks[-1] < n:
+        subspace = controllable_subspace(A, B, rng)
+        if subspace.dimension != ranks[-1]:
+            return None
+        W, pivots = subspace.annihilator(), subspace.free
+    needed, step = -1, p
+    for k, (rank, following) in enumerate(pairwise((*ranks, ranks[-1]))):
+        if following < min(n - len(pivots), rank + step):
+            needed = k
+        step = following - rank
+    inputs = sorted((j for j in range(p) if degrees[j] <= needed), key=lambda j: (degrees[j], j))
+    relations = _relations(A, B, degrees, inputs, modulus)
+    if relations is None:
+        return None
+
+    def is_reached(ell: int) -> bool:
+        return _ranks(_column_degrees(residues(A, ell), residues(B, ell))) == ranks[1:]
+
+    short = short_modulus(A.denominator * B.denominator, is_reached, modulus)
+    return ByGrowth(short, W, pivots, relations, tuple(inputs))
+
+
+def _relations(
+    A: Matrix, B: Matrix, degrees: Sequence[int], inputs: Sequence[int], modulus: int
+) -> PolynomialMatrix | None:
+    """V with Σ A^i B V_i = 0 and a column of integers for each input.
+
+    The column of input j has A^κ b_j, κ its degree, by those columns A^i b_l before it for which i
+    is below the degree of l.  None if it does not depend on these.
+    """
+    d, p = A.denominator, B.ncols
+    A, B = A * d, B * B.denominator
+    top = max((degrees[j] for j in inputs), default=0)
+    blocks = [B]
+    for _ in range(top):
+        blocks.append(A @ blocks[-1])
+    layers = [[[0] * len(inputs) for _ in range(p)] for _ in range(top + 1)]
+    if inputs:
+        last = degrees[inputs[-1]], inputs[-1]
+        columns = [
+            [j for j in range(p) if k < degrees[j] and (k, j) < last] for k in range(top + 1)
+        ]
+        left = hstack([block.take(cols=c) for block, c in zip(blocks, columns, strict=True)])
+        right = hstack([blocks[degrees[j]].take(cols=[j]) for j in inputs])
+        solution = _combinations(left, right, modulus)
+        if solution is None:
+            return None
+        places = [(k, j) for k, listed in enumerate(columns) for j in listed]
+        for t, j in enumerate(inputs):
+            terms = [(degrees[j], j, -solution.denominator)]
+            terms += [(*at, row[t]) for at, row in zip(places, solution.numerators, strict=True)]
+            content = math.gcd(*(entry * d**k for k, _, entry in terms))
+            for k, other, entry in terms:
+                layers[k][other][t] = entry * d**k // content
+    tables = (Matrix.from_integers(layer, ncols=len(inputs)) for layer in layers)
+    return PolynomialMatrix.from_matrices(*tables)
+
+
+def _combinations(M: Matrix, N: Matrix, ell: int) -> Matrix | None:
+    """The X with M X = N, the columns of M independent modulo a prime; None if there is none."""
+    rows = residues(M.T, ell).rref()[1]
+    X = solve_nonsingular(M.take(rows=rows), N.take(rows=rows))
+    return X if X is not None and M @ X == N else None
 
 
 def _indices(
-    system: MultiChannelSystem,
-    T: Iterable[int],
-    ranks: tuple[int, ...],
-    modulus: int,
-    W: Matrix,
+    system: MultiChannelSystem, T: Iterable[int], ranks: tuple[int, ...], evidence: ByGrowth
 ) -> ControllabilityIndices:
     reached = ranks[-1] if ranks else 0
     steps = [b - a for a, b in pairwise((0, *ranks))]
@@ -437,8 +466,7 @@ def _indices(
         ranks=ranks,
         index=len(ranks) if reached == system.n else None,
         indices=tuple(sum(step > i for step in steps) for i in range(max(steps, default=0))),
-        modulus=modulus,
-        annihilator=W,
+        evidence=evidence,
     )
 
 

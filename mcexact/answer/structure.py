@@ -122,6 +122,51 @@ class JointControllability(Answer):
 # Answer: the controllability index and the controllability (Brunovsky) indices.
 
 
+@dataclass(frozen=True)
+class ByGrowth(Part):
+    """Evidence by relations, after which ranks cannot grow as before, and by rows.
+
+    With r_0 = 0, rank r_{k+1} is at most n less the rows of W, r_k + (r_k − r_{k−1}), and r_k plus
+    the number of inputs less that of relations of degree at most k.
+
+    Attributes
+    ----------
+    modulus : int
+        ℓ ≥ 2, modulo which the ranks are reached.
+    annihilator : Matrix
+        W: its columns ``pivots`` form the identity, WA = (WA)[:, pivots] W, WB_T = 0.
+    pivots : tuple of int
+        Columns of W, strictly increasing.
+    relations : PolynomialMatrix
+        V = Σ x^i V_i with a column for each relation: Σ A^i B_T V_i = 0.
+    inputs : tuple of int
+        For each column v of degree k a column j of B_T with v_k,j not 0, and 0 in all later columns
+        of V at their own degrees.
+    """
+
+    modulus: int
+    annihilator: Matrix
+    pivots: tuple[int, ...]
+    relations: PolynomialMatrix
+    inputs: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class ByRows(Part):
+    """Evidence of certificates written by earlier versions, which is read only.
+
+    Attributes
+    ----------
+    modulus : int
+        ℓ ≥ 2, modulo which the ranks are reached.
+    annihilator : Matrix
+        W, (n − r_1) × n, of full row rank: its first n − r_k rows annihilate the first k blocks.
+    """
+
+    modulus: int
+    annihilator: Matrix
+
+
 @answer("controllability_indices")
 class ControllabilityIndices(Answer):
     """The ranks r_k of [B_T … A^{k−1}B_T], and the resulting indices.
@@ -137,18 +182,14 @@ class ControllabilityIndices(Answer):
     indices : tuple of int
         The controllability (Brunovsky) indices κ_1 ≥ κ_2 ≥ …, the conjugate partition of
         r_1, r_2 − r_1, …; they sum to r_ν.
-    modulus : int
-        ℓ ≥ 2, modulo which the ranks are reached.
-    annihilator : Matrix
-        W, (n − r_1) × n, of full row rank: its first n − r_k rows annihilate the first k blocks.
+    evidence : ByGrowth or ByRows
     """
 
     channels: tuple[str, ...] = claim()
     ranks: tuple[int, ...] = claim()
     index: int | None = claim()
     indices: tuple[int, ...] = claim()
-    modulus: int = witness()
-    annihilator: Matrix = witness()
+    evidence: ByGrowth | ByRows = witness(whole=True)
 
 
 # Answer: the edges and the strong components of the transfer graph.

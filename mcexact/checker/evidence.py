@@ -89,6 +89,24 @@ def require_identity(layers: Sequence[Matrix], pivots: list[int], place: str) ->
     require(good, "pivots", place, "expected an identity matrix there")
 
 
+def annihilator(
+    rows: Json, columns: Json, place: str, A: Matrix, inputs: Iterable[Matrix]
+) -> tuple[list[int], Matrix]:
+    """Check that independent rows W satisfy W A = Z W and W B = 0, and return pivots and Z.
+
+    Theorem ``controllability.uncontrollable_space``.
+    """
+    pivots = positions(columns, f"{place}.pivots", A.nrows)
+    W = matrix(rows, f"{place}.annihilator", len(pivots), A.nrows)
+    require_identity([W.T], pivots, f"{place}.pivots")
+    WA = W @ A
+    Z = WA.take(cols=pivots)
+    require(WA.equals(Z @ W), "identity", f"{place}.annihilator", "W A is not Z W")
+    unmoved = all((W @ B).is_zero() for B in inputs)
+    require(unmoved, "identity", f"{place}.annihilator", "W B is not zero")
+    return pivots, Z
+
+
 def closed_loop(system: System, gains: Sequence[Matrix]) -> Matrix:
     """A_F = A + Σ B_i F_i C_i."""
     left = beside([B @ F for B, F in zip(system.B, gains, strict=True)], system.n)

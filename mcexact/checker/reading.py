@@ -271,14 +271,17 @@ def matrices(value: Json, place: str, shapes: list[tuple[int, int]]) -> list[Mat
     return [matrix(entry, f"{place}[{i}]", *shapes[i]) for i, entry in entries]
 
 
-def polynomial_matrix(value: Json, place: str, nrows: int, ncols: int, degree: int) -> list[Matrix]:
-    """The coefficient matrices of a polynomial matrix reduced modulo a p of this degree."""
+def polynomial_matrix(
+    value: Json, place: str, nrows: int, ncols: int, degree: int | None = None
+) -> list[Matrix]:
+    """The coefficient matrices of a polynomial matrix, reduced modulo a p of this degree if any."""
     denominator, layers = fields(value, place, "denominator", "coefficients")
-    d = integer(denominator, f"{place}.denominator", 1)
-    if not 1 <= len(items(layers, f"{place}.coefficients")) <= degree:
-        malformed(f"{place}.coefficients", f"expected 1 to {degree} matrices, found {len(layers)}")
+    d, found = integer(denominator, f"{place}.denominator", 1), len(items(layers, place))
+    most = max(found, 1) if degree is None else degree
+    if not 1 <= found <= most:
+        malformed(f"{place}.coefficients", f"expected 1 to {most} matrices, found {found}")
     rows = [_integer_rows(layer, f"{place}.coefficients", nrows, ncols) for layer in layers]
-    padding = [Matrix.zeros(nrows, ncols)] * (degree - len(layers))
+    padding = [Matrix.zeros(nrows, ncols)] * (most - found)
     return [Matrix(layer, ncols, d) for layer in rows] + padding
 
 

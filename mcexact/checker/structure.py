@@ -40,6 +40,7 @@ from .budget import counted, spend
 from .constructions import dual, neighbors_of
 from .evidence import (
     Blocks,
+    annihilator,
     by_blocks,
     inputs,
     modulus,
@@ -92,15 +93,8 @@ def check_controllability(claim: Json, witness: Json, system: System) -> None:
     T = names(listed, "claim.channels", system.names)
     d, n = integer(size, "claim.dimension"), system.n
     chi = polynomial(factor, "claim.uncontrollable_polynomial")
-    pivots = positions(columns, "witness.pivots", n)
+    pivots, Z = annihilator(rows, columns, "witness", system.A, (system.B[i] for i in T))
     require(len(pivots) == n - d, "dimension", "witness.pivots", f"expected {n} - {d} of them")
-    W = matrix(rows, "witness.annihilator", n - d, n)
-    require_identity([W.T], pivots, "witness.pivots")
-    WA = W @ system.A
-    Z = WA.take(cols=pivots)
-    require(WA.equals(Z @ W), "identity", "witness.annihilator", "W A is not Z W")
-    unmoved = all((W @ system.B[i]).is_zero() for i in T)
-    require(unmoved, "identity", "witness.annihilator", "W B is not zero")
     low = _by_blocks if by_blocks(witness) else _by_rank
     reached = low(system, T, *proof)
     require(reached >= d, "rank", "claim.dimension", f"only {reached} are proved to be reached")
@@ -176,27 +170,23 @@ def require_reached(system: System, channel: int, ell: int, blocks: int) -> None
 
 
 def check_controllability_indices(claim: Json, witness: Json, system: System) -> None:
-    """Check rows that annihilate the first k blocks, and the ranks modulo ℓ from below.
+    """Check ranks of [B … A^{k−1}B] from above by relations, or by rows; from below modulo ℓ.
 
-    Theorems ``controllability.indices_rule``, ``controllability.indices_stationary``,
-    ``controllability.rank_from_above``.
+    Theorems ``controllability.indices_stationary``, ``controllability.rank_from_above``.
     """
     listed, claimed, top, parts = fields(claim, "claim", "channels", "ranks", "index", "indices")
-    number, rows = fields(witness, "witness", "modulus", "annihilator")
+    growing = isinstance(witness, dict) and "relations" in witness
+    keys = ("annihilator", "pivots", "relations", "inputs") if growing else ("annihilator",)
+    number, *shown = fields(witness, "witness", "modulus", *keys)
     T, n = names(listed, "claim.channels", system.names), system.n
     ranks = [0, *(integer(r, "claim.ranks", 1) for r in items(claimed, "claim.ranks"))]
-    growing = ranks == sorted(set(ranks)) and ranks[-1] <= n
-    require(growing, "claim", "claim.ranks", f"expected strictly increasing ranks up to {n}")
-    ell, nu = modulus(number, "witness.modulus"), len(ranks) - 1
-    W = matrix(rows, "witness.annihilator", n - ranks[min(nu, 1)], n)
-    independent = rank_modulo(W, ell) == W.nrows
-    require(independent, "rank", "witness.annihilator", "its rows are dependent modulo l")
-    power = inputs(system, T)
-    for k in range(1, nu + 2):
-        first = W.take(range(n - ranks[min(k, nu)]))
-        message = f"its first {first.nrows} rows do not annihilate block {k}"
-        require((first @ power).is_zero(), "identity", "witness.annihilator", message)
-        power = system.A @ power
+    increasing = ranks == sorted(set(ranks)) and ranks[-1] <= n
+    require(increasing, "claim", "claim.ranks", f"expected strictly increasing ranks up to {n}")
+    ell, nu, B = modulus(number, "witness.modulus"), len(ranks) - 1, inputs(system, T)
+    if growing:
+        _require_growth(shown, ranks, system.A, B)
+    else:
+        _require_rows(shown[0], ranks, system.A, B, ell)
     reached = krylov_ranks(system, T, ell, nu)
     # Where the blocks stop growing modulo ℓ, the last rank stands for all that follow.
     reached += [reached[-1]] * (nu + 1 - len(reached))
@@ -208,6 +198,73 @@ def check_controllability_indices(claim: Json, witness: Json, system: System) ->
     conjugate = [sum(step > i for step in steps) for i in range(max(steps, default=0))]
     kappa = [integer(part, "claim.indices") for part in items(parts, "claim.indices")]
     require(kappa == conjugate, "claim", "claim.indices", f"the ranks give {conjugate}")
+
+
+def _require_growth(shown: list[Json], ranks: list[int], A: Matrix, B: Matrix) -> None:
+    """Stop unless the ranks of [B … A^{k−1}B] are at most these, if they are at least these.
+
+    A step from one rank to the next is at most the step before, and at most the number of inputs
+    without a relation of this degree; and the rows that annihilate all blocks bound every rank.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    rows, columns, polynomials, chosen = shown
+    pivots, _ = annihilator(rows, columns, "witness", A, [B])
+    degrees = relation_degrees(polynomials, chosen, A, B)
+    step = B.ncols
+    for k, (r, following) in enumerate(pairwise([*ranks, ranks[-1]])):
+        step = min(step, B.ncols - sum(degree <= k for degree in degrees))
+        most = min(A.nrows - len(pivots), r + step)
+        message = f"the rank of {k + 1} blocks is shown to be at most {most}"
+        require(following >= most, "rank", "claim.ranks", message)
+        step = following - r
+
+
+def relation_degrees(polynomials: Json, chosen: Json, A: Matrix, B: Matrix) -> list[int]:
+    """The degrees of the columns v of V, for which Σ A^i B v_i = 0.
+
+    The last coefficients of the columns are independent: each is not 0 at an input of its own, at
+    which the last coefficients of all later columns are 0.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    place = "witness.relations"
+    own = [integer(j, "witness.inputs") for j in items(chosen, "witness.inputs")]
+    if any(j >= B.ncols for j in own):
+        malformed("witness.inputs", f"expected positions below {B.ncols}")
+    V = polynomial_matrix(polynomials, place, B.ncols, len(own))
+    spend(8 * (len(V) + len(own)) * B.ncols * len(own))
+    degrees = []
+    for t, j in enumerate(own):
+        columns = enumerate([row[t] for row in layer.rows] for layer in V)
+        degree, last = max(((k, v) for k, v in columns if any(v)), default=(-1, []))
+        independent = degree >= 0 and last[j] and not any(last[i] for i in own[:t])
+        require(bool(independent), "relation", place, "the last coefficients are not independent")
+        degrees.append(degree)
+    total = Matrix.zeros(A.nrows, len(own))
+    for layer in counted(V[::-1]):
+        total = A @ total + B @ layer
+    require(total.is_zero(), "identity", place, "the sum of A^i B v_i is not zero")
+    return degrees
+
+
+def _require_rows(rows: Json, ranks: list[int], A: Matrix, B: Matrix, ell: int) -> None:
+    """Stop unless independent rows W annihilate the first blocks, n − r_k of them the first k.
+
+    Certificates of earlier versions have these.
+
+    Theorem ``controllability.indices_rule``.
+    """
+    n, nu = A.nrows, len(ranks) - 1
+    W = matrix(rows, "witness.annihilator", n - ranks[min(nu, 1)], n)
+    independent = rank_modulo(W, ell) == W.nrows
+    require(independent, "rank", "witness.annihilator", "its rows are dependent modulo l")
+    power = B
+    for k in range(1, nu + 2):
+        first = W.take(range(n - ranks[min(k, nu)]))
+        message = f"its first {first.nrows} rows do not annihilate block {k}"
+        require((first @ power).is_zero(), "identity", "witness.annihilator", message)
+        power = A @ power
 
 
 def controllability_indices_statement(claim: Json, system: System) -> str:

@@ -16,7 +16,7 @@ denominator, so that their entries are polynomials.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -45,6 +45,9 @@ from mcexact.model.text import canonical, plain, sha256
 
 Gains = tuple[tuple[tuple[int, ...], ...], ...]
 """One p_i × q_i matrix of residues for each channel."""
+
+SHORT = (7, 13, 19, 31, 61)
+"""Primes modulo which the checker computes ranks and powers quickly."""
 
 # From this size on, polynomials by floats save about the time of importing numpy: 8 ms at n = 200,
 # 1.1 s at n = 800.
@@ -133,6 +136,22 @@ def residue_systems(
     for ell in primes(rng.getrandbits(64), bits):
         if system.denominator % ell:
             yield ModularSystem(system, ell)
+
+
+def short_modulus(denominator: int, is_reached: Callable[[int], bool], otherwise: int) -> int:
+    """Find a short prime modulo which a rank over Q is reached, so that it is quick to check.
+
+    Parameters
+    ----------
+    denominator : int
+        Of the matrices; the prime does not divide it.
+    is_reached : callable
+        Says of a prime whether the rank is reached modulo it.
+    otherwise : int
+        A long prime modulo which it is, for a plant whose rank is lost modulo all short ones.
+    """
+    usable = (ell for ell in SHORT if denominator % ell)
+    return next((ell for ell in usable if is_reached(ell)), otherwise)
 
 
 def drawn_gains(modular: ModularSystem, rng: random.Random) -> Gains:

@@ -197,16 +197,30 @@ CONTROLLABLE = certificate(
     },
     {"modulus": 7, "annihilator": matrix(), "pivots": []},
 )
+GENERIC = {
+    "modulus": 7,
+    "annihilator": matrix(),
+    "pivots": [],
+    "relations": {"denominator": 1, "coefficients": [[[]]]},
+    "inputs": [],
+}
+"""All the evidence for indices of one input, if no rank is less than generic."""
 INDICES = certificate(
     "controllability_indices",
     CHAIN,
     {"channels": ["1"], "ranks": [1, 2], "index": 2, "indices": [2]},
-    {"modulus": 7, "annihilator": matrix([0, 1])},
+    GENERIC,
 )
 NO_INDEX = certificate(
     "controllability_indices",
     PAIR,
     {"channels": ["1"], "ranks": [1], "index": None, "indices": [1]},
+    {**GENERIC, "annihilator": matrix([0, 1]), "pivots": [1]},
+)
+INDICES_BY_ROWS = certificate(
+    "controllability_indices",
+    CHAIN,
+    INDICES["claim"],
     {"modulus": 7, "annihilator": matrix([0, 1])},
 )
 GRAPH = certificate(
@@ -292,6 +306,7 @@ VALID = {
     "a controllable chain": CONTROLLABLE,
     "indices of a chain": INDICES,
     "no index": NO_INDEX,
+    "indices by rows": INDICES_BY_ROWS,
     "a transfer graph": GRAPH,
     "a complete system": COMPLETE,
     "a cut": CUT,

@@ -3,50 +3,120 @@
 from __future__ import annotations
 
 from tests.checker.handmade import (
+    GENERIC,
     INDICES,
+    INDICES_BY_ROWS,
     NO_INDEX,
+    PAIR,
     certificate,
     changed,
     checked,
+    layers,
     matrix,
     plant,
 )
 from tests.checker.tables import accepts, rejects
 
-TWO_INPUTS = certificate(
-    "controllability_indices",
-    plant([[0, 0, 0], [1, 0, 0], [0, 1, 0]], ([[1, 0], [0, 1], [0, 0]], [[0, 0, 1]])),
-    {"channels": ["1"], "ranks": [2, 3], "index": 2, "indices": [2, 1]},
-    {"modulus": 7, "annihilator": matrix([0, 0, 1])},
+TWO_PLANT = plant([[0, 0, 0], [1, 0, 0], [0, 1, 0]], ([[1, 0], [0, 1], [0, 0]], [[0, 0, 1]]))
+TWO_CLAIM = {"channels": ["1"], "ranks": [2, 3], "index": 2, "indices": [2, 1]}
+THREE_PLANT = plant([[0, 0, 0], [5, 0, 0], [0, 1, 0]], ([[1], [0], [0]], [[0, 0, 1]]))
+THREE_CLAIM = {"channels": ["1"], "ranks": [1, 2, 3], "index": 3, "indices": [3]}
+UNMOVED_PLANT = plant([[0, 1], [0, 0]], ([[0], [0]], [[1, 0]]))
+UNMOVED_CLAIM = {"channels": ["1"], "ranks": [], "index": None, "indices": []}
+NO_PLANT = plant([], ([], []))
+NO_CLAIM = {"channels": ["1"], "ranks": [], "index": 0, "indices": []}
+KIND = "controllability_indices"
+NONE = {"denominator": 1, "coefficients": [[[], []]]}
+
+# by relations, as they are written
+TWO_INPUTS = certificate(KIND, TWO_PLANT, TWO_CLAIM, {**GENERIC, "relations": NONE})
+THREE = certificate(KIND, THREE_PLANT, THREE_CLAIM, GENERIC)
+NO_STATES = certificate(
+    KIND, NO_PLANT, NO_CLAIM, {**GENERIC, "relations": {"denominator": 1, "coefficients": [[]]}}
 )
 NO_INPUT = certificate(
-    "controllability_indices",
-    plant([[0, 1], [0, 0]], ([[0], [0]], [[1, 0]])),
-    {"channels": ["1"], "ranks": [], "index": None, "indices": []},
-    {"modulus": 7, "annihilator": matrix([1, 0], [0, 1])},
+    KIND, UNMOVED_PLANT, UNMOVED_CLAIM, {**GENERIC, "relations": layers([[1]]), "inputs": [0]}
 )
-NO_STATES = certificate(
-    "controllability_indices",
-    plant([], ([], [])),
-    {"channels": ["1"], "ranks": [], "index": 0, "indices": []},
-    {"modulus": 7, "annihilator": matrix()},
+ALL_ANNIHILATED = certificate(
+    KIND,
+    UNMOVED_PLANT,
+    UNMOVED_CLAIM,
+    {**GENERIC, "annihilator": matrix([1, 0], [0, 1]), "pivots": [0, 1]},
 )
-THREE = certificate(
-    "controllability_indices",
-    plant([[0, 0, 0], [5, 0, 0], [0, 1, 0]], ([[1], [0], [0]], [[0, 0, 1]])),
-    {"channels": ["1"], "ranks": [1, 2, 3], "index": 3, "indices": [3]},
-    {"modulus": 7, "annihilator": matrix([0, 0, 1], [0, 1, 0])},
+RELATED = certificate(
+    KIND,
+    PAIR,
+    NO_INDEX["claim"],
+    {**GENERIC, "relations": layers([[-1]], [[1]]), "inputs": [0]},
+)
+# three chains of lengths 3, 1 and 1, and the second input is also that of the first
+LONG_PLANT = plant(
+    [[0, 0, 0, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0]],
+    ([[1, 1, 0], [0, 0, 0], [0, 0, 0], [0, 0, 1]], [[0, 0, 1, 0]]),
+)
+LONG = certificate(
+    KIND,
+    LONG_PLANT,
+    {"channels": ["1"], "ranks": [2, 3, 4], "index": 3, "indices": [3, 1]},
+    {
+        **GENERIC,
+        # B(e_1 − e_2) = 0 and A B e_3 = 0
+        "relations": layers([[1, 0], [-1, 0], [0, 0]], [[0, 0], [0, 0], [0, 1]]),
+        "inputs": [1, 2],
+    },
+)
+HALVES = certificate(
+    KIND,
+    plant([["1/2", 0], [0, 0]], ([["1/3"], [0]], [[1, 0]])),
+    NO_INDEX["claim"],
+    {**GENERIC, "relations": layers([[-1]], [[2]]), "inputs": [0]},
+)
+
+# by rows, as earlier versions wrote them
+TWO_BY_ROWS = certificate(
+    KIND, TWO_PLANT, TWO_CLAIM, {"modulus": 7, "annihilator": matrix([0, 0, 1])}
+)
+UNMOVED_BY_ROWS = certificate(
+    KIND, UNMOVED_PLANT, UNMOVED_CLAIM, {"modulus": 7, "annihilator": matrix([1, 0], [0, 1])}
+)
+NO_STATES_BY_ROWS = certificate(KIND, NO_PLANT, NO_CLAIM, {"modulus": 7, "annihilator": matrix()})
+THREE_BY_ROWS = certificate(
+    KIND, THREE_PLANT, THREE_CLAIM, {"modulus": 7, "annihilator": matrix([0, 0, 1], [0, 1, 0])}
+)
+NO_INDEX_BY_ROWS = certificate(
+    KIND, PAIR, NO_INDEX["claim"], {"modulus": 7, "annihilator": matrix([0, 1])}
 )
 
 ACCEPTED = [
-    ("a chain of three", THREE),
+    ("a chain of three needs a modulus alone", THREE),
     ("a chain of two", INDICES),
-    ("a mode that stays out of reach", NO_INDEX),
+    ("a mode that stays out of reach, by a row", NO_INDEX),
+    ("a mode that stays out of reach, by a relation", RELATED),
     ("two inputs, indices 2 and 1", TWO_INPUTS),
-    ("an input of zeros has no ranks", NO_INPUT),
+    ("an input of zeros, by a relation of degree 0", NO_INPUT),
+    ("an input of zeros, by rows that annihilate it", ALL_ANNIHILATED),
     ("no states have index 0", NO_STATES),
-    ("another annihilator", changed(INDICES, ("witness.annihilator", matrix([0, -3])))),
+    ("relations of degrees 0 and 1", LONG),
+    ("a plant with denominators", HALVES),
     ("another modulus", changed(INDICES, ("witness.modulus", 6))),
+    ("a modulus above a byte", changed(LONG, ("witness.modulus", 101))),
+    ("a relation over a denominator", changed(RELATED, ("witness.relations.denominator", 3))),
+    (
+        "a relation that is a multiple",
+        changed(RELATED, ("witness.relations", layers([[2]], [[-2]]))),
+    ),
+    (
+        "a relation that is not needed",
+        changed(RELATED, ("witness.annihilator", matrix([0, 1])), ("witness.pivots", [1])),
+    ),
+    ("by rows, a chain of two", INDICES_BY_ROWS),
+    ("by rows, a chain of three", THREE_BY_ROWS),
+    ("by rows, a mode that stays out of reach", NO_INDEX_BY_ROWS),
+    ("by rows, two inputs", TWO_BY_ROWS),
+    ("by rows, an input of zeros", UNMOVED_BY_ROWS),
+    ("by rows, no states", NO_STATES_BY_ROWS),
+    ("another annihilator", changed(INDICES_BY_ROWS, ("witness.annihilator", matrix([0, -3])))),
+    ("by rows, another modulus", changed(INDICES_BY_ROWS, ("witness.modulus", 6))),
 ]
 
 REJECTED = [
@@ -54,6 +124,14 @@ REJECTED = [
     ("a rank that is claimed once more", NO_INDEX, ("claim.ranks", [1, 1])),
     ("ranks that fall", INDICES, ("claim.ranks", [2, 1])),
     ("a plant whose ranks stop early modulo ℓ", THREE, ("witness.modulus", 5)),
+    (
+        "a plant whose ranks stop early modulo a long ℓ",
+        THREE,
+        (
+            ("witness.modulus", 101),
+            ("system.A.1.0", 101),
+        ),
+    ),
     ("an index too low", INDICES, ("claim.index", 1)),
     ("an index where there is none", NO_INDEX, ("claim.index", 1)),
     ("no index where there is one", INDICES, ("claim.index", None)),
@@ -64,14 +142,77 @@ REJECTED = [
     ("ranks beyond n", NO_INDEX, ("claim.ranks", [1, 2, 3])),
     ("the ranks themselves for indices", TWO_INPUTS, ("claim.indices", [2, 3])),
     ("the steps for indices", INDICES, ("claim.indices", [1, 1])),
-    ("W with dependent rows", NO_INPUT, ("witness.annihilator", matrix([1, 0], [2, 0]))),
-    ("W that does not annihilate B", INDICES, ("witness.annihilator", matrix([1, 0]))),
-    ("an empty W", INDICES, ("witness.annihilator", matrix())),
-    ("W = 0", NO_INDEX, ("witness.annihilator", matrix([0, 0]))),
-    ("W that vanishes modulo ℓ", NO_INDEX, ("witness.annihilator", matrix([0, 7]))),
     ("modulus 1", INDICES, ("witness.modulus", 1)),
     ("a plant whose last rank is lost modulo ℓ", INDICES, ("system.A.1.0", 14)),
     ("a plant that goes on growing", NO_INDEX, ("system.A.1.0", 1)),
+    (
+        "the last of the ranks cut off",
+        LONG,
+        (
+            ("claim.ranks", [2, 3]),
+            ("claim.index", None),
+            ("claim.indices", [2, 1]),
+        ),
+    ),
+    ("W that moves", NO_INDEX, ("system.A.1.0", 1)),
+    ("W that is moved by the input", NO_INDEX, ("system.channels.0.B.1.0", 1)),
+    ("W without an identity matrix", NO_INDEX, ("witness.annihilator", matrix([0, 2]))),
+    ("W = 0", NO_INDEX, ("witness.annihilator", matrix([0, 0]))),
+    (
+        "no W and no relation",
+        NO_INDEX,
+        (
+            ("witness.annihilator", matrix()),
+            ("witness.pivots", []),
+        ),
+    ),
+    ("pivots that are missing", NO_INDEX, ("witness.pivots", [])),
+    ("a relation that does not hold", RELATED, ("witness.relations", layers([[1]], [[1]]))),
+    (
+        "a relation of too high a degree",
+        RELATED,
+        (
+            "witness.relations",
+            layers([[0]], [[-1]], [[1]]),
+        ),
+    ),
+    ("a relation of zeros", RELATED, ("witness.relations", layers([[0]], [[0]]))),
+    ("a relation with another input", LONG, ("witness.inputs", [2, 1])),
+    (
+        "a relation twice",
+        LONG,
+        (
+            ("witness.relations", layers([[1, 1], [-1, -1], [0, 0]])),
+            ("witness.inputs", [0, 1]),
+            ("claim.ranks", [1]),
+            ("claim.indices", [1]),
+            ("claim.index", None),
+        ),
+    ),
+    ("one input for two relations", LONG, ("witness.inputs", [2, 2])),
+    ("an input beyond all", RELATED, ("witness.inputs", [1]), "MALFORMED"),
+    ("an input below all", RELATED, ("witness.inputs", [-1]), "MALFORMED"),
+    ("a relation without an input", RELATED, ("witness.inputs", []), "MALFORMED"),
+    ("an input without a relation", RELATED, ("witness.inputs", [0, 0]), "MALFORMED"),
+    ("no layer of relations", RELATED, ("witness.relations.coefficients", []), "MALFORMED"),
+    (
+        "layers of another shape",
+        LONG,
+        (
+            "witness.relations",
+            layers([[1, 0], [-1, 0]], [[0, 0], [0, 1]]),
+        ),
+        "MALFORMED",
+    ),
+    ("relations left out", RELATED, ("witness.relations", None), "MALFORMED"),
+    ("by rows, a rank too low", INDICES_BY_ROWS, ("claim.ranks", [1])),
+    ("by rows, a rank too high", NO_INDEX_BY_ROWS, ("claim.ranks", [2])),
+    ("by rows, a plant that goes on growing", NO_INDEX_BY_ROWS, ("system.A.1.0", 1)),
+    ("dependent rows", UNMOVED_BY_ROWS, ("witness.annihilator", matrix([1, 0], [2, 0]))),
+    ("rows that do not annihilate B", INDICES_BY_ROWS, ("witness.annihilator", matrix([1, 0]))),
+    ("no rows", INDICES_BY_ROWS, ("witness.annihilator", matrix())),
+    ("rows of zeros", NO_INDEX_BY_ROWS, ("witness.annihilator", matrix([0, 0]))),
+    ("rows that vanish modulo ℓ", NO_INDEX_BY_ROWS, ("witness.annihilator", matrix([0, 7]))),
 ]
 
 

@@ -96,25 +96,118 @@ def _measuring(system: System, acting: list[int], measured: list[list[int]] | No
     return System(system.time, system.A, tuple(named), tuple(B), tuple(C))
 
 
+def ranks_by_false_relations(rng: random.Random, document: Document) -> Forged:
+    """Ranks as they follow from relations that do not hold, or of which one stands twice."""
+    system, claim = subject_of(document), document["claim"]
+    B = system.inputs(positions(claim["channels"], system.names))
+    p = B.ncols()
+    if not p or not system.n:
+        return None
+    columns = _true_relations(rng, system.A, B)
+    for _ in range(rng.randint(0 if columns else 1, 2)):
+        degree = rng.randint(0, 2)
+        columns.append([[rng.choice((0, 0, 1, -1)) for _ in range(p)] for _ in range(degree + 1)])
+    if rng.random() < 0.5:
+        columns.append(rng.choice(columns))
+    own, kept = [], []
+    for column in sorted(columns, key=len)[:p]:
+        if rng.random() < 0.2:
+            column = [*column, [0] * p]
+        last = next((row for row in reversed(column) if any(row)), column[-1])
+        choices = [j for j in range(p) if last[j]] or list(range(p))
+        own.append(rng.choice([j for j in choices if j not in own] or choices))
+        kept.append(column)
+    length = max(map(len, kept))
+    layers = [
+        [[c[k][j] if k < len(c) else 0 for c in kept] for j in range(p)] for k in range(length)
+    ]
+    W, pivots = (unit(0), []) if rng.random() < 0.6 else _some_rows(rng, system.n)
+    ranks = _implied(system.n - len(pivots), p, [len(column) - 1 for column in kept])
+    _restated(claim, ranks, system.n)
+    document["witness"] = {
+        "modulus": document["witness"]["modulus"],
+        "annihilator": W,
+        "pivots": pivots,
+        "relations": {"denominator": 1, "coefficients": layers},
+        "inputs": own,
+    }
+    return document
+
+
+def _true_relations(rng: random.Random, A: fmpq_mat, B: fmpq_mat) -> list[list[list[int]]]:
+    """Relations of one degree, by the kernel of the first blocks."""
+    p, degree = B.ncols(), rng.randint(0, 2)
+    blocks = [B]
+    for _ in range(degree):
+        blocks.append(A * blocks[-1])
+    rows = [[v for M in blocks for v in M.tolist()[i]] for i in range(A.nrows())]
+    K = fmpq_mat(len(rows), p * (degree + 1), [v for row in rows for v in row])
+    kernel, _ = left_kernel(K.transpose())
+    made = []
+    for row in written(kernel)["entries"]:
+        made.append([row[k * p : (k + 1) * p] for k in range(degree + 1)])
+    return rng.sample(made, min(len(made), 2))
+
+
+def _some_rows(rng: random.Random, n: int) -> tuple[Document, list[int]]:
+    """Rows with an identity matrix, which annihilate nothing."""
+    pivots = sorted(rng.sample(range(n), rng.randint(1, n)))
+    rows = [[rng.choice((0, 1, -1)) for _ in range(n)] for _ in pivots]
+    for i, row in enumerate(rows):
+        for j, column in enumerate(pivots):
+            row[column] = int(i == j)
+    return {"denominator": 1, "entries": rows}, pivots
+
+
+def _implied(most: int, p: int, degrees: list[int]) -> list[int]:
+    """The largest ranks that the rule allows with relations of these degrees."""
+    ranks, step = [0], p
+    while True:
+        k = len(ranks) - 1
+        step = min(step, p - sum(degree <= k for degree in degrees))
+        following = min(most, ranks[-1] + step)
+        if following <= ranks[-1]:
+            return ranks[1:]
+        ranks, step = [*ranks, following], following - ranks[-1]
+
+
 def ranks_cut_short(rng: random.Random, document: Document) -> Forged:
-    """Ranks that grow further, with rows of zeros as annihilators."""
+    """Ranks that grow further, with rows of zeros as annihilators of an earlier version."""
     claim, n = document["claim"], subject_of(document).n
     ranks = claim["ranks"][: rng.randint(0, len(claim["ranks"]))]
     if ranks and rng.random() < 0.5:
         ranks[-1] = max(ranks[-1] - 1, 1)
     _restated(claim, ranks, n)
     rows = n - (ranks[0] if ranks else 0)
-    document["witness"]["annihilator"] = zeros(rows, n)
+    modulus = document["witness"]["modulus"]
+    document["witness"] = {"modulus": modulus, "annihilator": zeros(rows, n)}
+    return document
+
+
+def ranks_by_rows(rng: random.Random, document: Document) -> Forged:
+    """The rows of an earlier version that annihilate the first block alone."""
+    system, claim = subject_of(document), document["claim"]
+    W, _ = left_kernel(system.inputs(positions(claim["channels"], system.names)))
+    r = system.n - W.nrows()
+    ranks = [r] if r else []
+    if rng.random() < 0.3 and 0 < r < system.n:
+        ranks.append(rng.randint(r + 1, system.n))
+    _restated(claim, ranks, system.n)
+    modulus = document["witness"]["modulus"]
+    document["witness"] = {"modulus": modulus, "annihilator": written(W)}
     return document
 
 
 def ranks_too_large(rng: random.Random, document: Document) -> Forged:
-    """A rank more than there is, with the annihilators that are left."""
+    """A rank more than there is, as if the plant were generic."""
     claim, n = document["claim"], subject_of(document).n
     ranks = claim["ranks"] + [n] if rng.random() < 0.5 else [*claim["ranks"][:-1], n]
     _restated(claim, ranks, n)
-    rows = document["witness"]["annihilator"]["entries"]
-    document["witness"]["annihilator"]["entries"] = rows[: n - ranks[0]]
+    p = sum(len(channel["B"][0]) for channel in document["system"]["channels"] if channel["B"])
+    nothing = {"denominator": 1, "coefficients": [[[] for _ in range(p)]]}
+    if len(document["witness"].get("relations", {"coefficients": [[]]})["coefficients"][0]) == p:
+        document["witness"] |= {"relations": nothing, "inputs": []}
+    document["witness"] |= {"annihilator": {"denominator": 1, "entries": []}, "pivots": []}
     return document
 
 
@@ -432,7 +525,14 @@ CONTROLLABILITY = (
     reached_by_blocks,
     reached_by_blocks,
 )
-INDICES = (ranks_cut_short, ranks_too_large)
+INDICES = (
+    ranks_by_false_relations,
+    ranks_by_false_relations,
+    ranks_by_false_relations,
+    ranks_cut_short,
+    ranks_by_rows,
+    ranks_too_large,
+)
 GRAPH = (missing_edge, extra_edge, all_edges, unsorted_edges)
 ASSIGNABILITY = (smaller_realization, outputs_alone, larger_realization, whole_space)
 COMPLEMENTARY = (no_zeros, split_zeros, improper_subset)
