@@ -11,7 +11,8 @@ depend on the form in which numbers are written, nor on ``name`` and ``source``.
 
 `with_graph` and `with_links` combine a system with the graph of an argument: the first requires a
 graph, the second takes the graph without edges if there is none.  `from_stacked` makes a system
-of stacked matrices B = [B_1 … B_m] and C = [C_1; …; C_m].
+of stacked matrices B = [B_1 … B_m] and C = [C_1; …; C_m].  What makes a system of floats states by
+`read_by` how they were read.
 """
 
 from __future__ import annotations
