@@ -36,6 +36,12 @@ from .analysis.parameters.modes import (
     shared_dimensions_for_every_value as shared_dimensions_for_every_value,
 )
 from .analysis.parameters.ranks import signal_solvability as signal_solvability
+from .analysis.performance import cost_bound as cost_bound
+from .analysis.performance import default_weights as default_weights
+from .analysis.performance import disk_margin as disk_margin
+from .analysis.performance import influences as influences
+from .analysis.performance import loop_cost as loop_cost
+from .analysis.performance import sector_stability as sector_stability
 from .analysis.sharing import common_dimension as common_dimension
 from .analysis.sharing import minimal_communication as minimal_communication
 from .analysis.sharing import minimal_shared_dimensions as minimal_shared_dimensions
@@ -75,6 +81,12 @@ from .answer.parameters import ExceptionalValue as ExceptionalValue
 from .answer.parameters import LowerRank as LowerRank
 from .answer.parameters import ParametricFixedSpectrum as ParametricFixedSpectrum
 from .answer.parameters import ParametricRank as ParametricRank
+from .answer.performance import CostBound as CostBound
+from .answer.performance import CostGraph as CostGraph
+from .answer.performance import CostWeights as CostWeights
+from .answer.performance import DiskMargin as DiskMargin
+from .answer.performance import LoopCost as LoopCost
+from .answer.performance import SectorStability as SectorStability
 from .answer.protocol import Answer as Answer
 from .answer.protocol import save_certificate as save_certificate
 from .answer.several_parameters import ExceptionalHypersurfaces as ExceptionalHypersurfaces

@@ -226,6 +226,25 @@ def is_dominant(S: Matrix) -> bool:
     return all(row[i] > sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.numerators))
 
 
+def is_positive(S: Matrix) -> bool:
+    """Whether a symmetric matrix is shown to be positive definite by a factor of few bits.
+
+    Parameters
+    ----------
+    S : Matrix
+        k × k.
+
+    Returns
+    -------
+    bool
+        With False nothing is known: S may be nearly singular.
+    """
+    if not S.nrows:
+        return True
+    R = _cholesky_factor(matrix_to_float(S), _FACTOR_BITS[0])
+    return R is not None and is_dominant(R.T @ (S @ R))
+
+
 def quadratic_form(D: Matrix, region: StabilityRegion) -> QuadraticForm | None:
     """Search for a quadratic form that decides where the eigenvalues of D lie.
 

@@ -181,7 +181,16 @@ class Parts(Shown):
 
 KINDS: dict[str, type[Answer]] = {}
 """The kinds of answers whose modules have been imported, by name."""
-TOPICS = ("structure", "modes", "sharing", "sharing_gap", "loops", "boxes", "parameters")
+TOPICS = (
+    "structure",
+    "modes",
+    "sharing",
+    "sharing_gap",
+    "loops",
+    "performance",
+    "boxes",
+    "parameters",
+)
 """The modules of this folder that declare kinds."""
 _EXPLAINED = "mcexact.answer.rulebook", "explained"
 """Module and name of the function that explains any answer; it knows the rules of all kinds."""

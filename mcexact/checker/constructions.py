@@ -8,6 +8,7 @@ linear map of signals, which `discs` uses again to bound loops of uncertain plan
 """
 
 import json
+from typing import NamedTuple
 
 from . import evidence
 from .arithmetic import Matrix, beside, diagonal, stack
@@ -71,7 +72,64 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     alone = System(system.time, [], A, [], [], words=system.words)
     own = f"{system.n} of the controlled system and {A.nrows - system.n} added by the controller"
     ports = f"{own} of the channels {channel_set(system.names)}"
-    return prefixed(words, alone, blocks=blocks, ports=ports, controller=digest_of(text))
+    made = Loop(system, programs, order)
+    return prefixed(words, alone, blocks, ports, made, controller=digest_of(text))
+
+
+class Loop(NamedTuple):
+    """What a loop was made from: the system, the programs of its agents, and the loop's states."""
+
+    system: System
+    programs: list[list[Terms]]
+    order: list[tuple[Signal, int]]
+
+
+class Disturbed(NamedTuple):
+    """z' = M z + E d + G e, u = U z + K e, y = Y z, or z(t+1): d at the inputs, e at the outputs.
+
+    u are the inputs as the agents compute them, of which the plant receives u + d, and y are the
+    outputs of the plant, of which everybody who uses them receives y + e.
+    """
+
+    M: Matrix
+    E: Matrix
+    G: Matrix
+    U: Matrix
+    K: Matrix
+    Y: Matrix
+
+
+def disturbed(loop: Loop) -> Disturbed:
+    """The loop with a signal added to every input, and one to every output.
+
+    Signals are linear maps of (z, d, e), so that the loop is formed as `closed_loop` forms it.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    system, programs, order = loop
+    N, p, q = sum(width for _, width in order), *ports_of(system)
+    total = N + p + q
+    wide = rows_that_read([*order, (("d", 0, 0), p), (("e", 0, 0), q)])
+    x, d, e = wide["X", 0, 0], wide["d", 0, 0], wide["e", 0, 0]
+    y, start, reads = [C_j @ x for C_j in system.C], 0, dict(wide)
+    for j, y_j in enumerate(y):
+        reads["y", j, 0] = y_j + e.at(range(start, start + y_j.nrows))
+        start += y_j.nrows
+    u = [mapped(programs[i][2], reads, B_i.ncols, total) for i, B_i in enumerate(system.B)]
+    start, fed = 0, []
+    for u_i in u:
+        fed.append(u_i + d.at(range(start, start + u_i.nrows)))
+        start += u_i.nrows
+    after = stack(rows_of_states(system, programs, order, reads, fed), total)
+    z, ds, es = range(N), range(N, N + p), range(N + p, total)
+    inputs, outputs_ = stack(u, total), stack(y, total)
+    M, E, G = (after.take(cols=part) for part in (z, ds, es))
+    return Disturbed(M, E, G, inputs.take(cols=z), inputs.take(cols=es), outputs_.take(cols=z))
+
+
+def ports_of(system: System) -> tuple[int, int]:
+    """The numbers of all inputs and of all outputs."""
+    return sum(B_i.ncols for B_i in system.B), sum(C_i.nrows for C_i in system.C)
 
 
 def programs_of(system: System, agents: list[Json], place: str) -> list[list[Terms]]:

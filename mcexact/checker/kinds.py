@@ -21,7 +21,17 @@ from dataclasses import dataclass, field, replace
 from types import FrameType
 from typing import NoReturn, TypeVar
 
-from . import boxes, loops, modes, parameters, reading, sharing, sharing_gap, structure
+from . import (
+    boxes,
+    loops,
+    modes,
+    parameters,
+    performance,
+    reading,
+    sharing,
+    sharing_gap,
+    structure,
+)
 from .arithmetic import NotAUnit
 from .budget import MORE, current, limited
 from .cells import subject_of
@@ -249,7 +259,9 @@ KINDS = {
     "controllability_indices": Rule(
         structure.check_controllability_indices, structure.controllability_indices_statement
     ),
+    "cost_bound": Rule(performance.check_cost_bound, performance.cost_bound_statement),
     "deficiency": Rule(modes.check_deficiency, modes.deficiency_statement),
+    "disk_margin": Rule(performance.check_disk_margin, performance.disk_margin_statement),
     "distributed_observer": Rule(
         loops.check_distributed_observer, loops.distributed_observer_statement
     ),
@@ -257,6 +269,7 @@ KINDS = {
         structure.check_exceptional_gains, structure.exceptional_gains_statement
     ),
     "fixed_spectrum": Rule(modes.check_fixed_spectrum, modes.fixed_spectrum_statement),
+    "loop_cost": Rule(performance.check_loop_cost, performance.loop_cost_statement),
     "neighbor_graph": Rule(structure.check_neighbor_graph, structure.neighbor_graph_statement),
     "parametric_box_controllable": Rule(
         boxes.check_parametric_box_controllable, boxes.parametric_box_controllable_statement
@@ -272,6 +285,7 @@ KINDS = {
     ),
     "parametric_rank": Rule(parameters.check_parametric_rank, parameters.parametric_rank_statement),
     "pencil_rank": Rule(modes.check_pencil_rank, modes.pencil_rank_statement),
+    "sector": Rule(performance.check_sector, performance.sector_statement),
     "setpoint": Rule(structure.check_setpoint, structure.setpoint_statement),
     "shared_dimensions": Rule(sharing.check_shared_dimensions, sharing.shared_dimensions_statement),
     "sharing_gap": Rule(sharing_gap.check_sharing_gap, sharing_gap.sharing_gap_statement),

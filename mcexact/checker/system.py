@@ -334,8 +334,8 @@ class System:
     graph; ``delays[i, j]`` is d_ij where it is not 0.  ``words`` name the system in
     statements; in a closed loop ``blocks`` are the sizes of x, x_1, z_1, x_2, z_2, …,
     ``controller`` is the digest of the controller, and ``ports`` say whose the states are and which
-    channels it closes.  ``uncertainty`` are the radii of all entries in
-    canonical form; None means that all are certain.
+    channels it closes, and ``loop`` is what the loop was made from (`constructions.Loop`).
+    ``uncertainty`` are the radii of all entries in canonical form; None means that all are certain.
     """
 
     time: str
@@ -350,6 +350,7 @@ class System:
     controller: str = ""
     ports: str = ""
     uncertainty: Json = None
+    loop: Any = field(default=None, compare=False)
 
     @property
     def n(self) -> int:
@@ -558,11 +559,16 @@ def counted(number: int, noun: str) -> str:
 
 
 def prefixed(
-    words: str, system: System, blocks: tuple[int, ...] = (), ports: str = "", **parts: Any
+    words: str,
+    system: System,
+    blocks: tuple[int, ...] = (),
+    ports: str = "",
+    loop: Any = None,
+    **parts: Any,
 ) -> System:
     """The system with these parts that a construction makes, named before what it is made from."""
     named = f"{words} of: {system.words}"
-    return replace(system, words=named, blocks=blocks, ports=ports, **parts)
+    return replace(system, words=named, blocks=blocks, ports=ports, loop=loop, **parts)
 
 
 def suffixed(system: System, words: str, **parts: Any) -> System:
@@ -572,7 +578,7 @@ def suffixed(system: System, words: str, **parts: Any) -> System:
     """
     alone = system.words.startswith(("the plant", "("))
     before = system.words if alone else f"({system.words})"
-    return replace(system, words=f"{before} {words}", blocks=(), ports="", **parts)
+    return replace(system, words=f"{before} {words}", blocks=(), ports="", loop=None, **parts)
 
 
 class Described(Protocol):

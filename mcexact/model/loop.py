@@ -20,6 +20,33 @@ from mcexact.model.system import MultiChannelSystem, require_discrete, with_link
 
 
 @dataclass(frozen=True, eq=False)
+class DisturbedLoop:
+    """A loop with a signal d added to every input, and a signal e added to every output.
+
+        z' = M z + E d + G e,   u = U z + K e,   y = Y z      (discrete time: z(t+1))
+
+    The agents compute u, and the plant receives u + d; the plant measures y, and everybody who uses
+    the outputs receives y + e.
+
+    Attributes
+    ----------
+    M : Matrix, N × N
+    E : Matrix, N × Σ p_i
+    G : Matrix, N × Σ q_i
+    U : Matrix, Σ p_i × N
+    K : Matrix, Σ p_i × Σ q_i
+    Y : Matrix, Σ q_i × N
+    """
+
+    M: Matrix
+    E: Matrix
+    G: Matrix
+    U: Matrix
+    K: Matrix
+    Y: Matrix
+
+
+@dataclass(frozen=True, eq=False)
 class ClosedLoop:
     """A closed loop: the layout of its state, and its matrix.
 
@@ -116,6 +143,42 @@ class ClosedLoop:
         known = sum(M.nrows for M in rows)
         rows.append(Matrix.zeros(self.dimension - known, sum(counts)))
         return vstack(rows, ncols=sum(counts))
+
+    @cached_property
+    def disturbed(self) -> DisturbedLoop:
+        """The loop with a signal added to every input, and one to every output."""
+        plant, agents = self.plant, self.controller.agents
+        q = [plant.q(j) for j in range(plant.m)]
+
+        def at_once(each: LinearMap, i: int, nrows: int) -> Matrix:
+            # What an agent does in a step with outputs that it receives in the same step.
+            used = {
+                j: M for j, M in each.without_zeros().outputs.items() if not self.waits(j, i)[1]
+            }
+            parts = [used.get(j, Matrix.zeros(nrows, q[j])) for j in range(plant.m)]
+            return hstack(parts, nrows=nrows)
+
+        K = [at_once(agent.input, i, plant.p(i)) for i, agent in enumerate(agents)]
+        rows = [sum((plant.B(i) @ K[i] for i in range(plant.m)), Matrix.zeros(plant.n, sum(q)))]
+        for i, agent in enumerate(agents):
+            rows.append(at_once(agent.shared_update, i, agent.shared))
+            rows.append(at_once(agent.private_update, i, agent.private))
+        starts = [sum(q[:j]) for j in range(plant.m)]
+        for j, (b, a) in enumerate(self.oldest):
+            rows.append(Matrix.zeros(b * agents[j].shared, sum(q)))
+            if a:
+                rows.append(Matrix.identity(sum(q)).take(rows=range(starts[j], starts[j] + q[j])))
+                rows.append(Matrix.zeros((a - 1) * q[j], sum(q)))
+        B = hstack([plant.B(i) for i in range(plant.m)], nrows=plant.n)
+        inputs = [self.rows(agent.input, i, plant.p(i)) for i, agent in enumerate(agents)]
+        return DisturbedLoop(
+            M=self.matrix,
+            E=vstack([B, Matrix.zeros(self.dimension - plant.n, B.ncols)], ncols=B.ncols),
+            G=vstack(rows, ncols=sum(q)),
+            U=vstack(inputs, ncols=self.dimension),
+            K=vstack(K, ncols=sum(q)),
+            Y=plant.output_matrix() @ self.pick("x"),
+        )
 
     @cached_property
     def steady_gain(self) -> Matrix | None:

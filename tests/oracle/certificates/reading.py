@@ -23,6 +23,10 @@ class Unspecified(Exception):
     """A document that is not written as the format says."""
 
 
+class Undecided(Exception):
+    """A claim of which this oracle cannot tell whether it is true."""
+
+
 def demand(condition: bool, what: str) -> None:
     """Raise an error unless a condition holds."""
     if not condition:

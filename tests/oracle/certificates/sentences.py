@@ -18,6 +18,7 @@ from .words import (
     discs,
     edges,
     json_text,
+    name,
     number,
     polynomial_text,
 )
@@ -152,6 +153,64 @@ def _observer(claim: Any, system: System) -> str:
         "shares, the matrix of the loop is [M_F, *; 0, M_E], where M_F has the characteristic "
         f"polynomial {polynomial_text(claim['feedback'])} and M_E has "
         f"{polynomial_text(claim['error'])}{end}"
+    )
+
+
+def _cost(weights: Any) -> str:
+    Q, R, W, V = (
+        ", ".join(number(rational(x)) for x in weights[key])
+        for key in ("states", "inputs", "disturbances", "noise")
+    )
+    filtered = ""
+    if "bandwidth" in weights:
+        omega = number(rational(weights["bandwidth"]))
+        filtered = f", which passes v' = -w v + w n with w = {omega}"
+    return (
+        f"the stationary mean of x'Qx + u'Ru, Q = diag({Q}), R = diag({R}), under white "
+        f"disturbances of the states of intensity diag({W}) and white noise of intensity "
+        f"diag({V}) at the outputs{filtered}"
+    )
+
+
+def _loop_cost(claim: Any, system: System) -> str:
+    cost = number(rational(claim["cost"]))
+    return f"the loop is stable, and {_cost(claim['weights'])}, is at most {cost}"
+
+
+def _cost_bound(claim: Any, system: System) -> str:
+    whose = "every linear time-invariant controller"
+    if system.time == "continuous" and "bandwidth" not in claim["weights"]:
+        whose += " whose inputs do not depend on the outputs at once"
+    if "graph" in claim:
+        owners = ", ".join(name(each) for each in claim["graph"]["states"])
+        whose += (
+            " by which agents act on others along the edges "
+            f"{edges([tuple(edge) for edge in claim['graph']['edges']])} alone, the states of the "
+            f"plant being those of {owners} in turn"
+        )
+    return (
+        f"with {whose} that makes the loop stable, {_cost(claim['weights'])}, is at least "
+        f"{number(rational(claim['cost']))}"
+    )
+
+
+def _disk_margin(claim: Any, system: System) -> str:
+    together, margin = claim["together"], number(rational(claim["margin"]))
+    each = f"all {claim['at']} are" if together else f"any one {claim['at'][:-1]} is"
+    apart = ", with a d for each," if together else ""
+    return (
+        f"the loop is stable, also where {each} multiplied by (1 + d/2)/(1 - d/2){apart} for "
+        f"complex numbers d with |d| <= {margin}: disk margin {margin}"
+    )
+
+
+def _sector(claim: Any, system: System) -> str:
+    pairs = ((number(rational(a)), number(rational(b))) for a, b in claim["sectors"])
+    sectors = ", ".join(f"[{a}, {b}]" for a, b in pairs)
+    return (
+        "every solution tends to 0 exponentially where each input of the plant is a function "
+        "f(t, v) of the input v that its agent computes, between a v and b v for the ends a and b "
+        f"of its sector, the sectors being {sectors} in turn"
     )
 
 
@@ -299,10 +358,13 @@ SENTENCES: dict[str, Any] = {
     "completeness": _completeness,
     "controllability": _controllability,
     "controllability_indices": _indices,
+    "cost_bound": _cost_bound,
     "deficiency": _deficiency,
+    "disk_margin": _disk_margin,
     "distributed_observer": _observer,
     "exceptional_gains": _exceptional,
     "fixed_spectrum": _spectrum,
+    "loop_cost": _loop_cost,
     "neighbor_graph": lambda claim, system: (
         f"its neighbor graph is {_not(claim['strongly_connected'])}strongly connected"
     ),
@@ -314,6 +376,7 @@ SENTENCES: dict[str, Any] = {
     "parametric_fixed_spectrum": parametric_sentence,
     "parametric_rank": rank_sentence,
     "pencil_rank": _pencil_rank,
+    "sector": _sector,
     "setpoint": _setpoint,
     "shared_dimensions": _dimensions,
     "sharing_gap": lambda claim, system: (

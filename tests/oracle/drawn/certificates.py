@@ -33,6 +33,8 @@ from mcexact.model.system_file import read_parametric_system, read_system
 from .boxes import drawn_about_a_box, drawn_in_ranges
 from .observers import drawn_observer
 from .parametric import drawn_moves, drawn_on_a_line, drawn_parametric_plant
+from .performance import KINDS as PERFORMANCE
+from .performance import drawn_performance
 from .plants import Document, drawn_plant
 from .subjects import NEEDS_GRAPH, drawn_subject
 
@@ -218,6 +220,8 @@ def drawn_certificate(rng: random.Random, kind: str, focus: str | None) -> Docum
     graph = kind in WITH_GRAPH or focus in NEEDS_GRAPH
     if kind == "distributed_observer":
         return drawn_observer(rng)
+    if kind in PERFORMANCE:
+        return drawn_performance(rng, kind)
     if kind.startswith("box_"):
         return drawn_about_a_box(rng, kind)
     if kind.startswith("parametric_box_"):

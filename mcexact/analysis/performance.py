@@ -1,0 +1,1098 @@
+"""Costs of loops, bounds for every controller, and margins, proposed in floating point.
+
+Each proof is a symmetric matrix that makes a matrix inequality strict.  Riccati and Lyapunov
+equations with slightly worse weights have such solutions, with room for rounding: they are rounded
+to as few bits as the exact test allows, since certificates of large loops consist of these numbers.
+
+- `cost_of`: a Lyapunov equation of the loop with its noise.
+- `bound_of`: the two Riccati equations of linear-quadratic control and of the filter.  Without room
+  for rounding the bound would be the cost of the best controller.
+- `margin_of`, `sectors_of`: Riccati equations of the bounded real lemma, solved by Newton's method.
+  The scaling of several ports comes from the worst frequency, by Osborne's iteration.
+
+These take a loop, and return None where floating point proposes nothing that holds.  `loop_cost`,
+`cost_bound`, `disk_margin` and `sector_stability` are for users: they take a plant and a
+controller, and raise an error there.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, Literal, TypeVar, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from mcexact.analysis.lyapunov import is_positive
+from mcexact.answer.performance import (
+    CostBound,
+    CostGraph,
+    CostGroup,
+    CostWeights,
+    DiskMargin,
+    LoopCost,
+    MarginPart,
+    SectorStability,
+    Symmetric,
+)
+from mcexact.errors import LimitReached, UsageError, one_of
+from mcexact.exact.matrix import (
+    Matrix,
+    block,
+    dyadic_matrix,
+    matrix_to_float,
+    to_float,
+)
+from mcexact.exact.rational import Entry, as_fraction
+from mcexact.exact.roots import is_discrete
+from mcexact.model.controller import Controller
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.system import MultiChannelSystem
+
+Floats = npt.NDArray[np.float64]
+_BITS = (12, 16, 20, 26, 34, 46, 60)
+"""The bits to which a matrix is rounded, fewest first."""
+_ROOM = (1e-4, 1e-3, 1e-2, 3e-2)
+"""The parts by which weights are made worse, to leave room for rounding."""
+_HUGE = 1e100
+"""The largest entry of a matrix that is rounded: others come from equations without solution."""
+_LOST = 3e-4
+"""More bits are tried while rounding loses more than this part of a bound."""
+
+
+def rounded_form(P: Floats, bits: int) -> Symmetric | None:
+    """Round a positive definite matrix to entries s_ij 2^(e_i + e_j) of so many bits."""
+    if not np.all(np.isfinite(P)) or np.any(np.diag(P) <= 0) or np.max(P, initial=0) > _HUGE:
+        return None
+    e = [(math.frexp(x)[1] - bits) // 2 for x in np.diag(P)]
+    n = len(P)
+    entries = tuple(
+        round(math.ldexp(float(P[i, j]), -e[i] - e[j])) for i in range(n) for j in range(i + 1)
+    )
+    return Symmetric(tuple(e), entries)
+
+
+def lyapunov_difference(P: Matrix, M: Matrix, discrete: bool) -> Matrix:
+    """−(PM + MᵀP), in discrete time P − MᵀPM."""
+    half = P @ M
+    return P - M.T @ half if discrete else -(half + half.T)
+
+
+def diagonal_matrix(entries: Sequence[Fraction]) -> Matrix:
+    """The diagonal matrix of rationals."""
+    n = len(entries)
+    cells = [(i, i, entry) for i, entry in enumerate(entries) if entry]
+    return Matrix.from_entries((n, n), cells)
+
+
+def trace(S: Matrix) -> Fraction:
+    """The sum of the diagonal."""
+    return sum((S[i, i] for i in range(S.nrows)), Fraction(0))
+
+
+def _solved(solve: Callable[[], Any]) -> Floats | None:
+    """What a solver of scipy returns, made symmetric; None if it fails."""
+    with warnings.catch_warnings():
+        # An ill-conditioned equation may still give a matrix that passes the exact test.
+        warnings.simplefilter("ignore")
+        try:
+            P = np.asarray(solve(), dtype=np.float64)
+        except (np.linalg.LinAlgError, ValueError):
+            return None
+    return (P + P.T) / 2 if np.all(np.isfinite(P)) else None
+
+
+def _decimal_above(x: Fraction, digits: int = 6) -> Fraction:
+    """The least decimal of so many significant digits that is at least x > 0."""
+    if x <= 0:
+        return x
+    power = digits - 1 - math.floor(math.log10(to_float(x)))
+    return Fraction(math.ceil(x * Fraction(10) ** power)) / Fraction(10) ** power
+
+
+def _decimal_below(x: Fraction, digits: int = 6) -> Fraction:
+    """The largest decimal of so many significant digits that is at most x > 0."""
+    if x <= 0:
+        return x
+    power = digits - 1 - math.floor(math.log10(to_float(x)))
+    return Fraction(math.floor(x * Fraction(10) ** power)) / Fraction(10) ** power
+
+
+# Proofs about a plant and a controller, for users.
+
+Side = Literal["inputs", "outputs"]
+
+
+def default_weights(system: MultiChannelSystem) -> CostWeights:
+    """Weigh all states and inputs by 1, disturbances by 1, and the noise of outputs by 1/100.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        All quantities are in the units of the file.
+
+    Returns
+    -------
+    CostWeights
+        In continuous time with a bandwidth near ten times the largest modulus of an eigenvalue of
+        the best regulator and of the best filter, rounded to a power of 10.
+
+    Examples
+    --------
+    >>> default_weights(MultiChannelSystem([[1]], [[[1]]], [[[1]]])).bandwidth
+    Fraction(100, 1)
+    """
+    n, one = system.n, Fraction(1)
+    p, q = (sum(map(size, range(system.m))) for size in (system.p, system.q))
+    white = CostWeights((one,) * n, (one,) * p, (one,) * n, (Fraction(1, 100),) * q, bandwidth=None)
+    if is_discrete(system.time):
+        return white
+    plant = system.A, system.input_matrix(), system.output_matrix()
+    solutions = _riccati(*plant, white, system.time, 0.0)
+    largest = 1.0
+    if solutions is not None and n:
+        _, S, F = solutions
+        a, b, c = _with_ports(plant)
+        regulator = a + b[:, :p] @ F
+        filtered = a - S @ c.T * 100
+        for M in (regulator, filtered):
+            largest = max(largest, float(np.max(np.abs(np.linalg.eigvals(M)))))
+    return replace(white, bandwidth=Fraction(10) ** round(math.log10(10 * largest)))
+
+
+def loop_cost(
+    system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    weights: CostWeights | None = None,
+) -> LoopCost:
+    """Bound the stationary mean of xᵀQx + uᵀRu of a stable loop from above.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    controller : Controller
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    weights : CostWeights, optional
+        By default `default_weights`.
+
+    Raises
+    ------
+    UsageError
+        If the cost is infinite, since white noise passes to an input at once.
+    LimitReached
+        If no proof was found, as for every loop that is not stable.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
+    >>> found = loop_cost(plant, local_controllers(plant, [[["-1/2"]]]))
+    >>> print(f"{float(found.cost):.2f}")
+    1.67
+    >>> loop_cost(plant, local_controllers(plant, [[[1]]]))
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: no proof was found that the loop is stable with a finite cost
+    """
+    loop = closed_loop(system, controller, graph)
+    found = cost_of(loop, weights or default_weights(loop.plant))
+    return _proved(found, "the loop is stable with a finite cost")
+
+
+def cost_bound(
+    system: MultiChannelSystem,
+    weights: CostWeights | None = None,
+    graph: CostGraph | None = None,
+) -> CostBound:
+    """Bound the stationary mean of xᵀQx + uᵀRu from below for every linear controller.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    weights : CostWeights, optional
+        By default `default_weights`.
+    graph : CostGraph, optional
+        Only controllers are meant by which agents act on each other along its edges alone; see
+        `influences`.
+
+    Raises
+    ------
+    LimitReached
+        If no proof was found, as for plants that no controller stabilizes.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]], time="discrete")
+    >>> print(f"{float(cost_bound(plant).cost):.2f}")
+    1.00
+    """
+    found = bound_of(system, weights or default_weights(system), graph)
+    return _proved(found, "every controller costs something")
+
+
+def disk_margin(
+    system: MultiChannelSystem,
+    controller: Controller,
+    at: Side,
+    graph: NeighborGraph | None = None,
+    *,
+    together: bool = False,
+    margin: Entry | None = None,
+) -> DiskMargin:
+    """Prove how far inputs, or outputs, may be from 1 before a stable loop fails.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    controller : Controller
+    at : {"inputs", "outputs"}
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    together : bool
+        Whether all of them are multiplied at once, with a number for each; else one at a time.
+    margin : rational, optional
+        The margin to prove; by default about the largest one.
+
+    Raises
+    ------
+    LimitReached
+        If no proof was found, as for a margin that is larger than the loop's.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
+    >>> deadbeat = local_controllers(plant, [[[-1]]])
+    >>> str(disk_margin(plant, deadbeat, "inputs", margin="3/5").margin)
+    '3/5'
+    >>> disk_margin(plant, deadbeat, "inputs", margin="7/10")
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: no proof was found that the disk margin is at least 7/10
+    """
+    one_of(at, get_args(Side), "at")
+    alpha = None if margin is None else as_fraction(margin)
+    loop = closed_loop(system, controller, graph)
+    found = margin_of(loop, at, together=together, margin=alpha)
+    claim = (
+        "the loop has a disk margin" if alpha is None else f"the disk margin is at least {alpha}"
+    )
+    return _proved(found, claim)
+
+
+def sector_stability(
+    system: MultiChannelSystem,
+    controller: Controller,
+    sectors: Sequence[tuple[Entry, Entry]],
+    graph: NeighborGraph | None = None,
+) -> SectorStability:
+    """Prove that a loop is stable whatever its inputs pass through, within sectors.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    controller : Controller
+    sectors : sequence of pairs of rationals
+        The ends (a, b), a < b, one pair for each input in the order of the channels: the plant
+        receives f(t, v) between av and bv for the v that the agent computes.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+
+    Raises
+    ------
+    UsageError
+        If there is not one pair for each input, or if a pair is not in order.
+    LimitReached
+        If no proof was found.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
+    >>> deadbeat = local_controllers(plant, [[[-1]]])
+    >>> sector_stability(plant, deadbeat, [("1/2", "3/2")]).kind
+    'sector'
+    """
+    loop = closed_loop(system, controller, graph)
+    ends = [(as_fraction(a), as_fraction(b)) for a, b in sectors]
+    count = loop.disturbed.U.nrows
+    if len(ends) != count or any(a >= b for a, b in ends):
+        raise UsageError(
+            f"expected {count} pairs (a, b) with a < b, one for each input", where="sectors"
+        )
+    return _proved(sectors_of(loop, ends), "the loop is stable within these sectors")
+
+
+AnyProof = TypeVar("AnyProof", LoopCost, CostBound, DiskMargin, SectorStability)
+
+
+def _proved(found: AnyProof | None, claim: str) -> AnyProof:
+    """An answer; an error where there is none."""
+    if found is None:
+        raise LimitReached(f"no proof was found that {claim}")
+    return found
+
+
+# The cost of a loop.
+
+
+def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
+    """Bound the stationary mean of xᵀQx + uᵀRu of a stable loop from above.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    weights : CostWeights
+        For the states and ports of the system that the loop was closed around.
+
+    Returns
+    -------
+    LoopCost or None
+        The bound is some 0.01 % above the cost.
+
+    Raises
+    ------
+    UsageError
+        If the cost is infinite, since white noise passes to an input at once.
+
+    Notes
+    -----
+    P solves a Lyapunov equation with slightly larger weights.  O(N³) floating-point operations, and
+    O(N³) products of short integers.
+    """
+    from scipy.linalg import solve_continuous_lyapunov, solve_discrete_lyapunov
+
+    discrete = is_discrete(loop.plant.time)
+    M, U, entering = _with_noise(loop, weights)
+    n, N = loop.plant.n, M.nrows
+    x = Matrix.identity(N).take(rows=range(n))
+    Q, R, W, V = (diagonal_matrix(d) for d in _diagonals(weights))
+    spent = x.T @ (Q @ x) + U.T @ (R @ U)
+    m = matrix_to_float(M)
+
+    def equation(right: Floats) -> Floats | None:
+        if not N:
+            return right
+        solver = solve_discrete_lyapunov if discrete else solve_continuous_lyapunov
+        return _solved(lambda: solver(m.T, right if discrete else -right))
+
+    P0 = equation(matrix_to_float(spent))
+    if P0 is None or np.any(np.diag(P0) < 0) or np.max(P0, initial=0) > _HUGE:
+        return None
+    largest = float(np.max(np.diag(P0), initial=0.0)) or 1.0
+    sizes = np.maximum(np.diag(P0), 1e-12 * largest)
+    P1 = equation(np.diag(sizes))
+    if P1 is None or np.any(np.diag(P1) <= 0) or np.max(P1, initial=0) > _HUGE:
+        return None
+    at_once = trace(loop.disturbed.K.T @ (R @ loop.disturbed.K) @ V) if discrete else Fraction(0)
+    for room in _ROOM:
+        scale = room * (float(np.trace(P0)) or 1.0) / (float(np.trace(P1)) or 1.0)
+        for bits in _BITS[2:]:
+            form = rounded_form(P0 + scale * P1, bits)
+            P = None if form is None else form.matrix()
+            if form is None or P is None or not is_positive(P):
+                continue
+            if not is_positive(lyapunov_difference(P, M, discrete) - spent):
+                continue
+            cost = trace(P.take(rows=range(n), cols=range(n)) @ W)
+            cost += trace(entering.T @ (P @ entering) @ V) + at_once
+            return LoopCost(loop.system, weights, _decimal_above(cost), form)
+    return None
+
+
+def _with_noise(loop: ClosedLoop, weights: CostWeights) -> tuple[Matrix, Matrix, Matrix]:
+    """The loop with its filtered noise, [M, G; 0, −ωI], its inputs, and where the noise enters."""
+    plant, disturbed = loop.plant, loop.disturbed
+    M, G, U, K = disturbed.M, disturbed.G, disturbed.U, disturbed.K
+    if is_discrete(plant.time):
+        return M, U, G
+    if weights.bandwidth is None:
+        if not K.is_zero():
+            raise UsageError(
+                "white noise that an agent passes to its input at once has infinite power: give "
+                "the bandwidth of the noise",
+                where="weights",
+            )
+        return M, U, G
+    q, omega = G.ncols, weights.bandwidth
+    filters = Matrix.identity(q) * omega
+    whole = block([[M, G], [Matrix.zeros(q, M.ncols), -filters]])
+    entering = block([[Matrix.zeros(M.nrows, q)], [filters]])
+    return whole, block([[U, K]]), entering
+
+
+def _diagonals(weights: CostWeights) -> tuple[tuple[Fraction, ...], ...]:
+    return weights.states, weights.inputs, weights.disturbances, weights.noise
+
+
+# A bound for every controller.
+
+
+def bound_of(
+    plant: MultiChannelSystem, weights: CostWeights, graph: CostGraph | None = None
+) -> CostBound | None:
+    """Bound the stationary mean of xᵀQx + uᵀRu from below for every linear controller.
+
+    Parameters
+    ----------
+    plant : MultiChannelSystem
+    weights : CostWeights
+    graph : CostGraph, optional
+        Only controllers are meant by which agents act on each other along its edges alone; see
+        `influences`.
+
+    Returns
+    -------
+    CostBound or None
+        Without a graph the bound is some 0.1 % below the cost of the best controller that knows
+        everything.
+
+    Notes
+    -----
+    P and S solve the Riccati equations of the regulator and of the filter with weights that are
+    slightly smaller; F is the gain of the regulator, rounded.  With a graph the disturbances are
+    divided among the sets of agents that an agent reaches, by multiplicative updates along the
+    gradient of the sum of the bounds.
+    """
+    everyone = tuple(range(plant.m))
+    owners = [0] * plant.n if graph is None else [plant.index(name) for name in graph.states]
+    groups = [everyone] if graph is None else _closed_groups(plant, graph)
+    parts = [_Group(plant, owners, group) for group in groups]
+    proofs = [
+        (part, W, V, bound)
+        for part, W, V in _divided(parts, weights, plant.time)
+        if (bound := part.bound(weights, W, V, plant.time)) is not None
+    ]
+    if len(proofs) < len(parts):
+        return None
+    total = sum((bound[-1] for *_, bound in proofs), Fraction(0))
+    proved = tuple(
+        CostGroup(plant.named(part.agents), W, V, *bound[:-1]) for part, W, V, bound in proofs
+    )
+    return CostBound(plant, weights, _decimal_below(total, 8), groups=proved, graph=graph)
+
+
+def influences(plant: MultiChannelSystem, *, messages: bool = True) -> CostGraph | None:
+    """The agents on whom each agent acts through the plant or by messages.
+
+    Parameters
+    ----------
+    plant : MultiChannelSystem
+    messages : bool
+        Whether neighbors, if the plant has a neighbor graph, send each other messages; without them
+        every agent uses its own outputs alone.
+
+    Returns
+    -------
+    CostGraph or None
+        None where everybody acts on everybody, so that a bound by groups gains nothing.
+
+    Notes
+    -----
+    States that act on each other, or through an agent, are of one owner; states between agents
+    belong to one that acts on them, or else to one on which they act.
+    """
+    import networkx as nx
+
+    acts: nx.DiGraph = nx.DiGraph()
+    acts.add_nodes_from([("state", k) for k in range(plant.n)])
+    acts.add_nodes_from([("agent", i) for i in range(plant.m)])
+    acts.add_edges_from((("state", c), ("state", r)) for r, c, _ in plant.A.nonzero())
+    for i in range(plant.m):
+        acts.add_edges_from((("agent", i), ("state", r)) for r, _, _ in plant.B(i).nonzero())
+        acts.add_edges_from((("state", c), ("agent", i)) for _, c, _ in plant.C(i).nonzero())
+    if messages and plant.neighbors is not None:
+        acts.add_edges_from((("agent", j), ("agent", i)) for j, i in plant.neighbors.edges())
+    whole = nx.condensation(acts)
+    agents = {c: [i for kind, i in whole.nodes[c]["members"] if kind == "agent"] for c in whole}
+    if any(len(members) == plant.m for members in agents.values()) or not plant.n:
+        return None
+    owner: dict[int, int] = {}
+    for c in nx.topological_sort(whole):
+        before = [owner[b] for b in whole.predecessors(c) if b in owner]
+        if agents[c]:
+            owner[c] = min(agents[c])
+        elif before:
+            owner[c] = min(before)
+    for c in reversed(list(nx.topological_sort(whole))):
+        if c not in owner:
+            after = [owner[a] for a in whole.successors(c) if a in owner]
+            owner[c] = min(after, default=0)
+    place = whole.graph["mapping"]
+    owned = [owner[place["state", k]] for k in range(plant.n)]
+    of = {node: node[1] if node[0] == "agent" else owned[node[1]] for node in acts}
+    pairs = sorted({(of[a], of[b]) for a, b in acts.edges if of[a] != of[b]})
+    names = plant.names
+    return CostGraph(tuple(names[i] for i in owned), tuple((names[j], names[i]) for j, i in pairs))
+
+
+def _closed_groups(plant: MultiChannelSystem, graph: CostGraph) -> list[tuple[int, ...]]:
+    """Everybody, and for each agent those whom it reaches."""
+    after: dict[int, set[int]] = {i: {i} for i in range(plant.m)}
+    for source, target in graph.edges:
+        after[plant.index(source)].add(plant.index(target))
+    groups = [tuple(range(plant.m))]
+    for i in range(plant.m):
+        reached, new = set[int](), {i}
+        while new:
+            reached |= new
+            new = set[int]().union(*(after[member] for member in new)) - reached
+        groups.append(tuple(sorted(reached)))
+    return list(dict.fromkeys(groups))
+
+
+class _Group:
+    """The plant as a group of agents has it, and bounds of its cost."""
+
+    def __init__(
+        self, plant: MultiChannelSystem, owners: Sequence[int], agents: tuple[int, ...]
+    ) -> None:
+        whole, members = len(agents) == plant.m, set(agents)
+        inputs, outputs = (
+            [i for i in range(plant.m) for _ in range(size(i))] for size in (plant.p, plant.q)
+        )
+        self.agents, self.whole = agents, whole
+        self.states = [k for k, owner in enumerate(owners) if whole or owner in members]
+        self.inputs = [k for k, owner in enumerate(inputs) if owner in members]
+        self.outputs = [k for k, owner in enumerate(outputs) if owner in members]
+        self.exact = (
+            plant.A.take(rows=self.states, cols=self.states),
+            plant.input_matrix().take(rows=self.states, cols=self.inputs),
+            plant.output_matrix().take(rows=self.outputs, cols=self.states),
+        )
+
+    def weights(
+        self, weights: CostWeights, W: tuple[Fraction, ...], V: tuple[Fraction, ...]
+    ) -> CostWeights:
+        """The weights of the group with its part of the disturbances."""
+        Q = tuple(weights.states[k] for k in self.states)
+        R = tuple(weights.inputs[k] for k in self.inputs)
+        return CostWeights(Q, R, W, V, bandwidth=weights.bandwidth)
+
+    def bound(
+        self, weights: CostWeights, W: tuple[Fraction, ...], V: tuple[Fraction, ...], time: str
+    ) -> Found | None:
+        """P, S, F, the share and the bound."""
+        return _group(*self.exact, self.weights(weights, W, V), time)
+
+    def slopes(
+        self, weights: CostWeights, W: Floats, V: Floats, discrete: bool
+    ) -> tuple[Floats, Floats] | None:
+        """How the cost of the best controller of the group grows with each intensity."""
+        if not self.states:
+            return np.zeros(0), np.zeros(len(V))
+        from scipy.linalg import (
+            solve_continuous_are,
+            solve_continuous_lyapunov,
+            solve_discrete_are,
+            solve_discrete_lyapunov,
+        )
+
+        a, b, c = _with_ports(self.exact)
+        Q = _diagonal_floats([weights.states[k] for k in self.states])
+        R = _diagonal_floats([weights.inputs[k] for k in self.inputs])
+        outputs, V = len(V), V if len(V) else np.ones(1)
+        if discrete:
+            P = _solved(lambda: solve_discrete_are(a, b, Q, R))
+            S = _solved(lambda: solve_discrete_are(a.T, c.T, np.diag(W), np.diag(V)))
+            if P is None or S is None:
+                return None
+            spent = R + b.T @ P @ b
+            F = np.linalg.solve(spent, b.T @ P @ a)
+            L = S @ c.T @ np.linalg.inv(c @ S @ c.T + np.diag(V))
+            kept = np.eye(len(a)) - L @ c
+            Y = _solved(lambda: solve_discrete_lyapunov((kept @ a).T, F.T @ spent @ F))
+            if Y is None:
+                return None
+            return np.diag(P + kept.T @ Y @ kept), np.diag(L.T @ Y @ L)[:outputs]
+        P = _solved(lambda: solve_continuous_are(a, b, Q, R))
+        S = _solved(lambda: solve_continuous_are(a.T, c.T, np.diag(W), np.diag(V)))
+        if P is None or S is None:
+            return None
+        F = np.linalg.solve(R, b.T @ P)
+        L = S @ c.T / V
+        Y = _solved(lambda: solve_continuous_lyapunov((a - L @ c).T, -F.T @ R @ F))
+        return None if Y is None else (np.diag(P + Y), np.diag(L.T @ Y @ L)[:outputs])
+
+
+_ROUNDS = 40
+"""The rounds in which disturbances are divided among groups."""
+_LEAST = 2e-3
+"""The part of a disturbance that every group which may take some takes at least."""
+_UNIT = 2**20
+_TINY = 1e-200
+
+Divided = list[tuple[_Group, tuple[Fraction, ...], tuple[Fraction, ...]]]
+
+
+def _divided(parts: list[_Group], weights: CostWeights, time: str) -> Divided:
+    """The intensities W and V divided among groups, so that the sum of the bounds is large."""
+    if len(parts) == 1:
+        return [(parts[0], weights.disturbances, weights.noise)]
+    takers = [
+        [[g for g, part in enumerate(places) if k in part] for k in range(len(intensities))]
+        for intensities, places in (
+            (weights.disturbances, [set(part.states) for part in parts]),
+            (weights.noise, [set(part.outputs) for part in parts]),
+        )
+    ]
+    shares = [np.zeros((len(parts), len(each))) for each in takers]
+    for share, able in zip(shares, takers, strict=True):
+        for k, members in enumerate(able):
+            for g in members:
+                share[g, k] = 1 / len(parts[g].agents) ** 2
+            share[:, k] /= share[:, k].sum()
+    whole = [np.array([to_float(x) for x in d]) for d in (weights.disturbances, weights.noise)]
+    for turn in range(_ROUNDS):
+        slopes = [np.zeros_like(share) for share in shares]
+        for g, part in enumerate(parts):
+            where = part.states, part.outputs
+            W, V = (s[g, w] * d[w] for s, w, d in zip(shares, where, whole, strict=True))
+            found = part.slopes(weights, W, V, is_discrete(time))
+            if found is None:
+                break
+            for slope, w, values in zip(slopes, where, found, strict=True):
+                slope[g, w] = values
+        for share, slope, able in zip(shares, slopes, takers, strict=True):
+            for k, groups in enumerate(able):
+                largest = float(slope[groups, k].max())
+                if not _TINY < largest < _HUGE:
+                    continue
+                steep = slope[groups, k] / largest
+                moved = share[groups, k] * np.exp(6 * (steep - 1) / (1 + turn / 10))
+                moved = np.maximum(moved / moved.sum(), _LEAST / len(groups))
+                share[groups, k] = moved / moved.sum()
+    divided: Divided = []
+    for g, part in enumerate(parts):
+        W, V = (
+            tuple(Fraction(int(share[g, k] * _UNIT), _UNIT) * d[k] for k in where)
+            for share, where, d in zip(
+                shares,
+                (part.states, part.outputs),
+                (weights.disturbances, weights.noise),
+                strict=True,
+            )
+        )
+        divided.append((part, W, V))
+    return divided
+
+
+Found = tuple[Symmetric, Symmetric, Matrix, Fraction, Fraction]
+
+
+def _group(A: Matrix, B: Matrix, C: Matrix, weights: CostWeights, time: str) -> Found | None:
+    """P, S, F, the share and the bound for a part of the plant."""
+    best: Found | None = None
+    for room in _ROOM:
+        solutions = _riccati(A, B, C, weights, time, room)
+        if solutions is None:
+            continue
+        for bits in _BITS[2:]:
+            found = _rounded_bound((A, B, C), weights, time, solutions, bits, room)
+            if found is None:
+                continue
+            if best is None or found[-1] > best[-1] * (1 + Fraction(_LOST)):
+                best = found
+            else:
+                break
+        if best is not None:
+            return best
+    return best
+
+
+def _with_ports(plant: tuple[Matrix, Matrix, Matrix]) -> tuple[Floats, Floats, Floats]:
+    """A, B and C in floats, with an input and an output that do nothing where there is none."""
+    a, b, c = map(matrix_to_float, plant)
+    return a, b if b.shape[1] else np.zeros((len(a), 1)), c if len(c) else np.zeros((1, len(a)))
+
+
+def _diagonal_floats(entries: Sequence[Fraction]) -> Floats:
+    """The diagonal matrix in floats; 1 where it is empty."""
+    return np.diag([to_float(x) for x in entries] or [1.0])
+
+
+def _riccati(
+    A: Matrix, B: Matrix, C: Matrix, weights: CostWeights, time: str, room: float
+) -> tuple[Floats, Floats, Floats] | None:
+    """P, S and F for weights that are smaller by a part."""
+    from scipy.linalg import solve_continuous_are, solve_discrete_are
+
+    n, p = B.shape
+    if not n:
+        return np.zeros((0, 0)), np.zeros((0, 0)), np.zeros((p, 0))
+    a, b, c = _with_ports((A, B, C))
+    Q, R, W, V = (_diagonal_floats(d) for d in _diagonals(weights))
+    less = 1 - room
+    Q, R, W, V = Q * less, R * less, W * less, V * less
+    if is_discrete(time):
+        P = _solved(lambda: solve_discrete_are(a, b, Q, R))
+        ahead = _solved(lambda: solve_discrete_are(a.T, c.T, W, V))
+        if P is None or ahead is None:
+            return None
+        F = np.asarray(-np.linalg.solve(R + b.T @ P @ b, b.T @ P @ a), dtype=np.float64)
+        S: Floats = ahead - ahead @ c.T @ np.linalg.solve(c @ ahead @ c.T + V, c @ ahead)
+        return P, (S + S.T) / 2 * (1 - room / 10), F[:p]
+    P = _solved(lambda: solve_continuous_are(a, b, Q, R))
+    slow = 0.0 if weights.bandwidth is None else 1 / to_float(weights.bandwidth)
+    H = c @ (a * slow + np.eye(len(a)))
+    N = c @ W @ c.T * slow**2 + V
+    S_ = _solved(lambda: solve_continuous_are(a.T, H.T, W, N, s=W @ c.T * slow))
+    if P is None or S_ is None:
+        return None
+    gain = np.asarray(-np.linalg.solve(R, b.T @ P), dtype=np.float64)
+    return P, S_, gain[:p]
+
+
+def _rounded_bound(
+    plant: tuple[Matrix, Matrix, Matrix],
+    weights: CostWeights,
+    time: str,
+    solutions: tuple[Floats, Floats, Floats],
+    bits: int,
+    room: float,
+) -> Found | None:
+    """The bound of matrices that are rounded; None unless both inequalities are strict."""
+    forms = [rounded_form(each, bits) for each in solutions[:2]]
+    if forms[0] is None or forms[1] is None:
+        return None
+    F = dyadic_matrix(solutions[2], bits)
+    share = Fraction(1) - Fraction(round(room * 2**20), 2**19)
+    P, S = forms[0].matrix(), forms[1].matrix()
+    first, second, bound = inequalities(plant, weights, time, (P, S, F, share))
+    if not all(is_positive(each) for each in (P, S, first, second)):
+        return None
+    return forms[0], forms[1], F, share, _decimal_below(bound, 8)
+
+
+def inequalities(
+    plant: tuple[Matrix, Matrix, Matrix],
+    weights: CostWeights,
+    time: str,
+    solution: tuple[Matrix, Matrix, Matrix, Fraction],
+) -> tuple[Matrix, Matrix, Fraction]:
+    """N₁ and N₂ of ``FORMAT.md`` (`cost_bound`), and the bound that holds if both are positive."""
+    (A, B, C), (P, S, F, share) = plant, solution
+    Q, R, W, V = (diagonal_matrix(d) for d in _diagonals(weights))
+    p = B.ncols
+    if is_discrete(time):
+        spent, after = R + B.T @ (P @ B), A @ S @ A.T + W
+        half = A.T @ P
+        first = block([[half @ A + Q - P, half @ B], [(half @ B).T, spent]])
+        second = block([[after - S, after @ C.T], [C @ after, C @ after @ C.T + V]])
+        R_s = spent * share
+    else:
+        half, drift, SC = P @ A, A @ S, S @ C.T
+        slow = Fraction(0) if weights.bandwidth is None else 1 / weights.bandwidth
+        across = SC - A @ SC * slow
+        first = block([[half + half.T + Q, P @ B], [(P @ B).T, R]])
+        second = block([[drift + drift.T + W, across], [across.T, V - C @ SC * (2 * slow)]])
+        R_s = R * share
+    gain = block([[F, -Matrix.identity(p)]])
+    first = first - gain.T @ (R_s @ gain)
+    return first, second, trace(P @ W) + trace(F.T @ (R_s @ F) @ S)
+
+
+# Disk margins and sectors.
+
+_SLACK = (1.002, 1.01, 1.03, 1.1, 1.3)
+"""By how much the proved gain may exceed the largest one that was seen at a frequency."""
+_EXTRA = (1e-3, 1e-5, 1e-7)
+"""What is added to the weight of the states, as a part, so that the inequality is strict."""
+_SCALINGS = 2.0**6
+"""The largest factor by which a scaling departs from 1."""
+
+
+def margin_of(
+    loop: ClosedLoop,
+    at: Literal["inputs", "outputs"],
+    *,
+    together: bool = False,
+    margin: Fraction | None = None,
+) -> DiskMargin | None:
+    """Prove how far inputs, or outputs, may be from 1 before a stable loop fails.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    at : {"inputs", "outputs"}
+    together : bool
+        Whether all of them are multiplied at once, with a number for each; else one at a time.
+    margin : Fraction, optional
+        The margin to prove; by default about the largest one.
+
+    Returns
+    -------
+    DiskMargin or None
+        None also where the given margin is larger than the loop's.
+
+    Notes
+    -----
+    The disk margin α of one loop is that of python-control's ``disk_margins`` with skew 0.  For
+    several ports together it is a lower bound on the margin, with constant scalings.  O(N³) for
+    each inequality.
+    """
+    disturbed = loop.disturbed
+    enter, leave = (disturbed.E, disturbed.U) if at == "inputs" else (disturbed.G, disturbed.Y)
+    ports = leave.nrows
+    system = _Response((disturbed.M, enter, leave), is_discrete(loop.plant.time), HALF)
+    if system.unstable:
+        return None
+    groups = [range(ports)] if together or not ports else [range(k, k + 1) for k in range(ports)]
+    # far from all poles T is 0, so that no norm is below 1/2
+    worst = max([0.5, *(system.scaled_norm(each)[0] for each in groups)])
+    for slack in _SLACK:
+        alpha = margin or _decimal_below(Fraction(1 / (worst * slack)), 3)
+        if parts := _margin_parts(system, alpha, groups):
+            return DiskMargin(loop.system, at, together, alpha, parts)
+    return None
+
+
+HALF = Fraction(1, 2)
+"""The part of the perturbation that is added to T: f = (1 + d/2)/(1 − d/2) is d(u + w/2) = w."""
+
+
+def sectors_of(
+    loop: ClosedLoop, sectors: Sequence[tuple[Fraction, Fraction]]
+) -> SectorStability | None:
+    """Prove that a loop is stable whatever its inputs pass through, within sectors.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    sectors : sequence of pairs of Fraction
+        The ends (a, b), a < b, one pair for each input in the order of the channels: the plant
+        receives f(t, v) between av and bv for the v that the agent computes.
+
+    Returns
+    -------
+    SectorStability or None
+
+    Notes
+    -----
+    The circle criterion: f(t, v) = mv + rg(t, v) with m = (a + b)/2, r = (b − a)/2 and |g| ≤ |v|,
+    and the response from g to v has a norm below 1 with a constant scaling.
+    """
+    disturbed, discrete = loop.disturbed, is_discrete(loop.plant.time)
+    middle = diagonal_matrix([(a + b) / 2 for a, b in sectors])
+    half = [(b - a) / 2 for a, b in sectors]
+    M = disturbed.M + disturbed.E @ (middle - Matrix.identity(len(half))) @ disturbed.U
+    response = _Response(
+        (M, disturbed.E @ diagonal_matrix(half), disturbed.U), discrete, Fraction(0)
+    )
+    if response.unstable or not all(half):
+        return None
+    part = response.proved(range(len(half)), Fraction(1))
+    if part is None:
+        return None
+    scaling = tuple(t / r**2 for t, r in zip(part.scaling, half, strict=True))
+    return SectorStability(loop.system, tuple(sectors), scaling, part.P)
+
+
+def _margin_parts(
+    system: _Response, alpha: Fraction, groups: Sequence[Sequence[int]]
+) -> tuple[MarginPart, ...]:
+    """The parts that prove a margin: one for all ports if it is there, else one for each group."""
+    whole = range(system.ports)
+    if len(groups) > 1 and (part := system.proved(whole, alpha)) is not None:
+        return (part,)
+    parts = []
+    for each in groups:
+        part = system.proved(each, alpha)
+        if part is None:
+            return ()
+        parts.append(part)
+    return tuple(parts)
+
+
+class _Response:
+    """The response T + cI of some ports to what is added there, in floating point and exactly.
+
+    Parameters
+    ----------
+    exact : tuple of Matrix
+        M, E and Y of T = Y(xI − M)⁻¹E.
+    discrete : bool
+    direct : Fraction
+        c.
+    """
+
+    def __init__(
+        self, exact: tuple[Matrix, Matrix, Matrix], discrete: bool, direct: Fraction
+    ) -> None:
+        from scipy.linalg import hessenberg, matrix_balance
+
+        self.exact, self.discrete, self.ports = exact, discrete, exact[2].nrows
+        self.direct, self._through = direct, to_float(direct)
+        m, e, y = map(matrix_to_float, self.exact)
+        self.scales: Floats = np.ones(len(m))
+        if len(m):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                _, (scales, _) = matrix_balance(m, permute=False, separate=True)
+            self.scales = np.asarray(scales, dtype=np.float64)
+        s = self.scales
+        self.m, self.e, self.y = m / s[:, None] * s, e / s[:, None], y * s
+        self.poles = np.linalg.eigvals(self.m)
+        edge = np.abs(self.poles) >= 1 if discrete else self.poles.real >= 0
+        self.unstable = bool(np.any(edge))
+        self._h, q = hessenberg(self.m, calc_q=True) if len(m) else (m, m)
+        self._left, self._right = self.y @ q, q.T @ self.e
+
+    def _points(self) -> npt.NDArray[np.complex128]:
+        """Points of the border of the stable region, close to each other near the poles."""
+        poles, spread = self.poles, np.linspace(-2, 2, 9)
+        if self.discrete:
+            around = np.abs(np.angle(poles))[:, None]
+            widths = np.log(np.maximum(np.abs(poles), 1e-3))[:, None]
+            angles = [np.linspace(0, np.pi, 300), np.logspace(-5, 0, 60), around + widths * spread]
+            on_circle = np.exp(1j * np.concatenate([each.ravel() for each in angles]))
+            return np.asarray(on_circle, dtype=np.complex128)
+        sizes = np.abs(poles)
+        low = np.log10(max(float(np.min(sizes, initial=1.0)), 1e-9)) - 2
+        high = np.log10(float(np.max(sizes, initial=1.0))) + 2
+        near = np.abs(poles.imag)[:, None] + poles.real[:, None] * spread
+        upward = np.abs(np.concatenate([[0.0], np.logspace(low, high, 300), near.ravel()]))
+        return np.asarray(1j * upward, dtype=np.complex128)
+
+    def _at(self, z: complex) -> npt.NDArray[np.complex128]:
+        """T(z) + cI."""
+        n = len(self._h)
+        inner = np.linalg.solve(z * np.eye(n) - self._h, self._right)
+        return np.asarray(self._left @ inner + self._through * np.eye(self.ports))
+
+    @cached_property
+    def _samples(self) -> list[npt.NDArray[np.complex128]]:
+        """T + cI at all points."""
+        return [self._at(z) for z in self._points()]
+
+    def scaled_norm(self, ports: Sequence[int]) -> tuple[float, Floats]:
+        """The largest gain seen of some ports, and a scaling that makes it small."""
+        chosen = np.ix_(list(ports), list(ports))
+        samples = [G[chosen] for G in self._samples]
+        theta = np.ones(len(ports))
+
+        def largest(scaling: Floats) -> tuple[float, npt.NDArray[np.complex128]]:
+            h = np.sqrt(scaling)
+            worst = max(samples, key=lambda G: float(np.linalg.norm(h[:, None] * G / h, 2)))
+            return float(np.linalg.norm(h[:, None] * worst / h, 2)), worst
+
+        best, worst = largest(theta)
+        chosen_theta = theta
+        for _ in range(6 if len(ports) > 1 else 0):
+            target = np.clip(_osborne(worst), 1 / _SCALINGS, _SCALINGS)
+            theta = np.exp((np.log(theta) + np.log(target)) / 2)
+            rounded = np.exp2(np.round(np.log2(theta)))
+            value, worst = largest(rounded)
+            if value < best:
+                best, chosen_theta = value, rounded
+        return best, chosen_theta
+
+    def proved(self, ports: Sequence[int], alpha: Fraction) -> MarginPart | None:
+        """A matrix that proves the margin of these ports together; None if none holds."""
+        places = list(ports)
+        norm, theta = self.scaled_norm(places)
+        if norm * to_float(alpha) >= 1:
+            return None
+        scaling = tuple(Fraction(float(x)) for x in theta)
+        Theta = diagonal_matrix(scaling)
+        M, enter, leave = self.exact
+        enter, leave = enter.take(cols=places), leave.take(rows=places)
+        for P in self._proposals(places, theta, alpha):
+            for bits in _BITS:
+                form = rounded_form(P, bits)
+                if form is None:
+                    break
+                exact = form.matrix()
+                gain = bounded_real(
+                    exact, (M, enter, leave), Theta, 1 / alpha**2, self.discrete, self.direct
+                )
+                if is_positive(exact) and is_positive(gain):
+                    return MarginPart(tuple(places), scaling, form)
+        return None
+
+    def _proposals(self, ports: list[int], theta: Floats, alpha: Fraction) -> Iterator[Floats]:
+        """Solutions of the Riccati equation of the bounded real lemma, in the plant's units."""
+        h = np.sqrt(theta)
+        e, y = self.e[:, ports] / h, self.y[ports] * h[:, None]
+        k, gamma = len(ports), 1 / to_float(alpha)
+        for extra in _EXTRA:
+            P = self._bounded_real(e, y, k, gamma, extra)
+            if P is not None:
+                yield P / self.scales[:, None] / self.scales
+
+    def _bounded_real(
+        self, e: Floats, y: Floats, k: int, gamma: float, extra: float
+    ) -> Floats | None:
+        """P of the Riccati equation, by Newton's method, whose steps are Lyapunov equations."""
+        from scipy.linalg import solve_continuous_lyapunov, solve_discrete_lyapunov
+
+        n, eye = len(self.m), np.eye(len(self.m))
+
+        def lyapunov(M: Floats, right: Floats) -> Floats | None:
+            solver = solve_discrete_lyapunov if self.discrete else solve_continuous_lyapunov
+            return _solved(lambda: solver(M.T, right if self.discrete else -right))
+
+        seen, cross = y.T @ y, self._through * y.T
+        X0, X1 = lyapunov(self.m, seen), lyapunov(self.m, eye)
+        if X0 is None or X1 is None or n == 0:
+            return X0
+        Q = seen + extra * (float(np.trace(X0)) or 1.0) / float(np.trace(X1)) * eye
+        room = (gamma**2 - self._through**2) * np.eye(k)
+        P = np.zeros((n, n))
+        for _ in range(40):
+            bound = room - e.T @ P @ e if self.discrete else room
+            if k and np.linalg.eigvalsh(bound)[0] <= 0:
+                return None
+            right = (e.T @ P @ self.m if self.discrete else e.T @ P) + cross.T
+            K = np.linalg.solve(bound, right) if k else np.zeros((0, n))
+            step = lyapunov(self.m + e @ K, Q + cross @ K + K.T @ cross.T - K.T @ room @ K)
+            if step is None:
+                return None
+            if np.linalg.norm(step - P) <= 1e-10 * np.linalg.norm(step):
+                return step
+            P = step
+        return P
+
+
+def _osborne(G: npt.NDArray[np.complex128]) -> Floats:
+    """A diagonal that balances the rows and columns of a matrix (Osborne's iteration)."""
+    size = np.abs(G) ** 2
+    theta = np.ones(len(G))
+    for _ in range(40):
+        for i in range(len(G)):
+            row = float(np.sum(size[i] * theta[i] / theta) - size[i, i])
+            column = float(np.sum(size[:, i] * theta / theta[i]) - size[i, i])
+            if row > 0 and column > 0:
+                theta[i] *= math.sqrt(column / row)
+    return theta
+
+
+def bounded_real(
+    P: Matrix,
+    signals: tuple[Matrix, Matrix, Matrix],
+    Theta: Matrix,
+    square: Fraction,
+    discrete: bool,
+    direct: Fraction,
+) -> Matrix:
+    """The matrix which is positive definite only if ‖Θ^½(T + cI)Θ^−½‖² is below ``square``.
+
+    With c = 1/2 it is that of `disk_margin` in ``FORMAT.md``.
+    """
+    M, E, Y = signals
+    seen = Y.T @ Theta
+    corner = Theta * (square - direct**2)
+    if discrete:
+        corner = corner - E.T @ (P @ E)
+    half = M.T @ (P @ E) if discrete else P @ E
+    across = -(half + seen * direct)
+    return block([[lyapunov_difference(P, M, discrete) - seen @ Y, across], [across.T, corner]])

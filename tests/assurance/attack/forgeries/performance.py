@@ -1,0 +1,160 @@
+"""Forgeries about costs, bounds for every controller, disk margins and sectors."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from typing import Any
+
+from tests.oracle.drawn.plants import Document, number
+
+Forged = Document | None
+
+
+def _scaled(value: Any, by: Fraction) -> Any:
+    return number(Fraction(value) * by)
+
+
+def better(rng: random.Random, document: Document) -> Forged:
+    """A lower cost, a higher bound, a larger margin, wider sectors: by much, or by little."""
+    claim = document["claim"]
+    by = rng.choice((Fraction(1001, 1000), Fraction(101, 100), Fraction(3, 2), Fraction(20)))
+    if "margin" in claim:
+        claim["margin"] = _scaled(claim["margin"], by)
+    elif claim.get("sectors"):
+        pair = rng.choice(claim["sectors"])
+        pair[1] = _scaled(pair[1], by)
+    elif "cost" in claim:
+        claim["cost"] = _scaled(claim["cost"], by if document["kind"] == "cost_bound" else 1 / by)
+    return document
+
+
+def other_weights(rng: random.Random, document: Document) -> Forged:
+    """Other weights, or another bandwidth, or none, with the same cost and the same witness."""
+    weights = document["claim"].get("weights")
+    if weights is None:
+        return None
+    if "bandwidth" in weights and rng.random() < 0.5:
+        if rng.random() < 0.5:
+            del weights["bandwidth"]
+        else:
+            weights["bandwidth"] = _scaled(weights["bandwidth"], Fraction(rng.choice((2, 100))))
+        return document
+    lists = [each for each in weights.values() if isinstance(each, list) and each]
+    if not lists:
+        return None
+    entries = rng.choice(lists)
+    entries[rng.randrange(len(entries))] = rng.choice((0, 5, 1000, "1/1000", -1))
+    return document
+
+
+def _forms(value: Any) -> list[Document]:
+    """All symmetric matrices of a witness."""
+    if isinstance(value, list):
+        return [form for each in value for form in _forms(each)]
+    if not isinstance(value, dict):
+        return []
+    own = [value] if "exponents" in value else []
+    return own + [form for each in value.values() for form in _forms(each)]
+
+
+def other_form(rng: random.Random, document: Document) -> Forged:
+    """A matrix that is negated, scaled, or of another size, and a claim that it would prove."""
+    forms = _forms(document["witness"])
+    if not forms:
+        return None
+    form = rng.choice(forms)
+    what = rng.randrange(4)
+    if what == 0:
+        form["entries"] = [-x for x in form["entries"]]
+    elif what == 1:
+        by = rng.choice((-20, -1, 1, 20))
+        form["exponents"] = [e + by for e in form["exponents"]]
+    elif what == 2 and form["exponents"]:
+        k = rng.randrange(len(form["exponents"]))
+        form["exponents"][k] += rng.choice((-3, 3, 5000))
+    else:
+        form["entries"] = [0] * len(form["entries"])
+    return better(rng, document) if rng.random() < 0.7 else document
+
+
+def other_group(rng: random.Random, document: Document) -> Forged:
+    """A group that is not closed, too much of a disturbance, no graph, or a share of 1."""
+    groups = document["witness"].get("groups")
+    if not groups:
+        return None
+    group = rng.choice(groups)
+    what = rng.randrange(6)
+    if what == 0 and len(group["agents"]) > 1:
+        del group["agents"][rng.randrange(len(group["agents"]))]
+    elif what == 1:
+        document["witness"]["groups"] = [*groups, group]
+        document["claim"]["cost"] = _scaled(document["claim"]["cost"], Fraction(3, 2))
+    elif what == 2:
+        document["claim"].pop("graph", None)
+    elif what == 3 and "graph" in document["claim"]:
+        graph = document["claim"]["graph"]
+        if graph["edges"] and rng.random() < 0.6:
+            del graph["edges"][rng.randrange(len(graph["edges"]))]
+        elif graph["states"]:
+            names = [channel["name"] for channel in document["system"]["channels"]]
+            graph["states"][rng.randrange(len(graph["states"]))] = rng.choice(names)
+    elif what == 4:
+        group["share"] = rng.choice((1, "3/2", "-1/2"))
+    else:
+        key = rng.choice(("disturbances", "noise"))
+        group[key] = [_scaled(x, Fraction(rng.choice((2, 10)))) for x in group[key]]
+    return document
+
+
+def other_ports(rng: random.Random, document: Document) -> Forged:
+    """Single margins told of all ports at once, a port left out, or a scaling that hides one."""
+    witness = document["witness"]
+    if "parts" in witness:
+        what = rng.randrange(5)
+        if what == 0:
+            document["claim"]["together"] = not document["claim"]["together"]
+        elif what == 1 and witness["parts"]:
+            del witness["parts"][rng.randrange(len(witness["parts"]))]
+        elif what == 2:
+            document["claim"]["at"] = rng.choice(("inputs", "outputs"))
+        elif witness["parts"]:
+            part = rng.choice(witness["parts"])
+            if what == 3 and part["ports"]:
+                del part["ports"][0], part["scaling"][0]
+            else:
+                part["scaling"] = [rng.choice((0, -1, 1, "1/64")) for _ in part["scaling"]]
+        return document
+    if "scaling" in witness:
+        witness["scaling"] = [rng.choice((0, -1, 1, "1/64")) for _ in witness["scaling"]]
+        return document
+    return None
+
+
+def other_sector(rng: random.Random, document: Document) -> Forged:
+    """Ends in the wrong order, or far apart, or on the other side of 0."""
+    sectors = document["claim"].get("sectors")
+    if not sectors:
+        return None
+    sectors[rng.randrange(len(sectors))] = rng.choice(([2, 1], [-1, 1], [0, 100], [-5, -4], [1, 1]))
+    return document
+
+
+def other_gain(rng: random.Random, document: Document) -> Forged:
+    """A controller with a gain more, so that the loop is another one, perhaps unstable."""
+    if not document["subject"]:
+        return None
+    agents = document["subject"][-1]["controller"]["agents"]
+    maps = [m["outputs"] for agent in agents if (m := agent["input"]).get("outputs")]
+    tables = [M for each in maps for M in each.values() if isinstance(M, list) and M and M[0]]
+    if not tables:
+        return None
+    row = rng.choice(rng.choice(tables))
+    row[rng.randrange(len(row))] = rng.choice((-20, -3, 3, 20, "1/7"))
+    return document
+
+
+COSTS = (better, other_weights, other_form, other_gain)
+BOUNDS = (better, other_weights, other_form, other_group)
+MARGINS = (better, other_ports, other_form, other_gain)
+SECTORS = (better, other_sector, other_ports, other_form, other_gain)

@@ -1,0 +1,181 @@
+"""Certificates about costs, bounds, margins and sectors, written by hand."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.checker.handmade import Document, certificate, changed, matrix, plant
+
+
+def form(*rows: list[int], exponent: int = 0) -> Document:
+    """A symmetric matrix of integers times 4^exponent, by the rows of its lower half."""
+    entries = [x for row in rows for x in row]
+    return {"exponents": [exponent] * len(rows), "entries": entries}
+
+
+def static(system: Document, *gains: int) -> Document:
+    """The loop with constant gains, one for each agent."""
+    agents: list[Any] = [
+        {
+            "name": channel["name"],
+            "shared": 0,
+            "private": 0,
+            "shared_update": {},
+            "private_update": {},
+            "input": {"outputs": {channel["name"]: [[gain]]}} if gain else {},
+        }
+        for channel, gain in zip(system["channels"], gains, strict=True)
+    ]
+    return {
+        "construction": "closed_loop",
+        "controller": {"time": system["time"], "agents": agents},
+    }
+
+
+def weights(n: int, ports: int, **more: Any) -> Document:
+    """All weights 1."""
+    ones = {"states": [1] * n, "inputs": [1] * ports}
+    return {**ones, "disturbances": [1] * n, "noise": [1] * ports, **more}
+
+
+# x(t+1) = x + u, y = x, u = -y: the loop forgets its state at once.
+STEP = plant([[1]], ([[1]], [[1]]), time="discrete")
+DEADBEAT = static(STEP, -1)
+# X = 2, and 2·2 + 1 for the noise that passes to u: 5; P = 3 proves 3 + 3 + 1.
+COST = certificate(
+    "loop_cost", STEP, {"weights": weights(1, 1), "cost": 7}, {"P": form([3])}, DEADBEAT
+)
+# x' = x + u, u = -3 (x + v), v' = -2 v + 2 n; P is large enough, and the cost is far below.
+DRIVEN = plant([[1]], ([[1]], [[1]]))
+FILTERED = certificate(
+    "loop_cost",
+    DRIVEN,
+    {"weights": weights(1, 1, bandwidth=2), "cost": 1000},
+    {"P": form([40], [-20, 60])},
+    static(DRIVEN, -3),
+)
+# Nothing that the agent measures passes to its input: without a bandwidth, P = 1 proves 1.
+FALLING = plant([[-1]], ([[1]], [[1]]))
+IDLE = certificate(
+    "loop_cost",
+    FALLING,
+    {"weights": weights(1, 1), "cost": 1},
+    {"P": form([1])},
+    static(FALLING, 0),
+)
+# A = 0: x is the last disturbance and the last input; P = 1/2 and F = 0 prove 1/2.
+FORGETFUL = plant([[0]], ([[1]], [[1]]), time="discrete")
+BOUND = certificate(
+    "cost_bound",
+    FORGETFUL,
+    {"weights": weights(1, 1), "cost": "1/2"},
+    {
+        "groups": [
+            {
+                "agents": ["1"],
+                "disturbances": [1],
+                "noise": [1],
+                "P": form([2], exponent=-1),
+                "S": form([1], exponent=-1),
+                "F": matrix([0]),
+                "share": 0,
+            }
+        ]
+    },
+)
+# x' = x + u: the regulator has P = -F = 1 + √2, and S > 0 adds to the bound.
+SHARED = changed(
+    certificate("cost_bound", DRIVEN, BOUND["claim"], BOUND["witness"]),
+    ("claim", {"weights": weights(1, 1), "cost": 3}),
+    ("witness.groups.0.P", form([2])),
+    ("witness.groups.0.S", form([2])),
+    ("witness.groups.0.F", matrix([-2])),
+    ("witness.groups.0.share", "1/4"),
+)
+# Agent 1 drives agent 2 and hears nothing of it.
+ONE_WAY = plant([[0, 0], [2, 0]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]]), time="discrete")
+HALVES = {
+    "agents": ["1", "2"],
+    "disturbances": [1, "1/2"],
+    "noise": [1, "1/2"],
+    "P": form([2], [0, 2], exponent=-1),
+    "S": form([1], [0, 1], exponent=-2),
+    "F": matrix([0, 0], [0, 0]),
+    "share": 0,
+}
+LAST = {
+    "agents": ["2"],
+    "disturbances": ["1/2"],
+    "noise": ["1/2"],
+    "P": form([2], exponent=-1),
+    "S": form([1], exponent=-2),
+    "F": matrix([0]),
+    "share": 0,
+}
+GROUPS = certificate(
+    "cost_bound",
+    ONE_WAY,
+    {
+        "weights": weights(2, 2),
+        "cost": 1,
+        "graph": {"states": ["1", "2"], "edges": [["1", "2"]]},
+    },
+    {"groups": [HALVES, LAST]},
+)
+# T = -1/z: |T + 1/2| is at most 3/2.
+MARGIN = certificate(
+    "disk_margin",
+    STEP,
+    {"at": "inputs", "together": False, "margin": "1/2"},
+    {"parts": [{"ports": [0], "scaling": [1], "P": form([2])}]},
+    DEADBEAT,
+)
+# Two of them beside each other.
+PAIR = plant([[1, 0], [0, 1]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]]), time="discrete")
+BOTH = certificate(
+    "disk_margin",
+    PAIR,
+    {"at": "outputs", "together": True, "margin": "1/2"},
+    {"parts": [{"ports": [0, 1], "scaling": [1, 1], "P": form([2], [0, 2])}]},
+    static(PAIR, -1, -1),
+)
+EACH = changed(
+    BOTH,
+    ("claim.together", False),
+    (
+        "witness.parts",
+        [
+            {"ports": [0], "scaling": [1], "P": form([2], [0, 1])},
+            {"ports": [1], "scaling": [3], "P": form([3], [0, 6])},
+        ],
+    ),
+)
+SECTOR = certificate(
+    "sector",
+    STEP,
+    {"sectors": [["1/2", "3/2"]]},
+    {"scaling": [1], "P": form([2], exponent=-1)},
+    DEADBEAT,
+)
+CONTINUOUS_SECTOR = certificate(
+    "sector",
+    DRIVEN,
+    {"sectors": [["1/2", 2]]},
+    {"scaling": [1], "P": form([3])},
+    static(DRIVEN, -3),
+)
+
+ALL = {
+    "a cost in discrete time": COST,
+    "a cost with filtered noise": FILTERED,
+    "a cost without a bandwidth": IDLE,
+    "a bound in discrete time": BOUND,
+    "a bound with a part of the filter": SHARED,
+    "a bound by groups": GROUPS,
+    "a margin of one input": MARGIN,
+    "a margin of two outputs together": BOTH,
+    "a margin of each output by itself": EACH,
+    "a sector in discrete time": SECTOR,
+    "a sector in continuous time": CONTINUOUS_SECTOR,
+}
+"""Every one of them is VALID, and says something true."""
