@@ -53,7 +53,7 @@ from mcexact.answer.structure import (
 from mcexact.derived.constructions import dual
 from mcexact.derived.modular import generator, residue_systems, short_modulus
 from mcexact.errors import Impossible, InputError, InternalError
-from mcexact.exact.krylov import InvariantSubspace, controllable_subspace
+from mcexact.exact.krylov import InvariantSubspace, controllable_subspace, krylov_rows
 from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
     characteristic_polynomial,
@@ -249,15 +249,20 @@ def _all_reached(
 
 
 def _by_rank(system: MultiChannelSystem, T: Sequence[int]) -> JointControllability:
-    subspace = _subspace(system, T)
+    subspace, A, B = _subspace(system, T), system.A, system.input_matrix(T)
     W, free = subspace.annihilator(), subspace.free
+
+    def is_reached(ell: int) -> bool:
+        return len(krylov_rows(A, B, ell)[1]) == subspace.dimension
+
+    modulus = short_modulus(A.denominator * B.denominator, is_reached, subspace.modulus)
     return JointControllability(
         system,
         channels=system.named(T),
         dimension=subspace.dimension,
         controllable=subspace.dimension == system.n,
         uncontrollable_polynomial=characteristic_polynomial((W @ system.A).take(cols=free)),
-        evidence=ByRank(subspace.modulus, W, free),
+        evidence=ByRank(modulus, W, free),
     )
 
 

@@ -18,7 +18,7 @@ yes, an annihilating matrix no.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from random import Random
@@ -38,7 +38,13 @@ from mcexact.analysis.sparse import (
 from mcexact.answer.evidence import ZeroTransfer
 from mcexact.answer.parameters import ParametricRank
 from mcexact.answer.structure import ComplementarySubsystem, SetpointSolvability, TransferGraph
-from mcexact.derived.modular import ModularSystem, generator, residue_systems
+from mcexact.derived.modular import (
+    SHORT,
+    ModularSystem,
+    generator,
+    residue_systems,
+    short_modulus,
+)
 from mcexact.errors import InputError, InternalError, UsageError
 from mcexact.exact.krylov import InvariantSubspace, controllable_subspace
 from mcexact.exact.linear_algebra import (
@@ -517,16 +523,22 @@ def setpoint_solvability(
     place, unit, none = steady_point(system.time), Matrix.identity(n), Matrix.zeros
     lower = none(C.nrows, B.ncols)
     S = block([[system.A - unit * place, B], [C, lower]])
-    M0 = block([[-system.A, B], [C, lower]])
-    M1 = block([[unit, none(n, B.ncols)], [none(C.nrows, n), lower]])
     rng = generator(system, "setpoint")
-    W, pivots = row_echelon(left_nullspace(S))
-    rank = S.nrows - W.nrows
-    modulus = _modulus(S, rank, rng)
-    point, normal = None, None
+    W, pivots = none(0, S.nrows), tuple[int, ...]()
+    modulus = next(_usable_primes(S, rng))
+    if residues(S, modulus).rank() < S.nrows:
+        W, pivots = row_echelon(left_nullspace(S))
+    rank, point, normal = S.nrows - W.nrows, None, None
     if W.nrows:
+        M0 = block([[-system.A, B], [C, lower]])
+        M1 = block([[unit, none(n, B.ncols)], [none(C.nrows, n), lower]])
+        modulus = next(ell for ell in _usable_primes(S, rng) if residues(S, ell).rank() == rank)
         point = _full_rank_point(M0, M1, modulus, rng)
         normal = None if point is not None else _annihilating_row(system, M0, M1, rng)
+    if point is None:
+        modulus = short_modulus(S.denominator, lambda ell: residues(S, ell).rank() == rank, modulus)
+    else:
+        modulus, point = _short_point(S, rank, M0, M1) or (modulus, point)
     zero = None if not W.nrows else point is not None
     return SetpointSolvability(
         system,
@@ -541,12 +553,22 @@ def setpoint_solvability(
     )
 
 
-def _modulus(S: Matrix, rank: int, rng: random.Random) -> int:
-    """A prime modulo which S keeps its rank."""
-    for ell in primes(rng.getrandbits(64), bits=61):
+def _usable_primes(S: Matrix, rng: random.Random) -> Iterator[int]:
+    """Long primes that do not divide the denominator."""
+    return (ell for ell in primes(rng.getrandbits(64), bits=61) if S.denominator % ell)
+
+
+def _short_point(S: Matrix, rank: int, M0: Matrix, M1: Matrix) -> tuple[int, int] | None:
+    """A short prime modulo which S keeps its rank, and a place where M0 + x M1 has full row rank.
+
+    None if there is none, or not among the first places.
+    """
+    for ell in SHORT:
         if S.denominator % ell and residues(S, ell).rank() == rank:
-            return ell
-    raise InternalError("the stream of primes is endless")
+            for x in range(2, min(ell, _POINTS + 2)):
+                if residues(M0 + M1 * x, ell).rank() == M0.nrows:
+                    return ell, x
+    return None
 
 
 def _full_rank_point(M0: Matrix, M1: Matrix, modulus: int, rng: random.Random) -> int | None:

@@ -11,7 +11,7 @@ a zero transfer).  The neighbor graph needs no witness: its strong components ar
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
@@ -20,14 +20,15 @@ from itertools import pairwise
 from . import budget, evidence, reading, roots
 from .arithmetic import (
     SMALL,
-    Echelon,
     Matrix,
+    PackedRows,
     Polynomial,
     Rows,
     SparseMatrix,
     beside,
     characteristic_polynomial,
     diagonal,
+    echelon,
     exponent,
     poly_divide,
     poly_product,
@@ -148,14 +149,14 @@ def krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[in
 
     Theorem ``arithmetic.rank_from_below``.
     """
-    A, fresh = system.A.modulo(ell), list(zip(*inputs(system, T).modulo(ell), strict=True))
-    echelon, ranks = Echelon(ell), [0]
+    n = system.n
+    columns = list(zip(*system.A.modulo(ell), strict=True))
+    A, basis, ranks = PackedRows(columns, n, ell), echelon(ell, n), [0]
+    fresh: list[Sequence[int]] = list(zip(*inputs(system, T).modulo(ell), strict=True))
     while len(ranks) <= blocks and fresh:
-        left = [echelon.add(vector) for vector in fresh]
-        kept = [vector for vector in left if vector is not None]
-        images = product(A, [list(row) for row in zip(*kept, strict=True)], len(kept), ell)
-        fresh = list(zip(*images, strict=True)) if kept else []
-        ranks.append(len(echelon.rows))
+        left = [basis.add(vector) for vector in fresh]
+        fresh = [A.combined(vector) for vector in left if vector is not None]
+        ranks.append(basis.count)
     return ranks
 
 
@@ -593,8 +594,6 @@ def check_setpoint(claim: Json, witness: Json, system: System) -> None:
     B, C = inputs(system, range(system.m)), outputs(system, range(system.m))
     rows, width, place = n + C.nrows, n + B.ncols, int(system.time == "discrete")
     lower = beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)
-    fixed = stack([beside([A.times(-1), B], n), lower], width)
-    moving = diagonal(Matrix.unit_rows(n, 0, n), Matrix.zeros(C.nrows, B.ncols))
     S = stack([beside([A - Matrix.unit_rows(n, 0, n).times(place), B], n), lower], width)
     r, ell = integer(size, "claim.rank"), modulus(number, "witness.modulus")
     require(r <= rows and rank_modulo(S, ell) >= r, "rank", "claim.rank", "not reached modulo l")
@@ -609,6 +608,8 @@ def check_setpoint(claim: Json, witness: Json, system: System) -> None:
         unused = zero is None and x0 is None and row is None
         require(unused, "claim", "claim.invariant_zero", "expected null where it is solvable")
         return
+    fixed = stack([beside([A.times(-1), B], n), lower], width)
+    moving = diagonal(Matrix.unit_rows(n, 0, n), Matrix.zeros(C.nrows, B.ncols))
     if boolean(zero, "claim.invariant_zero"):
         require(row is None, "claim", "witness.normal", "expected null for an invariant zero")
         point = integer(x0, "witness.point")

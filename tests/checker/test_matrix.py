@@ -9,18 +9,23 @@ from fractions import Fraction
 import pytest
 
 from mcexact.checker.arithmetic import (
+    BLOCK,
+    SMALL,
+    ByteEchelon,
     Echelon,
     Matrix,
     NotAUnit,
     beside,
     coprime,
     diagonal,
+    echelon,
     exponent,
     inverse,
     poly_divide,
     poly_modulo,
     poly_product,
     product,
+    rank,
     stack,
     stripped,
 )
@@ -140,6 +145,54 @@ def test_an_echelon_keeps_what_is_new_with_pivots_1() -> None:
     with pytest.raises(NotAUnit):
         Echelon(6).add([2, 1])
     assert Echelon(6).add([0, 5]) == [0, 1]
+
+
+@pytest.mark.parametrize("ell", [2, 3, 7, 13, 19, 31, 61])
+def test_an_echelon_of_bytes_keeps_what_one_of_integers_keeps(ell: int) -> None:
+    rng = random.Random(ell)
+    n, size = 2 * BLOCK + 30, 2 * BLOCK + 9
+    basis = [[rng.randrange(ell) for _ in range(n)] for _ in range(size)]
+    rows = basis[: 2 * BLOCK + 1] + [
+        [sum(f * x for f, x in zip(factors, column, strict=True)) % ell for column in columns]
+        for columns in [list(zip(*basis, strict=True))]
+        for factors in [[rng.choice((0, 1, rng.randrange(ell))) for _ in basis] for _ in range(40)]
+    ]
+    short, long = ByteEchelon(ell, n), Echelon(ell)
+    for row in rows:
+        assert (short.add(row) is None) == (long.add(row) is None)
+    assert short.count == long.count > 2 * BLOCK
+    for k, (pivots, numbers) in enumerate(short.blocks):
+        table = [number.to_bytes(n, "little") for number in numbers]
+        assert all(entry < ell for row in table for entry in row)
+        assert [[row[j] for j in pivots] for row in table] == [
+            [int(a == b) for b in range(len(table))] for a in range(len(table))
+        ]
+        earlier = [j for before, _ in short.blocks[:k] for j in before]
+        assert not any(row[j] for row in table for j in earlier)
+
+
+@pytest.mark.parametrize("ell", [6, 25, 60, 64])
+def test_an_echelon_of_bytes_claims_no_rank_that_is_not_there(ell: int) -> None:
+    rng, seen = random.Random(ell), 0
+    for _ in range(300):
+        A = Matrix([[rng.choice((0, 0, 1, 5, ell - 1)) for _ in range(4)] for _ in range(4)], 4)
+        basis = ByteEchelon(ell, 4)
+        try:
+            for row in A.modulo(ell):
+                basis.add(row)
+            seen += basis.count == 4
+        except NotAUnit:
+            pass
+        assert basis.count <= rank(A)
+    assert seen
+
+
+def test_ranks_take_bytes_up_to_a_small_modulus() -> None:
+    assert isinstance(echelon(SMALL, 3), ByteEchelon)
+    assert isinstance(echelon(SMALL + 1, 3), Echelon)
+    assert ByteEchelon(7, 3).add([0, 0, 0]) is None
+    assert ByteEchelon(7, 3).add([0, 3, 6]) == bytes([0, 1, 2])
+    assert ByteEchelon(7, 0).add([]) is None
 
 
 def fractions(*numbers: object) -> list[Fraction]:

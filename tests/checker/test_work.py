@@ -18,6 +18,7 @@ import pytest
 from mcexact import MultiChannelSystem, check, fixed_spectrum
 from mcexact.checker import budget, kinds
 from mcexact.checker.arithmetic import (
+    ByteEchelon,
     Echelon,
     Matrix,
     Polynomial,
@@ -312,7 +313,8 @@ CHARGED = {
     "a sum": lambda: SQUARE + SQUARE,
     "residues": lambda: SQUARE.modulo(11),
     "a rank": lambda: rank(SQUARE),
-    "a row of an echelon form": lambda: Echelon(11).add(ROWS[0]),
+    "a row of an echelon form": lambda: Echelon(101).add(ROWS[0]),
+    "a row of an echelon form of bytes": lambda: ByteEchelon(11, 2).add([1, 2]),
     "a characteristic polynomial": lambda: characteristic_polynomial(SQUARE),
     "a product of polynomials": lambda: poly_product(POLYNOMIAL, POLYNOMIAL),
     "a division": lambda: poly_divide(POLYNOMIAL, POLYNOMIAL, 11),
