@@ -118,6 +118,8 @@ from .derived.constructions import lifted_system as lifted_system
 from .derived.constructions import merged as merged
 from .derived.constructions import restricted as restricted
 from .derived.constructions import setpoint_system as setpoint_system
+from .derived.constructions import slow_system as slow_system
+from .derived.constructions import union_graph as union_graph
 from .derived.drawn.systems import Draw as Draw
 from .derived.variants import Variant as Variant
 from .derived.variants import neighbor_graph_variants as neighbor_graph_variants

@@ -44,6 +44,7 @@ from mcexact.derived.constructions import (
     rearranged,
     restricted,
     setpoint_system,
+    slow_system,
 )
 from mcexact.errors import InputError, InternalError, place_of, require_seconds, telling
 from mcexact.exact.linear_algebra import PolynomialMatrix
@@ -494,6 +495,7 @@ _CONSTRUCTIONS: Mapping[
     "integrators": lambda system, _: setpoint_system(system),
     "merged": lambda system, data: merged(system, data["parts"]),
     "restricted": lambda system, data: restricted(system, data["channels"]),
+    "slow": lambda system, data: slow_system(system, data["window"]),
     "error": lambda system, data: error_system(system, _gains(data, [system.n] * system.m)),
     "closed_loop": _closed_loop,
 }

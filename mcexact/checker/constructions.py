@@ -212,7 +212,7 @@ def _terms(system: System, agents: list[Json], i: int, place: str) -> list[Terms
     return result
 
 
-# Constructions ``augmented_outputs``, ``arcs``, ``extended``, ``lifted`` and ``held``.
+# Constructions ``augmented_outputs``, ``arcs``, ``extended``, ``lifted``, ``held`` and ``slow``.
 
 SHARED = {"outputs+states": "outputs and sub-states", "states": "sub-states"}
 
@@ -337,6 +337,40 @@ def _delayed(system: System, share: str, sizes: list[int], place: str, hold: boo
     return prefixed(words, system, A=stack(rows, total), B=B, C=C)
 
 
+def slow(system: System, step: dict[str, Json], place: str) -> System:
+    """A^Q, [A^{n−1}B_i … B_i] and [C_i; …; C_iA^{n−1}], with the delay 1 on every link.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (window,) = fields(step, place, "window")
+    require(system.time == "discrete", "subject", place, "expected a plant in discrete time")
+    N, n = neighbors_of(system, place), system.n
+    Q = integer(window, f"{place}.window")
+    enough = max(2 * n, 1)
+    require(enough <= Q, "subject", place, f"expected a window of at least {enough} steps")
+    spend(table(n, n) * n)
+    powers = [Matrix.unit_rows(n, 0, n)]
+    for _ in range(n - 1):
+        powers.append(powers[-1] @ system.A)
+    inputs = [[P @ B_i for P in reversed(powers[:n])] for B_i in system.B]
+    outputs = [[C_i @ P for P in powers[:n]] for C_i in system.C]
+    whole, square = powers[0], system.A
+    while Q:
+        if Q % 2:
+            whole = whole @ square
+        Q //= 2
+        if Q:
+            square = square @ square
+    return prefixed(
+        f"the system in windows of {window} steps",
+        system,
+        A=whole,
+        B=[beside(parts, n) for parts in inputs],
+        C=[stack(parts, n) for parts in outputs],
+        delays={(i, j): 1 for i, N_i in enumerate(N) for j in N_i if j != i},
+    )
+
+
 # Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``restricted`` and others.
 
 
@@ -453,7 +487,7 @@ LINE = "line"
 """The construction that only plants with parameters have, and before all others."""
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
 CONSTRUCTIONS = {
-    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, restricted)
+    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, restricted, slow)
 }
 
 

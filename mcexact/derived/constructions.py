@@ -1102,6 +1102,120 @@ def held_system(
     return exchanged(system, graph, construction, lambda i, j: late[j])
 
 
+# Neighbor graphs that vary with time, in discrete time: the plant in windows of several steps.
+#
+# Over a graph that varies, no single graph need be connected.  If every window of Q steps shows all
+# links of one graph, agents can act as if they had that graph and a longer step, the window: they
+# measure in its first n steps with all inputs 0, act in its last n steps, and send the same
+# sub-state throughout, which every follower has received when the window ends, and uses in the next
+# one.  That is the held system of section V-B, with the delay 1 on every link.
+
+
+def union_graph(graphs: Sequence[NeighborGraph]) -> NeighborGraph:
+    """Return the graph of all links that occur in some of these graphs, without delays.
+
+    Parameters
+    ----------
+    graphs : sequence of NeighborGraph
+        At least one, on the same agents in the same order, such as those of one period.
+
+    Raises
+    ------
+    InputError
+        If there is no graph, the agents differ, or a graph has delays.
+
+    Examples
+    --------
+    >>> names = ("1", "2", "3")
+    >>> graphs = [NeighborGraph(names, [[1], [], []]), NeighborGraph(names, [[], [2], []])]
+    >>> union_graph(graphs).neighbors
+    ((0, 1), (1, 2), (2,))
+    """
+    if not graphs:
+        raise InputError("expected at least one graph, found none", where="graphs")
+    first = graphs[0]
+    for k, graph in enumerate(graphs):
+        InputError.require(graph, NeighborGraph, f"graphs[{k}]")
+        if graph.names != first.names:
+            raise InputError("expected the agents of the first graph", where=f"graphs[{k}]")
+        if graph.delays:
+            raise InputError("expected a graph without delays", where=f"graphs[{k}]")
+    heard = [{j for graph in graphs for j in graph.neighborhood(i)} for i in range(first.m)]
+    return NeighborGraph(first.names, heard)
+
+
+def slow_system(
+    system: MultiChannelSystem,
+    window: int,
+    graphs: NeighborGraph | Sequence[NeighborGraph] | None = None,
+) -> MultiChannelSystem:
+    """Take Q steps of a plant as one: measurements in the first n of them, inputs in the last n.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant in discrete time, with n states.
+    window : int
+        Q ≥ 2n, such that every window of Q steps shows every link of the union of the graphs.  If
+        the graphs repeat with a period, a window that is at least as long does.
+    graphs : NeighborGraph, or sequence of them, optional
+        The graphs of one period, or their union; overrides ``system.neighbors``.
+
+    Returns
+    -------
+    MultiChannelSystem
+        With n states, n p_i inputs and n q_i outputs of channel i, over the union of the graphs
+        with the delay 1 on every link::
+
+            A_Q = A^Q,   B_Q,i = [A^{n−1} B_i  …  A B_i  B_i],   C_Q,i = [C_i; …; C_i A^{n−1}]
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, the system is in continuous time, or the window is shorter.
+    LimitReached
+        If there would be too many inputs or outputs.
+
+    Notes
+    -----
+    Exact.  x(t + Q) = A^Q x(t) + Σ_i Σ_k A^{n−1−k} B_i u_i(t + Q − n + k), and y_i(t + k) =
+    C_i A^k x(t) for k < n.  So a controller of `held_system` of the result, which reads all outputs
+    of a window and then gives all inputs of it, is one over the graphs that vary.  With the bound
+    (27) of the result as dimensions no mode is fixed; that this suffices is a sufficient condition.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[2]], [[[1]], [[0]]], [[[0]], [[1]]], time="discrete")
+    >>> one, other = NeighborGraph(plant.names, [[1], []]), NeighborGraph(plant.names, [[], [0]])
+    >>> slow = slow_system(plant, 2, [one, other])
+    >>> slow.A.numerators, slow.neighbors.edges()
+    (((4,),), ((0, 1), (1, 0)))
+    >>> slow.neighbors.delay(0, 1)
+    1
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    if isinstance(graphs, NeighborGraph):
+        graphs = [graphs]
+    system, graph = with_graph(system, None if graphs is None else union_graph(graphs))
+    require_discrete(system)
+    n, m = system.n, system.m
+    if type(window) is not int or window < max(2 * n, 1):
+        expected = f"expected an integer of at least {max(2 * n, 1)}, found {window!r}"
+        raise UsageError(expected, where="window")
+    require_size(n * max((system.p(i) + system.q(i) for i in range(m)), default=0))
+    powers = [Matrix.identity(n)]
+    for _ in range(n - 1):
+        powers.append(system.A @ powers[-1])
+    late = [(i, j, 1) for j, i in graph.edges()]
+    return system.derived(
+        system.A.power(window),
+        [hstack([P @ system.B(i) for P in reversed(powers[:n])], nrows=n) for i in range(m)],
+        [vstack([system.C(i) @ P for P in powers[:n]], ncols=n) for i in range(m)],
+        {"construction": "slow", "window": window},
+        neighbors=NeighborGraph(graph.names, graph.neighbors, late),
+    )
+
+
 # The open-loop error system of the distributed observer.
 
 

@@ -488,6 +488,7 @@ _GRAPH_IN_USE = frozenset(
         "lifted",
         "merged",
         "restricted",
+        "slow",
     }
 )
 

@@ -38,6 +38,7 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "extended": lambda: mcexact.extended_system(PLANT, [1, 2], "states"),
     "lifted": lambda: mcexact.lifted_system(PLANT, [1, 0]),
     "held": lambda: mcexact.held_system(PLANT, [0, 2]),
+    "slow": lambda: mcexact.slow_system(PLANT, 2 * PLANT.n),
     "integrators": lambda: mcexact.setpoint_system(PLANT),
     "merged": lambda: mcexact.merged(PLANT, [["a", "b"]]),
     "restricted": lambda: mcexact.restricted(PLANT, ["b"]),

@@ -26,6 +26,7 @@ from mcexact.derived.constructions import (
     merged,
     restricted,
     setpoint_system,
+    slow_system,
 )
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
@@ -118,6 +119,7 @@ BUILDS: dict[str, list[Build]] = {
         lambda rng, s: lifted_system(s, sizes(rng, s), share="states"),
     ],
     "merged": [lambda rng, s: merged(s, drawn_parts(rng, s))],
+    "slow": [lambda rng, s: slow_system(s, max(2 * s.n, 1) + rng.randint(0, 2))],
     "restricted": [lambda rng, s: restricted(s, rng.sample(s.names, rng.randint(1, s.m)))],
 }
 
@@ -149,7 +151,7 @@ def test_a_plant_without_parameters_has_no_line() -> None:
 @pytest.mark.parametrize("name", sorted(CONSTRUCTIONS))
 def test_every_construction_is_built_as_the_finder_builds_it(name: str) -> None:
     rng = random.Random(name)
-    delayed = name in ("held", "lifted")
+    delayed = name in ("held", "lifted", "slow")
     for _ in range(25):
         for build in BUILDS[name]:
             domain = "discrete" if delayed else rng.choice(["continuous", "discrete"])

@@ -25,6 +25,7 @@ from mcexact.derived.constructions import (
     merged,
     restricted,
     setpoint_system,
+    slow_system,
 )
 from mcexact.exact.matrix import Matrix
 from mcexact.model.loop import closed_loop
@@ -77,6 +78,7 @@ def test_checker_and_package_build_the_same_subjects(drawn, seed):
     rebuilt(extended_system(more, sizes, rng.choice(SHARES)))
     rebuilt(lifted_system(system, sizes, rng.choice(SHARES)))
     rebuilt(held_system(system, sizes))
+    rebuilt(held_system(slow_system(system, max(2 * system.n, 1)), sizes))
     rebuilt(setpoint_system(system))
     rebuilt(restricted(dual(system), rng.sample(system.names, rng.randint(1, m))))
     rebuilt(dual(merged(system, [system.names[k::2] for k in range(min(m, 2))])))

@@ -216,6 +216,44 @@ def line(system: System, _: Mapping[str, Any]) -> System:
     return system
 
 
+def slow(system: System, given: Mapping[str, Any]) -> System:
+    """Windows of Q steps: all outputs of the first n steps, all inputs of the last n."""
+    Q, n = integer(given["window"], 1), system.n
+    graph = system.graph()
+    demand(system.time == "discrete" and Q >= 2 * n, "expected discrete time and Q at least 2n")
+    powers = [identity(n)]
+    for _ in range(Q):
+        powers.append(powers[-1] * system.A)
+    B = tuple(
+        fmpq_mat(
+            n,
+            n * B_i.ncols(),
+            [
+                (powers[n - 1 - k] * B_i)[row, column]
+                for row in range(n)
+                for k in range(n)
+                for column in range(B_i.ncols())
+            ],
+        )
+        for B_i in system.B
+    )
+    C = tuple(
+        fmpq_mat(
+            n * C_i.nrows(),
+            n,
+            [
+                (C_i * powers[k])[row, column]
+                for k in range(n)
+                for row in range(C_i.nrows())
+                for column in range(n)
+            ],
+        )
+        for C_i in system.C
+    )
+    late = {(i, j): 1 for i, heard in enumerate(graph) for j in heard if j != i}
+    return replace(system, A=powers[Q], B=B, C=C, delays=late)
+
+
 Build = Callable[[System, Mapping[str, Any]], System]
 CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "augmented_outputs": ((), augmented_outputs),
@@ -226,6 +264,7 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "extended": (("share", "dimensions"), extended),
     "lifted": (("share", "dimensions"), lambda system, g: lifted(system, *shares(system, g))),
     "held": (("dimensions",), lambda system, g: held(system, shares(system, g)[0])),
+    "slow": (("window",), slow),
     "integrators": ((), integrators),
     LINE: (("parameter", "point", "direction"), line),
     "error": (("gains",), error),

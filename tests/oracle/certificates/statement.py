@@ -204,6 +204,8 @@ def _words(step: Mapping[str, Any], system: System) -> str:
     if kind == "closed_loop":
         shown = digested(_controller(step["controller"], system))
         return f"the closed loop with the controller with {shown} of: "
+    if kind == "slow":
+        return f"the system in windows of {step['window']} steps of: "
     if kind in ("extended", "lifted", "held"):
         how = {
             "extended": "without delays sharing",

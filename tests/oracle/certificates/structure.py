@@ -79,8 +79,9 @@ def neighbor_graph(claim: Any, witness: Any, system: System) -> bool:
 
 def sharing_gap(claim: Any, witness: Any, system: System) -> bool:
     """All pairs of sets, and all sets: attained, and not exceeded."""
-    found = record(claim, "relays", "relays_at_most", "boundary", "boundary_at_most")
-    relays, most, boundary, farthest = (integer(each, 0) for each in found.values())
+    keys = ("relays", "relays_at_most", "boundary", "boundary_at_most")
+    found = record(claim, *keys)
+    relays, most, boundary, farthest = (integer(found[key], 0) for key in keys)
     graph = [set(heard) for heard in system.graph()]
     between, around = numbers_of_relays(graph), boundary_sizes(graph)
     return (

@@ -13,9 +13,9 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "integrators", "error", "merged", "restricted", "closed_loop", "line",
+    "slow", "integrators", "error", "merged", "restricted", "closed_loop", "line",
 )  # fmt: skip
-NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "error")
+NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "slow", "error")
 LARGEST = 12
 
 
@@ -30,7 +30,7 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
     """One construction, or None if it does not apply."""
     if system.heard is None and name in NEEDS_GRAPH:
         return None
-    if system.time == "continuous" and name in ("lifted", "held"):
+    if system.time == "continuous" and name in ("lifted", "held", "slow"):
         return None
     if name == "line":  # only of plants with parameters, which `drawn_on_a_line` draws
         return None
@@ -55,6 +55,8 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
         if name != "held":
             step["share"] = rng.choice(("outputs+states", "states"))
         step["dimensions"] = [rng.choice((0, 1, 1, 2)) for _ in range(m)]
+    elif name == "slow":
+        step["window"] = max(2 * system.n, 1) + rng.choice((0, 0, 1, 2, -1))
     elif name == "merged":
         labels = [rng.randrange(m) for _ in range(m)]
         parts = [

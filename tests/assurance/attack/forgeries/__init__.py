@@ -57,6 +57,7 @@ FORGERS = {
     "sector": performance.SECTORS,
     "setpoint": structure.SETPOINT,
     "shared_dimensions": sharing.DIMENSIONS,
+    "sharing_gap": structure.GAP,
     "single_channel_gains": gains.SINGLE,
     "stability": loops.STABILITY,
     "transfer_graph": structure.GRAPH,

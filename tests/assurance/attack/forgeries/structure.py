@@ -537,3 +537,28 @@ GRAPH = (missing_edge, extra_edge, all_edges, unsorted_edges)
 ASSIGNABILITY = (smaller_realization, outputs_alone, larger_realization, whole_space)
 COMPLEMENTARY = (no_zeros, split_zeros, improper_subset)
 SETPOINT = (other_rank, other_zero, lower_rank_kept)
+
+
+def other_gap(rng: random.Random, document: Document) -> Document:
+    """Other numbers of a neighbor graph, with other sets, or with a tree that proves less."""
+    claim, witness = document["claim"], document["witness"]
+    names = [channel["name"] for channel in document["system"]["channels"]]
+
+    def some() -> list[str]:
+        return [name for name in names if rng.random() < 0.5]
+
+    for key in ("receivers", "senders", "dominating"):
+        if rng.random() < 0.4:
+            witness[key] = some()
+    if rng.random() < 0.5:
+        claim["boundary"] = len(names) - len(witness["dominating"])
+    for key in claim:
+        if rng.random() < 0.3:
+            claim[key] = max(claim[key] + rng.choice((-1, 1)), 0)
+    if rng.random() < 0.3:
+        weight = rng.choice((1, 2, "1/2"))
+        witness["tree"] = [{"multipliers": [[k, weight] for k in range(len(names))]}]
+    return document
+
+
+GAP = (other_gap,)
