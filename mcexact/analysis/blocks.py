@@ -84,14 +84,16 @@ def best_sequences(
     before = -1
     for ell in MODULI if system.n < LARGE else MODULI[1:]:
         if denominator % ell:
-            best = _longest(ModularSystem(system, ell), random.Random(ell), through)
+            best = longest_sequence(ModularSystem(system, ell), random.Random(ell), through)
             yield best
             if best.degree in (before, system.n):
                 return
             before = best.degree
 
 
-def _longest(modular: ModularSystem, rng: random.Random, through: str | None) -> KrylovSequence:
+def longest_sequence(
+    modular: ModularSystem, rng: random.Random, through: str | None
+) -> KrylovSequence:
     """The longest sequence of a few channels for drawn gains."""
     system, ell = modular.system, modular.modulus
     gains, starts = drawn_gains(modular, rng), _starts(system, ell, rng, through)

@@ -15,7 +15,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import (
+    Block,
+    KrylovSequence,
+    RateInterval,
+    RootDisc,
+    ShrunkSubspace,
+    ZeroTransfer,
+)
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
 from mcexact.answer.structure import TransferGraph
 from mcexact.exact.linear_algebra import PolynomialMatrix
@@ -295,6 +302,56 @@ class Completeness(Answer):
 
 
 @dataclass(frozen=True)
+class Degree(Part):
+    """The McMillan degree of C_c (xI − A)⁻¹ B_c, from above and from below.
+
+    With A, B and C of the states P, the realization on ker W / im U has the same transfer matrix,
+    and |P| less the rows of W and the columns of U as its dimension.
+
+    Attributes
+    ----------
+    states : tuple of int, or None
+        P: no path from the inputs of c to its outputs leaves these states; None for all.
+    annihilator : Matrix
+        W: its columns ``pivots`` form the identity, WA = (WA)[:, pivots] W, WB = 0.
+    pivots : tuple of int
+    kernel : Matrix
+        U', whose columns ``kernel_pivots`` form the identity: AU = UY, CU = 0 and WU = 0.
+    kernel_pivots : tuple of int
+    sequence : KrylovSequence or None
+        Of all channels of c as one channel, of the same degree as the realization; None if it is 0.
+    """
+
+    states: tuple[int, ...] | None
+    annihilator: Matrix
+    pivots: tuple[int, ...]
+    kernel: Matrix
+    kernel_pivots: tuple[int, ...]
+    sequence: KrylovSequence | None
+
+    @property
+    def number(self) -> int:
+        """The McMillan degree."""
+        return 0 if self.sequence is None else self.sequence.degree
+
+
+@dataclass(frozen=True)
+class ByDegrees(Part):
+    """Evidence by one sequence for each strong component.
+
+    Attributes
+    ----------
+    transfer_graph : TransferGraph
+        The transfer graph of the same system.
+    degrees : tuple of Degree
+        One for each block.
+    """
+
+    transfer_graph: TransferGraph
+    degrees: tuple[Degree, ...]
+
+
+@dataclass(frozen=True)
 class MinimalRealization(Part):
     """A minimal realization of C_c (xI − A)⁻¹ B_c: the subspace im X, reduced by the rows of W.
 
@@ -314,6 +371,25 @@ class MinimalRealization(Part):
     pivots: tuple[int, ...]
     W: Matrix
     columns: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class ByRealizations(Part):
+    """Evidence of certificates written by earlier versions, which is read only.
+
+    Attributes
+    ----------
+    modulus : int
+        ℓ ≥ 2, modulo which the realizations are controllable and observable.
+    transfer_graph : TransferGraph
+        The transfer graph of the same system.
+    realizations : tuple of MinimalRealization
+        One for each block.
+    """
+
+    modulus: int
+    transfer_graph: TransferGraph
+    realizations: tuple[MinimalRealization, ...]
 
 
 @dataclass(frozen=True)
@@ -348,19 +424,13 @@ class Assignability(Answer):
     fixed_degree : int
         The number of eigenvalues, with multiplicity, that belong to no block and depend on no gain;
         0 if no mode is fixed.
-    modulus : int
-        ℓ ≥ 2, modulo which the realizations are controllable and observable.
-    transfer_graph : TransferGraph
-        The transfer graph of the same system.
-    realizations : tuple of MinimalRealization
-        One for each block.
+    evidence : ByDegrees or ByRealizations
+        The degrees of all blocks, and the transfer graph.
     """
 
     blocks: tuple[SpectrumBlock, ...] = claim()
     fixed_degree: int = claim()
-    modulus: int = witness()
-    transfer_graph: TransferGraph = witness()
-    realizations: tuple[MinimalRealization, ...] = witness()
+    evidence: ByDegrees | ByRealizations = witness(whole=True)
 
     @property
     def undivided(self) -> bool:

@@ -91,8 +91,8 @@ def require_identity(layers: Sequence[Matrix], pivots: list[int], place: str) ->
 
 def annihilator(
     rows: Json, columns: Json, place: str, A: Matrix, inputs: Iterable[Matrix]
-) -> tuple[list[int], Matrix]:
-    """Check that independent rows W satisfy W A = Z W and W B = 0, and return pivots and Z.
+) -> tuple[Matrix, Matrix]:
+    """Check that independent rows W satisfy W A = Z W and W B = 0, and return W and Z.
 
     Theorem ``controllability.uncontrollable_space``.
     """
@@ -104,7 +104,7 @@ def annihilator(
     require(WA.equals(Z @ W), "identity", f"{place}.annihilator", "W A is not Z W")
     unmoved = all((W @ B).is_zero() for B in inputs)
     require(unmoved, "identity", f"{place}.annihilator", "W B is not zero")
-    return pivots, Z
+    return W, Z
 
 
 def closed_loop(system: System, gains: Sequence[Matrix]) -> Matrix:

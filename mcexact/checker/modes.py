@@ -11,12 +11,15 @@ fixed mode lies in a region where fixed modes are allowed, and that the transfer
 connected if this is claimed, too.
 """
 
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from itertools import zip_longest
 
 from . import arithmetic, evidence, reading, structure
 from .arithmetic import (
+    Matrix,
     NotAUnit,
     Polynomial,
     characteristic_polynomial,
@@ -26,6 +29,7 @@ from .arithmetic import (
     poly_modulo,
     poly_product,
 )
+from .budget import spend
 from .evidence import Blocks, Loss, TwoPolynomials, by_blocks
 from .parametric_system import FunctionSystem
 from .reading import (
@@ -354,25 +358,30 @@ def _inverse(a: Polynomial, p: Polynomial, ell: int) -> Polynomial:
 
 
 def check_assignability(claim: Json, witness: Json, system: System) -> None:
-    """Check the components, and a minimal realization of the transfer within each.
+    """Check the components, and the McMillan degree of the transfer within each.
 
     Theorems ``assignability.assignability_rule``, ``assignability.component_own_gains``,
     ``assignability.mcmillan_degree``.
     """
     listed, left = fields(claim, "claim", "blocks", "fixed_degree")
-    number, graph, shown = fields(witness, "witness", "modulus", "transfer_graph", "realizations")
-    ell = evidence.modulus(number, "witness.modulus")
+    if isinstance(witness, dict) and "degrees" in witness:
+        graph, shown = fields(witness, "witness", "transfer_graph", "degrees")
+        require_degree = _require_degree
+    else:
+        keys = ("modulus", "transfer_graph", "realizations")
+        number, graph, shown = fields(witness, "witness", *keys)
+        require_degree = partial(_require_minimal, evidence.modulus(number, "witness.modulus"))
     known, proof = fields(graph, "witness.transfer_graph", "claim", "witness")
     structure.check_transfer_graph(known, proof, system)
     place = "claim.blocks"
     blocks = [fields(block, place, "channels", "dimension") for block in items(listed, place)]
     same = [c for c, _ in blocks] == known["components"]
     require(same, "component", place, "not the components of the transfer graph")
-    degrees, entries = [], items(shown, "witness.realizations", len(blocks))
+    degrees, entries = [], items(shown, "witness", len(blocks))
     for (component, size), entry in zip(blocks, entries, strict=True):
         c = names(component, place, system.names)
         degrees.append(integer(size, place))
-        _require_minimal(system, c, degrees[-1], entry, ell)
+        require_degree(system, c, degrees[-1], entry)
     fixed = integer(left, "claim.fixed_degree")
     require(fixed == system.n - sum(degrees), "degree", "claim.fixed_degree", "does not follow")
 
@@ -390,8 +399,66 @@ def assignability_statement(claim: Json, system: System) -> str:
     )
 
 
-def _require_minimal(system: System, c: list[int], d: int, value: Json, ell: int) -> None:
-    """Stop unless C_c (xI − A)⁻¹ B_c has a minimal realization of dimension d."""
+def _require_degree(system: System, c: list[int], d: int, value: Json) -> None:
+    """Stop unless C_c (xI − A)⁻¹ B_c has the McMillan degree d.
+
+    The realization on ker W / im U has the same transfer matrix, and a sequence of degree L has a
+    nonsingular Hankel matrix of L rows.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    place = "witness.degrees"
+    keys = ("states", "annihilator", "pivots", "kernel", "kernel_pivots", "sequence")
+    chosen, rows, columns, unseen, places, proof = fields(value, place, *keys)
+    A, B, C = system.A, evidence.inputs(system, c), evidence.outputs(system, c)
+    if chosen is not None:
+        at = {a: k for k, a in enumerate(positions(chosen, f"{place}.states", system.n))}
+        _require_paths_within(A, B, C, at)
+        A, B, C = (
+            arithmetic.within(A, at, at),
+            arithmetic.within(B, at, None),
+            arithmetic.within(C, None, at),
+        )
+    W, _ = evidence.annihilator(rows, columns, place, A, [B])
+    U, _ = evidence.annihilator(unseen, places, place, A.T, [C.T, W.T])
+    least = 0
+    if proof is not None:
+        merged = System(system.time, ["1"], A, [B], [C])
+        least = A.nrows - evidence.unmoved_degree(proof, f"{place}.sequence", merged)
+    most = A.nrows - W.nrows - U.nrows
+    require(most == d == least, "degree", place, f"it is from {least} to {most}")
+
+
+def _require_paths_within(A: Matrix, B: Matrix, C: Matrix, at: Mapping[int, int]) -> None:
+    """Stop unless all paths from inputs to outputs stay among some states.
+
+    What inputs and these states drive outside of these states leads to none of them, and is not
+    measured.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    arcs = arithmetic.entries_of(A)
+    spend(40 * (len(arcs) + A.nrows))
+    driven: list[list[int]] = [[] for _ in range(A.nrows)]
+    for a, b, _ in arcs:
+        driven[b].append(a)
+    measured = {b for _, b, _ in arithmetic.entries_of(C)}
+    rest = [a for a, _, _ in arithmetic.entries_of(B) if a not in at]
+    rest += [a for b in at for a in driven[b] if a not in at]
+    outside = set(rest)
+    while rest:
+        b = rest.pop()
+        stays = b not in measured and not any(a in at for a in driven[b])
+        require(stays, "path", "witness.degrees", "a path leaves the states")
+        rest += (new := set(driven[b]) - outside)
+        outside |= new
+
+
+def _require_minimal(ell: int, system: System, c: list[int], d: int, value: Json) -> None:
+    """Stop unless C_c (xI − A)⁻¹ B_c has a minimal realization of dimension d.
+
+    Certificates of earlier versions have these.
+    """
     place = "witness.realizations"
     rows, pivots, reduced, chosen = fields(value, place, "X", "pivots", "W", "columns")
     listed = [system.names[i] for i in c]

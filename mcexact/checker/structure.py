@@ -94,8 +94,8 @@ def check_controllability(claim: Json, witness: Json, system: System) -> None:
     T = names(listed, "claim.channels", system.names)
     d, n = integer(size, "claim.dimension"), system.n
     chi = polynomial(factor, "claim.uncontrollable_polynomial")
-    pivots, Z = annihilator(rows, columns, "witness", system.A, (system.B[i] for i in T))
-    require(len(pivots) == n - d, "dimension", "witness.pivots", f"expected {n} - {d} of them")
+    W, Z = annihilator(rows, columns, "witness", system.A, (system.B[i] for i in T))
+    require(W.nrows == n - d, "dimension", "witness.pivots", f"expected {n} - {d} of them")
     low = _by_blocks if by_blocks(witness) else _by_rank
     reached = low(system, T, *proof)
     require(reached >= d, "rank", "claim.dimension", f"only {reached} are proved to be reached")
@@ -210,12 +210,12 @@ def _require_growth(shown: list[Json], ranks: list[int], A: Matrix, B: Matrix) -
     Open: see ``proofs/OPEN.md``.
     """
     rows, columns, polynomials, chosen = shown
-    pivots, _ = annihilator(rows, columns, "witness", A, [B])
+    W, _ = annihilator(rows, columns, "witness", A, [B])
     degrees = relation_degrees(polynomials, chosen, A, B)
     step = B.ncols
     for k, (r, following) in enumerate(pairwise([*ranks, ranks[-1]])):
         step = min(step, B.ncols - sum(degree <= k for degree in degrees))
-        most = min(A.nrows - len(pivots), r + step)
+        most = min(A.nrows - W.nrows, r + step)
         message = f"the rank of {k + 1} blocks is shown to be at most {most}"
         require(following >= most, "rank", "claim.ranks", message)
         step = following - r

@@ -1,16 +1,196 @@
-"""The rule of ``assignability``: components of a graph, minimal realizations, degrees."""
+"""The rule of ``assignability``: components of a graph, and the degrees within them."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from tests.checker.handmade import (
     CHAIN,
     GRAPH,
     PAIR,
+    Document,
     certificate,
     changed,
     matrix,
+    plant,
 )
 from tests.checker.tables import accepts, rejects
+
+UNIT = matrix([1, 0], [0, 1])
+
+
+def sequence(recurrence: list[int], **others: Any) -> Document:
+    """The sequence of one input and one output without feedback, of a first number 1."""
+    return {
+        "modulus": 7,
+        "gains": [matrix([0])],
+        "channel": "1",
+        "inputs": [1],
+        "outputs": [1],
+        "recurrence": recurrence,
+        "cofactors": [[1], []],
+        **others,
+    }
+
+
+def degree(proof: Document | None, states: list[int] | None = None, **others: Any) -> Document:
+    """The evidence for one component, by default with all states that matter."""
+    none = {"annihilator": matrix(), "pivots": [], "kernel": matrix(), "kernel_pivots": []}
+    return {"states": states, "sequence": proof, **none, **others}
+
+
+ALONE = degree(sequence([0, 1]), [0])
+BOTH = {"transfer_graph": {"claim": GRAPH["claim"], "witness": GRAPH["witness"]}}
+ONE = {
+    "transfer_graph": {
+        "claim": {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
+        "witness": {"modulus": 7, "powers": [0], "zeros": []},
+    }
+}
+APART = certificate(
+    "assignability",
+    CHAIN,
+    {
+        "blocks": [{"channels": ["1"], "dimension": 1}, {"channels": ["2"], "dimension": 1}],
+        "fixed_degree": 0,
+    },
+    {**BOTH, "degrees": [ALONE, degree(sequence([0, 1]), [1])]},
+)
+"""A chain in two parts, each by the states on its paths."""
+ALL = certificate(
+    "assignability",
+    CHAIN,
+    APART["claim"],
+    {
+        **BOTH,
+        "degrees": [
+            degree(sequence([0, 1]), kernel=matrix([0, 1]), kernel_pivots=[1]),
+            degree(sequence([0, 1]), annihilator=matrix([1, 0]), pivots=[0]),
+        ],
+    },
+)
+"""The same by a state that is not observed, and by one that is not controlled."""
+FIXED_MODE = certificate(
+    "assignability",
+    PAIR,
+    {"blocks": [{"channels": ["1"], "dimension": 1}], "fixed_degree": 1},
+    {**ONE, "degrees": [degree(sequence([6, 1]), annihilator=matrix([0, 1]), pivots=[1])]},
+)
+MOVED = changed(
+    FIXED_MODE,
+    ("system.channels.0.B", [[1], [1]]),
+    ("witness.degrees.0", degree(sequence([6, 1]), kernel=matrix([0, 1]), kernel_pivots=[1])),
+)
+"""The input moves both modes, the output sees the first."""
+WHOLE_CHAIN = certificate(
+    "assignability",
+    plant([[0, 0], [1, 0]], ([[1], [0]], [[0, 1]])),
+    {"blocks": [{"channels": ["1"], "dimension": 2}], "fixed_degree": 0},
+    {
+        "transfer_graph": {
+            "claim": {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
+            "witness": {"modulus": 7, "powers": [1], "zeros": []},
+        },
+        # s = 0, 1, 0: x² s = 1
+        "degrees": [degree(sequence([0, 0, 1]))],
+    },
+)
+UNUSED = certificate(
+    "assignability",
+    plant([[1]], ([[0]], [[1]])),
+    {"blocks": [{"channels": ["1"], "dimension": 0}], "fixed_degree": 1},
+    {
+        "transfer_graph": {
+            "claim": {"arcs": [], "components": [["1"]], "strongly_connected": True},
+            "witness": {"modulus": 7, "powers": [], "zeros": []},
+        },
+        "degrees": [degree(None, [])],
+    },
+)
+NOT_SEEN = degree(None, kernel=matrix([1, 0], [0, 1]), kernel_pivots=[0, 1])
+NOT_MOVED = degree(None, [0, 2], annihilator=matrix([1, 0], [0, 1]), pivots=[0, 1])
+SMALLER = (("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 2))
+
+WRITTEN = [
+    ("a chain splits in two, by paths", APART),
+    ("a chain splits in two, by what is not controlled or not observed", ALL),
+    ("a mode that no gain moves", FIXED_MODE),
+    ("a mode that no gain moves, by paths", changed(
+        FIXED_MODE, ("witness.degrees.0", degree(sequence([6, 1]), [0])),
+    )),
+    ("a mode that is moved and not seen", MOVED),
+    ("a mode that is moved and not seen, by paths", changed(
+        MOVED, ("witness.degrees.0", degree(sequence([6, 1]), [0])),
+    )),
+    ("two states that the channel moves and sees", WHOLE_CHAIN),
+    ("more states than are on paths", changed(
+        FIXED_MODE, ("witness.degrees.0.states", [0, 1]),
+    )),
+    ("a channel without inputs", UNUSED),
+    ("a channel without inputs, by rows", changed(UNUSED, (
+        "witness.degrees.0", degree(None, annihilator=matrix([1]), pivots=[0]),
+    ))),
+    ("a sequence of a loop", changed(
+        FIXED_MODE, ("witness.degrees.0.sequence", sequence([5, 1], gains=[matrix([1])])),
+    )),
+]  # fmt: skip
+
+FALSE = [
+    ("a degree too high", FIXED_MODE, (
+        ("claim.blocks.0.dimension", 2), ("claim.fixed_degree", 0),
+        ("witness.degrees.0", degree(sequence([2, 4, 1]))),
+    ), "INVALID"),
+    ("a degree too high, by the dimension alone", FIXED_MODE, (
+        ("claim.blocks.0.dimension", 2), ("claim.fixed_degree", 0),
+        ("witness.degrees.0", degree(sequence([6, 1]))),
+    ), "INVALID"),
+    ("a degree too low, by nothing", FIXED_MODE, (
+        *SMALLER, ("witness.degrees.0.sequence", None),
+    ), "INVALID"),
+    ("a degree too low, by all states as kernel", FIXED_MODE, (
+        *SMALLER, ("witness.degrees.0", NOT_SEEN),
+    ), "INVALID"),
+    ("a degree too low, by no states", FIXED_MODE, (
+        *SMALLER, ("witness.degrees.0", degree(None, [])),
+    ), "INVALID"),
+    ("a state that counts twice, for rows and for columns", FIXED_MODE, (
+        *SMALLER, ("witness.degrees.0.sequence", None),
+        ("witness.degrees.0.kernel", matrix([0, 1])), ("witness.degrees.0.kernel_pivots", [1]),
+    ), "INVALID"),
+    ("rows that the input moves", FIXED_MODE, ("system.channels.0.B", [[1], [1]])),
+    ("rows that do not follow A", FIXED_MODE, ("system.A.1.0", 1)),
+    ("columns that the output sees", MOVED, ("system.channels.0.C", [[1, 1]])),
+    ("columns that do not follow A", MOVED, ("system.A.0.1", 1)),
+    ("a path that ends outside", WHOLE_CHAIN, (
+        ("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 2),
+        ("witness.degrees.0", degree(None, [0], annihilator=matrix([1]), pivots=[0])),
+    ), "INVALID"),
+    ("a path that begins outside", WHOLE_CHAIN, (
+        ("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 2),
+        ("witness.degrees.0", degree(None, [1], annihilator=matrix([1]), pivots=[0])),
+    ), "INVALID"),
+    ("a path through a state outside", changed(
+        WHOLE_CHAIN,
+        ("system", plant([[0, 0, 0], [1, 0, 0], [0, 1, 0]], ([[1], [0], [0]], [[0, 0, 1]]))),
+        ("claim.blocks.0.dimension", 3),
+        ("witness.transfer_graph.witness.powers", [2]),
+        ("witness.degrees.0", degree(sequence([0, 0, 0, 1]))),
+    ), (
+        ("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 3),
+        ("witness.degrees.0", NOT_MOVED),
+    ), "INVALID"),
+    ("a sequence of zeros", WHOLE_CHAIN, ("witness.degrees.0.sequence.inputs", [0])),
+    ("a recurrence that does not hold", FIXED_MODE, (
+        "witness.degrees.0.sequence.cofactors", [[], [1]],
+    )),
+    ("a sequence of another channel", APART, ("witness.degrees.0.sequence.channel", "2")),
+    ("degrees that do not sum to n", APART, ("claim.fixed_degree", 1)),
+    ("components in another order", APART, ("claim.blocks", APART["claim"]["blocks"][::-1])),
+    ("a degree missing", APART, ("witness.degrees", [ALONE]), "MALFORMED"),
+    ("states beyond all", APART, ("witness.degrees.0.states", [2]), "MALFORMED"),
+    ("states twice", APART, ("witness.degrees.0.states", [0, 0]), "MALFORMED"),
+    ("a key more", APART, ("witness.degrees.0.more", 1), "MALFORMED"),
+]  # fmt: skip
 
 UNIT = matrix([1, 0], [0, 1])
 SPLIT = certificate(
@@ -171,5 +351,7 @@ REJECTED = [
 ]
 
 
-test_sound_evidence_is_accepted = accepts(ACCEPTED)
-test_a_change_of_one_place_is_rejected = rejects(REJECTED)
+test_sound_evidence_is_accepted = accepts(WRITTEN)
+test_a_change_of_one_place_is_rejected = rejects(FALSE)
+test_sound_evidence_of_earlier_versions_is_accepted = accepts(ACCEPTED)
+test_a_change_in_what_earlier_versions_wrote_is_rejected = rejects(REJECTED)

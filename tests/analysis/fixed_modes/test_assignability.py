@@ -58,7 +58,7 @@ def test_without_fixed_modes_the_degrees_are_those_of_reachable_subspaces() -> N
             continue
         found = assignability(system)
         assert found.fixed_degree == 0
-        arcs = set(found.transfer_graph.arcs)
+        arcs = set(found.evidence.transfer_graph.arcs)
         for block in found.blocks:
             T = set(block.channels)
             while new := {i for j, i in arcs if j in T} - T:

@@ -158,17 +158,20 @@ def _acts(system: System, i: int, part: list[int]) -> bool:
 
 def _restricted(system: System, part: list[int], acting: list[int]) -> System:
     """Some states and channels by themselves."""
-
-    def picked(M: Any, rows: list[int], cols: list[int]) -> fmpq_mat:
-        return fmpq_mat(len(rows), len(cols), [M[i, j] for i in rows for j in cols])
-
     return System(
         system.time,
         picked(system.A, part, part),
         tuple(system.names[i] for i in acting),
-        tuple(picked(system.B[i], part, list(range(system.B[i].ncols()))) for i in acting),
-        tuple(picked(system.C[i], list(range(system.C[i].nrows())), part) for i in acting),
+        tuple(picked(system.B[i], part, None) for i in acting),
+        tuple(picked(system.C[i], None, part) for i in acting),
     )
+
+
+def picked(M: Any, rows: list[int] | None, cols: list[int] | None) -> fmpq_mat:
+    """Some rows and columns of a matrix; None for all."""
+    rows = list(range(M.nrows())) if rows is None else rows
+    cols = list(range(M.ncols())) if cols is None else cols
+    return fmpq_mat(len(rows), len(cols), [M[i, j] for i in rows for j in cols])
 
 
 def nothing_fixed(rng: random.Random, document: Document) -> Forged:

@@ -19,7 +19,7 @@ from tests.oracle.certificates.systems import System
 from tests.oracle.drawn.plants import Document, rows_of
 
 from ..mutators import copied
-from .sequences import blocks
+from .sequences import blocks, picked, sequence
 from .writing import (
     PRIME,
     coefficients,
@@ -277,9 +277,89 @@ def _connected_again(document: Document, names: Any) -> None:
     document["claim"]["strongly_connected"] = len(parts) <= 1
 
 
+def other_degree(rng: random.Random, document: Document) -> Forged:
+    """Another McMillan degree, by rows, columns, states or a sequence that do not show it."""
+    system, claim = subject_of(document), document["claim"]
+    if not claim["blocks"] or "degrees" not in document["witness"]:
+        return None
+    k = rng.randrange(len(claim["blocks"]))
+    shown = document["witness"]["degrees"][k]
+    c = positions(claim["blocks"][k]["channels"], system.names)
+    A, B, C = system.A, system.inputs(c), system.outputs(c)
+    states = shown["states"]
+    if rng.random() < 0.4:
+        states = [a for a in range(system.n) if rng.random() < 0.6]
+        states = None if rng.random() < 0.3 else states
+    if states is not None:
+        A, B, C = picked(A, states, states), picked(B, states, None), picked(C, None, states)
+    n = A.nrows()
+    proof, degree = shown["sequence"], claim["blocks"][k]["dimension"]
+    if rng.random() < 0.6:
+        merged = System(system.time, A, ("1",), (B,), (C,))
+        proof = sequence(rng, merged) if rng.random() < 0.7 else None
+        degree = len(proof["recurrence"]) - 1 if proof else 0
+    W, pivots = left_kernel(B) if rng.random() < 0.5 else (fmpq_mat(0, n), [])
+    U, places = left_kernel(C.transpose()) if rng.random() < 0.5 else (fmpq_mat(0, n), [])
+    parts = [(written(W)["entries"], pivots), (written(U)["entries"], places)]
+    denominators = [written(W)["denominator"], written(U)["denominator"]]
+    while sum(len(rows) for rows, _ in parts) > max(n - degree, 0):
+        rows, at = rng.choice([part for part in parts if part[0]])
+        rows.pop()
+        at.pop()
+    missing = n - degree - sum(len(rows) for rows, _ in parts)
+    if missing > 0 and rng.random() < 0.8:
+        side = rng.randrange(2)
+        free = [a for a in range(n) if a not in parts[side][1]]
+        chosen = sorted([*parts[side][1], *rng.sample(free, min(missing, len(free)))])
+        rows = [[int(a == b) for b in range(n)] for a in chosen]
+        parts[side], denominators[side] = (rows, chosen), 1
+    claim["fixed_degree"] += claim["blocks"][k]["dimension"] - degree
+    claim["blocks"][k]["dimension"] = degree
+    document["witness"]["degrees"][k] = {
+        "states": states,
+        "annihilator": {"denominator": denominators[0], "entries": parts[0][0]},
+        "pivots": parts[0][1],
+        "kernel": {"denominator": denominators[1], "entries": parts[1][0]},
+        "kernel_pivots": parts[1][1],
+        "sequence": proof,
+    }
+    return document
+
+
+def _by_realizations(document: Document) -> Document:
+    """The witness of an earlier version for a certificate; the minimal realizations are true."""
+    witness = document["witness"]
+    if "realizations" in witness:
+        return witness
+    system, shown = subject_of(document), []
+    for block in document["claim"]["blocks"]:
+        c = positions(block["channels"], system.names)
+        X, pivots = _controlled(system.A, system.inputs(c))
+        inner = picked(system.A * X, pivots, None)
+        seen = (system.outputs(c) * X).transpose()
+        V, columns = _controlled(inner.transpose(), seen)
+        W = {"W": written(V.transpose()), "columns": columns}
+        shown.append({"X": written(X), "pivots": pivots, **W})
+    document["witness"] = {
+        "modulus": PRIME, "transfer_graph": witness["transfer_graph"], "realizations": shown,
+    }  # fmt: skip
+    made: Document = document["witness"]
+    return made
+
+
+def _controlled(A: fmpq_mat, B: fmpq_mat) -> tuple[fmpq_mat, list[int]]:
+    """A basis of the controllable subspace as columns, with an identity matrix in some rows."""
+    n = A.nrows()
+    K = algebra.krylov(A, B, n)
+    reduced, rank = K.transpose().rref()
+    rows = reduced.tolist()[:rank]
+    pivots = [next(j for j in range(n) if row[j] != 0) for row in rows]
+    return fmpq_mat(rank, n, [v for row in rows for v in row]).transpose(), pivots
+
+
 def smaller_realization(rng: random.Random, document: Document) -> Forged:
     """A McMillan degree less, with a quotient that is none."""
-    claim, witness = document["claim"], document["witness"]
+    claim, witness = document["claim"], _by_realizations(document)
     large = [k for k, block in enumerate(claim["blocks"]) if block["dimension"]]
     if not large:
         return None
@@ -304,7 +384,7 @@ def outputs_alone(rng: random.Random, document: Document) -> Forged:
     if not claim["blocks"]:
         return None
     k = rng.randrange(len(claim["blocks"]))
-    shown = document["witness"]["realizations"][k]
+    shown = _by_realizations(document)["realizations"][k]
     rows, width = shown["X"], len(shown["pivots"])
     entries = [fmpq(v, rows["denominator"]) for row in rows["entries"] for v in row]
     c = positions(claim["blocks"][k]["channels"], system.names)
@@ -320,7 +400,7 @@ def outputs_alone(rng: random.Random, document: Document) -> Forged:
 
 def larger_realization(rng: random.Random, document: Document) -> Forged:
     """The whole reachable space as a realization, minimal or not."""
-    claim, witness = document["claim"], document["witness"]
+    claim, witness = document["claim"], _by_realizations(document)
     if not claim["blocks"]:
         return None
     k = rng.randrange(len(claim["blocks"]))
@@ -340,7 +420,7 @@ def whole_space(rng: random.Random, document: Document) -> Forged:
     k, n = rng.randrange(len(claim["blocks"])), system.n
     claim["fixed_degree"] += claim["blocks"][k]["dimension"] - n
     claim["blocks"][k]["dimension"] = n
-    document["witness"]["realizations"][k] = {
+    _by_realizations(document)["realizations"][k] = {
         "X": unit(n), "pivots": list(range(n)), "W": unit(n), "columns": list(range(n)),
     }  # fmt: skip
     return document
@@ -534,7 +614,13 @@ INDICES = (
     ranks_too_large,
 )
 GRAPH = (missing_edge, extra_edge, all_edges, unsorted_edges)
-ASSIGNABILITY = (smaller_realization, outputs_alone, larger_realization, whole_space)
+ASSIGNABILITY = (
+    *(other_degree,) * 8,
+    smaller_realization,
+    outputs_alone,
+    larger_realization,
+    whole_space,
+)
 COMPLEMENTARY = (no_zeros, split_zeros, improper_subset)
 SETPOINT = (other_rank, other_zero, lower_rank_kept)
 
