@@ -1,7 +1,11 @@
-"""Print every theorem in this folder, and fail if one of them rests on an assumption.
+"""Print every theorem in this folder, and fail if one of them rests on an assumption or says nothing.
 
 `theorems.txt` names for every rule of the checker the theorem that justifies it; each name there
-must be a theorem here, and be applied to a concrete system in one of the files `instances*.v`.
+must be a theorem here, and be applied to a concrete system in one of the files `instances*.v`.  A
+theorem that the ledger of the paper's statements cites has to be applied by a statement that has no
+hypothesis left and is about a system with two or more states and channels and A ≠ 0, or about a
+graph of two or more agents (`concrete.v`).  `real_numbers.v` alone may rest on axioms: those of
+the real numbers, which are printed apart.
 """
 
 from __future__ import annotations
@@ -11,10 +15,24 @@ import re
 import subprocess
 import sys
 import tempfile
+import tomllib
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 CLOSED = "Closed under the global context"
 HERE = Path(__file__).parent
+LEDGER = HERE.parent / "mcexact" / "reproduce"
+WITH_AXIOMS = "real_numbers"
+"""The file that may rest on axioms."""
+AXIOMS = {
+    "ClassicalDedekindReals.sig_forall_dec": "Coq's real numbers",
+    "ClassicalDedekindReals.sig_not_dec": "Coq's real numbers",
+    "FunctionalExtensionality.functional_extensionality_dep": "Coq's real numbers",
+    "boolp.functional_extensionality_dep": "mathcomp-analysis",
+    "boolp.propositional_extensionality": "mathcomp-analysis",
+    "boolp.constructive_indefinite_description": "mathcomp-analysis",
+}
+"""These axioms, and what declares each."""
 
 
 def theorems() -> list[str]:
@@ -40,47 +58,134 @@ def listed() -> list[str]:
     return [line.split()[0] for line in lines if line.strip() and not line.startswith("#")]
 
 
-def applied() -> set[str]:
-    """What the files of instances refer to, by the record that Coq keeps of every reference."""
-    reference = re.compile(r"^R\d+:\d+ mcexact\.(\w+) \S+ (\w+) thm$", re.MULTILINE)
-    found = set()
-    for source in sorted(HERE.glob("instances*.v")):
-        record = source.with_suffix(".glob").read_text(encoding="utf-8")
-        if record.split()[:2] != ["DIGEST", hashlib.md5(source.read_bytes()).hexdigest()]:
-            raise SystemExit(f"{source.name} has changed since it was compiled")
-        found |= {".".join(names) for names in reference.findall(record)}
+def cited() -> set[str]:
+    """The theorems that the ledger cites, for statements of the paper and for examinations."""
+    files = [tomllib.loads(path.read_text("utf-8")) for path in sorted(LEDGER.glob("*.toml"))]
+    rows = (row for file in files for name in ("statement", "examination") for row in file.get(name, ()))
+    return {name for row in rows for name in row.get("proofs", ())}
+
+
+def instances() -> list[Path]:
+    """The files that apply theorems to concrete systems."""
+    return [*sorted(HERE.glob("instances*.v")), HERE / f"{WITH_AXIOMS}.v"]
+
+
+def used_by(record: list[str], stem: str) -> dict[str, set[str]]:
+    """Each theorem, and the statements of a file that are proved by it.
+
+    From the record that Coq keeps of every definition and reference, in the order of the file: what
+    is referred to belongs to the definition before it.
+    """
+    entry = re.compile(
+        r"(?:(?:prf|def|inst) \d+:\d+ <> (?P<made>\w+)|R\d+:\d+ mcexact\.(?P<file>\w+) \S+ (?P<used>\w+) thm)$"
+    )
+    found: dict[str, set[str]] = {}
+    here = ""
+    for match in filter(None, map(entry.match, record)):
+        if match["made"]:
+            here = f"{stem}.{match['made']}"
+        elif here:
+            found.setdefault(f"{match['file']}.{match['used']}", set()).add(here)
     return found
+
+
+def applications() -> dict[str, set[str]]:
+    """Each theorem, and the statements that the files of instances prove by it."""
+    found: dict[str, set[str]] = {}
+    for source in instances():
+        record = source.with_suffix(".glob").read_text(encoding="utf-8").splitlines()
+        if record[0].split() != ["DIGEST", hashlib.md5(source.read_bytes()).hexdigest()]:
+            raise SystemExit(f"{source.name} has changed since it was compiled")
+        for name, made in used_by(record, source.stem).items():
+            found.setdefault(name, set()).update(made)
+    return found
+
+
+def answers(text: str, flags: list[str]) -> subprocess.CompletedProcess[str]:
+    """What Coq says about some sentences."""
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder) / "asked.v"
+        source.write_text(text, encoding="utf-8")
+        command = ["coqc", *flags, str(source)]
+        return subprocess.run(command, cwd=HERE, capture_output=True, text=True, check=False)
+
+
+def required(names: Iterable[str]) -> str:
+    """The sentence that loads the files of some names."""
+    return f"From mcexact Require {' '.join(sorted({name.split('.')[0] for name in names}))}.\n"
+
+
+def concrete(names: set[str], flags: list[str]) -> dict[str, str]:
+    """Of each statement, whether it is CONCRETE, ABSTRACT (about no concrete system) or has HYPOTHESES."""
+    asked = "".join(
+        f"Goal True. let T := type of (@{name}) in cut T; [exact (fun _ => I) | first [cbv zeta; without_hypotheses; "
+        f'first [about_concrete; idtac "CONCRETE {name}" | idtac "ABSTRACT {name}"] | idtac "HYPOTHESES {name}"]]. Abort.\n'
+        for name in sorted(names)
+    )
+    load = "From mathcomp Require Import all_ssreflect all_algebra.\nFrom mcexact Require Import concrete.\n"
+    run = answers(f"{load}{required(names)}{asked}", flags)
+    if run.returncode:
+        raise SystemExit(run.stderr)
+    return {name: word for word, name in (line.split() for line in run.stdout.splitlines())}
+
+
+def vacuous(wanted: set[str], flags: list[str]) -> Iterator[str]:
+    """The theorems that no statement without hypotheses applies to a concrete system, and what was found."""
+    applied = applications()
+    candidates = {name for theorem in wanted for name in applied.get(theorem, ())}
+    said = concrete(candidates, flags)
+    for theorem in sorted(wanted):
+        found = {name: said.get(name, "") for name in applied.get(theorem, ())}
+        if "CONCRETE" not in found.values():
+            yield f"{theorem}: {', '.join(f'{name} ({word})' for name, word in sorted(found.items())) or 'not applied'}"
+
+
+def rests_on(names: list[str], flags: list[str]) -> list[str]:
+    """What Coq prints as the assumptions of some theorems together."""
+    uses = "".join(f"assert (H := @{name}); clear H.\n" for name in names)
+    run = answers(
+        f"{required(names)}Lemma all_theorems : True.\nProof.\n{uses}exact I.\nQed.\n"
+        "Print Assumptions all_theorems.\n",
+        flags,
+    )
+    return run.stdout.splitlines() if not run.returncode else [run.stderr]
 
 
 def main(flags: list[str]) -> int:
     """Compile one file that uses every theorem, and read what it rests on."""
     names = theorems()
-    missing = sorted(set(listed()) - set(names))
+    missing = sorted((set(listed()) | cited()) - set(names))
     if missing:
         print("listed, but not a theorem:", ", ".join(missing))
         return 1
-    vacuous = sorted(set(listed()) - applied())
-    if vacuous:
-        print("listed, but never applied in instances*.v:", ", ".join(vacuous))
+    unused = sorted(set(listed()) - set(applications()))
+    if unused:
+        print("listed, but never applied in instances*.v:", ", ".join(unused))
         return 1
-    files = " ".join(sorted({name.split(".")[0] for name in names}))
-    uses = "".join(f"assert (H := @{name}); clear H.\n" for name in names)
-    with tempfile.TemporaryDirectory() as folder:
-        source = Path(folder) / "assumptions_all.v"
-        source.write_text(
-            f"From mcexact Require {files}.\n"
-            f"Lemma all_theorems : True.\nProof.\n{uses}exact I.\nQed.\n"
-            "Print Assumptions all_theorems.\n"
-        )
-        command = ["coqc", *flags, str(source)]
-        run = subprocess.run(command, cwd=HERE, capture_output=True, text=True, check=False)
+    empty = list(vacuous(cited(), flags))
+    if empty:
+        print("cited by the ledger, but applied to no concrete system without hypotheses:")
+        print("\n".join(empty))
+        return 1
     for name in names:
         print(name)
-    if run.returncode or run.stdout.splitlines() != [CLOSED]:
-        print(run.stdout, run.stderr)
+    real = [name for name in names if name.startswith(f"{WITH_AXIOMS}.")]
+    pure = [name for name in names if name not in real]
+    found = rests_on(pure, flags)
+    if found != [CLOSED]:
+        print("\n".join(found))
         return 1
-    print(f"{len(names)} theorems, all: {CLOSED}")
+    axioms = re.findall(r"^(\w[\w.]*)\s*:?", "\n".join(rests_on(real, flags)[1:]), re.MULTILINE)
+    undeclared = [name for name in axioms if name not in AXIOMS]
+    if undeclared:
+        print("axioms that are not those of the real numbers:", ", ".join(undeclared))
+        return 1
+    print(f"{len(pure)} theorems, all: {CLOSED}")
     print(f"{len(listed())} listed in theorems.txt, each applied to a concrete system")
+    print(f"{len(cited())} cited by the ledger, each without hypotheses and about a concrete system or graph")
+    print(f"{len(real)} theorems of {WITH_AXIOMS}.v, which rest on the axioms of the real numbers:")
+    for name in axioms:
+        print(f"  {name} ({AXIOMS[name]})")
     return 0
 
 

@@ -21,7 +21,7 @@ From mcexact Require Import delays delayed_transfer brasch_pearson theorem_1 dis
 From mcexact Require Import corollary_1 construction strong_components component_gains.
 From mcexact Require Import component_assignment integrators trajectories dynamic_controllers.
 From mcexact Require Import example example_hypotheses almost_all_gains two_sided_gains wang_davison.
-From mcexact Require Import convergence.
+From mcexact Require Import convergence sharing_gap any_graph bound_reached nested_sets even_spectrum.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -495,6 +495,70 @@ Definition bound_27 := forall i s (lambda : C), s != set0 -> s != setT -> eigenv
 Theorem theorem_2 : strongly_connected_neighbors -> bound_26 -> no_fixed_mode (extended N k S).
 Proof. by move=> connected h; exact: extended_bound.theorem_2. Qed.
 
+(* after Theorem 2: without fixed modes the bound is at most 0, since no rank is below n *)
+Theorem bound_without_fixed_modes : no_fixed_mode S -> forall s (lambda : C),
+  (n <= \rank (neighbor_pencil N (map_system f S) s lambda))%N.
+Proof. exact: bound_reached.bound_without_fixed_modes. Qed.
+
+(* "the lower bound is reached": agent a cannot do with less than the bound rho, the others having rho or more, iff some s
+   with N_s \ s = {a} has the least rank *)
+Theorem bound_reached rho a : strongly_connected_neighbors -> (0 < rho)%N ->
+  (forall s (lambda : C), eigenvalue (map_mx f A) lambda ->
+     (n - \rank (neighbor_pencil N (map_system f S) s lambda) <= rho)%N) ->
+  (forall k, (forall i, i != a -> (rho <= k i)%N) -> no_fixed_mode (extended N k S) -> (rho <= k a)%N) <->
+  (exists s (lambda : C), [/\ eigenvalue (map_mx f A) lambda, neighborhood N s :\: s = [set a] &
+     (n - \rank (neighbor_pencil N (map_system f S) s lambda) = rho)%N]).
+Proof.
+move=> connected rho0 most; have [modes e] := closed_field_poly_normal (char_poly (map_mx f A)).
+apply: (bound_reached.bound_reached itself controllable observable connected most a rho0 (modes := modes)) => lambda.
+rewrite eigenvalue_root_char e (monicP (char_poly_monic _)) scale1r.
+by rewrite root_prod_XsubC.
+Qed.
+
+(* "Whether or not this lower bound is tight remains to be seen": if n_i = c for all i is enough, (26) is at most c times
+   relay_number N, a number of the graph (sharing_gap.v) *)
+Theorem gap_26 c : no_fixed_mode (extended N (fun=> c) S) -> forall s (lambda : C),
+  (n - \rank (neighbor_pencil N (map_system f S) s lambda) <= relay_number N * c)%N.
+Proof. by move=> free s lambda; exact: (bound_26_at_most itself s (free lambda)). Qed.
+
+(* for every graph and c there is a plant for which c is the least common dimension and (26) is as large as that *)
+Theorem gap_26_attained c : (0 < relay_number N)%N -> exists n p q (S : multichannel R n p q),
+  [/\ [/\ jointly_controllable S, jointly_observable S & forall i, (mcB S i != 0) && (mcC S i != 0)],
+      forall c', no_fixed_mode (extended N (fun=> c') S) <-> (c <= c')%N,
+      exists s (lambda : C), eigenvalue (map_mx f (mcA S)) lambda /\
+        (n - \rank (neighbor_pencil N (map_system f S) s lambda) = relay_number N * c)%N
+    & forall s (lambda : C), eigenvalue (map_mx f (mcA S)) lambda ->
+        (n - \rank (neighbor_pencil N (map_system f S) s lambda) <= relay_number N * c)%N].
+Proof. exact: (bound_26_attained f 1 c itself). Qed.
+
+(* so (26) is the least common dimension of every plant for which there is one iff relay_number N <= 1 *)
+Theorem tight_26 : (relay_number N <= 1)%N <->
+  (forall n p q (S : multichannel R n p q) c, jointly_controllable S -> jointly_observable S ->
+    no_fixed_mode (extended N (fun=> c) S) -> forall s (lambda : C), eigenvalue (map_mx f (mcA S)) lambda ->
+    (n - \rank (neighbor_pencil N (map_system f S) s lambda) <= c)%N).
+Proof. exact: (bound_26_tight f itself). Qed.
+
+(* any neighbor graph: closed N s says that s hears nobody outside, N_s = s *)
+Theorem theorem_2_any_graph :
+  (forall s (lambda : C), closed N s -> (n <= \rank (pencil (map_system f S) s lambda))%N) ->
+  (forall i s (lambda : C), ~ closed N s -> eigenvalue (map_mx f A) lambda ->
+     (n - \rank (neighbor_pencil N (map_system f S) s lambda) <= k i)%N) ->
+  no_fixed_mode (extended N k S).
+Proof. exact: (any_graph.theorem_2_any_graph itself). Qed.
+
+Theorem some_dimensions_suffice : (exists k, no_fixed_mode (extended N k S)) <->
+  (forall s (lambda : C), closed N s -> (n <= \rank (pencil (map_system f S) s lambda))%N).
+Proof. exact: (any_graph.some_dimensions_suffice f itself S). Qed.
+
+(* the least total: sets s_j with multipliers y_j, none of whose boundaries N_s \ s hold an agent more than once in sum *)
+Theorem least_total (J : finType) (y : J -> nat) (s : J -> {set 'I_m}) (lambda : J -> C) :
+  (forall i, \sum_(j | i \in neighborhood N (s j) :\: s j) y j <= 1)%N -> no_fixed_mode (extended N k S) ->
+  (\sum_j y j * (n - \rank (neighbor_pencil N (map_system f S) (s j) (lambda j))) <= \sum_i k i)%N.
+Proof.
+move=> once free; have := total_at_least itself lambda once free.
+by rewrite [X in (_ <= X)%N -> _](eq_bigr k) // => i _; rewrite mul1n.
+Qed.
+
 (* Remark 2 *)
 Remark remark_2_observable : jointly_observable (extended_states N k S).
 Proof. exact: extended_states_jointly_observable. Qed.
@@ -502,6 +566,26 @@ Remark remark_2 : strongly_connected_neighbors -> bound_27 -> no_fixed_mode (ext
 Proof. by move=> connected h; exact: extended_bound.remark_2. Qed.
 Remark remark_2_demands_more : bound_27 -> bound_26.
 Proof. by move=> h i s lambda s0 sT el; apply: leq_trans (deficiency_le f itself S s lambda) (h i s lambda s0 sT el). Qed.
+
+(* and the same question about (27) *)
+Theorem gap_27 c : no_fixed_mode (extended_states N (fun=> c) S) -> forall s (lambda : C),
+  (n - \rank (pencil (map_system f S) s lambda) <= boundary_number N * c)%N.
+Proof. by move=> free s lambda; exact: (bound_27_at_most itself s (free lambda)). Qed.
+
+Theorem gap_27_attained c : (0 < boundary_number N)%N -> exists n p q (S : multichannel R n p q),
+  [/\ [/\ jointly_controllable S, jointly_observable S & forall i, (mcB S i != 0) && (mcC S i != 0)],
+      forall c', no_fixed_mode (extended_states N (fun=> c') S) <-> (c <= c')%N,
+      exists s (lambda : C), eigenvalue (map_mx f (mcA S)) lambda /\
+        (n - \rank (pencil (map_system f S) s lambda) = boundary_number N * c)%N
+    & forall s (lambda : C), eigenvalue (map_mx f (mcA S)) lambda ->
+        (n - \rank (pencil (map_system f S) s lambda) <= boundary_number N * c)%N].
+Proof. exact: (bound_27_attained f 1 c itself). Qed.
+
+Theorem tight_27 : (boundary_number N <= 1)%N <->
+  (forall n p q (S : multichannel R n p q) c, jointly_controllable S -> jointly_observable S ->
+    no_fixed_mode (extended_states N (fun=> c) S) -> forall s (lambda : C), eigenvalue (map_mx f (mcA S)) lambda ->
+    (n - \rank (pencil (map_system f S) s lambda) <= c)%N).
+Proof. exact: (bound_27_tight f itself). Qed.
 
 (* (28) to (30), where the sum of (30) goes over N_s: a neighbor of several members of s counts once *)
 Theorem equations_28_to_30 s (lambda : C) : \rank (pencil (extended N k (map_system f S)) s lambda) =
@@ -528,6 +612,14 @@ Theorem extended_connected (added : forall i, (0 < k i)%N) :
   strongly_connected_neighbors -> strongly_connected (transfer_arc (extended N k S)).
 Proof. exact: proposition_3_strongly_connected. Qed.
 
+(* as printed: the spectrum splits over the strong components of the extended transfer graph, and a symmetric set of so many
+   numbers splits with it *)
+Corollary corollary_1_printed : strongly_connected_neighbors -> bound_26 ->
+  forall P : {poly R}, P \is monic -> size P = (n + \sum_i k i).*2.+1 ->
+  exists l (D : controllers R _ _ l), char_poly (dynamic_loop (extended N k S) D) = P.
+Proof. by move=> connected h; apply: even_assignment m_positive _; exact: theorem_2. Qed.
+
+(* through one channel, where the extended transfer graph is strongly connected *)
 Corollary corollary_1 (added : strongly_connected (transfer_arc (extended N k S))) :
   strongly_connected_neighbors -> bound_26 -> freely_assignable (extended N k S).
 Proof. by move=> connected h; apply: (corollary_1.corollary_1 (f := f) infinitely_many). Qed.
@@ -575,6 +667,13 @@ Proof. exact: lifted_arcs. Qed.
 Theorem theorem_3 : strongly_connected_neighbors -> bound_26 ->
   forall lambda : C, lambda != 0 -> ~ fixed_over f (lifted N k d S) lambda.
 Proof. by move=> connected h; exact: delays.theorem_3. Qed.
+
+(* (26) is needed at the nonzero eigenvalues of A alone *)
+Theorem theorem_3_nonzero : strongly_connected_neighbors ->
+  (forall i s (lambda : C), s != set0 -> s != setT -> lambda != 0 -> eigenvalue (map_mx f A) lambda ->
+     (n - \rank (neighbor_pencil N (map_system f S) s lambda) <= k i)%N) ->
+  forall lambda : C, lambda != 0 -> ~ fixed_over f (lifted N k d S) lambda.
+Proof. by move=> connected h; exact: (sharing_gap.theorem_3_nonzero itself controllable observable connected h). Qed.
 
 Theorem lifted_rank s (lambda : C) : lambda != 0 -> \rank (pencil (lifted N k d (map_system f S)) s lambda) =
   (\rank (neighbor_pencil N (map_system f S) s lambda) + \sum_i memory q N k d i
