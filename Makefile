@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -230,6 +230,10 @@ checked-proofs: proofs
 # Every rule of the checker with one hypothesis weakened: each proof has to fail.
 weakened-proofs:
 	@$(MAKE) --no-print-directory -C proofs weakened
+
+# Ten theorems of paper.v with a hypothesis that nothing satisfies: each has to be refused.
+impossible-proofs:
+	@$(MAKE) --no-print-directory -C proofs impossible
 
 # What a user needs, without what draws, tests or documents.
 $(CORE): pyproject.toml

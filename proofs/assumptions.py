@@ -1,4 +1,4 @@
-"""Print every theorem in this folder, and fail if one of them rests on an assumption or says nothing.
+"""Print every theorem in this folder; fail if one rests on an assumption or says nothing.
 
 `theorems.txt` names for every rule of the checker the theorem that justifies it; each name there
 must be a theorem here, and be applied to a concrete system in one of the files `instances*.v`.  A
@@ -38,9 +38,13 @@ AXIOMS = {
 def theorems() -> list[str]:
     """Every `Theorem` in the folder as file.name, in the order of the files.
 
-    In `paper.v` lemmas and remarks are the paper's; elsewhere they are steps of proofs.
+    In `paper.v` lemmas and remarks are the paper's; elsewhere they are steps of proofs.  What is said
+    of the real numbers is among them, with its applications.
     """
-    words = {"paper": "Theorem|Corollary|Proposition|Lemma|Remark"}
+    words = {
+        "paper": "Theorem|Corollary|Proposition|Lemma|Remark",
+        WITH_AXIOMS: "Theorem|Example",
+    }
     return [
         f"{path.stem}.{name}"
         for path in sorted(HERE.glob("*.v"))
@@ -59,10 +63,9 @@ def listed() -> list[str]:
 
 
 def cited() -> set[str]:
-    """The theorems that the ledger cites, for statements of the paper and for examinations."""
-    files = [tomllib.loads(path.read_text("utf-8")) for path in sorted(LEDGER.glob("*.toml"))]
-    rows = (row for file in files for name in ("statement", "examination") for row in file.get(name, ()))
-    return {name for row in rows for name in row.get("proofs", ())}
+    """The theorems that the ledger cites for statements of the paper."""
+    ledger = tomllib.loads((LEDGER / "statements.toml").read_text("utf-8"))
+    return {name for row in ledger["statement"] for name in row.get("proofs", ())}
 
 
 def instances() -> list[Path]:
@@ -77,7 +80,8 @@ def used_by(record: list[str], stem: str) -> dict[str, set[str]]:
     is referred to belongs to the definition before it.
     """
     entry = re.compile(
-        r"(?:(?:prf|def|inst) \d+:\d+ <> (?P<made>\w+)|R\d+:\d+ mcexact\.(?P<file>\w+) \S+ (?P<used>\w+) thm)$"
+        r"(?:(?:prf|def|inst) \d+:\d+ <> (?P<made>\w+)"
+        r"|R\d+:\d+ mcexact\.(?P<file>\w+) \S+ (?P<used>\w+) thm)$"
     )
     found: dict[str, set[str]] = {}
     here = ""
@@ -116,28 +120,28 @@ def required(names: Iterable[str]) -> str:
 
 
 def concrete(names: set[str], flags: list[str]) -> dict[str, str]:
-    """Of each statement, whether it is CONCRETE, ABSTRACT (about no concrete system) or has HYPOTHESES."""
+    """Of each statement, whether it is CONCRETE, or ABSTRACT, or has HYPOTHESES left."""
+    order = sorted(names)
     asked = "".join(
-        f"Goal True. let T := type of (@{name}) in cut T; [exact (fun _ => I) | first [cbv zeta; without_hypotheses; "
-        f'first [about_concrete; idtac "CONCRETE {name}" | idtac "ABSTRACT {name}"] | idtac "HYPOTHESES {name}"]]. Abort.\n'
-        for name in sorted(names)
+        f"Goal True. let T := type of (@{name}) in describe T. Abort.\n" for name in order
     )
-    load = "From mathcomp Require Import all_ssreflect all_algebra.\nFrom mcexact Require Import concrete.\n"
-    run = answers(f"{load}{required(names)}{asked}", flags)
+    load = "From mathcomp Require Import all_ssreflect all_algebra.\n"
+    load += f"From mcexact Require Import concrete.\n{required(names)}"
+    run = answers(load + asked, flags)
     if run.returncode:
         raise SystemExit(run.stderr)
-    return {name: word for word, name in (line.split() for line in run.stdout.splitlines())}
+    return dict(zip(order, run.stdout.split(), strict=True))
 
 
 def vacuous(wanted: set[str], flags: list[str]) -> Iterator[str]:
-    """The theorems that no statement without hypotheses applies to a concrete system, and what was found."""
+    """The theorems that no statement without hypotheses applies to a concrete system."""
     applied = applications()
-    candidates = {name for theorem in wanted for name in applied.get(theorem, ())}
-    said = concrete(candidates, flags)
+    said = concrete({name for theorem in wanted for name in applied.get(theorem, ())}, flags)
     for theorem in sorted(wanted):
-        found = {name: said.get(name, "") for name in applied.get(theorem, ())}
+        found = {name: said[name] for name in sorted(applied.get(theorem, ()))}
         if "CONCRETE" not in found.values():
-            yield f"{theorem}: {', '.join(f'{name} ({word})' for name, word in sorted(found.items())) or 'not applied'}"
+            told = ", ".join(f"{name} ({word})" for name, word in found.items())
+            yield f"{theorem}: {told or 'not applied'}"
 
 
 def rests_on(names: list[str], flags: list[str]) -> list[str]:
@@ -182,7 +186,7 @@ def main(flags: list[str]) -> int:
         return 1
     print(f"{len(pure)} theorems, all: {CLOSED}")
     print(f"{len(listed())} listed in theorems.txt, each applied to a concrete system")
-    print(f"{len(cited())} cited by the ledger, each without hypotheses and about a concrete system or graph")
+    print(f"{len(cited())} cited by the ledger, each proved of a concrete system or graph")
     print(f"{len(real)} theorems of {WITH_AXIOMS}.v, which rest on the axioms of the real numbers:")
     for name in axioms:
         print(f"  {name} ({AXIOMS[name]})")

@@ -21,3 +21,8 @@ Ltac about_concrete := match goal with
   | |- context [?S] => let c := constr:(_ : concrete_system S) in idtac
   | |- context [?N] => let c := constr:(_ : concrete_graph N) in idtac
   | |- _ => fail "no concrete system or graph" end.
+
+(* what `assumptions.py` asks of the type of a statement *)
+Ltac describe T := cut T; [exact (fun _ => I) | cbv zeta; first
+  [ without_hypotheses; first [about_concrete; idtac "CONCRETE" | idtac "ABSTRACT"]
+  | idtac "HYPOTHESES" ]].

@@ -27,15 +27,14 @@ APPLIED = "instances_reproduction"
 
 def weakened(source: str, name: str) -> str:
     """paper.v with a hypothesis more in one theorem, which its other proofs do not use."""
-    found = re.search(
-        rf"^(\w+) {name}\b(.*?)\nProof\..*?Qed\.\n", source, re.MULTILINE | re.DOTALL
-    )
+    found = re.search(rf"^(\w+) {name}\b(.*?)\nProof\..*?Qed\.\n", source, re.MULTILINE | re.DOTALL)
     if found is None:
         raise SystemExit(f"paper.v has no {name}")
     spared = re.sub(rf"(?<![\w.]){name}\b", f"{name}_", source)
     end = spared.index(f"{found[1]} {name}_")
     end = spared.index("Qed.\n", end) + len("Qed.\n")
-    weak = f"{found[1]} {name} (impossible : (n < 0)%N){found[2]}\nProof. by have := impossible; rewrite ltn0. Qed.\n"
+    weak = f"{found[1]} {name} (impossible : (n < 0)%N){found[2]}\n"
+    weak += "Proof. by have := impossible; rewrite ltn0. Qed.\n"
     return spared[:end] + weak + spared[end:]
 
 
@@ -75,8 +74,11 @@ def main(flags: list[str]) -> int:
             said = verdict(folder, name, flags)
         refused = bool(stops) and said != "CONCRETE"
         bad += not refused
-        print(f"{name}: {'refused' if refused else 'ACCEPTED'}: the application as it is "
-              f"{'fails' if stops else 'COMPILES'}, one that keeps the hypothesis is {said}", flush=True)
+        print(
+            f"{name}: {'refused' if refused else 'ACCEPTED'}: the application as it is "
+            f"{'fails' if stops else 'COMPILES'}, one that keeps the hypothesis is {said}",
+            flush=True,
+        )
     return 1 if bad else 0
 
 
@@ -84,11 +86,17 @@ def verdict(folder: Path, name: str, flags: list[str]) -> str:
     """What the gate says of the theorem in this folder."""
     here, assumptions.HERE = assumptions.HERE, folder
     try:
-        used = assumptions.used_by((folder / f"{APPLIED}.glob").read_text(encoding="utf-8").splitlines(), APPLIED)
+        used = assumptions.used_by(
+            (folder / f"{APPLIED}.glob").read_text(encoding="utf-8").splitlines(), APPLIED
+        )
         said = assumptions.concrete(used.get(f"paper.{name}", set()), flags)
     finally:
         assumptions.HERE = here
-    return "CONCRETE" if "CONCRETE" in said.values() else ", ".join(sorted(set(said.values()))) or "not applied"
+    return (
+        "CONCRETE"
+        if "CONCRETE" in said.values()
+        else ", ".join(sorted(set(said.values()))) or "not applied"
+    )
 
 
 if __name__ == "__main__":

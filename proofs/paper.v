@@ -8,9 +8,16 @@
    with their multiplicities is the monic real polynomial with these roots.  What the paper assumes throughout is
    assumed of the section; a hypothesis that it does not print where it states a result is named added.
 
-   The definitions are in multichannel.v (systems, closed loops, pencils, extended systems, fixed modes),
-   joint_controllability.v, extended_bound.v (transfer_arc), error_system.v (14) to (16), distributed_observer.v
-   (9) to (11), integrators.v (17), (18), delayed_systems.v (32) to (38), almost_all_gains.v. *)
+   Where the words are defined: systems, closed and dynamic loops, pencils, extended systems, fixed and fixed_over in
+   multichannel.v; controllable, controllability_index and jointly_controllable in joint_controllability.v;
+   neighbor_pencil in extended.v; transfer_arc in extended_bound.v; strongly_connected and neighbor_arc in
+   neighbor_graph.v; error_system, (14) to (16), in error_system.v; error_loop, (12) and (13), in theorem_1.v;
+   observer_loop, (9) to (11), in distributed_observer.v; integrated, (17) and (18), in integrators.v; components and
+   minimal in component_gains.v, component_loop in component_assignment.v; freely_assignable in corollary_1.v; almost_all
+   in almost_all_gains.v; compensated in brasch_pearson.v; lifted and held, (32) to (38), in delayed_systems.v, and the
+   equations that they stand for in meaning.v; trajectory in trajectories.v; derivative and complete_order in
+   convergence.v; apart, relay_number and boundary_number in sharing_gap.v; closed in any_graph.v.  THEOREMS.md has every
+   theorem beside the paper's statements that it proves, by their numbers in STATEMENTS.md. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp.real_closed Require Import complex.
 From mcexact Require Import multichannel arithmetic evidence controllability rank_one_repair.

@@ -1,9 +1,10 @@
 """Statements, the ledger of examinations, and the record of one.
 
-Three things are kept apart.  A `Statement` is one statement of the paper, with what is known of it
-(``statements.toml``).  An `Examination` says how one or several statements are examined: with which
-code, certificates and machine-checked proofs, and which nearest false statements its instances have
-to refute (``ledger.toml``).  A `Notebook` is the evidence of one examination that was carried out.
+Three things are kept apart.  A `Statement` is one statement of the paper, with the verdict on it,
+its machine-checked theorems and its correction (``statements.toml``, their only source).  An
+`Examination` says how one or several statements are examined: with which code and certificates, and
+which nearest false statements its instances have to refute (``ledger.toml``).  A `Notebook` is the
+evidence of one examination that was carried out.
 
 An examination holds if all its checks hold, all its certificates are VALID and every false
 statement of the ledger is refuted.  Checks on instances prove no general statement; that is what
@@ -35,6 +36,7 @@ STATUSES = {
     "printed": "proved as printed",
     "corrected": "proved as corrected",
     "added": "proved under added hypotheses",
+    "answered": "answered",
     "defined": "defined",
     "shown": "shown by an instance",
     "instances": "seen on instances",
@@ -45,8 +47,9 @@ STATUSES = {
 }
 """What can be known of a statement: the word in ``statements.toml``, and what the report says."""
 
-PROVED = ("printed", "corrected", "added")
-EXPLAINED = ("corrected", "added", "weaker", "refuted", "informal", "absent")
+PROVED = ("printed", "corrected", "added", "answered")
+"""The statuses that machine-checked theorems stand behind."""
+EXPLAINED = ("corrected", "added", "answered", "weaker", "refuted", "informal", "absent")
 """The statuses that need a note: what was wrong, added or missing, or why."""
 OPEN = ("instances", "weaker", "absent")
 """The statuses of what is not proved, and not settled otherwise."""
@@ -75,6 +78,8 @@ class Statement:
         What was corrected, added or is missing, or why it is absent.
     closes : str
         What would prove it in general, if it is open.
+    erratum : str
+        What the list of corrections says of it, in Markdown, or an empty text.
     """
 
     number: int
@@ -86,6 +91,7 @@ class Statement:
     proofs: tuple[str, ...] = ()
     note: str = ""
     closes: str = ""
+    erratum: str = ""
 
 
 @cache
@@ -111,6 +117,7 @@ def statements() -> tuple[Statement, ...]:
             tuple(row.get("proofs", ())),
             row.get("note", ""),
             row.get("closes", ""),
+            row.get("erratum", "").strip(),
         )
         for number, row in enumerate(tomllib.loads(text)["statement"], 1)
     )
@@ -146,6 +153,37 @@ def statement_table() -> str:
     return "\n".join(lines) + "\n"
 
 
+NUMBERED = ("Theorem", "Proposition", "Lemma", "Corollary", "Remark")
+"""How the numbered results of the paper are called."""
+
+
+def numbered() -> tuple[Statement, ...]:
+    """The statements of numbered results and of the paper's open question, in its order.
+
+    Examples
+    --------
+    >>> [each.equation for each in numbered()][-3:]
+    ['Theorem 3', 'Corollary 2', 'Theorem 4']
+    """
+    return tuple(
+        each
+        for each in statements()
+        if each.equation.startswith(NUMBERED) or each.status == "answered"
+    )
+
+
+def front_table() -> str:
+    """The verdicts on the numbered results as ``proofs/README.md`` begins with them."""
+    lines = ["| result | verdict | theorems in Coq | what it says |", "|---|---|---|---|"]
+    for each in numbered():
+        name = each.equation or f"Open question ({each.section})"
+        proofs = ", ".join(f"`{proof}`" for proof in each.proofs[:3]) or "by definition"
+        lines.append(f"| {name} | {STATUSES[each.status]} | {proofs} | {each.says} |")
+    sizes = [f"{size} {STATUSES[key]}" for key, size in counted(statements()).items() if size]
+    lines += ["", f"Of all {len(statements())} statements: {'; '.join(sizes)}."]
+    return "\n".join(lines) + "\n"
+
+
 def open_table() -> str:
     """The statements that are not proved as ``proofs/OPEN.md`` lists them."""
     lines = [
@@ -162,16 +200,34 @@ def open_table() -> str:
     return "\n".join(lines) + "\n"
 
 
-# The ledger lists the examinations of the paper, with their code and machine-checked proofs.
+def errata() -> str:
+    """The corrections as ``proofs/ERRATA.md`` lists them, section by section."""
+    lines: list[str] = []
+    for each in statements():
+        if each.erratum:
+            section = each.section.partition("-")[0]
+            if (heading := f"## Section {section}, {TITLES[section]}") not in lines:
+                lines += [heading, ""]
+            examined = ", ".join(f"`{key}`" for key in each.examined)
+            where = f"{each.section}, statement {each.number}: {STATUSES[each.status]}"
+            lines += [f"{each.erratum} *({where}; examined by {examined})*", ""]
+    return "\n".join(lines)
+
+
+TITLES = {
+    "I": "introduction",
+    "II": "the distributed observer",
+    "III": "set-point control",
+    "IV": "extended systems",
+    "V": "delays",
+    "VI": "concluding remarks",
+}
+"""What the sections of the paper are about."""
+
+
+# The ledger lists the examinations of the paper, with their code.
 
 KINDS = ("definition", "claim", "example", "numbered")
-COVERS = {
-    "printed": "as printed",
-    "corrected": "as corrected",
-    "added": "under added hypotheses",
-    "part": "in part",
-}
-"""How far theorems cover an examination: the word in ``ledger.toml``, and what the report says."""
 
 
 @dataclass(frozen=True)
@@ -196,15 +252,6 @@ class Examination:
         Labels of the paper's LaTeX source, by which it can be named as well.
     certificates : tuple of str
         The kinds of certificates that are written for it.
-    proofs : tuple of str
-        Machine-checked theorems, as file.theorem in ``proofs/``.
-    covers : {"printed", "corrected", "added", "part", ""}
-        Whether these theorems prove it as printed, as corrected, under added hypotheses, a part of
-        it, or nothing.
-    part : str
-        The part that is proved, or the added hypotheses.
-    erratum : str
-        The correction, or an empty text.
     nearest_false : mapping of str to str
         The nearest false statements by short names; an instance of the examination refutes each.
     """
@@ -218,10 +265,6 @@ class Examination:
     equations: tuple[int, ...] = ()
     labels: tuple[str, ...] = ()
     certificates: tuple[str, ...] = ()
-    proofs: tuple[str, ...] = ()
-    covers: str = ""
-    part: str = ""
-    erratum: str = ""
     nearest_false: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -230,29 +273,48 @@ class Examination:
         numbers = [f"({number})" for number in self.equations]
         return (self.key, self.title, *self.labels, *numbers)
 
+    @property
+    def about(self) -> tuple[Statement, ...]:
+        """The statements that are examined here."""
+        return tuple(each for each in statements() if self.key in each.examined)
+
+    @property
+    def proofs(self) -> tuple[str, ...]:
+        """The machine-checked theorems of these statements, as file.theorem in ``proofs/``."""
+        return tuple(dict.fromkeys(name for each in self.about for name in each.proofs))
+
+    @property
+    def erratum(self) -> str:
+        """What has to be corrected in these statements, or an empty text."""
+        wrong = (each for each in self.about if each.erratum)
+        return " ".join(f"Statement {each.number}: {each.note}" for each in wrong)
+
+    @property
+    def verdicts(self) -> str:
+        """What is known of these statements; one by one, if it is not the same for all."""
+        told = [each for each in self.about if each.status not in ("defined", "informal")]
+        kinds = dict.fromkeys(STATUSES[each.status] for each in told)
+        if len(kinds) < 2:
+            return next(iter(kinds), STATUSES["defined"])
+        numbers = {
+            kind: ", ".join(str(each.number) for each in told if STATUSES[each.status] == kind)
+            for kind in kinds
+        }
+        return "; ".join(f"{numbers[kind]} {kind}" for kind in kinds)
+
     def status(self, instances: int) -> str:
-        """Return in words what is proved in general and what was checked on instances.
+        """What is known of its statements, and on how many instances it was checked.
 
         Examples
         --------
         >>> examination("theorem-2").status(7)
-        'proved in general as printed, checked on 7 instances'
-        >>> from dataclasses import replace
-        >>> replace(examination("theorem-2"), proofs=(), covers="").status(1)
-        'checked on 1 instance'
-        >>> examination("lemma-1").status(2)
-        'proved in general under added hypotheses (if the neighbor graph is strongly connected), \
-checked on 2 instances'
+        'proved as printed, checked on 7 instances'
+        >>> examination("lemma-1").status(1)
+        '41 proved under added hypotheses; 42 proved as printed, checked on 1 instance'
         """
-        checked = f"checked on {instances} instance" + ("" if instances == 1 else "s")
         if self.kind == "example":
             return "computed exactly on the paper's data"
-        if self.covers == "part":
-            return f"{checked}; proved in general: {self.part}"
-        if self.covers:
-            under = f" ({self.part})" if self.part else ""
-            return f"proved in general {COVERS[self.covers]}{under}, {checked}"
-        return checked
+        return f"{self.verdicts}, checked on {instances} instance" + ("" if instances == 1 else "s")
 
 
 @cache
@@ -290,18 +352,17 @@ def examination(key: str) -> Examination:
 def table() -> str:
     """The ledger as the table of ``proofs/README.md``."""
     lines = [
-        "| examined | section | in the code | certificates | formal proof, or instances |",
-        "|---|---|---|---|---|",
+        "| examined | statements | verdict | section | in the code | certificates "
+        "| theorems, or instances |",
+        "|---|---|---|---|---|---|---|",
     ]
     for each in examinations():
         code = ", ".join(f"`{name.removeprefix('mcexact.')}`" for name in each.code)
         kinds = ", ".join(f"`{kind}`" for kind in each.certificates) or "named checks"
-        proof = "instances"
-        if each.proofs:
-            extent = COVERS[each.covers] + (f": {each.part}" if each.part else "")
-            proof = ", ".join(f"`{name}`" for name in each.proofs) + f" ({extent})"
-        title = f"{each.title} (corrected)" if each.erratum else each.title
-        lines.append(f"| {title} | {each.section} | {code} | {kinds} | {proof} |")
+        numbers = ", ".join(str(one.number) for one in each.about)
+        proof = ", ".join(f"`{name}`" for name in each.proofs) or "instances"
+        cells = (each.title, numbers, each.verdicts, each.section, code, kinds, proof)
+        lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 

@@ -196,12 +196,15 @@ _OF_EXAMINATION = ("key", "title", "section", "proofs", "erratum")
 _OF_FINDING = ("holds", "instances", "in_common", "failure")
 _OF_STATEMENT = ("number", "section", "equation", "says", "status", "examined", "proofs", "note")
 COMMON_BOUND = (
-    "The paper asks whether its bound on the common dimension of shared sub-states is tight. It is "
-    "not: a plant with four agents has the bound 2 where outputs and sub-states are shared, and "
-    "n_i = 1 for all suffices, as does (0, 1, 1, 0). Exactly those dimensions suffice whose sum "
-    "over N_s∖s is at least n − rank P_s(λ) for every subset s and every eigenvalue λ."
+    "The paper asks whether its bound on the common dimension of shared sub-states is tight. The "
+    "answer depends on the neighbor graph N: the bound is at most β(N) times the least common "
+    "dimension, and some plant attains this on every graph; so it is tight for all plants on N if "
+    "and only if β(N) ≤ 1, as on directed rings of up to five agents. A plant with four agents has "
+    "the bound 2, and n_i = 1 for all suffices, as does (0, 1, 1, 0). Exactly those dimensions "
+    "suffice whose sum over N_s∖s is at least n − rank P_s(λ) for every subset s and every "
+    "eigenvalue λ."
 )
-"""The answer to the paper's open question, proved by the examination `tight`."""
+"""The answer to the paper's open question: statement 92, and the examination `tight`."""
 
 
 def reproduction_page(reproduction: Reproduction) -> str:
@@ -303,7 +306,6 @@ def _shown(row: Row) -> dict[str, Any]:
         ),
         "says": typeset(examination.says),
         "erratum": typeset(examination.erratum),
-        "part": typeset(examination.part),
         "status": typeset(row.status),
         "instances": typeset(finding.in_common),
         "matrices": [
@@ -422,8 +424,7 @@ def _in_full(row: Row) -> Iterator[Table]:
     examination, finding = row.examination, row.finding
     title = f"{examination.title}: {examination.says} Examined on {finding.in_common}."
     if examination.proofs:
-        part = f" ({examination.part})" if examination.part else ""
-        title += f" Machine-checked: {', '.join(examination.proofs)}{part}."
+        title += f" Machine-checked: {', '.join(examination.proofs)}."
     if examination.erratum:
         title += f" Correction: {examination.erratum}"
     for name, entries in (

@@ -12,7 +12,7 @@ import pytest
 
 from mcexact.checker.kinds import KINDS as CERTIFICATES
 from mcexact.errors import UsageError
-from mcexact.reproduce.notebook import COVERS, KINDS, Examination, examinations
+from mcexact.reproduce.notebook import KINDS, STATUSES, Examination, examinations, statements
 from mcexact.reproduce.reproduction import chosen, procedures
 
 PROOFS = Path(__file__).parents[2] / "proofs"
@@ -93,13 +93,16 @@ def test_a_row_names_what_exists(said: Examination) -> None:
 
 
 @EVERY
-def test_a_row_is_called_proved_only_where_theorems_cover_it(said: Examination) -> None:
-    assert said.covers in ("", *COVERS)
-    assert bool(said.proofs) == bool(said.covers)
-    assert (said.covers in ("part", "added")) == bool(said.part)
-    assert said.covers != "corrected" or said.erratum
-    if said.covers in ("", "part"):
-        assert "proved in general " not in said.status(3)
+def test_the_verdict_on_a_row_is_that_on_its_statements(said: Examination) -> None:
+    about = [each for each in statements() if said.key in each.examined]
+    assert list(said.about) == about and about
+    for each in about:
+        if each.status not in ("defined", "informal"):
+            assert STATUSES[each.status] in said.verdicts
+        assert set(each.proofs) <= set(said.proofs)
+        assert bool(each.erratum) == (f"Statement {each.number}: {each.note}" in said.erratum)
+    if "proved" in said.verdicts or "answered" in said.verdicts:
+        assert said.proofs
 
 
 def test_every_formal_proof_in_the_ledger_is_one_that_make_proofs_prints() -> None:
@@ -108,26 +111,30 @@ def test_every_formal_proof_in_the_ledger_is_one_that_make_proofs_prints() -> No
     assert named <= printed, named - printed
 
 
-@pytest.mark.parametrize("name", ["README.md", "STATEMENTS.md", "OPEN.md"])
-def test_the_tables_of_the_proofs_are_the_ledger(name: str) -> None:
+@pytest.mark.parametrize(
+    "name",
+    ["README.md", "STATEMENTS.md", "OPEN.md", "ERRATA.md", "EXAMINATIONS.md", "THEOREMS.md"],
+)
+def test_what_the_pages_say_of_the_paper_is_made_from_the_ledger(name: str) -> None:
     made = script("ledger_table")
-    assert len(made.TABLES) == 3
+    assert len(made.TABLES) == 6
     text = (PROOFS / name).read_text(encoding="utf-8")
     assert made.renewed(text, made.TABLES[name]()) == text, "run make ledger"
 
 
-def test_every_correction_is_in_the_errata() -> None:
-    """Each examination that corrects the paper is spoken of there."""
-    errata = (PROOFS / "ERRATA.md").read_text(encoding="utf-8")
-    words = {
-        "determinant": "(21) and the zeros",
-        "equations-28-30": "Equation (30)",
-        "equations-34-35": "G_i",
-    }
-    for said in examinations():
-        if said.erratum:
-            assert words.get(said.key, f"`{said.key}`") in errata, said.key
-    keys = {said.key for said in examinations()}
-    assert set(re.findall(r"\(((?:`[\w-]+`(?:, )?)+)\)$", errata, re.MULTILINE))
-    for listed in re.findall(r"\(((?:`[\w-]+`(?:, )?)+)\)$", errata, re.MULTILINE):
-        assert set(re.findall(r"[\w:-]+", listed)) <= keys, listed
+def test_every_theorem_on_the_pages_is_a_link_to_its_line() -> None:
+    for page in ("README.md", "STATEMENTS.md"):
+        text = (PROOFS / page).read_text(encoding="utf-8")
+        links = re.findall(r"\[`(\w+)\.(\w+)`\]\((\w+)\.v#L(\d+)\)", text)
+        assert links
+        for stem, name, file, line in links:
+            source = (PROOFS / f"{file}.v").read_text(encoding="utf-8").splitlines()
+            assert stem == file and re.search(rf"^\w+ {name}\b", source[int(line) - 1]), name
+
+
+def test_the_front_page_begins_with_the_verdict_on_every_numbered_result() -> None:
+    text = (PROOFS / "README.md").read_text(encoding="utf-8")
+    rows = [line for line in text.splitlines() if line.startswith("| ")][1:]
+    named = {row.split("|")[1].strip().partition(",")[0] for row in rows}
+    assert named == {*NUMBERED, "Open question (IV-D)"}
+    assert text.index(rows[-1]) < 6000, "the verdicts are not at the beginning"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 
 import pytest
@@ -51,15 +52,40 @@ def test_a_status_is_backed(said: Statement) -> None:
     assert not (said.status in EXPLAINED and not said.note), "it needs a note"
     if said.status in PROVED:
         assert said.proofs
-    if said.status in ("defined", "shown", "instances", "informal", "absent"):
+    if said.status in ("corrected", "refuted", "answered"):
+        assert said.erratum
+    if said.status in ("shown", "instances", "informal", "absent"):
         assert not said.proofs
     rows = [examination(key) for key in said.examined]
     if said.status == "refuted":
         assert any(row.nearest_false for row in rows), "no instance refutes it by name"
     if said.status == "shown":
         assert any(row.certificates for row in rows), "no certificate shows it"
-    if said.status == "corrected":
-        assert any(row.erratum for row in rows)
+
+
+def with_added_hypotheses() -> set[str]:
+    """The theorems of paper.v with a hypothesis that is not printed: it is named added."""
+    return {
+        f"paper.{name}"
+        for name, (_, text) in script("ledger_table").texts("paper").items()
+        if re.search(r"\(added\b", text)
+    }
+
+
+@EVERY
+def test_a_theorem_with_an_added_hypothesis_proves_nothing_as_printed(said: Statement) -> None:
+    """A row that rests on an added hypothesis says so, and names it."""
+    added = with_added_hypotheses() & set(said.proofs)
+    if said.status in ("printed", "answered"):
+        assert not added
+    if added:
+        assert said.status in ("added", "corrected") and said.note
+
+
+def test_theorems_with_added_hypotheses_are_known_by_their_name() -> None:
+    found = with_added_hypotheses()
+    assert {"paper.lemma_1", "paper.equation_31", "paper.corollary_1"} <= found
+    assert not {"paper.theorem_2", "paper.corollary_1_printed", "paper.proposition_3"} & found
 
 
 def test_every_theorem_that_a_statement_cites_exists() -> None:
@@ -70,6 +96,7 @@ def test_every_theorem_that_a_statement_cites_exists() -> None:
 
 def test_what_is_open_is_listed_with_what_would_close_it() -> None:
     rows = open_table().splitlines()[2:]
+    assert rows
     assert len(rows) == sum(counted(statements())[status] for status in OPEN)
     for row in rows:
         assert row.count("|") == 7 and all(cell.strip() for cell in row.split("|")[1:-1]), row
