@@ -28,6 +28,7 @@ AXIOMS = {
     "ClassicalDedekindReals.sig_forall_dec": "Coq's real numbers",
     "ClassicalDedekindReals.sig_not_dec": "Coq's real numbers",
     "FunctionalExtensionality.functional_extensionality_dep": "Coq's real numbers",
+    "Epsilon.epsilon_statement": "Coq's standard library",
     "boolp.functional_extensionality_dep": "mathcomp-analysis",
     "boolp.propositional_extensionality": "mathcomp-analysis",
     "boolp.constructive_indefinite_description": "mathcomp-analysis",
@@ -38,8 +39,8 @@ AXIOMS = {
 def theorems() -> list[str]:
     """Every `Theorem` in the folder as file.name, in the order of the files.
 
-    In `paper.v` lemmas and remarks are the paper's; elsewhere they are steps of proofs.  What is said
-    of the real numbers is among them, with its applications.
+    In `paper.v` lemmas and remarks are the paper's; elsewhere they are steps of proofs.  What is
+    said of the real numbers is among them, with its applications.
     """
     words = {
         "paper": "Theorem|Corollary|Proposition|Lemma|Remark",
