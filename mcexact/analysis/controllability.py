@@ -58,7 +58,7 @@ from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
     characteristic_polynomial,
     determinant,
-    field_kernel,
+    field_nullspace,
     solve_nonsingular,
 )
 from mcexact.exact.matrix import Matrix, hstack
@@ -600,7 +600,7 @@ def _exceptional_set(
         confirmed: list[ExceptionalFactor] = []
         left = first
         for f, _ in first.gcd(second).factor():
-            rows, pivots = field_kernel(K.T, f)
+            rows, pivots = field_nullspace(K.T, f)
             if rows.ncols:
                 left = left // f ** f.multiplicity_in(left)
                 row = rows.take(cols=[0]).T

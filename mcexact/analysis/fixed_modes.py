@@ -1,8 +1,8 @@
 """The fixed spectrum, completeness, assignability, and ranks of pencils.
 
-A mode is fixed if no decentralized feedback u_i = F_i y_i moves it, that is if the pencil P_s(λ) =
-[λI − A, B_{m−s}; C_s, 0] of some set s of channels has rank below n.  There are 2^m such sets; none
-is enumerated.
+A mode is fixed if no decentralized feedback u_i = F_i y_i moves it, that is, by the theorem of
+Anderson and Clements, if the pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] of some set s of channels
+has rank below n.  There are 2^m such sets; none is enumerated.
 
 `fixed_spectrum` tries, in this order:
 
@@ -86,7 +86,7 @@ from mcexact.derived.modular import (
 )
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.krylov import controllable_subspace, stays_sparse
-from mcexact.exact.linear_algebra import PolynomialMatrix, inflate, kernel_at
+from mcexact.exact.linear_algebra import PolynomialMatrix, inflate, nullspace_at
 from mcexact.exact.matrix import Matrix, block, vstack
 from mcexact.exact.modular import polynomial_residues, primes, random_matrix, residues
 from mcexact.exact.polynomial import Polynomial, product
@@ -126,11 +126,21 @@ def fixed_spectrum(
 
     Notes
     -----
-    Exact; no subset of channels is enumerated.  In large sparse systems the factors come from
-    products with sparse matrices, and how often they occur in χ_A is left open.  The certificate
-    splits the states into blocks that share no gain.  For each it has one Krylov sequence of drawn
-    gains and one channel, modulo a small prime, which bounds how much is fixed; for each fixed
-    factor it has a shrunk subspace.
+    Paper, Proposition 2 (Anderson and Clements): λ is fixed iff for some set s of channels the
+    pencil, with the outputs of s and the inputs of all other channels, loses rank::
+
+        rank P_s(λ) < n,    P_s(λ) = ⎡ λI − A   B_{m−s} ⎤
+                                     ⎣   C_s       0    ⎦
+
+    Each fixed factor has such an s as its ``channels``, and this rank as its ``rank``.
+
+    Exact; no subset of channels is enumerated.  With χ_M = det(xI − M) and the loop
+    A_F = A + Σ B_i F_i C_i: in large sparse systems the factors come from products with sparse
+    matrices, and how often they occur in χ_A is left open.  The certificate splits the states into
+    blocks that share no gain.  For each it has one Krylov sequence of drawn gains and one channel,
+    modulo a small prime, which bounds how much is fixed; for each fixed factor it has a shrunk
+    subspace: one that λI − A_F maps into a smaller one, im B_T, for all gains F, T the channels
+    outside s.  So λI − A_F is singular for all F.
     Where the blocks leave more than the factors, because a mode is fixed by Jordan chains, the
     certificate has gains F and a modulus ℓ such that χ_{A_F} is coprime modulo ℓ to χ_A without
     its fixed factors.  Without fixed modes it takes O(n³), by products in floating point that are
@@ -593,7 +603,8 @@ def pencil(system: MultiChannelSystem, s: Iterable[int]) -> tuple[Matrix, Matrix
     Returns
     -------
     M0, M1 : Matrix
-        Both (n + q_s) × (n + p_{m−s}):
+        Both (n + q_s) × (n + p_{m−s}), where q_s is the number of outputs of the channels in s,
+        and p_{m−s} the number of inputs of all others:
 
             [ xI − A   B_{m−s} ]
             [   C_s       0    ]
@@ -619,7 +630,7 @@ def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) ->
     ----------
     system : MultiChannelSystem
     subset : iterable of str
-        Names of channels; the empty set and all channels are allowed.
+        s, by the names of its channels; the empty set and all channels are allowed.
     mode : Polynomial, or a rational number
         An irreducible polynomial whose roots are the λ, or λ itself.
 
@@ -632,8 +643,9 @@ def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) ->
 
     Notes
     -----
-    Exact.  The certificate has the null space over Q[x]/(p), which bounds the rank from above, and
-    a prime modulo which elimination with unit pivots bounds it from below.
+    Exact.  With p the irreducible polynomial of the mode, the certificate has the null space over
+    Q[x]/(p), which bounds the rank from above, and a prime modulo which elimination with unit
+    pivots bounds it from below.
 
     Examples
     --------
@@ -648,7 +660,7 @@ def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) ->
     p = _irreducible(mode)
     inside = system.indices(subset)
     M0, M1 = pencil(system, inside)
-    null_space, pivots = kernel_at(M0, M1, p)
+    null_space, pivots = nullspace_at(M0, M1, p)
     rank = M0.ncols - len(pivots)
     return PencilRank(
         system,
@@ -673,7 +685,7 @@ def pencil_ranks(
     ----------
     system : MultiChannelSystem
     subset : iterable of str
-        Names of channels.
+        s, by the names of its channels.
     spectrum : ClosedLoopSpectrum, optional
         ``open_loop_spectrum(system)``, if it is known already.
     """

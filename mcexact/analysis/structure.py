@@ -53,9 +53,9 @@ from mcexact.exact.linear_algebra import (
     companions,
     invariant_form,
     inverse,
-    kernel,
     left_nullspace,
     nullspace,
+    nullspace_and_pivots,
     row_echelon,
     solve,
 )
@@ -402,7 +402,11 @@ def _decomposed(
 ) -> tuple[dict[str, Matrix], tuple[Polynomial, ...], int] | None:
     """X, F, A1, S, B1, the invariant polynomials, and the dimension of the controlled part."""
     n, p = A.nrows, B.ncols
-    X, pivots = kernel(outside.L) if outside.L.nrows else (Matrix.identity(n), tuple(range(n)))
+    X, pivots = (
+        nullspace_and_pivots(outside.L)
+        if outside.L.nrows
+        else (Matrix.identity(n), tuple(range(n)))
+    )
     v = X.ncols
     solution = solve(hstack([X, -B], nrows=n), A @ X)
     if solution is None:

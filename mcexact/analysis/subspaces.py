@@ -38,7 +38,7 @@ from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
     characteristic_polynomial,
-    kernel_at,
+    nullspace_at,
     row_echelon,
 )
 from mcexact.exact.matrix import Matrix, block
@@ -306,7 +306,7 @@ def exact_subspace(
             [Matrix.zeros(C.nrows, b), Matrix.zeros(C.nrows, n)],
         ]
     )
-    null_space, pivots = kernel_at(constant, shift, p)
+    null_space, pivots = nullspace_at(constant, shift, p)
     if len(pivots) <= b:
         return None
     spread = Matrix.from_integers(

@@ -53,13 +53,13 @@ PARTS = Template(
     "of the transfer graph.",
     "component_assignment.component_assignment",
 )
-UNSTABLE = Template(
+NOT_STABILIZABLE = Template(
     "not-stabilizable",
     "The plant cannot be stabilized by {control:control}: the slowest fixed mode "
     "{slowest:behavior}.",
     "evidence.shrunk_subspace_fixed_dynamic",
 )
-STABLE = Template(
+STABILIZABLE = Template(
     "stabilizable",
     "The plant can be stabilized by {control:control}: every fixed mode is stable, and the slowest "
     "one {slowest:behavior}.",
@@ -130,10 +130,10 @@ INACTIVE = Template(
 )
 FIXED_NONE = Template("fixed-none", "none", label="fixed modes")
 FIXED = Template("fixed", "{p:modes}", label="fixed modes")
-STABILIZABLE = Template(
+TABLE_STABILIZABLE = Template(
     "table-stabilizable", "yes, by {control:control}", _WANG_DAVISON, "stabilizable"
 )
-NOT_STABILIZABLE = Template(
+TABLE_NOT_STABILIZABLE = Template(
     "table-not-stabilizable",
     "not by {control:control}",
     "evidence.shrunk_subspace_fixed_dynamic",
@@ -385,14 +385,16 @@ def _heading(context: Context) -> Said:
     )
 
 
-@analysis_rule("answer", NOTHING_FIXED, STABLE, UNSTABLE, premises=("linked_fixed_spectrum",))
+@analysis_rule(
+    "answer", NOTHING_FIXED, STABILIZABLE, NOT_STABILIZABLE, premises=("linked_fixed_spectrum",)
+)
 def _linked(linked: Claim, context: Context) -> Said:
     """Say in the first sentence of the answer what the agents can do over the existing links."""
     heard = control(linked, context)
     if empty(linked):
         yield NOTHING_FIXED(control=heard)
     else:
-        template = STABLE if linked.stabilizable else UNSTABLE
+        template = STABILIZABLE if linked.stabilizable else NOT_STABILIZABLE
         yield template(control=heard, slowest=slowest(linked, context))
 
 
@@ -417,10 +419,10 @@ def _assigned(
         yield FREE() if len(parts) <= 1 else PARTS(k=len(parts))
 
 
-@analysis_rule("answer", STABLE, UNSTABLE, premises=("fixed_spectrum",))
+@analysis_rule("answer", STABILIZABLE, NOT_STABILIZABLE, premises=("fixed_spectrum",))
 def _stabilized(fixed_spectrum: Claim, context: Context) -> Said:
     if not empty(fixed_spectrum):
-        template = STABLE if fixed_spectrum.stabilizable else UNSTABLE
+        template = STABILIZABLE if fixed_spectrum.stabilizable else NOT_STABILIZABLE
         by = control(fixed_spectrum, context)
         if by == "own" and context.neighbors is not None and context.neighbors.edges():
             by = "alone"
@@ -548,9 +550,9 @@ def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
     yield FIXED(p=p) if p.degree else FIXED_NONE()
 
 
-@analysis_rule("table", STABILIZABLE, NOT_STABILIZABLE, premises=("fixed_spectrum",))
+@analysis_rule("table", TABLE_STABILIZABLE, TABLE_NOT_STABILIZABLE, premises=("fixed_spectrum",))
 def _stabilizable(fixed_spectrum: Claim, context: Context) -> Said:
-    template = STABILIZABLE if fixed_spectrum.stabilizable else NOT_STABILIZABLE
+    template = TABLE_STABILIZABLE if fixed_spectrum.stabilizable else TABLE_NOT_STABILIZABLE
     yield template(control=control(fixed_spectrum, context))
 
 

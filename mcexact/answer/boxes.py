@@ -24,6 +24,33 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
 
+# The region that an answer is about.
+
+
+class ModesAllowed:
+    """An answer that no plant has certain modes, or none outside of a region."""
+
+    about: Any
+    bound: Fraction | None
+
+    @property
+    def region(self) -> StabilityRegion | None:
+        """The region in which plants may have such modes, if any."""
+        return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
+
+
+class EigenvaluesInside:
+    """An answer that all eigenvalues of every loop lie in a region."""
+
+    about: Any
+    bound: Fraction | None
+
+    @property
+    def region(self) -> StabilityRegion:
+        """The region in which all eigenvalues lie."""
+        return StabilityRegion.of(self.about.time, bound=self.bound)
+
+
 # Answer: no plant in a box has a fixed mode.
 
 
@@ -64,7 +91,7 @@ class PencilFrame(Part):
 
 
 @answer("box_fixed")
-class BoxFixedModes(Answer):
+class BoxFixedModes(ModesAllowed, Answer):
     """No member of the box of a system has a fixed mode, or none outside of a region.
 
     The members are all systems whose entries are within their radii; entries that a construction
@@ -91,11 +118,6 @@ class BoxFixedModes(Answer):
     gains: tuple[PencilGains, ...] = witness()
     frames: tuple[PencilFrame, ...] = witness()
     cover: Cover = witness()
-
-    @property
-    def region(self) -> StabilityRegion | None:
-        """The region in which members may have fixed modes, if any."""
-        return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield what notebooks show."""
@@ -161,7 +183,7 @@ class RightInverseFrame(Part):
 
 
 @answer("box_controllable")
-class BoxControllability(Answer):
+class BoxControllability(ModesAllowed, Answer):
     """A set of channels controls every mode of every member of a box, or all outside of a region.
 
     About the dual of a system it says what the channels observe.
@@ -187,11 +209,6 @@ class BoxControllability(Answer):
     exterior: tuple[ExteriorDiscs, ...] = witness()
     frames: tuple[RightInverseFrame, ...] = witness()
     cover: Cover = witness()
-
-    @property
-    def region(self) -> StabilityRegion | None:
-        """The region in which members may have uncontrollable modes, if any."""
-        return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield what notebooks show."""
@@ -226,7 +243,7 @@ def _observable(box_observability: Claim, context: Context) -> Iterator[Sentence
 
 
 @answer("box_stable")
-class BoxStability(Answer):
+class BoxStability(EigenvaluesInside, Answer):
     """Every eigenvalue of every member of a box lies in a region: usually of a closed loop.
 
     Attributes
@@ -255,11 +272,6 @@ class BoxStability(Answer):
     growth: tuple[int, ...] | None = witness()
     segments: tuple[int, ...] = witness()
     frames: tuple[InverseFrame, ...] = witness()
-
-    @property
-    def region(self) -> StabilityRegion:
-        """The region in which all eigenvalues lie."""
-        return StabilityRegion.of(self.about.time, bound=self.bound)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield what notebooks show."""
@@ -292,7 +304,7 @@ class FixedModesOfCell(Part):
 
 
 @answer("parametric_box_fixed")
-class ParametricBoxFixedModes(Answer):
+class ParametricBoxFixedModes(ModesAllowed, Answer):
     """No mode is fixed at any real values of the parameters within their ranges.
 
     Attributes
@@ -311,11 +323,6 @@ class ParametricBoxFixedModes(Answer):
     bound: Fraction | None = claim("fixed modes at all values")
     cuts: Cuts = witness()
     parts: tuple[FixedModesOfCell, ...] = witness()
-
-    @property
-    def region(self) -> StabilityRegion | None:
-        """The region in which plants may have fixed modes, if any."""
-        return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield what notebooks show."""
@@ -342,7 +349,7 @@ class ControlOfCell(Part):
 
 
 @answer("parametric_box_controllable")
-class ParametricBoxControllability(Answer):
+class ParametricBoxControllability(ModesAllowed, Answer):
     """Channels control every mode at all real values of the parameters within their ranges.
 
     About the dual of a system it says what the channels observe.
@@ -365,11 +372,6 @@ class ParametricBoxControllability(Answer):
     bound: Fraction | None = claim("modes at any values that these do not control")
     cuts: Cuts = witness()
     parts: tuple[ControlOfCell, ...] = witness()
-
-    @property
-    def region(self) -> StabilityRegion | None:
-        """The region in which plants may have uncontrollable modes, if any."""
-        return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield what notebooks show."""
@@ -401,7 +403,7 @@ class StabilityOfCell(Part):
 
 
 @answer("parametric_box_stable")
-class ParametricBoxStability(Answer):
+class ParametricBoxStability(EigenvaluesInside, Answer):
     """Every eigenvalue lies in a region at all real values of the parameters within their ranges.
 
     Attributes
@@ -423,8 +425,3 @@ class ParametricBoxStability(Answer):
     gain_radii: dict[str, Any] | None = claim()
     cuts: Cuts = witness()
     parts: tuple[StabilityOfCell, ...] = witness()
-
-    @property
-    def region(self) -> StabilityRegion:
-        """The region in which all eigenvalues lie."""
-        return StabilityRegion.of(self.about.time, bound=self.bound)

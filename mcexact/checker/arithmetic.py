@@ -118,8 +118,8 @@ class Combination:
             self.row = [(x + factor * y) % ell for x, y in zip(self.row, u, strict=True)]
         else:
             spend(40 + ncols // 8)
-            moved = bytes(u).translate(multiples(ell)[factor])
-            self.row = byte_sum((bytes(self.row), moved), ncols, ell)
+            multiple = bytes(u).translate(multiples(ell)[factor])
+            self.row = byte_sum((bytes(self.row), multiple), ncols, ell)
 
     def is_zero(self) -> bool:
         """Whether the sum so far is 0."""
@@ -809,8 +809,8 @@ def within(M: Matrix, rows: Mapping[int, int] | None, cols: Mapping[int, int] | 
     spend(100 * len(M.entries))
     down = [(i if rows is None else rows.get(i), j, x) for i, j, x in M.entries]
     kept = [(i, j if cols is None else cols.get(j), x) for i, j, x in down if i is not None]
-    moved = [(i, j, x) for i, j, x in kept if j is not None]
-    return SparseMatrix(nrows, ncols, moved, M.denominator)
+    renumbered = [(i, j, x) for i, j, x in kept if j is not None]
+    return SparseMatrix(nrows, ncols, renumbered, M.denominator)
 
 
 def residues(M: Matrix, ell: int) -> list[Entry]:

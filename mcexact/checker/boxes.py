@@ -32,7 +32,7 @@ from .discs import (
     right_inverse,
 )
 from .evidence import inputs
-from .modes import inside, no_fixed_mode, read_bound
+from .modes import inside, no_fixed_mode, read_rate_or_radius
 from .parametric_system import FunctionSystem
 from .reading import Json, fields, integer, items, malformed, matrices, names, rational, require
 from .roots import Disc
@@ -57,7 +57,7 @@ def check_box_fixed(claim: Json, witness: Json, box: Box) -> None:
     Theorem ``boxes.regular_not_fixed``.
     """
     (limit,) = fields(claim, "claim", "bound")
-    bound = read_bound(limit, box)
+    bound = read_rate_or_radius(limit, box)
     exterior, gains, listed, cover = fields(
         witness, "witness", "exterior", "gains", "frames", "cover"
     )
@@ -95,9 +95,9 @@ def augmented(value: Json, place: str, box: Box) -> Pencil:
         XC = [(X_i @ C_i).times(-1) for X_i, C_i in zip(X, system.C, strict=True)]
         return rows(system.A, system.B, XC, last)
 
-    moved = [absolute(X_i) @ D_i for X_i, D_i in zip(X, box.radii.C, strict=True)]
+    radii_of_XC = [absolute(X_i) @ D_i for X_i, D_i in zip(X, box.radii.C, strict=True)]
     zeros = Matrix.zeros(total, total)
-    D = rows(box.radii.A, box.radii.B, moved, zeros)
+    D = rows(box.radii.A, box.radii.B, radii_of_XC, zeros)
     return Pencil(of(box, whole), D, box.n, [of(each, zeros) for each in box.tied])
 
 
@@ -115,10 +115,10 @@ def check_box_controllable(claim: Json, witness: Json, box: Box) -> None:
     Theorems ``joint_controllability.controllable_hautus``, ``boxes.uncontrolled_fixed``.
     """
     listed, limit = fields(claim, "claim", "channels", "bound")
-    channels, bound = names(listed, "claim.channels", box.names), read_bound(limit, box)
+    channels, bound = names(listed, "claim.channels", box.names), read_rate_or_radius(limit, box)
     exterior, frames, cover = fields(witness, "witness", "exterior", "frames", "cover")
     every = (box, box.radii, *box.tied)
-    Z, D, *moved = (beside([each.A, inputs(each, channels)], box.n) for each in every)
+    Z, D, *tied_pencils = (beside([each.A, inputs(each, channels)], box.n) for each in every)
     # what the channels do not control no gains from the state move
     certain = [Matrix.zeros(box.n, box.n)]
     radii, *tied = (replace(each, B=[inputs(each, channels)], C=certain) for each in every[1:])
@@ -129,7 +129,7 @@ def check_box_controllable(claim: Json, witness: Json, box: Box) -> None:
     for k, entry in enumerate(items(frames, "witness.frames")):
         where = f"witness.frames[{k}]"
         R, w = fields(entry, where, "R", "w")
-        inverses.append(right_inverse(R, w, where, Pencil(Z, D, box.n, moved)))
+        inverses.append(right_inverse(R, w, where, Pencil(Z, D, box.n, tied_pencils)))
     require_covered(cover, "witness.cover", discs, box.outside(bound), inverses)
 
 
@@ -154,7 +154,7 @@ def check_box_stable(claim: Json, witness: Json, box: Box) -> None:
     Theorems ``box_stable.box_stable_continuous``, ``box_stable.box_stable_discrete``.
     """
     limit, gain_radii = fields(claim, "claim", "bound", "gain_radii")
-    rate = read_bound(limit, box)
+    rate = read_rate_or_radius(limit, box)
     bound = Fraction(int(box.time == "discrete")) if rate is None else rate
     keys = ("nominal", "points", "growth", "segments", "frames")
     nominal, listed, growth, used, frames = fields(witness, "witness", *keys)

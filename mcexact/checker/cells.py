@@ -6,7 +6,7 @@ plants at all values of a cell in a box around the plant at the middle: the line
 parameter is common to all entries (``tied``), and the rest of each entry is within its radius.
 
 Constructions apply to rational functions in two ways.  Those that only place entries, zeros and
-ones are applied to numbers that stand for the entries (`moved`), so that each construction is
+ones are applied to numbers that stand for the entries (`rearranged`), so that each construction is
 written once, for numbers.  A line through the space of the parameters is substituted into the
 entries (`along_line`).  Other constructions are refused as INCOMPLETE.
 """
@@ -225,7 +225,7 @@ def boxes_of_cells(witness: Json, plant: FunctionSystem) -> Iterator[tuple[Box, 
 # Constructions of plants with parameters: those that only place entries, and lines.
 
 # fmt: off
-MOVING = (
+REARRANGING = (
     "arcs", "augmented_outputs", "dual", "extended", "full_output", "integrators", "merged",
     "restricted",
 )
@@ -237,7 +237,7 @@ OF_SEVERAL = ("parametric_box_controllable", "parametric_box_fixed")
 """The kinds that are also about plants with several parameters."""
 
 
-def moved(steps: Json, plant: FunctionSystem) -> FunctionSystem:
+def rearranged(steps: Json, plant: FunctionSystem) -> FunctionSystem:
     """Apply constructions, which make a matrix of entries of the plant, of 0 and of 1.
 
     So they are applied to numbers in the places of the entries, 0 for 0 and else 2, 3, …, which
@@ -249,7 +249,7 @@ def moved(steps: Json, plant: FunctionSystem) -> FunctionSystem:
     """
     for k, step in enumerate(items(steps, "subject")):
         name = step.get("construction") if isinstance(step, dict) else None
-        if type(name) is str and name in CONSTRUCTIONS and name not in (*MOVING, LINE):
+        if type(name) is str and name in CONSTRUCTIONS and name not in (*REARRANGING, LINE):
             incomplete("construction", f"subject[{k}]", f"{name} does not apply to parameters")
     first, before = (steps or [None])[0], 0
     if isinstance(first, dict) and first.get("construction") == LINE:
@@ -367,14 +367,14 @@ def _entry(plant: FunctionSystem, entry: Any, bottom: Polynomial, powers: list[P
 
 
 def looped(steps: Json, plant: FunctionSystem) -> FunctionSystem:
-    """As `moved`, but a closed loop may be the last construction.
+    """As `rearranged`, but a closed loop may be the last construction.
 
     Its matrix depends on the values; its words, its controller and its states do not.
     """
     *before, last = items(steps, "subject") or [None]
     if not isinstance(last, dict) or last.get("construction") != LOOP:
-        return moved(steps, plant)
-    inside = moved(before, plant)
+        return rearranged(steps, plant)
+    inside = rearranged(before, plant)
     A, *ports = (Matrix.zeros(len(rows), ncols) for rows, ncols in inside.tables)
     still = System(inside.time, inside.names, A, ports[0::2], ports[1::2], inside.neighbors)
     loop = read_subject([last], replace(still, words=inside.words))
@@ -395,7 +395,11 @@ def looped(steps: Json, plant: FunctionSystem) -> FunctionSystem:
 
 def constructed(steps: Json, plant: System | FunctionSystem) -> System | FunctionSystem:
     """What constructions make from a plant."""
-    return moved(steps, plant) if isinstance(plant, FunctionSystem) else read_subject(steps, plant)
+    return (
+        rearranged(steps, plant)
+        if isinstance(plant, FunctionSystem)
+        else read_subject(steps, plant)
+    )
 
 
 def subject_of(steps: Json, plant: System | FunctionSystem, kind: str) -> System | FunctionSystem:
@@ -407,6 +411,6 @@ def subject_of(steps: Json, plant: System | FunctionSystem, kind: str) -> System
     if isinstance(plant, FunctionSystem):
         if kind == "parametric_box_stable":
             return looped(steps, plant)
-        subject = moved(steps, plant)
+        subject = rearranged(steps, plant)
         return subject if kind in OF_SEVERAL else one_parameter(subject)
     return system_of(steps, plant, kind)

@@ -36,7 +36,7 @@ from .constructions import (
     signals_of,
 )
 from .evidence import closed_loop, read_gains
-from .modes import Bound
+from .modes import RateOrRadius
 from .reading import Json, decimal, fields, incomplete, integer, items, malformed, require
 from .roots import Disc
 from .system import MAPS, System, digest, pairs_of, radii_in_words, read_controller, read_radii
@@ -133,10 +133,10 @@ def left_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Regu
     V, w = complex_matrix(value, place, size, size), read_weights(weights, place, size)
     dynamic = range(pencil.dynamic)
     P = ComplexMatrix(V.re.take(None, dynamic), V.im.take(None, dynamic))
-    moved = V.magnitudes() @ (pencil.D @ w)
+    spread = V.magnitudes() @ (pencil.D @ w)
     for M in pencil.tied:
-        moved = moved + V.before(M).magnitudes() @ w
-    return near_identity(P, V.before(pencil.Z), moved, w)
+        spread = spread + V.before(M).magnitudes() @ w
+    return near_identity(P, V.before(pencil.Z), spread, w)
 
 
 def right_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Regular:
@@ -148,13 +148,13 @@ def right_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Reg
     R = complex_matrix(value, place, pencil.Z.ncols, size)
     w, dynamic = read_weights(weights, place, size), range(size)
     P = ComplexMatrix(R.re.take(dynamic), R.im.take(dynamic))
-    moved = pencil.D @ (R.magnitudes() @ w)
+    spread = pencil.D @ (R.magnitudes() @ w)
     for M in pencil.tied:
-        moved = moved + R.after(M).magnitudes() @ w
-    return near_identity(P, R.after(pencil.Z), moved, w)
+        spread = spread + R.after(M).magnitudes() @ w
+    return near_identity(P, R.after(pencil.Z), spread, w)
 
 
-def near_identity(P: ComplexMatrix, Q: ComplexMatrix, moved: Matrix, w: Matrix) -> Regular:
+def near_identity(P: ComplexMatrix, Q: ComplexMatrix, spread: Matrix, w: Matrix) -> Regular:
     """Whether Σ_j |I − (cP − Q)|_ij w_j + moved_i + ρ (|P| w)_i < w_i in every row i.
 
     P has the first columns; in the others it is 0.
@@ -174,7 +174,8 @@ def near_identity(P: ComplexMatrix, Q: ComplexMatrix, moved: Matrix, w: Matrix) 
         us[i][i] += d
     grown = P.magnitudes() @ Matrix(w.rows[:width], 1)
     slacks = [
-        w_i - Fraction(e[0], moved.denominator) for w_i, e in zip(weights, moved.rows, strict=True)
+        w_i - Fraction(e[0], spread.denominator)
+        for w_i, e in zip(weights, spread.rows, strict=True)
     ]
     slopes = [Fraction(e[0], grown.denominator) for e in grown.rows]
 
@@ -186,7 +187,7 @@ def near_identity(P: ComplexMatrix, Q: ComplexMatrix, moved: Matrix, w: Matrix) 
         budget.spend(
             budget.products(8 * size * size, max(a, b), c) + extractions(size * size, longest)
         )
-        budget.spend(budget.fractions(4 * size, longest + moved.limbs + budget.limbs_of([rho])))
+        budget.spend(budget.fractions(4 * size, longest + spread.limbs + budget.limbs_of([rho])))
         for x, y, u, v, slack, slope in zip(xs, ys, us, vs, slacks, slopes, strict=True):
             total = sum(
                 magnitude(x_j * p - y_j * q - z * u_j, x_j * q + y_j * p - z * v_j) * w_j
@@ -216,7 +217,7 @@ class Cell(NamedTuple):
     size: Fraction
     square: bool
 
-    def outside(self, time: str, bound: Bound) -> bool:
+    def outside(self, time: str, bound: RateOrRadius) -> bool:
         """Whether it lies below the real axis, or inside the region where modes are allowed.
 
         Theorems ``cells.conjugate_fixed``, ``cells.conjugate_rank``.
@@ -326,7 +327,7 @@ class Box(System):
             radii = _combined(radii, _sizes(each), 1)
         return replace(self, radii=radii, tied=())
 
-    def outside(self, bound: Bound) -> Callable[[Cell], bool]:
+    def outside(self, bound: RateOrRadius) -> Callable[[Cell], bool]:
         """The test of a cell that needs no proof: it is allowed, or below the real axis."""
         return lambda cell: cell.outside(self.time, bound)
 
@@ -533,8 +534,8 @@ def loop_pencil(box: Box, gain_radii: Json) -> Pencil:
     programs = programs_of(plant, agents, "subject")
     order = signals_of(plant, agents, programs)
     still: list[list[Terms]] = [[[] for _ in MAPS] for _ in agents]
-    moved = still if gain_radii is None else _read_radii(gain_radii, plant, agents)
-    Z, D = _pencil(plant, order, programs, 1), _pencil(radii, order, moved, 0)
+    uncertain = still if gain_radii is None else _read_radii(gain_radii, plant, agents)
+    Z, D = _pencil(plant, order, programs, 1), _pencil(radii, order, uncertain, 0)
     return Pencil(Z, D, box.n, [_pencil(each, order, still, 0) for each in plant.tied])
 
 

@@ -469,10 +469,10 @@ def krylov_loop(system: System, gains: Sequence[Matrix], ell: int) -> Rows:
     for F, C in zip(gains, system.C, strict=True):
         outputs = PackedRows(C.modulo(ell), n, ell)
         fed += [outputs.combined(row) for row in F.modulo(ell)]
-    moved, B = PackedRows(fed, n, ell), inputs(system, range(system.m)).modulo(ell)
+    fed_rows, B = PackedRows(fed, n, ell), inputs(system, range(system.m)).modulo(ell)
     spend(budget.products(n * n, budget.limbs([ell]), 1))
     return [
-        [(left + right) % ell for left, right in zip(row, moved.combined(u), strict=True)]
+        [(left + right) % ell for left, right in zip(row, fed_rows.combined(u), strict=True)]
         for row, u in zip(system.A.modulo(ell), B, strict=True)
     ]
 
@@ -521,13 +521,13 @@ def _channels(system: System, at: dict[int, int], place: str, count: int) -> lis
         return [[i for i, (B, C) in ports if not (B.is_zero() or C.is_zero())]]
     acting: list[list[int]] = [[] for _ in range(count)]
     for i, (B, C) in ports:
-        moved = [at[a] for a, _, _ in arithmetic.entries_of(B)]
+        driven = [at[a] for a, _, _ in arithmetic.entries_of(B)]
         seen = [at[b] for _, b, _ in arithmetic.entries_of(C)]
-        spend(8 * (len(moved) + len(seen)))
-        if moved and seen:
+        spend(8 * (len(driven) + len(seen)))
+        if driven and seen:
             message = f"channel number {i + 1} leads to a later block"
-            require(max(moved) <= min(seen), "order", place, message)
-            if max(moved) == min(seen):
+            require(max(driven) <= min(seen), "order", place, message)
+            if max(driven) == min(seen):
                 acting[min(seen)].append(i)
     return acting
 

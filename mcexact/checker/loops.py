@@ -29,7 +29,7 @@ from .arithmetic import (
     stack,
 )
 from .budget import products, spend
-from .modes import inside, read_bound
+from .modes import inside, read_rate_or_radius
 from .reading import (
     Json,
     boolean,
@@ -138,7 +138,7 @@ class Region(NamedTuple):
 
 def read_region(bound: Json, damping: Json, largest: Json, system: System) -> Region:
     """The region of a claim; the limits are for continuous time."""
-    rate, discrete = read_bound(bound, system), system.time == "discrete"
+    rate, discrete = read_rate_or_radius(bound, system), system.time == "discrete"
     zeta = None if damping is None else rational(damping, "claim.damping")
     R = None if largest is None else rational(largest, "claim.largest_modulus")
     fits = zeta is None or (not discrete and 0 < zeta < 1)
@@ -312,7 +312,7 @@ def check_distributed_observer(claim: Json, witness: Json, system: System) -> No
     ells = moduli(numbers, "witness.moduli")
     require_spectrum(M_F, p, "claim.feedback", ells)
     require_spectrum(M_E, q, "claim.error", ells)
-    bound = read_bound(limit, system)
+    bound = read_rate_or_radius(limit, system)
     if bound is not None:
         met = all(in_region(factor, system.time, bound) for factor in (p, q))
         require(met, "bound", "claim.bound", "a root does not meet it")

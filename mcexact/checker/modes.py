@@ -6,9 +6,9 @@ sides: a `shrunk_subspace` proves that modes are fixed, or that a rank is no lar
 polynomials, blocks, or elimination modulo ℓ prove that no more modes are fixed, or that a rank is
 no smaller (`evidence`).
 
-`require_absence` is shared with the kinds about shared dimensions and links: it checks that every
-fixed mode lies in a region where fixed modes are allowed, and that the transfer graph is strongly
-connected if this is claimed, too.
+`require_fixed_modes_inside` is shared with the kinds about shared dimensions and links: it checks
+that every fixed mode lies in a region where fixed modes are allowed, and that the transfer graph is
+strongly connected if this is claimed, too.
 """
 
 from collections.abc import Mapping
@@ -52,12 +52,16 @@ from .system import FIXED, PENCIL, System, channel_set, denied, polynomial_text
 
 # Absence of fixed modes beyond a region; ``proofs/shared_dimensions.md``.
 
-Bound = Fraction | None
-"""The rate or the radius that a claim is about, if any."""
+RateOrRadius = Fraction | None
+"""The rate or the radius of a claim, if any; certificates have it under the key ``bound``."""
 
 
-def require_absence(value: Json, system: System, bound: Bound, connected: bool = False) -> None:
-    """Stop unless every fixed mode lies in the region; and the graph is connected, if asked.
+def require_fixed_modes_inside(
+    value: Json, system: System, bound: RateOrRadius, connected: bool = False
+) -> None:
+    """Stop unless every fixed mode lies in the region.
+
+    If ``connected``, stop also unless the transfer graph is strongly connected.
 
     Theorem ``transfer_graph.strongly_connected_arcs``.
     """
@@ -78,7 +82,7 @@ def require_absence(value: Json, system: System, bound: Bound, connected: bool =
         require_connected(arcs, f"{place}.arcs", system, ell)
 
 
-def _without(value: Json, place: str, system: System, bound: Bound) -> Polynomial:
+def _without(value: Json, place: str, system: System, bound: RateOrRadius) -> Polynomial:
     """det(xI − A) without factors that lie in the region; [] if there is none."""
     allowed = items(value, place)
     rest = characteristic_polynomial(system.A) if allowed else []
@@ -93,7 +97,7 @@ def _without(value: Json, place: str, system: System, bound: Bound) -> Polynomia
     return rest
 
 
-def read_bound(value: Json, system: System) -> Bound:
+def read_rate_or_radius(value: Json, system: System) -> RateOrRadius:
     """A rate ≥ 0 in continuous time, a radius in (0, 1] in discrete time, or null."""
     if value is None:
         return None
@@ -117,7 +121,7 @@ def no_fixed_mode(bound: Json, system: System | FunctionSystem) -> str:
     return f"no mode of {where} that is {FIXED}"
 
 
-def require_outside(p: Polynomial, system: System, bound: Bound, place: str) -> None:
+def require_outside(p: Polynomial, system: System, bound: RateOrRadius, place: str) -> None:
     """Stop if every root of p lies inside the region, where fixed modes are allowed."""
     inside = in_region(p, system.time, bound)
     require(not inside, "region", place, "every root lies inside the region")
@@ -233,18 +237,19 @@ def _factor_text(factor: Json, system: System) -> str:
     )
 
 
-# Kind ``completeness``: connected and nothing fixed, or not; ``proofs/completeness.md``.
+# Kind ``completeness``: a strongly connected transfer graph and no fixed mode, or not;
+# ``proofs/completeness.md``.
 
 
 def check_completeness(claim: Json, witness: Json, system: System) -> None:
-    """Check freedom and edges for yes; a fixed mode or a cut of the transfer graph for no.
+    """Check `_require_complete` for yes; a fixed mode or a cut of the transfer graph for no.
 
     Theorems ``completeness.completeness_yes``, ``completeness.completeness_no_mode``,
     ``completeness.completeness_no_cut``.
     """
     (verdict,) = fields(claim, "claim", "complete")
     if boolean(verdict, "claim.complete"):
-        _require_freedom(witness, system)
+        _require_complete(witness, system)
     elif isinstance(witness, dict) and "zero" in witness:
         (zero,) = fields(witness, "witness", "zero")
         sources, X = evidence.zero_transfer(zero, "witness.zero", system)
@@ -266,8 +271,8 @@ def completeness_statement(claim: Json, system: System) -> str:
     return f"it is {denied(claim['complete'])}complete, which means that {means}"
 
 
-def _require_freedom(witness: Json, system: System) -> None:
-    """Check that no mode is fixed, and edges that connect all channels.
+def _require_complete(witness: Json, system: System) -> None:
+    """Stop unless no mode is fixed, and edges strongly connect the transfer graph.
 
     Theorem ``transfer_graph.strongly_connected_arcs``.
     """

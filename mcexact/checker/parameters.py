@@ -230,8 +230,8 @@ def _closed(value: Json, system: ParametricSystem) -> Layers:
     F = reading.matrices(value, "witness.gains", shapes)
     result = system.A
     for B_i, F_i, C_i in zip(system.B, F, system.C, strict=True):
-        moved = bivariate.product(bivariate.product(B_i, [F_i.times(-1)]), C_i)
-        result = bivariate.layered_difference(result, moved)
+        fed = bivariate.product(bivariate.product(B_i, [F_i.times(-1)]), C_i)
+        result = bivariate.layered_difference(result, fed)
     return result
 
 

@@ -132,8 +132,8 @@ def _dominates(S: Matrix, halves: list[int], columns: list[list[int]]) -> bool:
     if len(columns) != S.nrows:
         return False
     most = max(halves, default=0)
-    moved = [[x << (most - e) for x, e in zip(column, halves, strict=True)] for column in columns]
-    R = Matrix(moved, S.nrows)
+    scaled = [[x << (most - e) for x, e in zip(column, halves, strict=True)] for column in columns]
+    R = Matrix(scaled, S.nrows)
     Z = R @ (Matrix(S.rows, S.ncols) @ R.T)
     spend(budget.products(2 * S.nrows * (S.nrows + 4), Z.limbs, 1))
     sizes = enumerate((row, sum(map(abs, row))) for row in Z.rows)

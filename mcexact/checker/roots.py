@@ -46,10 +46,10 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
         return is_schur([c * power for c, power in zip(numbers, above, strict=True)])
     longest = a + d * (2 * b + 1)
     budget.spend(budget.products((d + 1) ** 2, longest, b) + budget.table(2, d + 1, longest))
-    moved: list[int] = []  # with roots larger by u, by Horner's rule
+    shifted: list[int] = []  # with roots larger by u, by Horner's rule
     for c in reversed(numbers):
-        moved = [e - u * f for e, f in zip([c, *moved], [*moved, 0], strict=True)]
-    return is_hurwitz(moved)
+        shifted = [e - u * f for e, f in zip([c, *shifted], [*shifted, 0], strict=True)]
+    return is_hurwitz(shifted)
 
 
 def is_hurwitz(p: Polynomial) -> bool:
@@ -104,13 +104,13 @@ def is_schur(p: Polynomial) -> bool:
     a, b = budget.limbs(numbers), len(p) // budget.LIMB + 1
     units = budget.products(len(p) ** 2, a, b) + budget.products(2 * len(p) ** 2, a + 2 * b, 1)
     budget.spend(units + budget.table(3, len(p), a + 2 * b))
-    moved: list[int] = []  # Σ p_k (1 + s)^k (1 − s)^(d−k), by Horner's rule
+    mapped: list[int] = []  # Σ p_k (1 + s)^k (1 − s)^(d−k), by Horner's rule
     power = [1]  # (1 − s)^k
     for c in reversed(numbers):
-        grown = [a + b for a, b in zip([*moved, 0], [0, *moved], strict=True)]  # times 1 + s
-        moved = [a + c * b for a, b in zip(grown, power, strict=True)]
+        grown = [a + b for a, b in zip([*mapped, 0], [0, *mapped], strict=True)]  # times 1 + s
+        mapped = [a + c * b for a, b in zip(grown, power, strict=True)]
         power = [a - b for a, b in zip([*power, 0], [0, *power], strict=True)]
-    return bool(moved[-1]) and is_hurwitz(moved)
+    return bool(mapped[-1]) and is_hurwitz(mapped)
 
 
 # Discs that contain one root each, and the resulting rate; ``proofs/evidence.md``.

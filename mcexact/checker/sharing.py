@@ -1,11 +1,11 @@
 """Kinds about shared dimensions and links.
 
-Each claim names a least cost.  That it suffices is proved by the absence of fixed modes outside
-the allowed region (`modes.require_absence`).  That nothing cheaper suffices is proved by a covering
-program: each cut says of which variables the sum must be at least d, and is proved by a loss of
-rank, or by channels that others do not reach.  A branch tree proves that no integer point that
-meets all cuts costs less, or that none exists (`Program`).  The kind ``common_dimension`` has one
-variable, and needs one subset of channels instead of a tree.
+Each claim names a least cost.  That it suffices is proved by the absence of fixed modes outside the
+allowed region (`modes.require_fixed_modes_inside`).  That nothing cheaper suffices is proved by a
+covering program: each cut says of which variables the sum must be at least d, and is proved by a
+loss of rank, or by channels that others do not reach.  A branch tree proves that no integer point
+that meets all cuts costs less, or that none exists (`Program`).  The kind ``common_dimension`` has
+one variable, and needs one subset of channels instead of a tree.
 """
 
 import math
@@ -121,7 +121,7 @@ def check_shared_dimensions(claim: Json, witness: Json, system: System) -> None:
     share, limit, free, prices, most, _, sizes, _ = fields(claim, "claim", *keys, "cost")
     absence, listed, tree = fields(witness, "witness", "absence", "cuts", "tree")
     reading.string(share, "claim.share", *SHARED)
-    bound = modes.read_bound(limit, system)
+    bound = modes.read_rate_or_radius(limit, system)
     connected = reading.boolean(free, "claim.free_assignability")
     costs = [reading.rational(c, "claim.costs") for c in items(prices, "claim.costs", system.m)]
     require(all(c > 0 for c in costs), "claim", "claim.costs", "expected positive costs")
@@ -136,7 +136,7 @@ def check_shared_dimensions(claim: Json, witness: Json, system: System) -> None:
     value = modes.claimed_cost(claim, "dimensions", absence)
     if value is not None:
         subject = extended(system, {"share": share, "dimensions": sizes}, "claim")
-        modes.require_absence(absence, subject, bound, connected=connected)
+        modes.require_fixed_modes_inside(absence, subject, bound, connected=connected)
         fits = all(u is None or n_i <= u for n_i, u in zip(sizes, upper, strict=True))
         total = sum(n_i * c for n_i, c in zip(sizes, costs, strict=True))
         right = fits and value == total
@@ -200,7 +200,7 @@ def shared_dimensions_statement(claim: Json, system: System) -> str:
 
 
 def read_cut(
-    entry: Json, place: str, base: System, bound: modes.Bound, free: bool
+    entry: Json, place: str, base: System, bound: modes.RateOrRadius, free: bool
 ) -> tuple[list[int], int]:
     """A subset s, and how much its boundary N_s∖s has to share at least.
 
@@ -245,7 +245,7 @@ def check_common_dimension(claim: Json, witness: Json, system: System) -> None:
     if feasible:
         k = reading.integer(number, "claim.dimension")
         step = {"share": share, "dimensions": [k] * system.m}
-        modes.require_absence(absence, extended(system, step, "claim.dimension"), None)
+        modes.require_fixed_modes_inside(absence, extended(system, step, "claim.dimension"), None)
     else:
         nothing = number is None and absence is None
         require(nothing, "claim", "claim", "expected null where nothing suffices")
@@ -283,7 +283,7 @@ def check_communication(claim: Json, witness: Json, system: System) -> None:
     if system.neighbors is None:
         system = replace(system, neighbors=[[i] for i in range(system.m)])
     require((sizes is None) == (share == "outputs"), "claim", "claim.dimensions", "do not fit")
-    bound, known = modes.read_bound(limit, system), candidates(listed, system)
+    bound, known = modes.read_rate_or_radius(limit, system), candidates(listed, system)
     costs, ends = [cost for *_, cost in known], [(j, i) for j, i, _ in known]
     make, step = extended, {"share": share, "dimensions": sizes}
     if sizes is None:
@@ -308,7 +308,7 @@ def check_communication(claim: Json, witness: Json, system: System) -> None:
         total = sum(c for j, i, c in known if (j, i) in chosen)
         require(right and value == total, "claim", "claim.cost", "not the cost of such candidates")
         final = make(arcs(system, {"added": added}, "claim.added"), step, "claim")
-        modes.require_absence(absence, final, bound)
+        modes.require_fixed_modes_inside(absence, final, bound)
     labels = [[system.names[j], system.names[i]] for j, i in ends]
     Program(costs, needs, "arc", labels, value).require_bound(tree, [1] * len(ends))
 

@@ -411,9 +411,9 @@ def _lost_at(value: Json, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: i
     for _ in budget.counted(range(blocks)):
         gone = all((layer @ B).is_zero() for layer in w)
         require(gone, "identity", f"{place}.row", "it does not annihilate every block")
-        moved = [Matrix.zeros(1, A.nrows), *(layer @ A for layer in w)]
-        terms = zip(w, moved, f, strict=False)
-        w = [layer @ M + shifted - moved[-1].times(c) for layer, shifted, c in terms]
+        images = [Matrix.zeros(1, A.nrows), *(layer @ A for layer in w)]
+        terms = zip(w, images, f, strict=False)
+        w = [layer @ M + shifted - images[-1].times(c) for layer, shifted, c in terms]
     return f
 
 

@@ -853,33 +853,34 @@ def extended_system(
     InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_graph(system, graph)
     construction = {"construction": "extended", "share": share, "dimensions": dimensions}
-    return exchanged(system, graph, construction, lambda i, j: 0)
+    return with_shared_sub_states(system, graph, construction, lambda i, j: 0)
 
 
-def exchanged(
+def with_shared_sub_states(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     construction: Mapping[str, Any],
     delay: Callable[[int, int], int],
 ) -> MultiChannelSystem:
-    """Append shared sub-states and the messages under way, as `lifted_system` draws them.
+    """Append shared sub-states and the messages under way, in the block form of `lifted_system`.
 
     Parameters
     ----------
     system : MultiChannelSystem
     graph : NeighborGraph
     construction : mapping
-        Its ``dimensions`` n_1 … n_m, and what agents ``share``, by default sub-states alone.
+        Its ``dimensions`` n_1 … n_m, and what agents ``share``; `held_system` does not have the
+        latter, since its agents share sub-states alone.
     delay : function of i and j
         The number of steps after which agent i receives x_j, and y_j if outputs are shared.
     """
     sizes = checked_dimensions(system, construction["dimensions"])
-    both = checked_share(construction.get("share", "states")) == "outputs+states"
+    shares_outputs = checked_share(construction.get("share", "states")) == "outputs+states"
     n, m = system.n, system.m
-    seen = [{j: delay(i, j) for j in graph.neighborhood(i)} for i in range(m)]
-    late = [max(steps.get(j, 0) for steps in seen) for j in range(m)]
-    sent = [system.q(j) if both else 0 for j in range(m)]
-    blocks = [k + d * (k + q) for d, k, q in zip(late, sizes, sent, strict=True)]
+    delays = [{j: delay(i, j) for j in graph.neighborhood(i)} for i in range(m)]  # d_ij, j in N_i
+    longest = [max(steps.get(j, 0) for steps in delays) for j in range(m)]  # d_j
+    widths = [system.q(j) if shares_outputs else 0 for j in range(m)]  # q_j; 0 without outputs
+    blocks = [k + d * (k + q) for d, k, q in zip(longest, sizes, widths, strict=True)]
     starts = [0, *accumulate(blocks)]
     require_size(n + starts[m])
 
@@ -887,19 +888,19 @@ def exchanged(
         return selector(starts[j] + steps * sizes[j], sizes[j], starts[m])
 
     def y(j: int, steps: int) -> Matrix:
-        behind = (late[j] + 1) * sizes[j] + (steps - 1) * sent[j]
-        return selector(starts[j] + behind, sent[j], starts[m])
+        behind = (longest[j] + 1) * sizes[j] + (steps - 1) * widths[j]
+        return selector(starts[j] + behind, widths[j], starts[m])
 
     K, G, C = [], [], []
-    for j, d in enumerate(late):
+    for j, d in enumerate(longest):
         K += [kronecker(shift(d + 1), Matrix.identity(sizes[j]))]
-        K += [kronecker(shift(d), Matrix.identity(sent[j]))]
-        entering = system.C(j) if both and d else Matrix.zeros(0, n)
+        K += [kronecker(shift(d), Matrix.identity(widths[j]))]
+        entering = system.C(j) if shares_outputs and d else Matrix.zeros(0, n)
         G += [Matrix.zeros((d + 1) * sizes[j], n), entering]
-        G += [Matrix.zeros(d * sent[j] - entering.nrows, n)]
-    for i, steps in enumerate(seen):
-        at_once = [j for j in steps if not steps[j]] if both else [i]
-        under_way = [y(j, steps[j]) for j in steps if steps[j] and both]
+        G += [Matrix.zeros(d * widths[j] - entering.nrows, n)]
+    for i, steps in enumerate(delays):
+        at_once = [j for j in steps if not steps[j]] if shares_outputs else [i]
+        under_way = [y(j, steps[j]) for j in steps if steps[j] and shares_outputs]
         states = [x(j, steps[j]) for j in steps]
         received = hstack([*under_way, *states], nrows=starts[m]).T
         C.append(block_diagonal([system.output_matrix(at_once), received]))
@@ -1012,11 +1013,13 @@ def lifted_system(
         G = (G_1; …; G_m),  G_j = (0_{(d_j+1)n_j×n}; C_j; 0_{(d_j−1)q_j×n})  for d_j ≥ 1
                             G_j = 0_{n_j×n}                                 for d_j = 0
 
-    N⁰_i are the neighbors with d_ij = 0 and N⁺_i those with d_ij > 0, so that i receives undelayed
-    outputs first, then the delayed ones, then all sub-states. H_jδ picks x_j(t−δ) and Q_jδ picks
-    y_j(t−δ); H_{N_i} = [H_{j d_ij}], Q_{N⁺_i} = (Q_{j d_ij}), in the order of the channels. The
-    paper's G_j would have −1 block rows when d_j = 0. With ``share="states"`` (the remark after
-    Theorem 3) there are neither y_j(t−δ) nor G, and C̃_i = diag(C_i, H'_{N_i}).
+    S_d is the d×d shift matrix, with ones just below the diagonal. N⁰_i are the neighbors with
+    d_ij = 0 and N⁺_i those with d_ij > 0, so that i receives undelayed outputs first, then the
+    delayed ones, then all sub-states; this is the order of (35), not that of the paper's ỹ_i, which
+    has all outputs in the order of the neighbors. H_jδ picks x_j(t−δ) and Q_jδ picks y_j(t−δ);
+    H_{N_i} = [H_{j d_ij}], Q_{N⁺_i} = (Q_{j d_ij}), in the order of the channels. The paper's G_j
+    would have −1 block rows when d_j = 0. With ``share="states"`` (the unnumbered paragraph after
+    the proof of Theorem 3) there are neither y_j(t−δ) nor G, and C̃_i = diag(C_i, H'_{N_i}).
 
     Examples
     --------
@@ -1035,7 +1038,7 @@ def lifted_system(
     system, graph = with_graph(system, graph)
     require_discrete(system)
     construction = {"construction": "lifted", "share": share, "dimensions": dimensions}
-    return exchanged(system, graph, construction, graph.delay)
+    return with_shared_sub_states(system, graph, construction, graph.delay)
 
 
 def held_system(
@@ -1080,8 +1083,8 @@ def held_system(
               ⎡ B_i    0   ⎤            ⎡ C_i              0               ⎤
         B̂_i = ⎣  0   L_{i0} ⎦ ,   Ĉ_i = ⎣  0   [L_{j d_j}, j ∈ N_i]'       ⎦
 
-    S_d is the d×d shift matrix and L_jδ picks x_j(t−δ), 0 ≤ δ ≤ d_j; with d_j = 0 the block is
-    S_1 ⊗ I = 0, as in the extended system without delays.
+    S_d is the d×d shift matrix, with ones just below the diagonal, and L_jδ picks x_j(t−δ),
+    0 ≤ δ ≤ d_j; with d_j = 0 the block is S_1 ⊗ I = 0, as in the extended system without delays.
 
     Examples
     --------
@@ -1097,9 +1100,9 @@ def held_system(
     InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_graph(system, graph)
     require_discrete(system)
-    late = [graph.longest_delay(j) for j in range(system.m)]
+    longest = [graph.longest_delay(j) for j in range(system.m)]
     construction = {"construction": "held", "dimensions": dimensions}
-    return exchanged(system, graph, construction, lambda i, j: late[j])
+    return with_shared_sub_states(system, graph, construction, lambda i, j: longest[j])
 
 
 # Neighbor graphs that vary with time, in discrete time: the plant in windows of several steps.

@@ -2,7 +2,7 @@
 
 This stage takes integers, Fractions, Decimals, strings in the grammar of files and sympy Rationals.
 It gives immutable matrices and polynomials, exact linear algebra over Q and modulo word-size
-primes, kernels over number fields, discs and intervals around roots, and decisions whether the
+primes, null spaces over number fields, discs and intervals around roots, and decisions whether the
 roots of a polynomial lie in a stability region.  Floats are refused; `from_float` and
 `matrix_from_float` convert them explicitly.
 
@@ -15,11 +15,11 @@ No other stage imports flint.  This stage refuses sizes and moduli for which fli
 `polynomial`              rational polynomials
 `modular`                 matrices and polynomials modulo primes, rational reconstruction
 `krylov`                  Krylov sequences modulo primes, recurrences, invariant subspaces
-`linear_algebra`          ranks, kernels, solutions over Q, Q[x] and Q[x]/(p)
+`linear_algebra`          ranks, null spaces, solutions over Q, Q[x] and Q[x]/(p)
 `balls`                   matrix exponentials and trajectories with errors proved
 `rational_functions`      rational functions of parameters, and matrices of them
 `bivariate`               routines on polynomials in x and one parameter, as plain data
-`parametric_polynomials`  polynomials in x and parameters, their determinants and kernels
+`parametric_polynomials`  polynomials in x and parameters, their determinants and null spaces
 `roots`                   discs around roots, Hurwitz and Schur tests, stability regions
 ========================  ================================================================
 """

@@ -1,4 +1,4 @@
-"""Routines on polynomials in x and t: resultants, kernels, and arithmetic over Q[t]/(q).
+"""Routines on polynomials in x and t: resultants, null spaces, and arithmetic over Q[t]/(q).
 
 A `Bivariate` is plain data, a list of flint's polynomials in t: the coefficients of the powers of
 x, constant first.  Over L = Q[t]/(q) they are reduced modulo q, which is monic and irreducible.
@@ -9,10 +9,10 @@ Characteristic polynomials and norms are computed by values: at enough integers 
 then interpolated.  Coprimality is tried at a value of t modulo a prime first, since one value
 without a common root proves it.
 
-Over L, `factors` is Trager's algorithm: it factors the norm, a polynomial over Q.  Kernels over
-L[x]/(p) (`Tower`) are kernels of matrices over Q, in which each element is its matrix of
-multiplication.  Kernels over Q(t) (`over_functions`) are interpolated by rational functions from
-kernels at integers, and further values have to agree, which is no proof.
+Over L, `factors` is Trager's algorithm: it factors the norm, a polynomial over Q.  Null spaces over
+L[x]/(p) (`Tower`) are null spaces of matrices over Q, in which each element is its matrix of
+multiplication.  Null spaces over Q(t) (`over_functions`) are interpolated by rational functions
+from null spaces at integers, and further values have to agree, which is no proof.
 
 Resultants with respect to x are computed modulo primes, by values at t, of `Residues`: polynomials
 in x and t modulo a prime are a type of their own, since flint's for one word are many times faster.
@@ -258,13 +258,13 @@ def _norm(f: Bivariate, q: Any) -> Any:
     return interpolated(values, where)
 
 
-# Kernels over Q[t]/(q)[x]/(p), and over Q(t)[x]/(p), from matrices of rational numbers.
+# Null spaces over Q[t]/(q)[x]/(p), and over Q(t)[x]/(p), from matrices of rational numbers.
 
 _CHECKED = 3
 """The number of further points at which interpolated functions are compared."""
 
-Kernel = tuple[tuple[int, ...], list[list[Bivariate]]]
-"""The rows that form the identity, and the columns of a kernel."""
+Nullspace = tuple[tuple[int, ...], list[list[Bivariate]]]
+"""The rows that form the identity, and the columns of a null space."""
 X: Bivariate = [flint.fmpq_poly([0]), flint.fmpq_poly([1])]
 """x itself, modulo which nothing depends on x."""
 
@@ -324,8 +324,8 @@ class Tower:
             self._columns[key] = columns
         return self._columns[key]
 
-    def kernel(self, rows: list[list[Bivariate]], ncols: int) -> Kernel:
-        """The kernel of a matrix with these rows, in echelon form."""
+    def nullspace(self, rows: list[list[Bivariate]], ncols: int) -> Nullspace:
+        """The null space of a matrix with these rows, in echelon form."""
         D = self.D
         table = flint.fmpq_mat(len(rows) * D, ncols * D)
         for i, row in enumerate(rows):
@@ -359,8 +359,8 @@ class Tower:
         return tuple(free), columns
 
 
-def over_functions(sample: Callable[[int], Kernel | None]) -> Kernel:
-    """The kernel over Q(t) that has these values, multiplied by the least common denominator."""
+def over_functions(sample: Callable[[int], Nullspace | None]) -> Nullspace:
+    """The null space over Q(t) with these values, multiplied by the least common denominator."""
     far = [value for t in range(10**4, 10**4 + 60) if (value := sample(t)) is not None][:3]
     if not far:
         raise InternalError("a generic polynomial factors at every point that was tried")
@@ -372,10 +372,10 @@ def over_functions(sample: Callable[[int], Kernel | None]) -> Kernel:
     while True:
         while len(where) < wanted + _CHECKED:
             t += 1
-            kernel = sample(t)
-            if kernel is not None and kernel[0] == pattern:
+            basis = sample(t)
+            if basis is not None and basis[0] == pattern:
                 where.append(t)
-                values.append([c[0] for vector in kernel[1] for e in vector for c in e])
+                values.append([c[0] for vector in basis[1] for e in vector for c in e])
         functions = _functions(values, where, wanted)
         if functions is not None:
             break

@@ -38,7 +38,7 @@ from typing import TYPE_CHECKING, Any
 import flint
 
 from mcexact.errors import InternalError
-from mcexact.exact.matrix import Matrix, offsets
+from mcexact.exact.matrix import LARGEST_WHOLE, Matrix, offsets
 from mcexact.exact.modular import (
     ModularMatrix,
     ModularPolynomial,
@@ -112,7 +112,6 @@ def cofactors(
 
 # Dense matrices: Krylov sequences by products that are exact in floating point.
 
-_EXACT = 2**53
 _EXACT_IN_SINGLE = 2**24
 
 # A squaring costs as much as 25 products with a row at n = 130, and 600 at n = 1600.
@@ -139,7 +138,7 @@ def exact_bits(terms: int) -> int:
     (23, 22)
     """
     bits = 26
-    while _largest_sum(terms, 2**bits) > _EXACT:
+    while _largest_sum(terms, 2**bits) > LARGEST_WHOLE:
         bits -= 1
     return bits
 
@@ -229,7 +228,7 @@ class KrylovSteps:
             self.power, self.steps = reduce(squared, ell), 2 * self.steps
         self.at_once = 1
         if 0 < len(M) < _REDUCED_ALWAYS:
-            exact = _EXACT_IN_SINGLE if M.dtype == np.float32 else _EXACT
+            exact = _EXACT_IN_SINGLE if M.dtype == np.float32 else LARGEST_WHOLE
             norm = np.abs(self.power, out=other).sum(axis=0).max()
             self.at_once = products_at_once(int(norm), ell, exact)
 
@@ -454,7 +453,7 @@ class SparseLoop:
         None if not even one step of M is exact in floating point.
         """
 
-        if not steps_at_once(M, self.ell, _EXACT):
+        if not steps_at_once(M, self.ell, LARGEST_WHOLE):
             return None
         vectors = (
             (
@@ -491,7 +490,7 @@ def sequence(M: Integers, row: Any, column: Any, ell: int, length: int) -> list[
     import numpy as np
 
     single = steps_at_once(M, ell, _EXACT_IN_SINGLE)
-    kind, exact = (np.float32, _EXACT_IN_SINGLE) if single > 1 else (np.float64, _EXACT)
+    kind, exact = (np.float32, _EXACT_IN_SINGLE) if single > 1 else (np.float64, LARGEST_WHOLE)
     step, steps = M.astype(kind), steps_at_once(M, ell, exact)
     step.indices, step.indptr = step.indices.astype(np.int32), step.indptr.astype(np.int32)
     where = np.flatnonzero(row)
@@ -574,7 +573,7 @@ class SparsePowers:
         """The least recurrence of c Mᵏ b, c and b drawn: mostly all of the minimal polynomial."""
         import numpy as np
 
-        small = max(1, _EXACT // (max(self.n, 1) * self.ell))
+        small = max(1, LARGEST_WHOLE // (max(self.n, 1) * self.ell))
         row = np.array([rng.randrange(small) for _ in range(self.n)], dtype=np.float64)
         drawn = np.array([rng.randrange(self.ell) for _ in range(self.n)], dtype=np.float64)
         v: Floats = reduce(drawn, self.ell)
@@ -615,7 +614,7 @@ def largest_prime(n: int, terms: int) -> int:
     >>> largest_prime(10**4, 8).bit_length()
     26
     """
-    return min(2**26, 2 * isqrt(_EXACT // (terms + 2)) - 8, 2**52 // max(n, 1))
+    return min(2**26, 2 * isqrt(LARGEST_WHOLE // (terms + 2)) - 8, 2**52 // max(n, 1))
 
 
 # The smallest A-invariant subspace that contains im B, over Q.

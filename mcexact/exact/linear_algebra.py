@@ -2,16 +2,16 @@
 
 Over Q, flint computes with integer numerators.  `rank` computes modulo one prime first: full rank
 there is full rank over Q; any lower rank is computed again over Q.  `solve` takes any matrix;
-`solve_nonsingular` takes a square one, and is faster if the right side has few columns.  Kernels
-are in echelon form, with the positions of their identity block.
+`solve_nonsingular` takes a square one, and is faster if the right side has few columns.  Bases of
+null spaces are in echelon form, with the positions of their identity block.
 
 `invariant_form` finds a basis in which a matrix is a block-diagonal matrix of companions of its
 invariant polynomials; it draws vectors, and its result is exact.
 
 A `PolynomialMatrix` Σ_k x^k M_k is a matrix over Q[x], or over K = Q[x]/(p) with p irreducible.
-Ranks and kernels over K are those at every root of p, so no root is ever approximated.
-`field_kernel` finds the pivots at a root of p modulo a prime, solves for the kernel over K, and
-proves it by the exact test of M U = 0 modulo p.
+Ranks and null spaces over K are those at every root of p, so no root is ever approximated.
+`field_nullspace` finds the pivots at a root of p modulo a prime, solves for the null space over K,
+and proves it by the exact test of M U = 0 modulo p.
 
 `solve_over_field` has two algorithms.  For deg p below 10 each element of K is its matrix of
 multiplication over Q (`inflate`), which gives one larger system.  From degree 10 on, the solution
@@ -102,7 +102,7 @@ def row_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
     return whole.take(rows=range(r)), tuple(pivots)
 
 
-def kernel(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
+def nullspace_and_pivots(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
     """Compute a basis of {x : Mx = 0}, and the rows of it that form the identity.
 
     Returns
@@ -125,14 +125,14 @@ def kernel(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
 
 
 def nullspace(M: Matrix) -> Matrix:
-    """A basis of {x : Mx = 0} as columns, in echelon form (see `kernel`).
+    """A basis of {x : Mx = 0} as columns, in echelon form (see `nullspace_and_pivots`).
 
     Examples
     --------
     >>> nullspace(Matrix.from_rows([[1, 2]])).numerators
     ((-2,), (1,))
     """
-    return kernel(M)[0]
+    return nullspace_and_pivots(M)[0]
 
 
 def left_nullspace(M: Matrix) -> Matrix:
@@ -342,8 +342,8 @@ def invariant_form(Z: Matrix, rng: Random) -> tuple[Matrix, tuple[Polynomial, ..
     Notes
     -----
     A drawn v generates a space of the dimension d of the minimal polynomial, a drawn row w has
-    w Z^{i+j} v nonsingular, and then the kernel of w, wZ, …, wZ^{d−1} is an invariant complement,
-    on which the algorithm continues.  Exact.
+    w Z^{i+j} v nonsingular, and then the null space of w, wZ, …, wZ^{d−1} is an invariant
+    complement, on which the algorithm continues.  Exact.
 
     Examples
     --------
@@ -359,7 +359,7 @@ def invariant_form(Z: Matrix, rng: Random) -> tuple[Matrix, tuple[Polynomial, ..
         K, rows = _cyclic_pair(Z, f.degree, rng)
         parts.append(basis @ K)
         found.append(f)
-        rest, pivots = kernel(rows)
+        rest, pivots = nullspace_and_pivots(rows)
         basis, Z = basis @ rest, (Z @ rest).take(rows=pivots)
     return hstack(parts[::-1], nrows=b), tuple(found[::-1])
 
@@ -767,8 +767,8 @@ def _layers(numerators: list[list[int]], denominator: int, ncols: int) -> Polyno
 # Linear algebra over K = Q[x]/(p) for irreducible p.
 
 
-def field_kernel(M: PolynomialMatrix, p: Polynomial) -> tuple[PolynomialMatrix, tuple[int, ...]]:
-    """The kernel of a polynomial matrix over K = Q[x]/(p), in echelon form.
+def field_nullspace(M: PolynomialMatrix, p: Polynomial) -> tuple[PolynomialMatrix, tuple[int, ...]]:
+    """The null space of a polynomial matrix over K = Q[x]/(p), in echelon form.
 
     Parameters
     ----------
@@ -791,15 +791,15 @@ def field_kernel(M: PolynomialMatrix, p: Polynomial) -> tuple[PolynomialMatrix, 
     Notes
     -----
     Exact.  Pivots are found at a root of p modulo a prime, where the rank is never too large.  Then
-    the kernel for these pivots is computed over K, and the exact test of M U = 0 modulo p proves
-    that the rank is not larger.
+    the null space for these pivots is computed over K, and the exact test of M U = 0 modulo p
+    proves that the rank is not larger.
 
     Examples
     --------
     The eigenvectors of [0 2; 1 0] over Q(√2):
 
     >>> M = PolynomialMatrix.pencil(Matrix.from_rows([[0, -2], [-1, 0]]), Matrix.identity(2))
-    >>> U, pivots = field_kernel(M, Polynomial.of(-2, 0, 1))
+    >>> U, pivots = field_nullspace(M, Polynomial.of(-2, 0, 1))
     >>> [str(U.entry(i, 0)) for i in range(2)], pivots
     (['x', '1'], (1,))
     """
@@ -810,7 +810,7 @@ def field_kernel(M: PolynomialMatrix, p: Polynomial) -> tuple[PolynomialMatrix, 
         roots = polynomial_residues(field, ell).roots()
         if not roots:
             continue
-        found = _kernel_at_pivots(M, field, M.at_residue(min(roots), ell))
+        found = _nullspace_at_pivots(M, field, M.at_residue(min(roots), ell))
         if found is not None and (M @ found[0] % field).is_zero():
             return found
         if not field.is_irreducible():
@@ -818,10 +818,10 @@ def field_kernel(M: PolynomialMatrix, p: Polynomial) -> tuple[PolynomialMatrix, 
     raise InternalError("the stream of primes is endless")
 
 
-def _kernel_at_pivots(
+def _nullspace_at_pivots(
     M: PolynomialMatrix, p: Polynomial, value: ModularMatrix
 ) -> tuple[PolynomialMatrix, tuple[int, ...]] | None:
-    """The candidate for the kernel with the pivots of a value of M; None if these are dependent."""
+    """The candidate with the pivots of a value of M; None if these are dependent."""
     bound = value.rref()[1]
     rows = value.take(cols=bound).T.rref()[1]
     free = tuple(sorted(set(range(M.ncols)) - set(bound)))
@@ -837,9 +837,9 @@ def _kernel_at_pivots(
     return U, free
 
 
-def kernel_at(M0: Matrix, M1: Matrix, p: Polynomial) -> tuple[PolynomialMatrix, tuple[int, ...]]:
-    """The kernel of M0 + x M1 over Q[x]/(p), as `field_kernel` gives it."""
-    return field_kernel(PolynomialMatrix.pencil(M0, M1), p)
+def nullspace_at(M0: Matrix, M1: Matrix, p: Polynomial) -> tuple[PolynomialMatrix, tuple[int, ...]]:
+    """The null space of M0 + x M1 over Q[x]/(p), as `field_nullspace` gives it."""
+    return field_nullspace(PolynomialMatrix.pencil(M0, M1), p)
 
 
 def field_rank(M: PolynomialMatrix, p: Polynomial) -> int:
@@ -853,4 +853,4 @@ def field_rank(M: PolynomialMatrix, p: Polynomial) -> int:
     """
     if M.nrows < M.ncols:
         M = M.T
-    return M.ncols - field_kernel(M, p)[0].ncols
+    return M.ncols - field_nullspace(M, p)[0].ncols

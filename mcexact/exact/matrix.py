@@ -145,7 +145,9 @@ def array_for_caller(M: Matrix, dtype: npt.DTypeLike | None, depth: int = 2) -> 
     """Return what ``__array__`` gives: floats to numpy, and the exact entries to sympy.
 
     ``sympy.Matrix(M)`` calls ``M.__array__()`` itself and takes the entries one by one, so that
-    floats would lose what both sides can represent.  numpy's calls have no frame of numpy.
+    floats would lose what both sides can represent.  ``numpy.asarray(M)`` makes the same call, with
+    the same arguments and without a frame of numpy: only the module of the caller tells the two
+    apart, so it is looked up in the frame ``depth`` levels up.
     """
     caller = sys._getframe(depth).f_globals.get("__name__", "")
     if dtype is None and str(caller).partition(".")[0] == "sympy":

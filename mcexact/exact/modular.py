@@ -248,7 +248,7 @@ class ModularMatrix:
     Examples
     --------
     >>> M = ModularMatrix.from_rows([[1, 2], [2, 4]], 7)
-    >>> M.rank(), M.kernel()[0].rows()
+    >>> M.rank(), M.nullspace()[0].rows()
     (1, [[5], [1]])
     """
 
@@ -411,7 +411,7 @@ class ModularMatrix:
         reduced, rank = self._table.rref()
         return ModularMatrix(self.modulus, reduced), _pivots(reduced, rank)
 
-    def kernel(self) -> tuple[ModularMatrix, tuple[int, ...]]:
+    def nullspace(self) -> tuple[ModularMatrix, tuple[int, ...]]:
         """A basis of {x : Mx = 0} as columns, and its rows that form the identity."""
         reduced, rank = self._table.rref()
         pivots = _pivots(reduced, rank)

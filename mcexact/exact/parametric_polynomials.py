@@ -1,4 +1,4 @@
-"""Polynomials in x over Q[t, …] for one parameter and several, their determinants and kernels.
+"""Polynomials in x over Q[t, …] for one parameter and several, their determinants and null spaces.
 
 A `ParametricPolynomial` is c_0 + c_1 x + … + c_d x^d, with coefficients in Q[t_1, …, t_k] or, at
 the roots of an irreducible polynomial q in one parameter, in the number field L = Q[t]/(q).  The
@@ -16,7 +16,7 @@ It has two forms of plain data, and each is computed from the other when an oper
 Matrices over Q[t] are `PolynomialMatrix`, which is fast for products; over Q[t_1, …, t_k] they are
 rows of flint's polynomials (`exact.rational_functions`).  `characteristic` is computed by values
 for the former and by traces (Faddeev and Le Verrier) for the latter, where values would be too
-many.  Kernels over L[x]/(p) and over Q(t)[x]/(p) take one parameter, and the matrix by its
+many.  Null spaces over L[x]/(p) and over Q(t)[x]/(p) take one parameter, and the matrix by its
 coefficients of the powers of x.
 
 Polynomials modulo a prime are not of this type.  They have residues of one word, the only operation
@@ -367,7 +367,7 @@ def determinant_modulo(M: PolynomialMatrix, ell: int) -> ModularPolynomial:
     return ModularPolynomial(ell, bivariate.interpolated_modulo(values, ell))
 
 
-# Kernels of matrices over Q[t], and over Q[t][x], at the roots of p.
+# Null spaces of matrices over Q[t], and over Q[t][x], at the roots of p.
 
 Layers = Sequence[PolynomialMatrix]
 """A matrix over Q[t][x]: the coefficients of 1, x, …, matrices over Q[t] of one shape."""
@@ -375,8 +375,8 @@ Basis = tuple[tuple[int, ...], tuple[PolynomialMatrix, ...]]
 """The rows that form an identity matrix, or a multiple of it, and the columns, by layers."""
 
 
-def kernel_over_field(M: Layers, q: Polynomial, p: ParametricPolynomial | None = None) -> Basis:
-    """The kernel over Q[t]/(q)[x]/(p), in echelon form.
+def nullspace_over_field(M: Layers, q: Polynomial, p: ParametricPolynomial | None = None) -> Basis:
+    """The null space over Q[t]/(q)[x]/(p), in echelon form.
 
     Parameters
     ----------
@@ -389,26 +389,26 @@ def kernel_over_field(M: Layers, q: Polynomial, p: ParametricPolynomial | None =
     """
     modulus = to_fmpq_poly(q)
     rows = [[[c % modulus for c in entry] for entry in row] for row in _entries(M)]
-    kernel = Tower(modulus, X if p is None else p.dense).kernel(rows, M[0].ncols)
-    return _basis(kernel, M[0].ncols, 1 if p is None else p.degree)
+    basis = Tower(modulus, X if p is None else p.dense).nullspace(rows, M[0].ncols)
+    return _basis(basis, M[0].ncols, 1 if p is None else p.degree)
 
 
-def generic_kernel(M: Layers, p: ParametricPolynomial | None = None) -> Basis:
-    """The kernel over Q(t)[x]/(p), multiplied by the least common denominator.
+def generic_nullspace(M: Layers, p: ParametricPolynomial | None = None) -> Basis:
+    """The null space over Q(t)[x]/(p), multiplied by the least common denominator.
 
-    It has the kernels at some integers t as values, which is no proof.
+    It has the null spaces at some integers t as values, which is no proof.
     """
     rows = _entries(M)
 
-    def sample(t: int) -> bivariate.Kernel | None:
+    def sample(t: int) -> bivariate.Nullspace | None:
         value = X if p is None else bivariate.modulus_at(p.dense, t)
         if value is None:
             return None
         entries = [[[flint.fmpq_poly([c(t)]) for c in entry] for entry in row] for row in rows]
-        return Tower(bivariate.line(t), value).kernel(entries, M[0].ncols)
+        return Tower(bivariate.line(t), value).nullspace(entries, M[0].ncols)
 
-    kernel = bivariate.over_functions(sample)
-    return _basis(kernel, M[0].ncols, 1 if p is None else p.degree)
+    basis = bivariate.over_functions(sample)
+    return _basis(basis, M[0].ncols, 1 if p is None else p.degree)
 
 
 def _entries(M: Layers) -> list[list[Bivariate]]:
@@ -419,8 +419,8 @@ def _entries(M: Layers) -> list[list[Bivariate]]:
     ]
 
 
-def _basis(kernel: bivariate.Kernel, nrows: int, degree: int) -> Basis:
-    pivots, vectors = kernel
+def _basis(basis: bivariate.Nullspace, nrows: int, degree: int) -> Basis:
+    pivots, vectors = basis
     layers = (
         matrix_of([[v[i][k] for v in vectors] for i in range(nrows)], len(vectors))
         for k in range(degree)

@@ -268,7 +268,7 @@ LOOPS: dict[str, tuple[str, Document]] = {
     ),
     # fixed modes
     "a plant with 300 states more": (
-        "moved_entries.moved",
+        "cells.rearranged",
         ranked(free([["t"]]), {"name": "setpoint"}, 1, longer(300)),
     ),
     "a plant with 20 states more, of degree 200": (

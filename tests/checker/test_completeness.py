@@ -1,4 +1,4 @@
-"""The rule of ``completeness``: one way to prove yes, two ways to prove no."""
+"""The rule of ``completeness``: yes by gains or by blocks, no by a fixed mode or by a cut."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from tests.checker.handmade import (
     plant,
 )
 from tests.checker.tables import accepts, rejects
+from tests.checker.test_blocks import block, one_state
 
 EXCHANGE = certificate(
     "completeness",
@@ -26,10 +27,15 @@ EXCHANGE = certificate(
     },
 )
 
+BY_BLOCKS = changed(
+    COMPLETE, ("witness", {"modulus": 7, "blocks": [block([0], one_state("1"))], "arcs": []})
+)
+
 EVERYBODY = {"from": ["1", "2"], "X": matrix([1, 0], [0, 1]), "pivots": [0, 1]}
 
 ACCEPTED = [
     ("one integrator", COMPLETE),
+    ("one integrator, by a block", BY_BLOCKS),
     ("two channels that reach each other", EXCHANGE),
     ("one channel needs no arcs", changed(COMPLETE, ("witness.arcs", []))),
     ("a cut between integrators", CUT),
@@ -44,6 +50,8 @@ REJECTED = [
     ("1 for true", COMPLETE, ("claim.complete", 1)),
     ("gains that move nothing", COMPLETE, ("witness.gains.0", matrix([0]))),
     ("gains that move nothing modulo ℓ", COMPLETE, ("witness.gains.0", matrix([7]))),
+    ("a block that may have a fixed mode", BY_BLOCKS, ("witness.blocks.0.evidence", None)),
+    ("blocks of a state too few", EXCHANGE, ("witness", BY_BLOCKS["witness"])),
     ("arcs that do not connect", EXCHANGE, ("witness.arcs", [["1", "2", 1]])),
     ("an arc that is not there", EXCHANGE, ("witness.arcs.0", ["1", "2", 0])),
     ("an arc twice", EXCHANGE, ("witness.arcs", [["1", "2", 1], ["1", "2", 1]])),

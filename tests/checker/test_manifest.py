@@ -39,7 +39,7 @@ ABOUT = f"For the plant {digest(read_plant(PAPER))}"
 SHARED = "sub-state with its neighbors, without delay"
 ENOUGH = sentence("enough-states", "shared_dimension_bound_states", *BOUND)
 OUTPUTS = sentence("enough-outputs-states", "shared_dimension_bound_outputs_states", *BOUND)
-STABLE = sentence("not-stabilizable", "fixed_spectrum")
+NOT_STABILIZABLE = sentence("not-stabilizable", "fixed_spectrum")
 RING = "neighbor_graph.json"
 OTHER = changed(PAPER, ("A", [[-1, 0, 0], [0, -1, 0], [0, 1, -1]]))
 """Another plant with the same names."""
@@ -140,7 +140,7 @@ def test_a_manifest_is_about_a_system_that_can_be_made(
 
 # Premises.
 
-PREMISES = [(STABLE, "fixed_spectrum")]
+PREMISES = [(NOT_STABILIZABLE, "fixed_spectrum")]
 PREMISES += [(ENOUGH, name) for name in ("shared_dimension_bound_states", *BOUND)]
 
 
@@ -270,8 +270,8 @@ BECAUSE: list[tuple[str, Any, str, str]] = [
 def test_every_value_has_to_stand_where_it_is_said_to(
     tmp_path: Path, entry: list[Any], verdict: str, code: str
 ) -> None:
-    because = [*STABLE["because"], ["fixed_spectrum.json", *entry]]
-    found = one(tmp_path, STABLE | {"because": because})
+    because = [*NOT_STABILIZABLE["because"], ["fixed_spectrum.json", *entry]]
+    found = one(tmp_path, NOT_STABILIZABLE | {"because": because})
     assert (found.verdict, found.code) == (verdict, code), found.line()
 
 
@@ -291,13 +291,13 @@ def test_values_are_the_same_only_if_their_types_are() -> None:
 
 
 def test_a_rule_that_is_not_known_is_no_reason_to_say_yes_or_no(tmp_path: Path) -> None:
-    found = one(tmp_path, STABLE | {"rule": "is-nice"})
+    found = one(tmp_path, NOT_STABILIZABLE | {"rule": "is-nice"})
     assert (found.verdict, found.code, found.status) == ("INCOMPLETE", "rule", 5)
 
 
 @pytest.mark.parametrize("theorem", ["", "extended_bound.theorem_2", "A. Nobody 1999"])
 def test_the_theorem_has_to_be_that_of_the_rule(tmp_path: Path, theorem: str) -> None:
-    found = one(tmp_path, STABLE | {"theorem": theorem})
+    found = one(tmp_path, NOT_STABILIZABLE | {"theorem": theorem})
     assert (found.verdict, found.code) == ("INVALID", "theorem")
 
 
@@ -314,7 +314,7 @@ def test_a_sentence_does_not_rest_on_what_a_bug_leaves_open(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(KINDS, "fixed_spectrum", None)
-    listed = manifest(sentences=[STABLE])
+    listed = manifest(sentences=[NOT_STABILIZABLE])
     found = said(write(tmp_path, listed=listed))
     assert [v.verdict for v in found] == ["ERROR", "INVALID"]
     assert found[1].code == "premise" and found[1].place.endswith("fixed_spectrum.json")
@@ -504,7 +504,7 @@ def test_what_is_missing_or_too_large_is_not_read(tmp_path: Path) -> None:
     write(tmp_path)
     (found,) = said(tmp_path, limits=Limits(bytes=1000))
     assert (found.verdict, found.code) == ("INCOMPLETE", "size")
-    long = WHOLE | {"sentences": [*SENTENCES, STABLE | {"text": "x" * 10**5}]}
+    long = WHOLE | {"sentences": [*SENTENCES, NOT_STABILIZABLE | {"text": "x" * 10**5}]}
     (found,) = said(write(tmp_path, listed=long), limits=Limits(bytes=10**5))
     assert (found.verdict, found.code) == ("INCOMPLETE", "size")
 
@@ -528,8 +528,8 @@ def test_a_verdict_on_a_certificate_names_its_file(tmp_path: Path) -> None:
 
 def test_many_sentences_cost_no_more_than_their_length(tmp_path: Path) -> None:
     whole = ["fixed_spectrum.json", "", EVIDENCE["fixed_spectrum"] | {"kind": "other"}]
-    what = STABLE | {"because": [whole, *STABLE["because"]]}
-    write(tmp_path, listed=WHOLE | {"sentences": [what, STABLE] * 500})
+    what = NOT_STABILIZABLE | {"because": [whole, *NOT_STABILIZABLE["because"]]}
+    write(tmp_path, listed=WHOLE | {"sentences": [what, NOT_STABILIZABLE] * 500})
     with effort.at_most(2 * (tmp_path / "manifest.json").stat().st_size):
         found = said(tmp_path)
     assert [v.verdict for v in found] == ["INVALID", "IMPLIED"] * 500

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.cells import moved
+from mcexact.checker.cells import rearranged
 from mcexact.checker.parameters import listed_value, roots_text, values_left_out, where_text
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
@@ -61,7 +61,7 @@ def test_what_is_made_of_a_plant_has_its_poles() -> None:
         [{"construction": "restricted", "channels": ["2"]}],
         [{"construction": "dual"}, {"construction": "full_output", "channel": "2"}],
     ):
-        made = one_parameter(moved(steps, known))
+        made = one_parameter(rearranged(steps, known))
         assert made.poles == known.poles and [1, 1] in made.poles and made.scale == [1]
         with pytest.raises(Refused, match="undefined there"):
             listed_value([0, 1], [disc("0")], "claim.values[0]", made)

@@ -7,7 +7,12 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.modes import claimed_cost, read_bound, require_absence, require_outside
+from mcexact.checker.modes import (
+    claimed_cost,
+    read_rate_or_radius,
+    require_fixed_modes_inside,
+    require_outside,
+)
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import CHAIN, PAIR, changed, matrix, plant
@@ -29,7 +34,7 @@ DISCRETE = read_plant(changed(PAIR, ("time", "discrete")))
     ],
 )
 def test_a_bound_is_a_rate_or_a_radius(system: System, value: Any, bound: Any) -> None:
-    assert read_bound(value, system) == bound
+    assert read_rate_or_radius(value, system) == bound
 
 
 @pytest.mark.parametrize(
@@ -38,7 +43,7 @@ def test_a_bound_is_a_rate_or_a_radius(system: System, value: Any, bound: Any) -
 )
 def test_no_other_number_is_a_bound(system: System, value: Any) -> None:
     with pytest.raises(Refused) as found:
-        read_bound(value, system)
+        read_rate_or_radius(value, system)
     assert found.value.verdict == "INVALID"
 
 
@@ -147,7 +152,7 @@ def test_every_fixed_mode_lies_in_the_region(
     reason: str, system: System, value: Any, bound: Any, connected: bool
 ) -> None:
     limit = None if bound is None else Fraction(bound)
-    require_absence(value, system, limit, connected=connected)
+    require_fixed_modes_inside(value, system, limit, connected=connected)
 
 
 @pytest.mark.parametrize(("reason", "system", "value", "bound", "connected"), PRESENT)
@@ -156,12 +161,12 @@ def test_a_fixed_mode_may_lie_beyond_the_region(
 ) -> None:
     limit = None if bound is None else Fraction(bound)
     with pytest.raises(Refused) as found:
-        require_absence(value, system, limit, connected=connected)
+        require_fixed_modes_inside(value, system, limit, connected=connected)
     assert found.value.verdict == "INVALID"
 
 
 @pytest.mark.parametrize(("reason", "value"), MALFORMED)
 def test_absence_has_one_form(reason: str, value: Any) -> None:
     with pytest.raises(Refused) as found:
-        require_absence(value, SLOW, Fraction(1))
+        require_fixed_modes_inside(value, SLOW, Fraction(1))
     assert found.value.verdict == "MALFORMED"

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.cells import looped, moved
+from mcexact.checker.cells import looped, rearranged
 from mcexact.checker.constructions import CONSTRUCTIONS, read_subject
 from mcexact.checker.discs import box_of
 from mcexact.checker.kinds import KINDS, check_document
@@ -81,7 +81,7 @@ def subject_of(document: Document) -> Any:
         named = replace(plant, words=f"the plant {digest(plant)}")
         if document["kind"].startswith("parametric_box_"):
             return looped(document["subject"], named)
-        return moved(document["subject"], named)
+        return rearranged(document["subject"], named)
     verdict = check_document({**document, "kind": "neighbor_graph", "claim": {}, "witness": {}})
     system = read_plant(document["system"])
     named = System(**{**vars(system), "words": f"the plant {verdict.system_digest}"})

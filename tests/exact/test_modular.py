@@ -120,13 +120,13 @@ def test_sums_products_and_blocks(data):
 
 
 @given(modular_matrices())
-def test_echelon_forms_and_kernels(M):
+def test_echelon_forms_and_null_spaces(M):
     reduced, pivots = M.rref()
     assert reduced.shape == M.shape
     r = M.rank()
     assert reduced.take(rows=range(r), cols=pivots) == ModularMatrix.identity(r, SMALL_PRIME)
     assert M.take(cols=pivots) @ reduced.take(rows=range(r)) == M
-    X, free = M.kernel()
+    X, free = M.nullspace()
     assert (M @ X).is_zero()
     assert X.shape == (M.ncols, M.ncols - r)
     assert X.take(rows=free) == ModularMatrix.identity(X.ncols, SMALL_PRIME)
@@ -166,7 +166,7 @@ def test_matrices_without_entries(shape):
     Z = ModularMatrix.zeros(nrows, ncols, ELL)
     assert Z.rank() == 0
     assert Z.rows() == [[]] * nrows
-    assert Z.kernel()[0] == ModularMatrix.identity(shape[1], ELL)
+    assert Z.nullspace()[0] == ModularMatrix.identity(shape[1], ELL)
     assert (Z @ Z.T).shape == (shape[0], shape[0])
     assert hstack([Z, Z]).shape == (shape[0], 2 * shape[1])
     assert pickle.loads(pickle.dumps(Z)) == Z

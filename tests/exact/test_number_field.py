@@ -1,4 +1,4 @@
-"""Matrices of polynomials, and kernels over number fields."""
+"""Matrices of polynomials, and null spaces over number fields."""
 
 import pickle
 from fractions import Fraction
@@ -12,11 +12,11 @@ from mcexact.errors import InputError
 from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
     characteristic_polynomial,
-    field_kernel,
+    field_nullspace,
     field_rank,
     inflate,
-    kernel_at,
     nullspace,
+    nullspace_at,
 )
 from mcexact.exact.linear_algebra import rank as rational_rank
 from mcexact.exact.matrix import Matrix, block_diagonal
@@ -85,8 +85,8 @@ def test_values_modulo_a_prime(M, mu):
 
 
 @given(polynomial_matrices(), st.sampled_from(IRREDUCIBLE))
-def test_a_kernel_is_annihilated_and_complete(M, p):
-    U, pivots = field_kernel(M, p)
+def test_a_null_space_is_annihilated_and_complete(M, p):
+    U, pivots = field_nullspace(M, p)
     assert (M @ U % p).is_zero()
     assert U.take(rows=pivots) == PolynomialMatrix.identity(U.ncols)
     assert U % p == U
@@ -98,7 +98,7 @@ def test_a_kernel_is_annihilated_and_complete(M, p):
 def test_every_eigenvalue_has_as_many_eigenvectors_as_its_factor_says(A):
     n = A.nrows
     for p, multiplicity in characteristic_polynomial(A).factor():
-        U, _ = kernel_at(-A, Matrix.identity(n), p)
+        U, _ = nullspace_at(-A, Matrix.identity(n), p)
         assert p.degree * U.ncols == nullspace(evaluated(p, A)).ncols
         assert 1 <= U.ncols <= multiplicity
 
@@ -111,9 +111,9 @@ def test_inflation_is_a_homomorphism(a, b, p):
     assert inflate(total, p) == inflate(one[0], p) + inflate(one[1], p)
 
 
-def test_a_kernel_over_a_cubic_field_is_that_of_sympy():
+def test_a_null_space_over_a_cubic_field_is_that_of_sympy():
     A = Matrix.from_rows([[0, 0, 2], [1, 0, 0], [0, 1, 0]])
-    U, pivots = kernel_at(-A, Matrix.identity(3), CUBIC)
+    U, pivots = nullspace_at(-A, Matrix.identity(3), CUBIC)
     root = sympy.cbrt(2)
     vector = sympy.Matrix(
         3, 1, [sympy.sympify(str(U.entry(i, 0))).subs("x", root) for i in range(3)]
@@ -126,15 +126,15 @@ def test_a_kernel_over_a_cubic_field_is_that_of_sympy():
 def test_a_rank_drop_only_modulo_the_probing_prime_is_no_rank_drop():
     ell = next(primes(0, bits=62))
     M = PolynomialMatrix.pencil(Matrix.from_rows([[-ell, 0], [0, 1]]), Matrix.zeros(2, 2))
-    U, pivots = field_kernel(M, GOLDEN)
+    U, pivots = field_nullspace(M, GOLDEN)
     assert U.shape == (2, 0)
     assert pivots == ()
 
 
-def test_other_pivots_modulo_the_probing_prime_give_a_kernel_all_the_same():
+def test_other_pivots_modulo_the_probing_prime_give_a_null_space_all_the_same():
     ell = next(primes(0, bits=62))
     M = PolynomialMatrix.from_matrices(Matrix.from_rows([[ell, 1]]))
-    U, pivots = field_kernel(M, CUBIC)
+    U, pivots = field_nullspace(M, CUBIC)
     assert (M @ U % CUBIC).is_zero()
     assert U.take(rows=pivots) == PolynomialMatrix.identity(1)
 
@@ -145,14 +145,14 @@ def test_a_large_field_and_repeated_eigenvalues():
     companion = Matrix.from_rows(
         [[int(i == j + 1) for j in range(6)] + [-p.coefficients[i]] for i in range(7)]
     )
-    U, _ = kernel_at(-block_diagonal([companion] * 3), Matrix.identity(21), p)
+    U, _ = nullspace_at(-block_diagonal([companion] * 3), Matrix.identity(21), p)
     assert U.ncols == 3
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (0, 3), (3, 0)])
 def test_matrices_without_entries(shape):
     Z = PolynomialMatrix.from_matrices(Matrix.zeros(*shape))
-    U, pivots = field_kernel(Z, GOLDEN)
+    U, pivots = field_nullspace(Z, GOLDEN)
     assert PolynomialMatrix.identity(shape[1]) == U
     assert pivots == tuple(range(shape[1]))
     assert field_rank(Z, GOLDEN) == 0
@@ -165,7 +165,7 @@ def test_matrices_without_entries(shape):
 def test_a_reducible_polynomial_is_refused_where_it_is_no_field():
     M = PolynomialMatrix.pencil(Matrix.from_rows([[-1]]), Matrix.identity(1))
     with pytest.raises(InputError, match=r"expected an irreducible polynomial, found x\^2 - 1"):
-        field_kernel(M, Polynomial.of(-1, 0, 1))
+        field_nullspace(M, Polynomial.of(-1, 0, 1))
 
 
 I2 = PolynomialMatrix.identity(2)
@@ -175,7 +175,10 @@ ONE = Matrix.identity(1)
 @pytest.mark.parametrize(
     ("operation", "message"),
     [
-        (lambda: field_kernel(I2, Polynomial.of(1)), "expected a polynomial of degree at least 1"),
+        (
+            lambda: field_nullspace(I2, Polynomial.of(1)),
+            "expected a polynomial of degree at least 1",
+        ),
         (lambda: I2 % Polynomial.of(0), "expected a polynomial of degree at least 1"),
         (lambda: PolynomialMatrix.from_matrices(), "expected at least one coefficient matrix"),
         (

@@ -1,4 +1,4 @@
-"""Determinants and kernels of matrices of polynomials, against determinants of sympy."""
+"""Determinants and null spaces of matrices of polynomials, against determinants of sympy."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from mcexact.exact.parametric_polynomials import (
     determinant,
     determinant_modulo,
     entries_of,
-    generic_kernel,
-    kernel_over_field,
+    generic_nullspace,
     matrix_of,
+    nullspace_over_field,
 )
 from mcexact.exact.polynomial import Polynomial
 
@@ -44,20 +44,20 @@ def test_determinants_are_those_of_sympy(n: int) -> None:
     assert determinant_modulo(M, PRIME) == polynomial_residues(exact, PRIME)
 
 
-def test_kernels_are_annihilated_generically_and_at_a_value() -> None:
+def test_null_spaces_are_annihilated_generically_and_at_a_value() -> None:
     M = drawn(random.Random(5), 3, 2) @ drawn(random.Random(6), 2, 4)
-    pivots, (columns,) = generic_kernel([M])
+    pivots, (columns,) = generic_nullspace([M])
     assert len(pivots) == columns.ncols == 2
     assert (M @ columns).is_zero()
     q = Polynomial.of(-2, 0, 1)
     row = PolynomialMatrix.from_polynomials([[q, Polynomial.of(1)]], ncols=2)
-    pivots, (column,) = kernel_over_field([row], q)
+    pivots, (column,) = nullspace_over_field([row], q)
     assert pivots == (0,)
     assert [column.entry(i, 0) for i in range(2)] == [Polynomial.of(1), Polynomial.of()]
 
 
-def test_a_kernel_at_the_roots_of_a_polynomial_in_x_is_annihilated_there() -> None:
-    """[x, −1; −t, x] has (1, x) in its kernel where x² = t, for every t and where t² = 2."""
+def test_a_null_space_at_the_roots_of_a_polynomial_in_x_is_annihilated_there() -> None:
+    """[x, −1; −t, x] has (1, x) in its null space where x² = t, for every t and where t² = 2."""
     constant = PolynomialMatrix.from_polynomials(
         [[Polynomial.of(), Polynomial.of(-1)], [Polynomial.of(0, -1), Polynomial.of()]]
     )
@@ -66,13 +66,13 @@ def test_a_kernel_at_the_roots_of_a_polynomial_in_x_is_annihilated_there() -> No
         [Polynomial.of(0, -1), Polynomial.of(), Polynomial.of(1)], ("t",)
     )
     q = Polynomial.of(-2, 0, 1)
-    for pivots, (low, high) in (generic_kernel(pencil, p), kernel_over_field(pencil, q, p)):
+    for pivots, (low, high) in (generic_nullspace(pencil, p), nullspace_over_field(pencil, q, p)):
         assert pivots == (1,) and low.shape == high.shape == (2, 1)
         # (x M_1 + M_0)(low + x high), with t for x²
         t_times_high = high.times_x()
         assert ((constant @ low + t_times_high) % q).is_zero()
         assert ((constant @ high + low) % q).is_zero()
-    assert generic_kernel(pencil[:1])[0] == kernel_over_field(pencil[:1], q)[0] == ()
+    assert generic_nullspace(pencil[:1])[0] == nullspace_over_field(pencil[:1], q)[0] == ()
 
 
 def test_entries_go_to_flint_and_back() -> None:

@@ -1,4 +1,4 @@
-"""Polynomials in two variables, their number fields and kernels, against sympy and plain laws."""
+"""Polynomials in two variables, number fields and null spaces, against sympy and plain laws."""
 
 from __future__ import annotations
 
@@ -80,22 +80,22 @@ def test_factors_over_a_number_field_multiply_to_the_squarefree_part(q: str) -> 
     assert common == bivariate.monic(first, modulus)
 
 
-def test_a_kernel_over_a_tower_is_annihilated() -> None:
+def test_a_null_space_over_a_tower_is_annihilated() -> None:
     q, p = P([-2, 0, 1]), [P([0, -1]), P([0]), P([1])]  # t² = 2, x² = t
     rows = [[[P([0, 1])], [P([0]), P([-1])]], [[P([0]), P([1])], [P([-1])]]]  # [t, −x; x, −1]
-    free, columns = Tower(q, p).kernel(rows, 2)
+    free, columns = Tower(q, p).nullspace(rows, 2)
     assert free == (1,)
     ((first, second),) = columns
     assert second == [P([1]), P([])]
     # first = x/t = x·t/2
     assert first == [P([]), P([0, flint.fmpq(1, 2)])]
-    assert Tower(line(3), X).kernel([], 2)[0] == (0, 1)
+    assert Tower(line(3), X).nullspace([], 2)[0] == (0, 1)
 
 
-def test_kernels_over_functions_are_found_from_their_values() -> None:
+def test_null_spaces_over_functions_are_found_from_their_values() -> None:
     def sample(value: int) -> Any:
         row = [[[P([value**2 + 1])], [P([value - 1])]]]
-        return Tower(line(value), X).kernel(row, 2)
+        return Tower(line(value), X).nullspace(row, 2)
 
     free, (column,) = over_functions(sample)
     assert free == (1,)

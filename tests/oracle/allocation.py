@@ -19,9 +19,11 @@ Neighbors = Sequence[Sequence[int]]
 
 
 def augmented(system: PlainSystem, neighbors: Neighbors) -> PlainSystem:
-    """Every agent hears the outputs of its neighbors (itself included), in ascending order."""
-    heard = [sorted({i, *neighbors[i]}) for i in range(system.m)]
-    return PlainSystem(system.A, system.B, [[r for j in h for r in system.C[j]] for h in heard])
+    """Every agent receives the outputs of its neighbors (itself included), in ascending order."""
+    neighborhoods = [sorted({i, *neighbors[i]}) for i in range(system.m)]
+    return PlainSystem(
+        system.A, system.B, [[r for j in h for r in system.C[j]] for h in neighborhoods]
+    )
 
 
 def boundary(s: Sequence[int], neighbors: Neighbors) -> frozenset[int]:

@@ -33,7 +33,7 @@ def drawn_graph(rng: random.Random, m: int) -> list[set[int]]:
     return [{j for j in range(m) if j == i or rng.random() < density} for i in range(m)]
 
 
-def heard_by(graph: Graph, S: Sequence[int]) -> set[int]:
+def neighborhood_of(graph: Graph, S: Sequence[int]) -> set[int]:
     """N_S."""
     return set().union(*(graph[i] for i in S))
 
@@ -42,10 +42,10 @@ def relay_number(graph: Graph) -> int:
     """β: over all S, and the largest R that is apart from S, which has the most relays."""
     most = 0
     for S in subsets(len(graph)):
-        heard = heard_by(graph, S)
-        R = set(range(len(graph))) - heard
+        senders = neighborhood_of(graph, S)
+        R = set(range(len(graph))) - senders
         if S and R:
-            most = max(most, sum(1 for j in heard if graph[j] & R))
+            most = max(most, sum(1 for j in senders if graph[j] & R))
     return most
 
 
@@ -53,16 +53,16 @@ def relay_number_of_all_pairs(graph: Graph) -> int:
     """β by its definition, over all pairs of nonempty sets."""
     most = 0
     for S, R in itertools.product(subsets(len(graph)), repeat=2):
-        heard = heard_by(graph, S)
-        if S and R and not heard & set(R):
-            most = max(most, sum(1 for j in heard if graph[j] & set(R)))
+        senders = neighborhood_of(graph, S)
+        if S and R and not senders & set(R):
+            most = max(most, sum(1 for j in senders if graph[j] & set(R)))
     return most
 
 
 def domination_number(graph: Graph) -> int:
-    """γ: the least size of a set that together hears everybody."""
+    """γ: the least size of a set that together has everybody as neighbors."""
     everybody = set(range(len(graph)))
-    return min(len(s) for s in subsets(len(graph)) if heard_by(graph, s) == everybody)
+    return min(len(s) for s in subsets(len(graph)) if neighborhood_of(graph, s) == everybody)
 
 
 def boundary_number(graph: Graph) -> int:

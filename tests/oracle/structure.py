@@ -152,8 +152,8 @@ def single_channel(system: PlainSystem, q: int) -> bool:
     arcs, reached = transfer_arcs(system), {q}
     while new := {i for j, i in arcs if j in reached} - reached:
         reached |= new
-    heard = all(i in reached or not any(map(any, rows)) for i, rows in enumerate(system.C))
-    return heard and not fixed_factors(full)
+    reaches = all(i in reached or not any(map(any, rows)) for i, rows in enumerate(system.C))
+    return reaches and not fixed_factors(full)
 
 
 def exceptional(M: Rows, A: Rows, B: Rows, blocks: int) -> Coefficients:

@@ -65,8 +65,8 @@ from mcexact.exact.parametric_polynomials import (
     characteristic,
     common_divisor,
     common_factors,
-    generic_kernel,
-    kernel_over_field,
+    generic_nullspace,
+    nullspace_over_field,
     reduced_residues,
     resultant_degree_bound,
     resultant_modulo,
@@ -179,30 +179,30 @@ def zero_block(
     system: PolynomialSystem, T: Sequence[int], q: Polynomial, p: ParametricPolynomial
 ) -> ZeroBlock | None:
     """The zero block for T over Q[t]/(q)[x]/(p), or None if T proves nothing there."""
-    return _block(system, T, p, functools.partial(kernel_over_field, q=q))
+    return _block(system, T, p, functools.partial(nullspace_over_field, q=q))
 
 
 def generic_zero_block(
     system: PolynomialSystem, T: Sequence[int], p: ParametricPolynomial
 ) -> ZeroBlock | None:
     """The zero block for T over Q[t][x]/(p), or None if T proves nothing there."""
-    return _block(system, T, p, generic_kernel)
+    return _block(system, T, p, generic_nullspace)
 
 
 def _block(
     system: PolynomialSystem,
     T: Sequence[int],
     p: ParametricPolynomial,
-    kernel: Callable[..., Basis],
+    null_space: Callable[..., Basis],
 ) -> ZeroBlock | None:
-    """W' is the kernel of B_T', and U that of [W (xI − A); C_s] at the roots of p."""
+    """W' spans the null space of B_T', and U that of [W (xI − A); C_s] at the roots of p."""
     n = system.n
     inputs = stacked([system.B[i].T for i in T], n)
     outputs = stacked([system.C[i] for i in range(system.m) if i not in set(T)], n)
-    columns, (W,) = kernel([inputs])
+    columns, (W,) = null_space([inputs])
     W = W.T
     below = PolynomialMatrix.from_matrices(Matrix.zeros(*outputs.shape))
-    rows, U = kernel([stacked([-(W @ system.A), outputs], n), stacked([W, below], n)], p=p)
+    rows, U = null_space([stacked([-(W @ system.A), outputs], n), stacked([W, below], n)], p=p)
     if len(rows) + len(columns) <= n:
         return None
     names = tuple(system.system.names[i] for i in T)

@@ -50,8 +50,8 @@ from mcexact.exact.parametric_polynomials import (
     Basis,
     determinant,
     determinant_modulo,
-    generic_kernel,
-    kernel_over_field,
+    generic_nullspace,
+    nullspace_over_field,
 )
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_functions import (
@@ -228,8 +228,8 @@ class _Search:
             if bounds != (None, None) and not any(meets(disc, bounds) for disc in discs[q])
         ]
         exceptional = [q for q in lost if q not in outside]
-        kernels = [_kernel(kernel_over_field([self.M], q)) for q in exceptional]
-        ranks = [self.M.ncols - len(kernel.pivots) for kernel in kernels]
+        null_spaces = [_witness(nullspace_over_field([self.M], q)) for q in exceptional]
+        ranks = [self.M.ncols - len(each.pivots) for each in null_spaces]
         rest = _without(minor, [*lost, *undefined])
         full = rank == min(self.M.shape)
         ell, X_, Y = self._drawn(rank, rest, list(zip(exceptional, ranks, strict=True)))
@@ -242,12 +242,12 @@ class _Search:
             ),
             outside=tuple(OutsideValue(q, discs[q]) for q in outside),
             evidence=TwoMinors(
-                kernel=None if full else _kernel(generic_kernel([self.M])),
+                kernel=None if full else _witness(generic_nullspace([self.M])),
                 rows=above,
                 columns=beside,
                 modulus=ell,
                 compressions=(X_, Y),
-                exceptional=tuple(kernels),
+                exceptional=tuple(null_spaces),
                 undefined=tuple(undefined),
             ),
         )
@@ -298,7 +298,7 @@ class _Search:
         raise InternalError("no drawn minors have a root in common where the rank is less")
 
 
-def _kernel(basis: Basis) -> Kernel:
+def _witness(basis: Basis) -> Kernel:
     pivots, (columns,) = basis
     return Kernel(columns, pivots)
 

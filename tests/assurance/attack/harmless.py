@@ -18,7 +18,7 @@ HARMLESS: dict[str, str] = {
     "evidence.py: require_no_more: self.number is None": UNREAD,
     "arithmetic.py: inverse: math.gcd(number, ell) != 1": RAISES,
     "modes.py: _require_minimal: len(columns) != d": SHAPE,
-    "evidence.py: _channels: max(moved) <= min(seen)": (
+    "evidence.py: _channels: max(driven) <= min(seen)": (
         "a channel that leads to a later block acts within none, and leaving out a channel proves less"
     ),
     "boxes.py: check_box_fixed: number is not None and integer(number, where) >= len(pencils)": RAISES,
@@ -113,7 +113,7 @@ HARMLESS: dict[str, str] = {
     "reading.py: polynomial_matrix: not 1 <= len(items(layers, f'{place}.coefficients')) <= degree": (
         "no layer is a matrix of zeros; a layer too many has no coefficient of p to go with it"
     ),
-    "modes.py: require_absence: (number is None) == (arcs is None)": UNREAD,
+    "modes.py: require_fixed_modes_inside: (number is None) == (arcs is None)": UNREAD,
     "modes.py: _without: times == integer(power, where, 1)": (
         "the exponent is computed, and the claimed one only compared"
     ),

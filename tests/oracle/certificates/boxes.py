@@ -158,8 +158,10 @@ def _all_controlled(claim: Any, systems: Iterator[System], system: System) -> bo
     T, bound = positions(found["channels"], system.names), bound_of(found["bound"], system.time)
     for each in systems:
         K = algebra.krylov(each.A, each.inputs(T), each.n)
-        left = algebra.quotient_polynomial(each.A, K)
-        if left.degree() > 0 and (found["bound"] is None or not inside(left, each.time, bound)):
+        uncontrolled = algebra.quotient_polynomial(each.A, K)
+        if uncontrolled.degree() > 0 and (
+            found["bound"] is None or not inside(uncontrolled, each.time, bound)
+        ):
             return False
     return True
 

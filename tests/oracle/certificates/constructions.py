@@ -10,10 +10,10 @@ from flint import fmpq_mat
 
 from .algebra import below, beside, identity, selection, stacked
 from .controllers import closed_loop
-from .moved_entries import MOVING, moved
 from .networks import held, lifted
 from .one_parameter import along, read_parametric
 from .reading import demand, integer, listed, matrix, place, positions, record
+from .rearranged import REARRANGING, rearranged
 from .several_parameters import read_several
 from .systems import System, read_plant
 
@@ -34,17 +34,17 @@ def subject_of(document: Mapping[str, Any], most: int | None = None) -> Any:
         for k, step in enumerate(whole):
             demand(isinstance(step, Mapping), "expected a construction")
             last = document["kind"] == "parametric_box_stable" and k == len(whole) - 1
-            known = step.get("construction") in (*MOVING, *["closed_loop"] * last)
-            demand(known, "expected one that moves entries, or at last a closed loop")
+            known = step.get("construction") in (*REARRANGING, *["closed_loop"] * last)
+            demand(known, "expected one that only places entries, or at last a closed loop")
         steps = whole[:most]
         return built(several.at(next(several.points())), steps)
     if isinstance(document["system"], Mapping) and "parameters" in document["system"]:
         steps = listed(document["subject"])[:most]
         if steps and isinstance(steps[0], Mapping) and steps[0].get("construction") == LINE:
-            return moved(along(read_several(document["system"]), steps[0]), steps[1:], built)
+            return rearranged(along(read_several(document["system"]), steps[0]), steps[1:], built)
         if most == 0:
             return read_several(document["system"])
-        return moved(read_parametric(document["system"]), steps, built)
+        return rearranged(read_parametric(document["system"]), steps, built)
     return built(read_plant(document["system"]), listed(document["subject"])[:most])
 
 
@@ -67,7 +67,7 @@ def built(system: System, steps: Sequence[Any]) -> System:
 
 def augmented_outputs(system: System, _: Mapping[str, Any]) -> System:
     """C_i becomes C_{N_i}."""
-    return replace(system, C=tuple(system.outputs(heard) for heard in system.graph()))
+    return replace(system, C=tuple(system.outputs(N) for N in system.graph()))
 
 
 def dual(system: System, _: Mapping[str, Any]) -> System:
@@ -101,12 +101,12 @@ def full_output(system: System, given: Mapping[str, Any]) -> System:
 
 def arcs(system: System, given: Mapping[str, Any]) -> System:
     """Every link [j, i] that is added makes j a member of N_i."""
-    heard = [set(h) for h in system.graph()]
+    neighborhoods = [set(h) for h in system.graph()]
     for source, target in (listed(edge, 2) for edge in listed(given["added"])):
         j, i = place(source, system.names), place(target, system.names)
-        demand(j not in heard[i], "expected links that the graph lacks")
-        heard[i].add(j)
-    return replace(system, heard=tuple(tuple(sorted(h)) for h in heard))
+        demand(j not in neighborhoods[i], "expected links that the graph lacks")
+        neighborhoods[i].add(j)
+    return replace(system, neighborhoods=tuple(tuple(sorted(h)) for h in neighborhoods))
 
 
 def shares(system: System, given: Mapping[str, Any]) -> tuple[list[int], bool]:

@@ -48,7 +48,7 @@ def _read_map(
     system: System, agents: Sequence[Agent], i: int, value: Any, nrows: int
 ) -> dict[tuple[str, int], fmpq_mat]:
     found = record(value, optional=("outputs", "shared", "private", "reference"))
-    heard = (system.heard or [(k,) for k in range(system.m)])[i]
+    neighborhood = (system.neighborhoods or [(k,) for k in range(system.m)])[i]
     parts: dict[tuple[str, int], fmpq_mat] = {}
     for kind in ("outputs", "shared"):
         for j, M in _by_name(found.get(kind, {}), system.names).items():
@@ -60,7 +60,7 @@ def _read_map(
         parts["reference", i] = sparse(found["reference"], nrows, system.C[i].nrows())
     # Who does not act on a signal does not use it.
     parts = {signal: M for signal, M in parts.items() if any(M.entries())}
-    demand(all(j in heard for _, j in parts), "expected signals of neighbors")
+    demand(all(j in neighborhood for _, j in parts), "expected signals of neighbors")
     return parts
 
 

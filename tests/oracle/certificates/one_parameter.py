@@ -195,19 +195,19 @@ def drawn_polynomials(plant: ParametricPlant, rng: random.Random) -> list[Any]:
 
 
 def split(chis: Sequence[Any]) -> tuple[list[Any], list[Any]]:
-    """The irreducible common factors, and what is left of each polynomial without them."""
-    fixed, left = factors_in_x(reduce(lambda f, g: f.gcd(g), chis)), []
+    """The irreducible common factors, and each polynomial divided by them."""
+    fixed, quotients = factors_in_x(reduce(lambda f, g: f.gcd(g), chis)), []
     for chi in chis:
         for p in fixed:
             while (pair := divmod(chi, p))[1] == 0:
                 chi = pair[0]
-        left.append(chi)
-    return fixed, left
+        quotients.append(chi)
+    return fixed, quotients
 
 
-def common_roots(left: Sequence[Any]) -> fmpq_poly:
+def common_roots(quotients: Sequence[Any]) -> fmpq_poly:
     """A polynomial that vanishes at every t where all polynomials have a root x in common."""
-    first, *others = left
+    first, *others = quotients
     return univariate(reduce(lambda f, g: f.gcd(g), (first.resultant(f, "x") for f in others)))
 
 

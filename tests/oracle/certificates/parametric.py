@@ -38,7 +38,7 @@ def spectrum(claim: Any, witness: Any, plant: ParametricPlant) -> bool:
     rng = random.Random(SEED)
     chis = drawn_polynomials(plant, rng)
     generic = [_bivariate(p) for p in listed(found["generic"])]
-    fixed, left = split(chis)
+    fixed, quotients = split(chis)
     if {str(p) for p in fixed} != {str(p) for g in generic for p in factors_in_x(g)}:
         return False
     values = [
@@ -56,7 +56,7 @@ def spectrum(claim: Any, witness: Any, plant: ParametricPlant) -> bool:
     ):
         return False
     silent = [*plant.poles, *(q for q, _ in outside)]
-    points = [common_roots(left), *(q for q, _ in values)]
+    points = [common_roots(quotients), *(q for q, _ in values)]
     different = {
         str(p): p for f in points if f.degree() > 0 for p, _ in algebra.irreducible_factors(f)
     }

@@ -167,7 +167,7 @@ def cost_bound(claim: Any, document: Mapping[str, Any], system: System) -> bool:
     (q, r, w, v), omega = weights_of(found["weights"], system)
     groups = listed(record(document["witness"], "groups")["groups"])
     owners, after = _graph(found.get("graph"), system)
-    total, left = 0.0, [list(w), list(v)]
+    total, remaining = 0.0, [list(w), list(v)]
     for entry in groups:
         keys = ("agents", "disturbances", "noise", "P", "S", "F", "share")
         group = record(entry, *keys)
@@ -181,7 +181,7 @@ def cost_bound(claim: Any, document: Mapping[str, Any], system: System) -> bool:
         ports = [[k for k, i in enumerate(p) if i in agents] for p in (inputs, outputs)]
         parts = []
         for key, where, rest in zip(
-            ("disturbances", "noise"), (states, ports[1]), left, strict=True
+            ("disturbances", "noise"), (states, ports[1]), remaining, strict=True
         ):
             values = [rational(x) for x in listed(group[key], len(where))]
             demand(all(x >= 0 for x in values), "expected none below 0")
@@ -199,7 +199,7 @@ def cost_bound(claim: Any, document: Mapping[str, Any], system: System) -> bool:
         )
         lists = [[q[k] for k in states], [r[k] for k in ports[0]], *parts]
         total += _solved(matrices, lists, omega, system.time)
-    demand(all(x >= 0 for rest in left for x in rest), "expected no more than there is")
+    demand(all(x >= 0 for rest in remaining for x in rest), "expected no more than there is")
     cost = rational(found["cost"])
     return float(int(cost.p) / int(cost.q)) <= total * (1 + 1e-7) + 1e-12
 

@@ -18,7 +18,6 @@ from flint import acb, acb_poly, fmpq, fmpq_poly
 from . import algebra, boxes
 from .constructions import built
 from .loops import bound_of
-from .moved_entries import moved
 from .one_parameter import (
     RING,
     SEED,
@@ -36,6 +35,7 @@ from .one_parameter import (
     univariate,
 )
 from .reading import listed, positions, record
+from .rearranged import rearranged
 from .roots import decided, inside
 from .several_parameters import SeveralParameters, read_several
 from .systems import System
@@ -48,7 +48,7 @@ def lines(document: Mapping[str, Any]) -> Iterator[ParametricPlant]:
     """The subjects with one parameter each, the others having values."""
     plant, steps = read_several(document["system"]), listed(document["subject"])
     for k, others in plant.lines():
-        yield moved(line_through(plant, k, others), steps, built)
+        yield rearranged(line_through(plant, k, others), steps, built)
 
 
 def fixed_in_ranges(claim: Any, document: Mapping[str, Any], system: System) -> bool:
@@ -133,13 +133,13 @@ def none_fixed(plant: ParametricPlant, limit: Any) -> bool:
     """Whether at no value in the range a mode is fixed outside of the region."""
     if any(meets(delta, plant.range) for delta in plant.denominators):
         return False
-    fixed, left = split(drawn_polynomials(plant, random.Random(SEED)))
+    fixed, quotients = split(drawn_polynomials(plant, random.Random(SEED)))
     bound = bound_of(limit, plant.time)
     if limit is None:
-        return not fixed and not meets(common_roots(left), plant.range)
+        return not fixed and not meets(common_roots(quotients), plant.range)
     return all(stays_inside(p, plant, bound) for p in fixed) and all(
-        _inside_at(q, [_modulo(p, q) for p in left], plant, bound)
-        for q, _ in algebra.irreducible_factors(common_roots(left))
+        _inside_at(q, [_modulo(p, q) for p in quotients], plant, bound)
+        for q, _ in algebra.irreducible_factors(common_roots(quotients))
         if meets(q, plant.range)
     )
 
@@ -174,9 +174,11 @@ def in_powers_of_x(p: Any) -> InX:
     return [fmpq_poly([part.get(i, 0) for i in range(max(part, default=-1) + 1)]) for part in found]
 
 
-def _inside_at(q: fmpq_poly, left: list[InX], plant: ParametricPlant, bound: fmpq | None) -> bool:
+def _inside_at(
+    q: fmpq_poly, quotients: list[InX], plant: ParametricPlant, bound: fmpq | None
+) -> bool:
     """Whether what the polynomials have in common at the roots of q in the range is inside."""
-    common = reduce(lambda f, g: _common(f, g, q), left)
+    common = reduce(lambda f, g: _common(f, g, q), quotients)
     slope = _modulo_list([k * c for k, c in enumerate(common)][1:], q)
     simple = _divided(common, _common(common, slope, q), q)[0] if slope else common
     delta, edge = plant.denominators[0], fmpq(plant.time == "discrete") if bound is None else bound

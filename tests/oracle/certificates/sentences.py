@@ -81,7 +81,7 @@ def _communication(claim: Any, system: System) -> str:
     shared = "outputs"
     if share != "outputs":
         shared = f"{SHARING[share]} of dimensions {by_channel(system.names, claim['dimensions'])}"
-    graph = "its neighbor graph" if system.heard is not None else "the graph without edges"
+    graph = "its neighbor graph" if system.neighborhoods is not None else "the graph without edges"
     candidates = edges([(j, i, rational(c)) for j, i, c in claim["candidates"]])
     freedom = _freedom(claim["bound"], system.time)
     end = f"sharing {shared} with neighbors, without delay, leaves {freedom}"

@@ -41,7 +41,9 @@ class SeveralParameters:
             found.append(fmpq_mat(nrows, ncols, entries))
         A, *ports = found
         alone = tuple((i,) for i in range(len(self.names)))
-        return System(self.time, A, self.names, tuple(ports[0::2]), tuple(ports[1::2]), heard=alone)
+        return System(
+            self.time, A, self.names, tuple(ports[0::2]), tuple(ports[1::2]), neighborhoods=alone
+        )
 
     def points(self) -> Iterator[tuple[fmpq, ...]]:
         """Some values within the ranges, the ends and the middle among them."""

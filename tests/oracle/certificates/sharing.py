@@ -129,8 +129,8 @@ def communication(claim: Any, witness: Any, system: System) -> bool:
     sizes = (
         [0] * m if share == "outputs" else [integer(d, 0) for d in listed(found["dimensions"], m)]
     )
-    graph = system.heard or tuple((i,) for i in range(m))
-    plant = replace(system, heard=graph)
+    graph = system.neighborhoods or tuple((i,) for i in range(m))
+    plant = replace(system, neighborhoods=graph)
     prices = _candidates(found["candidates"], plant)
     region = Region(system.time, _optional(found["bound"]))
     sufficient = [
@@ -145,8 +145,8 @@ def communication(claim: Any, witness: Any, system: System) -> bool:
         return False
     wider = _widened(plant, added)
     if share == "outputs":
-        left = fixed_modes(augmented_outputs(wider, {}))
-        holds = not any(region.violated_by(mode.polynomial) for mode in left)
+        fixed = fixed_modes(augmented_outputs(wider, {}))
+        holds = not any(region.violated_by(mode.polynomial) for mode in fixed)
     else:
         holds = free_of_fixed_modes(wider, share, sizes, region)
     total = sum((prices[link] for link in added), fmpq(0))
@@ -169,10 +169,10 @@ def _sets(links: Sequence[tuple[int, int]]) -> Iterator[tuple[tuple[int, int], .
 
 
 def _widened(plant: System, added: Sequence[tuple[int, int]]) -> System:
-    heard = [
+    neighborhoods = [
         tuple(sorted({*h, *(j for j, k in added if k == i)})) for i, h in enumerate(plant.graph())
     ]
-    return replace(plant, heard=tuple(heard))
+    return replace(plant, neighborhoods=tuple(neighborhoods))
 
 
 JUDGES = {

@@ -113,10 +113,10 @@ def plant_digest(document: Mapping[str, Any]) -> str:
     table: dict[str, Any] = {"time": plant.time, "A": _table(plant.A), "channels": []}
     for label, B, C in zip(plant.names, plant.B, plant.C, strict=True):
         table["channels"].append({"name": label, "B": _table(B), "C": _table(C)})
-    if plant.heard is not None:
+    if plant.neighborhoods is not None:
         table["neighbors"] = {
-            plant.names[i]: [plant.names[j] for j in heard if j != i]
-            for i, heard in enumerate(plant.heard)
+            plant.names[i]: [plant.names[j] for j in N if j != i]
+            for i, N in enumerate(plant.neighborhoods)
         }
     if plant.delays:
         delays: dict[str, dict[str, int]] = {}

@@ -73,7 +73,7 @@ def transfer_graph(claim: Any, witness: Any, system: System) -> bool:
 def neighbor_graph(claim: Any, witness: Any, system: System) -> bool:
     """Strong connectivity of the neighbor graph."""
     found = record(claim, "strongly_connected")
-    links = [(j, i) for i, heard in enumerate(system.graph()) for j in heard]
+    links = [(j, i) for i, N in enumerate(system.graph()) for j in N]
     return truth(found["strongly_connected"]) is (len(components(system.m, links)) <= 1)
 
 
@@ -82,7 +82,7 @@ def sharing_gap(claim: Any, witness: Any, system: System) -> bool:
     keys = ("relays", "relays_at_most", "boundary", "boundary_at_most")
     found = record(claim, *keys)
     relays, most, boundary, farthest = (integer(found[key], 0) for key in keys)
-    graph = [set(heard) for heard in system.graph()]
+    graph = [set(N) for N in system.graph()]
     between, around = numbers_of_relays(graph), boundary_sizes(graph)
     return (
         relays in between
@@ -96,10 +96,10 @@ def numbers_of_relays(graph: Sequence[set[int]]) -> set[int]:
     """The numbers of relays of all pairs of sets S and R that are apart."""
     found = set()
     for S in subsets(len(graph)):
-        heard = set().union(*(graph[i] for i in S))
+        senders = set().union(*(graph[i] for i in S))
         for R in subsets(len(graph)):
-            if not heard & set(R):
-                found.add(sum(1 for j in heard if graph[j] & set(R)))
+            if not senders & set(R):
+                found.add(sum(1 for j in senders if graph[j] & set(R)))
     return found
 
 

@@ -25,7 +25,7 @@ class System:
 
     Attributes
     ----------
-    heard : list of lists of int, optional
+    neighborhoods : list of lists of int, optional
         N_i for each i, with i in it, in the order of the channels; None without neighbor graph.
     delays : mapping
         d_ij under (i, j), where it is not 0.
@@ -38,7 +38,7 @@ class System:
     names: tuple[str, ...]
     B: tuple[fmpq_mat, ...]
     C: tuple[fmpq_mat, ...]
-    heard: tuple[tuple[int, ...], ...] | None = None
+    neighborhoods: tuple[tuple[int, ...], ...] | None = None
     delays: Mapping[tuple[int, int], int] = field(default_factory=dict)
     radii: Radii | None = None
 
@@ -64,12 +64,12 @@ class System:
 
     def graph(self) -> tuple[tuple[int, ...], ...]:
         """The neighbor graph, which the system must have."""
-        demand(self.heard is not None, "expected a system with a neighbor graph")
-        return self.heard or ()
+        demand(self.neighborhoods is not None, "expected a system with a neighbor graph")
+        return self.neighborhoods or ()
 
     def plain(self) -> System:
         """The same system without a neighbor graph."""
-        return replace(self, heard=None, delays={})
+        return replace(self, neighborhoods=None, delays={})
 
 
 def read_plant(value: Any) -> System:
@@ -84,12 +84,12 @@ def read_plant(value: Any) -> System:
     require_names(names)
     B = tuple(table(c["B"], n, None) for c in channels)
     C = tuple(table(c["C"], None, n) for c in channels)
-    heard = _graph(found["neighbors"], names) if "neighbors" in found else None
-    delays = _delays(found["delays"], names, heard) if "delays" in found else {}
+    neighborhoods = _graph(found["neighbors"], names) if "neighbors" in found else None
+    delays = _delays(found["delays"], names, neighborhoods) if "delays" in found else {}
     radii = None
     if "uncertainty" in found:
         radii = _radii(record(found["uncertainty"], "absolute")["absolute"], names, A, B, C)
-    return System(found["time"], A, names, B, C, heard, delays, radii)
+    return System(found["time"], A, names, B, C, neighborhoods, delays, radii)
 
 
 def _radii(value: Any, names: Sequence[str], A: fmpq_mat, B: Any, C: Any) -> Radii:
@@ -135,23 +135,23 @@ def require_names(names: Sequence[str]) -> None:
 
 def _graph(value: Any, names: Sequence[str]) -> tuple[tuple[int, ...], ...]:
     found = record(value, *names)
-    heard = []
+    neighborhoods = []
     for i, name in enumerate(names):
         others = [place(j, names) for j in listed(found[name])]
         demand(others == sorted(set(others)) and i not in others, "expected sorted neighbors")
-        heard.append(tuple(sorted({i, *others})))
-    return tuple(heard)
+        neighborhoods.append(tuple(sorted({i, *others})))
+    return tuple(neighborhoods)
 
 
-def _delays(value: Any, names: Sequence[str], heard: Any) -> dict[tuple[int, int], int]:
+def _delays(value: Any, names: Sequence[str], neighborhoods: Any) -> dict[tuple[int, int], int]:
     demand(isinstance(value, Mapping), "expected delays")
-    demand(heard is not None or not value, "expected delays along links")
+    demand(neighborhoods is not None or not value, "expected delays along links")
     found = {}
     for receiver, row in value.items():
         i = place(receiver, names)
         demand(isinstance(row, Mapping), "expected delays")
         for sender, steps in row.items():
             j = place(sender, names)
-            demand(j in heard[i] and j != i, "expected a delay along a link")
+            demand(j in neighborhoods[i] and j != i, "expected a delay along a link")
             found[i, j] = integer(steps, 1)
     return found

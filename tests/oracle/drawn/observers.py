@@ -44,11 +44,11 @@ def observer_program(rng: random.Random, system: System, extra: int = 0) -> Docu
         loop = loop + B * gain
     agents = []
     for i, name in enumerate(system.names):
-        heard = [j for j in (system.heard or [])[i] if j != i]
+        senders = [j for j in (system.neighborhoods or [])[i] if j != i]
         K, k = _drawn(rng, n, system.C[i].nrows()), rng.choice((0, 0, 1))
         own: Any = loop + K * system.C[i]
         others: dict[str, Any] = {}
-        for j in heard:
+        for j in senders:
             H = _drawn(rng, n, n)
             own = own + H
             others[system.names[j]] = padded(-H, n + extra, n + extra)

@@ -10,8 +10,8 @@ from mcexact.errors import McexactError
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system_file import read_parametric_system
 from tests.oracle.certificates.constructions import subject_of
-from tests.oracle.certificates.moved_entries import MOVING
 from tests.oracle.certificates.reading import Unspecified
+from tests.oracle.certificates.rearranged import REARRANGING
 
 from .plants import NAMES, Document, number, table
 from .subjects import drawn_step
@@ -62,7 +62,7 @@ INSIDE = ("u1 + v1", "u1*v1", "u1 - 2*v1 + 1", "u1", "u1^2 - v1", "1/(u1 + v1)",
 
 
 def drawn_on_a_line(rng: random.Random) -> tuple[Document, list[Document]]:
-    """A plant with two parameters, and a line perhaps with constructions that move entries."""
+    """A plant with two parameters, and a line, perhaps with constructions that place entries."""
     while True:
         text = json.dumps({"format": "mcexact-system/1", **drawn_parametric_plant(rng)})
         curve = {"t": rng.choice(INSIDE)}
@@ -91,7 +91,7 @@ def drawn_moves(rng: random.Random, plant: Document, largest: int = 5) -> list[D
     steps: list[Document] = []
     while rng.random() < 0.35 and len(steps) < 3:
         system = subject_of({"system": bare, "subject": steps})
-        step = drawn_step(rng, rng.choice(MOVING), system)
+        step = drawn_step(rng, rng.choice(REARRANGING), system)
         if step is None:
             continue
         try:

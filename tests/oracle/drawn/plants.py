@@ -94,8 +94,8 @@ def add_graph(rng: random.Random, plant: Document) -> None:
     plant["neighbors"] = {i: [j for j in names if j != i and rng.random() < chance] for i in names}
     if plant["time"] == "discrete" and rng.random() < 0.5:
         delays = {
-            i: {j: rng.choice((1, 1, 2)) for j in heard if rng.random() < 0.6}
-            for i, heard in plant["neighbors"].items()
+            i: {j: rng.choice((1, 1, 2)) for j in senders if rng.random() < 0.6}
+            for i, senders in plant["neighbors"].items()
         }
         delays = {i: row for i, row in delays.items() if row}
         if delays:

@@ -28,7 +28,7 @@ def drawn_matrix(rng: random.Random, nrows: int, ncols: int) -> Document:
 
 def drawn_step(rng: random.Random, name: str, system: System) -> Document | None:
     """One construction, or None if it does not apply."""
-    if system.heard is None and name in NEEDS_GRAPH:
+    if system.neighborhoods is None and name in NEEDS_GRAPH:
         return None
     if system.time == "continuous" and name in ("lifted", "held", "slow"):
         return None
@@ -81,16 +81,16 @@ def drawn_controller(rng: random.Random, system: System) -> Document:
         for label, size in zip(("shared_update", "private_update", "input"), sizes, strict=True):
             agent[label] = _drawn_map(rng, system, shared, i, private, size)
         if system.time == "discrete" and rng.random() < 0.3:
-            heard = [j for j in range(system.m) if i in _heard(system, j)]
-            agent["hold"] = {system.names[j]: rng.choice((1, 2)) for j in heard[:1]}
+            followers = [j for j in range(system.m) if i in _senders(system, j)]
+            agent["hold"] = {system.names[j]: rng.choice((1, 2)) for j in followers[:1]}
         agents.append(agent)
     return {"time": system.time, "agents": agents}
 
 
-def _heard(system: System, i: int) -> list[int]:
+def _senders(system: System, i: int) -> list[int]:
     """Whose signals agent i may use; in continuous time only those that come at once."""
-    heard = system.heard[i] if system.heard else (i,)
-    return [j for j in heard if system.time == "discrete" or not system.delays.get((i, j))]
+    neighborhood = system.neighborhoods[i] if system.neighborhoods else (i,)
+    return [j for j in neighborhood if system.time == "discrete" or not system.delays.get((i, j))]
 
 
 def _drawn_map(
@@ -101,7 +101,7 @@ def _drawn_map(
         return made
     for kind in ("outputs", "shared"):
         part = {}
-        for j in _heard(system, i):
+        for j in _senders(system, i):
             width = system.C[j].nrows() if kind == "outputs" else shared[j]
             if width and rng.random() < 0.6:
                 part[system.names[j]] = _drawn_table(rng, nrows, width, values)

@@ -74,9 +74,9 @@ def _heading(said: Said, case: Case) -> bool:
 @judge("information")
 def _information(said: Said, case: Case) -> bool:
     """Outputs of neighbors, and that they arrive without delay where links have delays."""
-    heard = "instant" if case.plant.delays else "outputs"
+    received = "instant" if case.plant.delays else "outputs"
     own = case.asked.get("information", "own") == "own"
-    return bool(said.values["information"] == ("own" if own else heard))
+    return bool(said.values["information"] == ("own" if own else received))
 
 
 @judge("inactive-channels")
@@ -95,8 +95,8 @@ def _channel(said: Said, case: Case) -> bool:
 
 @judge("picture-neighbor-graph")
 def _neighbors(said: Said, case: Case) -> bool:
-    names, heard = case.plant.names, case.plant.heard or ()
-    edges = {(names[j], names[i]) for i, N in enumerate(heard) for j in N if i != j}
+    names, neighborhoods = case.plant.names, case.plant.neighborhoods or ()
+    edges = {(names[j], names[i]) for i, N in enumerate(neighborhoods) for j in N if i != j}
     return _pairs(said.values["arcs"]) == edges
 
 
@@ -118,21 +118,27 @@ def _pairs(arcs: Sequence[Sequence[str]]) -> set[tuple[str, str]]:
 def control(said: Said, case: Case) -> bool:
     """Whether the words for the control fit the information and the delays of links."""
     own = case.asked.get("information", "own") == "own"
-    heard = "instant" if case.plant.delays else "outputs"
-    told = said.values.get("control", "own" if own else heard)
-    return bool(told == heard or (own and told in {"own", "alone"}))
+    received = "instant" if case.plant.delays else "outputs"
+    told = said.values.get("control", "own" if own else received)
+    return bool(told == received or (own and told in {"own", "alone"}))
 
 
 def facts_of(said: Said, case: Case) -> Facts:
     """The plant with what the control that is named lets agents feed back."""
     told = said.values.get("control")
-    return case.subject if told is None else case.own if told in {"own", "alone"} else case.heard
+    return (
+        case.subject
+        if told is None
+        else case.own
+        if told in {"own", "alone"}
+        else case.with_outputs
+    )
 
 
 @judge("nothing-fixed", "fixed-none", "latex-nothing-fixed", "any-rate")
 def _nothing_fixed(said: Said, case: Case) -> bool:
     facts = facts_of(said, case)
-    return not facts.fixed and facts.stays.degree() == 0 and control(said, case)
+    return not facts.fixed and facts.fixed_polynomial.degree() == 0 and control(said, case)
 
 
 @judge("fixed")
@@ -156,23 +162,23 @@ def stable(facts: Facts) -> bool:
 
 
 @judge("table-stabilizable")
-def _stabilizable(said: Said, case: Case) -> bool:
+def _table_stabilizable(said: Said, case: Case) -> bool:
     return stable(facts_of(said, case)) and control(said, case)
 
 
 @judge("table-not-stabilizable")
-def _not_stabilizable(said: Said, case: Case) -> bool:
+def _table_not_stabilizable(said: Said, case: Case) -> bool:
     return not stable(facts_of(said, case)) and control(said, case)
 
 
 @judge("stabilizable")
-def _stabilized(said: Said, case: Case) -> bool:
-    return _stabilizable(said, case) and _slowest(said, case)
+def _stabilizable(said: Said, case: Case) -> bool:
+    return _table_stabilizable(said, case) and _slowest(said, case)
 
 
 @judge("not-stabilizable")
-def _unstable(said: Said, case: Case) -> bool:
-    return _not_stabilizable(said, case) and _slowest(said, case)
+def _not_stabilizable(said: Said, case: Case) -> bool:
+    return _table_not_stabilizable(said, case) and _slowest(said, case)
 
 
 @judge("slowest")
@@ -210,10 +216,10 @@ def _behaves(text: str, time: str, value: float, is_stable: bool) -> bool:
 def often(values: Mapping[str, Any], facts: Facts) -> bool:
     """Whether a mode is so often in A, and at most so often fixed."""
     p = values["p"]
-    in_A, stays = values["often"] if "often" in values else (values["in_A"], values["stays"])
+    in_A, at_most = values["often"] if "often" in values else (values["in_A"], values["stays"])
     exact = {str(q): e for q, e in facts.modes}.get(str(p), 0)
-    left = {str(q): e for q, e in irreducible(facts.stays)}.get(str(p), 0)
-    return in_A in (None, exact) and left <= stays and (in_A is None or stays <= in_A)
+    fixed = {str(q): e for q, e in irreducible(facts.fixed_polynomial)}.get(str(p), 0)
+    return in_A in (None, exact) and fixed <= at_most and (in_A is None or at_most <= in_A)
 
 
 def blamed(p: fmpq_poly, outside: Sequence[int], inside: Sequence[int], facts: Facts) -> bool:
@@ -230,7 +236,7 @@ def _is_fixed(said: Said, case: Case) -> bool:
     facts, p = case.subject, said.values["p"]
     right = str(p) in map(str, facts.fixed) and often(said.values, facts)
     kept = said.values["often"][1]
-    return right and (kept != 1 or divides(p, facts.stays))
+    return right and (kept != 1 or divides(p, facts.fixed_polynomial))
 
 
 @judge("fixed-mode")
@@ -311,13 +317,13 @@ def _complete(said: Said, case: Case) -> bool:
 @judge("free", "spectrum-free")
 def _free(said: Said, case: Case) -> bool:
     """No mode is fixed, and a drawn loop has one irreducible factor."""
-    return case.subject.stays.degree() == 0 and len(case.subject.parts) <= 1
+    return case.subject.fixed_polynomial.degree() == 0 and len(case.subject.parts) <= 1
 
 
 @judge("parts")
 def _parts(said: Said, case: Case) -> bool:
     facts = case.subject
-    return facts.stays.degree() == 0 and len(facts.parts) == said.values["k"] > 1
+    return facts.fixed_polynomial.degree() == 0 and len(facts.parts) == said.values["k"] > 1
 
 
 @judge("spectrum-parts")
@@ -325,7 +331,7 @@ def _blocks(said: Said, case: Case) -> bool:
     """The degrees are those of a drawn loop, and gains of one block move that factor alone."""
     facts = case.subject
     blocks = [(size, case.indices(names)) for size, names in said.values["blocks"] if size]
-    if facts.stays.degree() or sorted(size for size, _ in blocks) != facts.parts:
+    if facts.fixed_polynomial.degree() or sorted(size for size, _ in blocks) != facts.parts:
         return False
     before = facts.loops[0]
     for size, channels in blocks:
@@ -338,13 +344,18 @@ def _blocks(said: Said, case: Case) -> bool:
 @judge("spectrum-moved")
 def _moved(said: Said, case: Case) -> bool:
     facts = case.subject
-    return bool(said.values["k"] == facts.n - facts.stays.degree() and said.values["n"] == facts.n)
+    return bool(
+        said.values["k"] == facts.n - facts.fixed_polynomial.degree()
+        and said.values["n"] == facts.n
+    )
 
 
 @judge("spectrum-moved-between")
 def _moved_between(said: Said, case: Case) -> bool:
     facts, v = case.subject, said.values
-    return bool(v["k"] <= facts.n - facts.stays.degree() <= v["most"] and v["n"] == facts.n)
+    return bool(
+        v["k"] <= facts.n - facts.fixed_polynomial.degree() <= v["most"] and v["n"] == facts.n
+    )
 
 
 # Structure.
@@ -589,7 +600,7 @@ def _gains(rules: str, side: str) -> None:
 
     @judge(f"{rules}-stuck")
     def _stuck(said: Said, case: Case) -> bool:
-        """The mode stays out of reach under all gains that are drawn."""
+        """The channel does not reach the mode, whichever gains are drawn."""
         facts, v = case.subject, said.values
         q = case.indices([v["name"]])
         if q[0] not in asked(case) or side not in ("both", v["side"]):

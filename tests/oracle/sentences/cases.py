@@ -212,8 +212,8 @@ class Facts:
         return [self.drawn() for _ in range(DRAWS)]
 
     @cached_property
-    def stays(self) -> fmpq_poly:
-        """What divides det(xI − A_F) for no gains and for all that were drawn."""
+    def fixed_polynomial(self) -> fmpq_poly:
+        """The greatest common divisor of det(xI − A) and of det(xI − A_F) for all drawn gains."""
         found = self.chi
         for A in self.loops:
             found = found.gcd(A.charpoly())
@@ -338,20 +338,20 @@ class Case:
         return Facts(self.plant)
 
     @cached_property
-    def heard(self) -> Facts:
+    def with_outputs(self) -> Facts:
         """The plant whose agents receive the outputs of their neighbors."""
         return Facts(self.made({"construction": "augmented_outputs"}))
 
     @property
     def subject(self) -> Facts:
         """The plant with the information that is asked for."""
-        return self.heard if self.asked.get("information") == "outputs" else self.own
+        return self.with_outputs if self.asked.get("information") == "outputs" else self.own
 
     def made(self, *steps: Mapping[str, Any]) -> System:
-        """What constructions make from the plant, where every agent hears itself at least."""
+        """What constructions make from the plant; without a graph, over the one without edges."""
         plant = self.plant
-        if plant.heard is None:
-            plant = replace(plant, heard=tuple((i,) for i in range(plant.m)))
+        if plant.neighborhoods is None:
+            plant = replace(plant, neighborhoods=tuple((i,) for i in range(plant.m)))
         return built(plant, steps)
 
     def extended(self, sizes: Sequence[int], share: str) -> Facts:
@@ -366,8 +366,8 @@ class Case:
 
     def senders(self, s: Sequence[int]) -> set[int]:
         """N_s∖s, the agents outside a set from which agents of it receive."""
-        heard = self.plant.heard or [(i,) for i in range(self.plant.m)]
-        return {j for i in s for j in heard[i]} - set(s)
+        neighborhoods = self.plant.neighborhoods or [(i,) for i in range(self.plant.m)]
+        return {j for i in s for j in neighborhoods[i]} - set(s)
 
     @property
     def slow(self) -> str:

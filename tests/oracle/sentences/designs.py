@@ -216,9 +216,9 @@ def _networked(case: Case) -> Facts:
 def _kept(said: Said, case: Case) -> bool:
     """Modes that no gains move, and that the loop still has."""
     p = said.values["p"]
-    stays = [str(q) for q, _ in irreducible(_networked(case).stays)]
+    fixed = [str(q) for q, _ in irreducible(_networked(case).fixed_polynomial)]
     parts = irreducible(p)
-    return bool(parts) and all(str(q) in stays for q, _ in parts) and divides(p, case.spectrum)
+    return bool(parts) and all(str(q) in fixed for q, _ in parts) and divides(p, case.spectrum)
 
 
 # Set-points.
@@ -390,22 +390,22 @@ def _integrators_fixed(said: Said, case: Case) -> bool:
     """Fixed with as many shared states as there are states, and with outputs sent as well."""
     plant = replace(case, plant=case.made({"construction": "integrators"}))
     most = [plant.plant.n] * plant.plant.m
-    stays = plant.extended(most, OUTPUTS).stays
+    fixed = plant.extended(most, OUTPUTS).fixed_polynomial
     p = monic(said.values["p"])
-    return p.degree() > 0 and all(divides(q, stays) for q, _ in irreducible(p))
+    return p.degree() > 0 and all(divides(q, fixed) for q, _ in irreducible(p))
 
 
 @judge("refused-errors-not-complete")
 def _errors_not_complete(said: Said, case: Case) -> bool:
     """No channel of the error system controls and observes everything under drawn gains."""
     facts = _refused(case)
-    return len(facts.components) > 1 or facts.stays.degree() > 0
+    return len(facts.components) > 1 or facts.fixed_polynomial.degree() > 0
 
 
 @judge("refused-errors-fixed")
 def _errors_fixed(said: Said, case: Case) -> bool:
     facts, p = _refused(case), said.values["p"]
-    return p.degree() > 0 and divides(p, facts.stays) and _escapes(said, p)
+    return p.degree() > 0 and divides(p, facts.fixed_polynomial) and _escapes(said, p)
 
 
 def _fixed_in(said: Said, case: Case, facts: Facts) -> bool:
@@ -414,8 +414,8 @@ def _fixed_in(said: Said, case: Case, facts: Facts) -> bool:
     outside, inside = (case.indices(names) for names in said.values["sides"])
     slow = not case.asked["region"].contains(p)
     parts = irreducible(p)
-    stays = bool(parts) and all(divides(q, facts.stays) for q, _ in parts)
-    return slow and stays and all(blamed(q, outside, inside, facts) for q, _ in parts)
+    fixed = bool(parts) and all(divides(q, facts.fixed_polynomial) for q, _ in parts)
+    return slow and fixed and all(blamed(q, outside, inside, facts) for q, _ in parts)
 
 
 @judge("refused-fixed")
@@ -450,8 +450,8 @@ def _no_dimensions(said: Said, case: Case) -> bool:
     """Slow modes stay with as many shared states as help, since the agents named lack them."""
     fast = case.asked.get("shared_region") or case.asked["region"]
     facts = _shared_at_most(case)
-    slow = [p for p, _ in irreducible(facts.stays) if not fast.contains(p)]
-    base = case.heard if (case.asked.get("share") or OUTPUTS) == OUTPUTS else case.own
+    slow = [p for p, _ in irreducible(facts.fixed_polynomial) if not fast.contains(p)]
+    base = case.with_outputs if (case.asked.get("share") or OUTPUTS) == OUTPUTS else case.own
     s = case.indices(said.values["agents"])
     need = [facts.n for facts in (base,) if facts]
     lacks = [base.n - base.rank(s, p) for p, _ in base.modes if not fast.contains(p)]

@@ -63,8 +63,8 @@ def unsaid(fields: Mapping[str, Sequence[str]], case: Case) -> Iterator[Said]:
     """Sentences of rules without values of their own that were not said of a case."""
     known = {row.rule for row in case.rows}
     own = case.asked.get("information", "own") == "own"
-    heard = "instant" if case.plant.delays else "outputs"
-    given = {"time": case.slow, "control": "own" if own else heard}
+    received = "instant" if case.plant.delays else "outputs"
+    given = {"time": case.slow, "control": "own" if own else received}
     for rule, names in fields.items():
         if rule not in known and set(names) <= GIVEN:
             yield Said(rule, {name: given[name] for name in names})

@@ -74,12 +74,12 @@ def _every(holds: Callable[[Facts], bool]) -> Callable[[Said, Case], bool]:
 
 def stabilizable(facts: Facts) -> bool:
     """Whether every mode that gains leave is stable."""
-    return Region(facts.system.time).contains(facts.stays)
+    return Region(facts.system.time).contains(facts.fixed_polynomial)
 
 
 def nothing_fixed(facts: Facts) -> bool:
     """Whether gains leave no mode."""
-    return facts.stays.degree() == 0
+    return facts.fixed_polynomial.degree() == 0
 
 
 def controllable(facts: Facts) -> bool:

@@ -353,7 +353,7 @@ def _modes(stem: str, lost: Lost) -> None:
 
 
 def _stays(facts: Facts, _: Case) -> list[fmpq_poly]:
-    return [p for p, _ in irreducible(facts.stays)]
+    return [p for p, _ in irreducible(facts.fixed_polynomial)]
 
 
 def _channel(case: Case) -> list[int]:
@@ -437,7 +437,7 @@ def _graph_lost(said: Said, case: Case) -> bool:
 
 
 def _is_complete(facts: Facts, _: Point) -> bool:
-    return len(facts.components) == 1 and facts.stays.degree() == 0
+    return len(facts.components) == 1 and facts.fixed_polynomial.degree() == 0
 
 
 @judge("parametric-complete-always")
@@ -523,7 +523,7 @@ def _almost(stem: str, holds: Holds) -> None:
         return named and all(holds(facts, point) for point, facts in points)
 
 
-_almost("nothing-fixed", lambda facts, _: facts.stays.degree() == 0)
+_almost("nothing-fixed", lambda facts, _: facts.fixed_polynomial.degree() == 0)
 _almost("controllable", lambda facts, _: not facts.uncontrolled())
 _almost("observable", lambda facts, _: not facts.unobserved())
 _almost("complete", _is_complete)

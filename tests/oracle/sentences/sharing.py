@@ -36,11 +36,13 @@ MOST_TRIES = 400
 def leaves(facts: Facts, bound: Any = None, free: bool = False) -> bool:
     """Whether no mode is fixed that is as slow as a bound, and the spectrum is free if asked."""
     if bound is None:
-        left = facts.stays.degree() > 0
+        forbidden = facts.fixed_polynomial.degree() > 0
     else:
         fast = Region(facts.system.time, number(bound))
-        left = any(not fast.contains(p) for p, _ in irreducible(facts.stays))
-    return not left and (not free or (facts.stays.degree() == 0 and len(facts.parts) <= 1))
+        forbidden = any(not fast.contains(p) for p, _ in irreducible(facts.fixed_polynomial))
+    return not forbidden and (
+        not free or (facts.fixed_polynomial.degree() == 0 and len(facts.parts) <= 1)
+    )
 
 
 def instant(said: Said, case: Case) -> bool:
@@ -51,11 +53,11 @@ def instant(said: Said, case: Case) -> bool:
 def linked(case: Case, added: Sequence[Sequence[str]]) -> Case:
     """The case with more links in its neighbor graph."""
     plant = case.plant
-    heard = [set(N) for N in plant.heard or [(i,) for i in range(plant.m)]]
+    neighborhoods = [set(N) for N in plant.neighborhoods or [(i,) for i in range(plant.m)]]
     for start, end in added:
         [j], [i] = case.indices([start]), case.indices([end])
-        heard[i].add(j)
-    wider = replace(plant, heard=tuple(tuple(sorted(N)) for N in heard))
+        neighborhoods[i].add(j)
+    wider = replace(plant, neighborhoods=tuple(tuple(sorted(N)) for N in neighborhoods))
     return Case(wider, case.asked)
 
 
@@ -63,18 +65,20 @@ def linked(case: Case, added: Sequence[Sequence[str]]) -> Case:
 
 
 def _connected(case: Case) -> bool:
-    heard = case.plant.heard or ()
-    return len(components(case.plant.m, [(j, i) for i, N in enumerate(heard) for j in N])) == 1
+    neighborhoods = case.plant.neighborhoods or ()
+    return (
+        len(components(case.plant.m, [(j, i) for i, N in enumerate(neighborhoods) for j in N])) == 1
+    )
 
 
 @judge("neighbor-graph-connected")
 def _is_connected(said: Said, case: Case) -> bool:
-    return case.plant.heard is not None and _connected(case)
+    return case.plant.neighborhoods is not None and _connected(case)
 
 
 @judge("neighbor-graph-not-connected", "enough-unknown")
 def _is_not_connected(said: Said, case: Case) -> bool:
-    return case.plant.heard is not None and not _connected(case)
+    return case.plant.neighborhoods is not None and not _connected(case)
 
 
 # What suffices, and what does not.
@@ -238,17 +242,20 @@ def fewest(case: Case, added: Sequence[Sequence[str]], prices: dict[tuple[str, s
 
 def candidates(case: Case) -> dict[tuple[str, str], Any]:
     """The links that the graph lacks, at the price of one each or as it was asked."""
-    names, heard = case.plant.names, case.plant.heard or [(i,) for i in range(case.plant.m)]
+    names, neighborhoods = (
+        case.plant.names,
+        case.plant.neighborhoods or [(i,) for i in range(case.plant.m)],
+    )
     asked = case.asked.get("prices")
     if asked is not None:
         return dict(asked)
     every = itertools.permutations(range(len(names)), 2)
-    return {(names[j], names[i]): 1 for j, i in every if j not in heard[i]}
+    return {(names[j], names[i]): 1 for j, i in every if j not in neighborhoods[i]}
 
 
 @judge("links", "links-beside-graph", "table-links")
 def _links(said: Said, case: Case) -> bool:
-    graph = (said.rule == "links-beside-graph") == (case.plant.heard is not None)
+    graph = (said.rule == "links-beside-graph") == (case.plant.neighborhoods is not None)
     right = graph or said.rule == "table-links"
     added = said.values["added"]
     return right and bool(added) and instant(said, case) and fewest(case, added, candidates(case))
@@ -269,7 +276,7 @@ def _links_in_vain(said: Said, case: Case) -> bool:
 
 
 def _graph(case: Case) -> list[set[int]]:
-    return [set(heard) for heard in case.plant.heard or ()]
+    return [set(N) for N in case.plant.neighborhoods or ()]
 
 
 @judge("sharing-gap")
@@ -281,7 +288,7 @@ def _factors(said: Said, case: Case) -> bool:
 def _farthest(share: str) -> Judge:
     def decides(said: Said, case: Case) -> bool:
         """The bound is the largest loss of rank, and the least is tried."""
-        base, v = case.heard if share == OUTPUTS else case.own, said.values
+        base, v = case.with_outputs if share == OUTPUTS else case.own, said.values
         modes = [p for p, _ in irreducible(base.system.A.charpoly())]
         every = subsets(base.m)
         bound = max(base.n - base.rank(s, p) for s in every for p in modes)
@@ -303,21 +310,19 @@ for start in ("bound-and-least", "allocate-bound-and-least"):
 
 
 def _delayed(network: str, share: dict[str, str]) -> None:
-    def left(said: Said, case: Case) -> fmpq_poly:
+    def fixed_polynomial(said: Said, case: Case) -> fmpq_poly:
         sizes = [said.values["k"]] * case.plant.m
         made = case.made({"construction": network, "dimensions": sizes, **share})
-        return Facts(made).stays
+        return Facts(made).fixed_polynomial
 
     @judge(f"{network}-nothing-fixed")
     def _nothing(said: Said, case: Case) -> bool:
-        return left(said, case).degree() == 0
+        return fixed_polynomial(said, case).degree() == 0
 
     @judge(f"{network}-fixed")
     def _some(said: Said, case: Case) -> bool:
-        stays = left(said, case)
-        return stays.degree() > 0 and same_roots(
-            said.values["p"], [p for p, _ in irreducible(stays)]
-        )
+        p = fixed_polynomial(said, case)
+        return p.degree() > 0 and same_roots(said.values["p"], [q for q, _ in irreducible(p)])
 
 
 _delayed("lifted", {"share": OUTPUTS})
@@ -408,7 +413,7 @@ def _allocated_cost(said: Said, case: Case) -> bool:
 
 
 def _base(case: Case) -> Facts:
-    return case.heard if case.asked["share"] == OUTPUTS else case.own
+    return case.with_outputs if case.asked["share"] == OUTPUTS else case.own
 
 
 def _received(said: Said, case: Case, s: Sequence[int]) -> bool:

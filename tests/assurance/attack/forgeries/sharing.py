@@ -341,7 +341,7 @@ def other_links(rng: random.Random, document: Document) -> Forged:
     """Links that are no candidates, or cost something else, or are more than needed."""
     system, claim = subject_of(document), document["claim"]
     names = list(system.names)
-    heard = system.heard or tuple((i,) for i in range(system.m))
+    heard = system.neighborhoods or tuple((i,) for i in range(system.m))
     free = [(j, i) for j in range(system.m) for i in range(system.m) if j not in heard[i]]
     added = [edge for edge in free if rng.random() < 0.7]
     if rng.random() < 0.5:

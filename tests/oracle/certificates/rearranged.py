@@ -1,4 +1,4 @@
-"""Constructions that move entries, applied to plants with a parameter as affine functions."""
+"""Constructions that only place entries, applied to plants with a parameter as affine functions."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from .reading import demand
 from .systems import System
 
 Built = Callable[[System, Sequence[Any]], System]
-MOVING = (
+REARRANGING = (
     "arcs", "augmented_outputs", "dual", "extended", "full_output", "integrators", "merged",
     "restricted",
 )  # fmt: skip
 
 
-def moved(plant: ParametricPlant, steps: Sequence[Any], built: Built) -> ParametricPlant:
+def rearranged(plant: ParametricPlant, steps: Sequence[Any], built: Built) -> ParametricPlant:
     """What constructions make: c + Σ e (c_e − c) for entries e, c_e made from 1 in its place."""
     for step in steps:
         demand(isinstance(step, Mapping), "expected a construction")
-        demand(step.get("construction") in MOVING, "expected one that moves entries")
+        demand(step.get("construction") in REARRANGING, "expected one that only places entries")
     if not steps:
         return plant
 
@@ -35,7 +35,7 @@ def moved(plant: ParametricPlant, steps: Sequence[Any], built: Built) -> Paramet
         A, *ports = tables
         alone = tuple((i,) for i in range(plant.m))
         start = System(
-            plant.time, A, plant.names, tuple(ports[0::2]), tuple(ports[1::2]), heard=alone
+            plant.time, A, plant.names, tuple(ports[0::2]), tuple(ports[1::2]), neighborhoods=alone
         )
         return built(start, steps)
 

@@ -1,4 +1,4 @@
-"""Constructions that move entries, applied to plants with a parameter."""
+"""Constructions that only place entries, applied to plants with a parameter."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer.check import constructed
 from mcexact.answer.protocol import document
 from mcexact.checker.budget import Budget, Refused, limited
-from mcexact.checker.cells import MOVING, subject_of
+from mcexact.checker.cells import REARRANGING, subject_of
 from mcexact.checker.parametric_system import ParametricSystem as Read
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.derived import constructions
@@ -108,8 +108,10 @@ def test_checker_package_and_oracle_make_the_same(number: int) -> None:
 
 
 def test_every_construction_that_moves_entries_is_examined() -> None:
-    assert {step["construction"] for steps in SEVERAL.values() for step in steps} == set(MOVING)
-    assert constructions.REARRANGING == set(MOVING)
+    assert {step["construction"] for steps in SEVERAL.values() for step in steps} == set(
+        REARRANGING
+    )
+    assert constructions.REARRANGING == set(REARRANGING)
 
 
 OTHERS: dict[str, Any] = {
