@@ -770,8 +770,8 @@ class SparseMatrix(Matrix):
         lines: dict[int, list[Entry]] = {}
         for entry in self.entries:
             lines.setdefault(entry[0], []).append(entry)
-        moved = [(new, j, x) for new, i in enumerate(chosen) for _, j, x in lines.get(i, ())]
-        return SparseMatrix(len(chosen), self.ncols, moved, self.denominator)
+        numbered = [(new, j, x) for new, i in enumerate(chosen) for _, j, x in lines.get(i, ())]
+        return SparseMatrix(len(chosen), self.ncols, numbered, self.denominator)
 
 
 def listed(M: Matrix) -> SparseMatrix | None:

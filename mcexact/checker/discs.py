@@ -155,7 +155,7 @@ def right_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Reg
 
 
 def near_identity(P: ComplexMatrix, Q: ComplexMatrix, spread: Matrix, w: Matrix) -> Regular:
-    """Whether Σ_j |I − (cP − Q)|_ij w_j + moved_i + ρ (|P| w)_i < w_i in every row i.
+    """Whether Σ_j |I − (cP − Q)|_ij w_j + spread_i + ρ (|P| w)_i < w_i in every row i.
 
     P has the first columns; in the others it is 0.
     """

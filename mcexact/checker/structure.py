@@ -413,7 +413,7 @@ def _lost_at(value: Json, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: i
         require(gone, "identity", f"{place}.row", "it does not annihilate every block")
         images = [Matrix.zeros(1, A.nrows), *(layer @ A for layer in w)]
         terms = zip(w, images, f, strict=False)
-        w = [layer @ M + shifted - images[-1].times(c) for layer, shifted, c in terms]
+        w = [layer @ M + image - images[-1].times(c) for layer, image, c in terms]
     return f
 
 
