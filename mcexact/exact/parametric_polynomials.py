@@ -1,4 +1,4 @@
-"""Polynomials in x over Q[t, …] for one parameter and several, their determinants and null spaces.
+"""Polynomials in x over Q[t, …] for one parameter and several, determinants and null spaces.
 
 A `ParametricPolynomial` is c_0 + c_1 x + … + c_d x^d, with coefficients in Q[t_1, …, t_k] or, at
 the roots of an irreducible polynomial q in one parameter, in the number field L = Q[t]/(q).  The
