@@ -26,6 +26,7 @@ from typing import Any, Literal
 import numpy as np
 
 from mcexact.analysis.boxes.pencils import Floats
+from mcexact.analysis.nearby.corrections import changed, pencil_matrix
 from mcexact.answer.protocol import Answer
 from mcexact.exact.linear_algebra import nullspace, row_echelon, solve_nonsingular
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float, vstack
@@ -406,7 +407,7 @@ def failing_plant(
         if exact is None or (limit is not None and exact[1] >= limit):
             continue
         change, size = exact
-        plant = _changed(system, s, change)
+        plant = changed(system, s, change)
         best = FailingPlant(plant, size, near.point, system.named(s))
     return best
 
@@ -442,41 +443,13 @@ def _starts(
     for s in sets:
         T = [i for i in range(system.m) if i not in s]
         pencil = Uncertain(
-            _pencil(system.A, [system.B[i] for i in T], [system.C[i] for i in s]),
-            _pencil(radii.A, [radii.B[i] for i in T], [radii.C[i] for i in s]),
+            pencil_matrix(system.A, [system.B[i] for i in T], [system.C[i] for i in s]),
+            pencil_matrix(radii.A, [radii.B[i] for i in T], [radii.C[i] for i in s]),
             system.n,
             system.n - 1,
         )
         for point, freedom in points:
             yield pencil.smallest(point), s, pencil, point, freedom
-
-
-def _pencil(A: Matrix, B: list[Matrix], C: list[Matrix]) -> Matrix:
-    """[A, B_T; C_s, 0], T the complement of s: λE minus this has the rank of P_s(λ)."""
-    n = A.nrows
-    top, low = hstack([A, *B], nrows=n), vstack(C, ncols=n)
-    return vstack([top, hstack([low, Matrix.zeros(low.nrows, top.ncols - n)])])
-
-
-def _changed(system: MultiChannelSystem, s: tuple[int, ...], change: Matrix) -> MultiChannelSystem:
-    """The plant with a change of the matrix of the pencil of s."""
-    n, column, row = system.n, system.n, system.n
-    B, C = list(system.B), list(system.C)
-    for i in range(system.m):
-        if i in s:
-            C[i] = C[i] + change.take(range(row, row + system.q(i)), range(n))
-            row += system.q(i)
-        else:
-            B[i] = B[i] + change.take(range(n), range(column, column + system.p(i)))
-            column += system.p(i)
-    return MultiChannelSystem(
-        system.A + change.take(range(n), range(n)),
-        B,
-        C,
-        time=system.time,
-        names=system.names,
-        neighbors=system.neighbors,
-    )
 
 
 def severed_plants(
