@@ -11,6 +11,7 @@ from mcexact.answer import (
     analysis,
     boxes,
     loops,
+    nearby,
     parameters,
     several_parameters,
     sharing,
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 ANALYSIS = Rulebook(
     [
+        *nearby.NEARBY_RULES,
         *analysis.ANALYSIS_RULES,
         *sharing.SHARING_RULES,
         *sharing_gap.GAP_RULES,
@@ -114,7 +116,7 @@ def in_words(sentences: Iterable[Sentence]) -> str:
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
         Rulebook([*ANALYSIS, *(rule for own in OWN.values() for rule in own)]),
-        (analysis, boxes, sharing, sharing_gap),
+        (nearby, analysis, boxes, sharing, sharing_gap),
     ),
     "analyze, with parameters": (PARAMETERS, (parameters,)),
     "allocate": (ALLOCATION, (sharing, sharing_gap)),

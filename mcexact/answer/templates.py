@@ -11,12 +11,14 @@ from __future__ import annotations
 import string
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
 from fractions import Fraction
 from typing import Any
 
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import (
     decimal_number,
+    digits_outward,
     number,
     percent,
     polynomial,
@@ -40,6 +42,27 @@ def modes(p: Polynomial, limit: int = 30) -> str:
     if p.degree == 1:
         return f"the mode {number(-p.coefficients[0] / p.coefficients[1])}"
     return f"the {p.degree} roots of {polynomial(p, limit)}"
+
+
+def about_mode(p: Polynomial) -> str:
+    """The root of a polynomial of degree 1, or the pair of roots of one of degree 2, in six digits.
+
+    Examples
+    --------
+    >>> about_mode(Polynomial.of(0, 1)), about_mode(Polynomial.of("-1/3", 1))
+    ('0', '0.333333')
+    >>> about_mode(Polynomial.of(5, 2, 1)), about_mode(Polynomial.of(6, -5, 1))
+    ('-1 ± 2i', '2 and 3')
+    """
+    if p.degree == 1:
+        return rounded(-p.coefficients[0] / p.coefficients[1])
+    q, minus, lead = p.coefficients
+    middle, square = -minus / lead / 2, minus * minus / lead / lead / 4 - q / lead
+    with localcontext(prec=30, Emax=MAX_EMAX, Emin=MIN_EMIN):
+        apart = Fraction((Decimal(abs(square.numerator)) / Decimal(square.denominator)).sqrt())
+    if square < 0:
+        return f"{rounded(middle)} ± {rounded(apart)}i"
+    return f"{rounded(middle - apart)} and {rounded(middle + apart)}"
 
 
 def allowed(region: object | None) -> str:
@@ -337,6 +360,8 @@ FORMS: dict[str, Write] = {
     "often": _often,
     "behavior": _behavior,
     "Modes": lambda p: _capital(modes(p, 60)),
+    "about": about_mode,
+    "noun": _agreeing("mode", "modes"),
     "are": _agreeing("is", "are"),
     "them": _agreeing("it", "them"),
     "escape": _agreeing("which does not satisfy", "which do not all satisfy"),
@@ -391,6 +416,7 @@ FORMS: dict[str, Write] = {
     "another": lambda more: "Another" if more else "A",
     "shared": _shared,
     "percent": percent,
+    "part": lambda part: digits_outward(part, up=True, digits=2),
     "percent_above": lambda part: percent(part, up=True),
     "digits_above": lambda number: three_digits(number, up=True),
     "gains": _gains,

@@ -22,7 +22,7 @@ from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import IO, NoReturn
 
-from . import reading, sentences_loops, sentences_parameters
+from . import reading, sentences_loops, sentences_nearby, sentences_parameters
 from .budget import Budget, current, limited, spend
 from .cells import constructed, subject_of
 from .discs import at_values
@@ -61,7 +61,7 @@ from .system import System, counted
 
 # Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them.
 
-RULE_MODULES = (sentences_loops, sentences_parameters)
+RULE_MODULES = (sentences_loops, sentences_nearby, sentences_parameters)
 """The modules that enter their rules into `RULES` when they are imported, besides `sentences`."""
 MANIFEST_FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"

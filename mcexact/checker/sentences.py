@@ -11,7 +11,8 @@ roles, stops unless the claims imply the sentence, and returns the statement.  M
 what one certificate claims, and have a rule by `restate` or `either`.  A rule that draws a
 conclusion names its theorem: of ``proofs/`` or of the literature.
 
-This module has the rules about an analysis and about sharing; `sentences_loops` has those about
+This module has the rules about an analysis and about sharing; `sentences_nearby` has those about
+other plants of which an answer is another one, `sentences_loops` those about
 loops and boxes, `sentences_parameters` those about all values of parameters.
 """
 

@@ -3,8 +3,7 @@
 - Certified loops (``design``, ``certify``): where their eigenvalues lie, how many states the
   controller has, which modes stay fixed, and that outputs tend to their set-points.  The controller
   is a part of the subject, so that `controller` reads its programs from a certificate.
-- Plants near the plant of a loop whose own loop is not stable (`fails_near`): how far their entries
-  are from those of the plant is computed here, from both certificates.
+- Plants near the plant of a loop whose own loop is not stable (`fails_near`).
 - Refusals (``refused-…``): the uncontrollable or unobservable modes, fixed modes, or set-points
   without an equilibrium that make a request impossible.
 - Boxes and ranges of parameters (`of_plants`): sentences about all members.
@@ -17,7 +16,6 @@ from . import budget
 from .boxes import gain_pairs
 from .cells import constructed
 from .constructions import read_subject
-from .discs import absolute
 from .kinds import same
 from .reading import Json, polynomial
 from .roots import in_stability_region
@@ -39,6 +37,7 @@ from .sentences import (
     restate,
     rule,
 )
+from .sentences_nearby import differences, farthest
 from .system import MAPS, Pair, System, counted, pairs_of, read_matrix, read_radii
 
 # What the certificates of a design, of a verdict on a controller and of a refusal imply.
@@ -221,30 +220,6 @@ def integrates(system: System, i: int, agent: Json) -> bool:
 FAILS = Role(("stability",), CLOSED, nearby=True)
 
 
-def farthest(near: Premise, loop: Premise, *, of_radii: bool) -> Fraction:
-    """How far the entries of a plant nearby are from those of the plant of a loop at most.
-
-    In radii of the plant of the loop, or else in absolute values of its entries.  Both plants have
-    the same time, channels, neighbors and delays, and both loops the same controller.
-    """
-    own, other = loop.plant, near.plant
-    for plant in (own, other):
-        near.expect(isinstance(plant, System), "a plant has parameters")
-    parts = ("time", "names", "neighbors", "delays")
-    alike = all(getattr(own, part) == getattr(other, part) for part in parts)
-    near.expect(alike, "another time, or other channels, neighbors or delays")
-    near.expect(same(near.document["subject"], loop.document["subject"]), "another loop")
-    values, others = ([each.A, *each.B, *each.C] for each in (own, other))
-    pairs = list(zip(values, others, strict=True))
-    fits = all((M.nrows, M.ncols) == (N.nrows, N.ncols) for M, N in pairs)
-    near.expect(fits, "matrices of other shapes")
-    units = read_radii(own.uncertainty, own.names, values) if of_radii else values
-    shifts = pairs_of(units, [absolute(N + M.times(-1)) for M, N in pairs])
-    near.expect(all(unit for moved, unit in shifts if moved), "an entry without a radius is moved")
-    budget.spend(budget.fractions(len(shifts), 2 * budget.limbs_of([x for p in shifts for x in p])))
-    return max((moved / unit for moved, unit in shifts if moved), default=Fraction(0))
-
-
 def fails_near(key: str, unit: str, *, of_radii: bool) -> None:
     """Enter the rule about a plant nearby whose loop is not stable."""
 
@@ -253,7 +228,14 @@ def fails_near(key: str, unit: str, *, of_radii: bool) -> None:
         near.expect(not near["stable"], "the loop is stable")
         near.expect(set(near.document["claim"]) == {"bound", "stable"}, "limits are claimed, too")
         near.expect(near["bound"] is None, "a bound is claimed")
-        far = farthest(near, loop, of_radii=of_radii)
+        near.expect(same(near.document["subject"], loop.document["subject"]), "another loop")
+        own, units = loop.plant, None
+        if of_radii and isinstance(own, System):
+            units = read_radii(own.uncertainty, own.names, [own.A, *own.B, *own.C])
+        shifts = differences(near, loop, units)
+        fits = all(unit for moved, unit in shifts if moved)
+        near.expect(fits, "an entry without a radius is moved")
+        far = farthest(shifts)
         whose = f"each entry of its plant differs from that of {loop.plant.words}"
         return f"{near.statement}; {whose} by at most {far} of the {unit} of the latter"
 

@@ -63,12 +63,16 @@ def digits(x: Fraction) -> int:
     >>> digits(Fraction("0.0475")), digits(Fraction(1200)), digits(Fraction(1, 3))
     (3, 2, 0)
     """
+    if x.denominator == 1:
+        return len(str(abs(x.numerator)).rstrip("0"))
     twos = (x.denominator & -x.denominator).bit_length() - 1
-    rest = x.denominator >> twos
-    fives = round(math.log(rest, 5))
-    if 5**fives != rest:
+    odd = x.denominator >> twos
+    fives = round(math.log(odd, 5))
+    places = max(twos, fives)
+    if 5**fives != odd or places - twos > 300:
         return 0
-    return len(str(abs(x.numerator) * 10 ** max(twos, fives) // x.denominator).rstrip("0"))
+    # No factor 10 is left: the fraction is in lowest terms.
+    return len(str(abs(x.numerator) * 2 ** (places - twos) * 5 ** (places - fives)))
 
 
 def rounding(x: Fraction) -> Fraction:

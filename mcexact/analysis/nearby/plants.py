@@ -43,6 +43,7 @@ from mcexact.analysis.nearby.corrections import (
 )
 from mcexact.analysis.nearby.suspects import Suspect, balanced, by_bottleneck, suspects
 from mcexact.answer.modes import PencilRank
+from mcexact.answer.templates import about_mode
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError, several
 from mcexact.exact.matrix import Matrix
@@ -106,7 +107,7 @@ class NearPlant:
     @property
     def about(self) -> str:
         """The mode with six digits; a pair of complex ones as one."""
-        return about(self.mode)
+        return about_mode(self.mode)
 
     def explain(self) -> str:
         """Say in plain words how far the plant is, and what it lacks."""
@@ -215,20 +216,6 @@ class Nearby(Shown):
             "plants": [each.to_dict() for each in self.plants],
             "computed_not_certified": [each.to_dict() for each in self.suspected],
         }
-
-
-def about(p: Polynomial) -> str:
-    """The root of a polynomial of degree 1, or the pair of roots of one of degree 2, in six digits.
-
-    Examples
-    --------
-    >>> about(Polynomial.of(0, 1)), about(Polynomial.of("-1/3", 1)), about(Polynomial.of(5, 2, 1))
-    ('0', '0.333333', '-1 ± 2i')
-    """
-    if p.degree == 1:
-        return f"{float(-p.coefficients[0] / p.coefficients[1]):.6g}"
-    q, minus = (float(c / p.coefficients[2]) for c in p.coefficients[:2])
-    return f"{-minus / 2 + 0.0:.6g} ± {math.sqrt(max(0.0, q - minus * minus / 4)):.6g}i"
 
 
 def nearby_plants(system: MultiChannelSystem, lost: Iterable[Lost] = LOST) -> Nearby:

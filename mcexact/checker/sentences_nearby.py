@@ -1,0 +1,160 @@
+"""Rules of sentences about plants nearby, of which an answer is another one.
+
+A manifest lists certificates about another plant as ``nearby``.  Only the rules of this module, and
+those about a loop that is not stable (`sentences_loops`), take them, together with a certificate
+about the manifest's own plant.  How far the other plant is from it is computed from both
+(`differences`): nothing is believed about the distance.
+
+===================  ===========================================================================
+``nearby-…``         no entry differs by more than 10^-12 of its absolute value
+``nearby-…-digits``  no entry differs by more than half a unit of its last digit (`last_digit`)
+``nearby-…-part``    the distance is said, and no more
+===================  ===========================================================================
+"""
+
+from collections.abc import Callable
+from fractions import Fraction
+
+from . import budget
+from .arithmetic import Matrix
+from .discs import absolute
+from .reading import polynomial
+from .roots import in_stability_region
+from .sentences import DUAL, PLANT, Premise, Role, everywhere, rule
+from .system import Pair, System, pairs_of
+
+EXACT_PART = Fraction(1, 10**12)
+"""The part of an entry that rounding errors explain."""
+FEWEST, MOST = 3, 12
+"""Decimals of so many significant digits have further ones that were not typed."""
+LOOP_RANK = "evidence.loop_rank_pencil, dynamic_controllers.fixed_dynamic"
+CONTROLLED = "joint_controllability.controllable_hautus"
+OBSERVED = "joint_controllability.observable_hautus"
+Allows = Callable[[Fraction], Fraction | None]
+"""What an entry may differ by; None for anything."""
+
+
+def differences(near: Premise, own: Premise, units: list[Matrix] | None = None) -> list[Pair]:
+    """What each entry differs by in the plant nearby, and the entry's absolute value, or a unit.
+
+    Both plants have the same time, channels, neighbors, delays and shapes.
+    """
+    for plant in (own.plant, near.plant):
+        near.expect(isinstance(plant, System), "a plant has parameters")
+    parts = ("time", "names", "neighbors", "delays")
+    alike = all(getattr(own.plant, part) == getattr(near.plant, part) for part in parts)
+    near.expect(alike, "another time, or other channels, neighbors or delays")
+    values, others = ([each.A, *each.B, *each.C] for each in (own.plant, near.plant))
+    pairs = list(zip(values, others, strict=True))
+    fits = all((M.nrows, M.ncols) == (N.nrows, N.ncols) for M, N in pairs)
+    near.expect(fits, "matrices of other shapes")
+    return pairs_of(units or values, [absolute(N + M.times(-1)) for M, N in pairs])
+
+
+def farthest(shifts: list[Pair]) -> Fraction:
+    """The largest difference in its unit; there is one wherever an entry differs."""
+    budget.spend(budget.fractions(len(shifts), 2 * budget.limbs_of([x for p in shifts for x in p])))
+    return max((moved / unit for moved, unit in shifts if moved), default=Fraction(0))
+
+
+def last_digit(x: Fraction) -> Fraction:
+    """Half a unit of the last digit of a decimal of 3 to 12 significant digits, no integer.
+
+    Of any other number 10^-12 of it: integers, quotients and shorter decimals count as exact.
+    """
+    twos = (x.denominator & -x.denominator).bit_length() - 1
+    odd = x.denominator >> twos
+    fives = (1000 * odd.bit_length() - 1) // 2321  # 2^2.321 < 5: at most one too many
+    fives -= 5**fives > odd
+    places = max(twos, fives)
+    decimal = places > 0 and 5**fives == odd and places - twos < 40 and places - fives < 20
+    digits = x.numerator * 2 ** (places - twos) * 5 ** (places - fives) if decimal else 0
+    if not 10 ** (FEWEST - 1) <= digits < 10**MOST:
+        return x * EXACT_PART
+    return Fraction(1, 2 * 10**places)
+
+
+ALLOWED: dict[str, Allows] = {
+    "": lambda x: x * EXACT_PART,
+    "-digits": last_digit,
+    "-part": lambda x: None,
+}
+NEAR = Role(("pencil_rank",), (*PLANT, *DUAL[:1]), nearby=True)
+
+
+def of_mode(
+    lost: str,
+    own: Role,
+    holds: Callable[[Premise], bool],
+    lacks: Callable[[Premise], bool],
+    words: str,
+    theorem: str,
+) -> None:
+    """Enter the rules about a plant nearby that lacks what the own plant has."""
+
+    def enter(key: str, allowed: Allows) -> None:
+        @rule(key, NEAR, own, theorem=theorem)
+        def _say(near: Premise, known: Premise) -> str:
+            known.expect(holds(known), "the plant itself lacks it")
+            near.expect(near["rank"] < near.plant.A.nrows, "the rank is not below the states")
+            near.expect(lacks(near), "another set of channels, or a stable mode")
+            shifts = differences(near, known)
+            near.expect(all(size for moved, size in shifts if moved), "an entry that is 0 is moved")
+            part = farthest(shifts)
+            for moved, size in shifts:
+                most = allowed(size) if moved else None
+                near.expect(most is None or moved <= most, "an entry is moved too far")
+            whose = f"each entry of its plant differs from that of {known.plant.words}"
+            return (
+                f"{near.statement}, which is below the number of states, so that {words}; {whose} "
+                f"by at most {part} of the absolute value of the latter"
+            )
+
+    for suffix, allowed in ALLOWED.items():
+        enter(f"nearby-{lost}{suffix}", allowed)
+
+
+def whole(near: Premise, *, shown: bool) -> bool:
+    """Whether the pencil is [λI − A, B], or [λI − A; C] if the outputs are ``shown``."""
+    dual = near.path == ("dual",)
+    names = list(near.plant.names)
+    return bool(near["subset"] == (names if shown != dual else []))
+
+
+FIXED, JOINT = Role(("fixed_spectrum",), PLANT), ("controllability",)
+of_mode(
+    "fixed",
+    FIXED,
+    lambda own: not own["factors"],
+    lambda near: True,
+    "these roots are fixed modes of its plant",
+    LOOP_RANK,
+)
+of_mode(
+    "unstable",
+    FIXED,
+    lambda own: bool(own["stabilizable"]),
+    lambda near: (
+        not in_stability_region(
+            polynomial(near["polynomial"], "claim.polynomial", 1), near.plant.time
+        )
+    ),
+    "these roots, not all of which are stable, are fixed modes of its plant",
+    LOOP_RANK,
+)
+of_mode(
+    "uncontrollable",
+    Role(JOINT, PLANT),
+    lambda own: everywhere(own) and bool(own["controllable"]),
+    lambda near: whole(near, shown=False),
+    "all channels of its plant together do not control these roots",
+    CONTROLLED,
+)
+of_mode(
+    "unobservable",
+    Role(JOINT, DUAL[:1]),
+    lambda own: everywhere(own) and bool(own["controllable"]),
+    lambda near: whole(near, shown=True),
+    "all channels of its plant together do not observe these roots",
+    OBSERVED,
+)
