@@ -27,7 +27,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from html import escape
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.questions import Question, questions_about
@@ -67,6 +67,9 @@ from mcexact.model.properties import PROPERTIES
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.graphs import structure
 from mcexact.processes import Child
+
+if TYPE_CHECKING:
+    from mcexact.analysis.nearby.plants import Nearby
 
 # Questions about one system, with their limits on time and work.
 
@@ -110,6 +113,11 @@ def _decide_in_child(connection: Any, analysis: Analysis) -> None:
             connection.send(("end",))
 
 
+_LACKS = {"joint_controllability": "uncontrollable", "joint_observability": "unobservable"}
+"""What a plant nearby lacks where the answer is yes."""
+_NEARBY = "nearby_plants"
+_MOST_STATES_NEARBY = 300
+"""Plants nearby are searched for at most so many states by default: of more that takes seconds."""
 _MOST_STATES = 60
 """Plants within the radii that fail are searched for at most so many states: that takes seconds."""
 
@@ -125,6 +133,7 @@ class Analysis(ShownByAccount):
     information : {"own", "outputs"}
     subset : sequence of str, optional
     channel : str, optional
+    nearby : bool
     timeout : float, optional
     progress : callable, optional
         As `analyze` takes them.
@@ -156,6 +165,7 @@ class Analysis(ShownByAccount):
         information: str = "own",
         subset: Sequence[str] | None = None,
         channel: str | None = None,
+        nearby: bool = True,
         timeout: float | None = None,
         progress: Callable[[str], None] | None = None,
     ) -> None:
@@ -193,6 +203,8 @@ class Analysis(ShownByAccount):
         self._answers: dict[str, Any] = {}
         self._seconds: dict[str, float] = {}
         self._refuted: dict[str, Answer | None] = {}
+        self._tells_nearby = nearby
+        self._nearby: dict[tuple[str, ...], Nearby] = {}
         self._chosen = questions is not None
         if self._chosen:
             self.left_out = {}
@@ -559,7 +571,17 @@ class Analysis(ShownByAccount):
             for name, reason in self.left_out.items()
             if name not in self._asked
         ]
-        return (*asked, *left)
+        return (*asked, *left, *self._effort_nearby())
+
+    def _effort_nearby(self) -> Iterator[Effort]:
+        """The time that the search for plants nearby took, or why it was left out."""
+        if self.parameters or "fixed_spectrum" not in self._asked:
+            return
+        if reason := self.nearby_left_out:
+            yield Effort(_NEARBY, "left out", 0.0, reason)
+        else:
+            self._look_nearby()
+            yield Effort(_NEARBY, "decided", self._seconds[_NEARBY])
 
     def __repr__(self) -> str:
         plant = self.plant
@@ -626,10 +648,58 @@ class Analysis(ShownByAccount):
         if self.parameters:
             return account_for_all_values(self.plant, self.answers)
         answers = self.decided()
+        asked: dict[str, Any] = {"information": self.information}
         open_ = {*self.left_out, *self.open()} - answers.keys() - self._ended
-        given = Context(self.system, {"information": self.information})
+        near = {} if self.nearby_left_out else self.nearby.answers
+        if near:
+            asked["nearby"] = {each.lost: (each.part, each.within) for each in self.nearby.plants}
+        given, answers = Context(self.system, asked), answers | near
         sentences = with_own(ANALYSIS, answers).sentences(answers, given, open_)
-        return Account(answers, given, sentences, self.plant.subject, sorted(open_), self.failing())
+        about, failing = self.plant.subject, self.failing()
+        return Account(answers, given, sentences, about, sorted(open_), failing, [*near])
+
+    @property
+    def nearby_left_out(self) -> str:
+        """Why no plants nearby are looked for by default; empty if they are."""
+        if not self._tells_nearby:
+            return "it was asked to be left out"
+        if self.information != "own" or self.plant.subject:
+            return "it is about plants alone, whose agents feed back their own outputs"
+        if self.plant.n > _MOST_STATES_NEARBY:
+            return f"more than {_MOST_STATES_NEARBY} states"
+        return "the time limit was reached" if self._left == 0 else ""
+
+    @property
+    def nearby(self) -> Nearby:
+        """What was found near the plant: plants of which an answer is another one.
+
+        It is looked for what the given plant has according to the questions that were asked: that
+        it can be stabilized and no mode is fixed, and that all channels control and observe it.
+
+        Raises
+        ------
+        InputError
+            If the plant has parameters or is a derived system.
+        """
+        return self._look_nearby()
+
+    def _look_nearby(self) -> Nearby:
+        """Search plants nearby, once for what the answers so far say that the plant has."""
+        # It computes in floating point, and the other questions load no numpy.
+        from mcexact.analysis.nearby.plants import nearby_plants
+
+        answers, lost = self.answers, list[Any]()
+        if "fixed_spectrum" in answers:
+            spectrum = answers["fixed_spectrum"]
+            lost += ["unstable"] * spectrum.stabilizable + ["fixed"] * spectrum.empty
+        for name, lack in _LACKS.items():
+            if name in answers and answers[name].controllable:
+                lost.append(lack)
+        if tuple(lost) not in self._nearby:
+            began = time.perf_counter()
+            self._nearby[tuple(lost)] = nearby_plants(self.plant, lost)
+            self._seconds[_NEARBY] = time.perf_counter() - began
+        return self._nearby[tuple(lost)]
 
     def failing(self) -> dict[str, Answer]:
         """Return exact answers about plants within the radii that lack an unproved property.
@@ -660,6 +730,8 @@ class Analysis(ShownByAccount):
             open_[name] = {"decided": False, "computed_not_certified": bounds}
         failing = {name: each.about.plant.to_dict() for name, each in account.failing.items()}
         known = {"failing_within_radii": failing} if failing else {}
+        if not self.nearby_left_out:
+            known["nearby"] = self.nearby.to_dict()
         return account.as_json(information=self.information, questions=efforts, **known, **open_)
 
     def to_rows(self) -> list[dict[str, Any]]:
@@ -716,6 +788,7 @@ def analyze(
     information: str = "own",
     subset: Sequence[str] | None = None,
     channel: str | None = None,
+    nearby: bool = True,
     timeout: float | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Analysis:
@@ -738,6 +811,9 @@ def analyze(
         well.
     channel : str, optional
         The name of a channel, whose controllability and observability are asked about as well.
+    nearby : bool
+        Whether plants nearby are looked for of which an answer is another one (`Analysis.nearby`),
+        with at most 300 states; what the data of the plant allow is said first.
     timeout : float, optional
         Seconds that all decisions together may take.  A child process decides, and is ended when
         they are over: answers that it has sent stay, and the other questions are open, with this
@@ -776,6 +852,7 @@ def analyze(
         information=information,
         subset=subset,
         channel=channel,
+        nearby=nearby,
         timeout=timeout,
         progress=progress,
     )

@@ -18,7 +18,14 @@ import click
 from mcexact.analysis.questions import QUESTIONS
 from mcexact.cli import options
 from mcexact.cli.commands import DEFINITE_NO, one_message
-from mcexact.cli.files import emit_tables, require_apart, require_page, write_result
+from mcexact.cli.files import (
+    emit_tables,
+    require_apart,
+    require_other,
+    require_page,
+    require_writable,
+    write_result,
+)
 from mcexact.cli.output import emit
 from mcexact.cli.results import Analyzed, Asked
 from mcexact.cli.running import Rechecked, Run, undecided_error
@@ -89,6 +96,18 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     "all their values.",
 )
 @click.option(
+    "--nearby",
+    type=options.FOLDER,
+    metavar="FILE",
+    help="Write the plant nearby of which an answer is another one, if one is found, exactly into "
+    "this system file.",
+)
+@click.option(
+    "--no-nearby",
+    is_flag=True,
+    help="Do not look for plants nearby of which an answer is another one.",
+)
+@click.option(
     "--assert",
     "asserted",
     type=click.Choice(["no-fixed-modes"]),
@@ -106,6 +125,8 @@ def command(
     channel: str | None,
     named: tuple[str, ...],
     at: tuple[tuple[str, Fraction], ...],
+    nearby: Path | None,
+    no_nearby: bool,
     asserted: str | None,
     html: Path | None,
     latex: bool,
@@ -129,7 +150,11 @@ def command(
     wanted = values.pop("property").replace("-", " ")
     run = Run(values)
     require_page(html, run.certificates, file)
-    require_apart(html, run.certificates)
+    require_apart(html, run.certificates, nearby)
+    require_other(nearby, file)
+    require_writable(nearby)
+    if nearby is not None and no_nearby:
+        raise click.UsageError("--nearby and --no-nearby contradict each other: give one of them")
     also = [option for option in _ALSO if values[option.replace("-", "_")]]
     plant = run.read(file)
     doing = f"analyzing {plant[0]}"
@@ -147,6 +172,7 @@ def command(
             effort=effort,
             wanted=wanted,
             at=dict(at),
+            nearby=not no_nearby,
         ),
         html is not None,
         latex,
@@ -168,6 +194,10 @@ def command(
             results = answer.latex if latex else None
             certificates = answer.evidence.certificates
             write_result(html, answer.page.rendered(certificates, checked.verdicts, results))
+        if nearby is not None and answer.nearby:
+            write_result(nearby, answer.nearby)
+        elif nearby is not None:
+            click.echo(f"no plant nearby was found: {nearby} is not written", err=True)
 
     about = f"the answers about {plant[0]}"
     checked = run.conclude(answer, show, about=about, write=write)

@@ -24,7 +24,7 @@ from mcexact.analysis.analyze import (
     account_of_links,
     analyze,
 )
-from mcexact.analysis.questions import questions_about
+from mcexact.analysis.questions import QUESTIONS, questions_about
 from mcexact.answer.account import Account
 from mcexact.answer.sharing import ROW_BOUND
 from mcexact.cli import options, uncertainty
@@ -37,13 +37,17 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.properties import question_about
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import system_text
 from mcexact.report.text import WIDTH, Table, in_lines, latex, tables, wrapped
 
 if TYPE_CHECKING:
     from mcexact.analysis.boxes.largest import LargestUncertainty
+    from mcexact.analysis.nearby.plants import Nearby
 
 _LINES_OF_WORDS, _WITH_LINKS = 5, 8
 """The most lines of sentences before the tables, and where sentences are about links as well."""
+_LINES_NEARBY = 4
+"""How many more lines there are where a sentence about a plant nearby leads."""
 _MODES = 6
 _LONG = 10.0
 """The seconds from which on a question is listed with its time."""
@@ -96,19 +100,23 @@ def analyzed(
         information=asked.information,
         subset=asked.subset,
         channel=asked.channel,
+        nearby=asked.nearby,
     )
     if search is not None and search.proof is not None:
         analysis.know(question_about(asked.wanted), search.proof)
     known.resume(analysis, report)
     account, taken = analysis.account, effort_tables(analysis.effort())
+    near = None if analysis.nearby_left_out else analysis.nearby
+    suspected = () if near is None else suspicions(near)
     lines = _WITH_LINKS if "linked_fixed_spectrum" in account.answers else _LINES_OF_WORDS
+    lines += _LINES_NEARBY * (near is not None and bool(near.leading))
     page = None
     if with_page:
         # Pictures need numpy and matplotlib.
         from mcexact.report.pages import account_page
 
         page = account_page(account)
-        more = (*uncertainty.tables(search), *taken)
+        more = (*uncertainty.tables(search), *suspected, *taken)
         page = replace(
             page,
             answer=(*uncertainty.leading(account, search), *page.answer),
@@ -125,11 +133,13 @@ def analyzed(
         tables=(
             *uncertainty.tables(search),
             *tables(account.sentences, most_modes=_MODES, note=account.reading),
+            *suspected,
             *taken,
         ),
         latex=latex(account) if with_latex else "",
         page=page,
         undecided=_not_searched(asked, known) | analysis.ended(),
+        nearby=system_text(near.plants[0].plant) if near is not None and near.plants else "",
     )
 
 
@@ -207,6 +217,12 @@ def _for_all_values(
     )
 
 
+def suspicions(near: Nearby) -> tuple[Table, ...]:
+    """Return a table of the plants nearby that floating point suspects, if there are any."""
+    rows = [("", each.explain()) for each in near.suspected]
+    return (Table("plants nearby, computed and not certified", (), tuple(rows)),) if rows else ()
+
+
 def effort_tables(efforts: Sequence[Effort]) -> tuple[Table, ...]:
     """Return a table of the questions that took long or were not decided, if there are any."""
     rows = [
@@ -218,7 +234,7 @@ def effort_tables(efforts: Sequence[Effort]) -> tuple[Table, ...]:
         for each in efforts
         if each.seconds >= _LONG or each.outcome != "decided"
     ]
-    left_out = any(each.outcome == "left out" for each in efforts)
+    left_out = any(each.outcome == "left out" and each.question in QUESTIONS for each in efforts)
     note = "Decide a question that is left out by --also and its name." if left_out else ""
     columns = ("question", "seconds", "outcome")
     title = "questions that are open or took long"

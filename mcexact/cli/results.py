@@ -128,6 +128,8 @@ class Asked:
         The property that the search is about, in words.
     at : mapping
         Values of parameters.
+    nearby : bool
+        Whether plants nearby are looked for.
     """
 
     options: Sequence[str]
@@ -139,6 +141,7 @@ class Asked:
     effort: float | None
     wanted: Property
     at: Mapping[str, Fraction]
+    nearby: bool = True
 
     @property
     def questions(self) -> list[str]:
@@ -158,11 +161,14 @@ class Analyzed(Shown):
         The results in LaTeX, if they are asked for.
     undecided : mapping from str to sequence of str
         The questions without an answer, by the reason.
+    nearby : str
+        The system file of the first plant nearby; empty if there is none.
     """
 
     words: str
     latex: str
     undecided: Mapping[str, Sequence[str]]
+    nearby: str = ""
 
 
 @dataclass(frozen=True)

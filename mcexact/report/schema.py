@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from mcexact.answer.account import LABELS
+from mcexact.answer.nearby import LOST
 from mcexact.answer.parameters import WITHIN_RANGES
 from mcexact.answer.schema import (
     RATIONAL,
@@ -437,11 +438,47 @@ def certify_parameters() -> Schema:
 _QUESTION = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, {"reason": TEXT})
 
 
+_LOST = {"enum": [*LOST]}
+_NEARBY = record(
+    {
+        "searched": rows(_LOST),
+        "plants": rows(
+            record(
+                {
+                    "lost": _LOST,
+                    "part": NUMBER,
+                    "within": {"enum": ["rounding", "digits", None]},
+                    "mode": rows(NUMBER),
+                    "mode_about": TEXT,
+                    "channels": rows(TEXT),
+                    "certificate": TEXT,
+                    "plant": {"type": "object"},
+                },
+                closed=True,
+            )
+        ),
+        "computed_not_certified": rows(
+            record(
+                {"lost": _LOST, "mode": rows(FLOAT), "channels": rows(TEXT), "part": FLOAT},
+                closed=True,
+            )
+        ),
+    },
+    closed=True,
+    says="plants with the same zeros of which an answer is another one: what they lack, how far "
+    "each entry is at most, and whether rounding errors or digits that were not typed explain that",
+)
+
+
 def analyze() -> Schema:
     """The JSON of `mcexact analyze`."""
     return _account(
         {"information": {"enum": ["own", "outputs"]}, "questions": rows(_QUESTION)},
-        {"largest_uncertainty": _LARGEST, "failing_within_radii": table({"type": "object"})},
+        {
+            "largest_uncertainty": _LARGEST,
+            "failing_within_radii": table({"type": "object"}),
+            "nearby": _NEARBY,
+        },
     )
 
 

@@ -60,8 +60,6 @@ observable by all channels together."""
 Allowance = Literal["rounding", "digits"]
 FARTHEST = Fraction(1, 10**6)
 """The part of every entry up to which plants are told of that the data do not allow."""
-MOST_STATES = 300
-"""Of more states that takes seconds."""
 _FARTHEST = float(FARTHEST)
 _TRIES, _TRIES_OF_LARGE, _LARGE = 4, 2, 100
 _HOPELESS = 100.0
