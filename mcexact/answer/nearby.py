@@ -48,7 +48,6 @@ PART = {
     lost: Template(f"nearby-{lost}-part", f"{_PART}{what}", theorem, "nearby")
     for lost, (what, theorem) in _WHAT.items()
 }
-_LEADING = {"rounding": ROUNDING, "digits": DIGITS}
 
 NEARBY_RULES = Rulebook()
 
@@ -76,9 +75,10 @@ def _rules(lost: str, question: str) -> None:
     def _answer(near: Claim, own: Claim, given: Context) -> Said:
         if near.rank < given.n and _has(lost, own) and _leads(lost, given):
             part, within = given.nearby[lost]
-            made = _LEADING[within][lost]
-            named = {"part": part} if within == "rounding" else {}
-            yield made(p=near.polynomial, **named)
+            if within == "rounding":
+                yield ROUNDING[lost](p=near.polynomial, part=part)
+            else:
+                yield DIGITS[lost](p=near.polynomial)
 
     @NEARBY_RULES.rule("table", PART[lost], premises=premises)
     def _row(near: Claim, own: Claim, given: Context) -> Said:

@@ -23,7 +23,13 @@ from mcexact.analysis.sharing import (
 from mcexact.analysis.single_channel import single_channel_gains
 from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.protocol import document
-from mcexact.derived.constructions import Share, error_system, extended_system, setpoint_system
+from mcexact.derived.constructions import (
+    Share,
+    dual,
+    error_system,
+    extended_system,
+    setpoint_system,
+)
 from mcexact.errors import McexactError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
@@ -375,13 +381,25 @@ def held_in_boxes() -> Iterator[Document]:
 
 
 def nearby() -> Iterator[tuple[str, list[Document]]]:
-    """Loops of plants with and without radii, and of plants nearby, not all of them stable."""
+    """Loops and answers of plants, and of plants nearby of which other things hold."""
     module = test_nearby
     others = [module.plant(3), module.plant(2), module.plant(3, 1)]
     for name, own in (("part", module.STABLE), ("radii", module.WIDE)):
         yield f"nearby_{name}", [module.loop(each) for each in (own, *others)]
     discrete = [module.plant(a, time="discrete") for a in (3, 4, 5, "7/2")]
     yield "nearby_discrete", [module.loop(each) for each in discrete]
+    for name, own, near in (
+        ("rounding", module.OWN, [module.THERE, module.HIDDEN]),
+        ("shown", module.SHOWN, [module.HIDDEN, module.THERE]),
+        ("stable", module.FAST, [module.STILL]),
+        ("digits", module.SHORT, [module.LONG, module.WRONG]),
+        ("lacking", module.THERE, [module.OWN]),
+    ):
+        answers = (module.spectrum, module.controls, module.observes)
+        mode = -2 if name == "stable" else 0
+        ranks = [module.ranked(each, mode, s) for each in near for s in ([], ["1"])]
+        ranks += [module.ranked(dual(each), mode, s) for each in near for s in ([], ["1"])]
+        yield f"nearby_{name}", [*(answer(own) for answer in answers), *ranks]
 
 
 def pool() -> Iterator[tuple[str, list[Document]]]:

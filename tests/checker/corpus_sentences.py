@@ -45,6 +45,7 @@ CORE = ("fixed_spectrum", "assignability")
 """Kinds of which every plant has a certificate."""
 FIRST = {
     "neighbor-graph-connected": "sharing",
+    "nearby-fixed": "nearby",
     "design-carrier": "design",
     "members-nothing-fixed": "boxes",
 }

@@ -1,17 +1,24 @@
-"""Manifests with a plant nearby whose loop fails: no other rule takes what is about this plant."""
+"""Manifests with a plant nearby that lacks something: no other rule takes what is about it."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import fixed_spectrum, pencil_rank
+from mcexact.analysis.nearby.corrections import rounding, typed
 from mcexact.answer.protocol import document
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.command import verdicts as command_verdicts
 from mcexact.checker.kinds import Clock, Expectation
 from mcexact.checker.reading import Limits
+from mcexact.checker.sentences_nearby import last_digit
+from mcexact.derived.constructions import dual
 from mcexact.model.box import Box
 from mcexact.model.controller import controller_text
 from mcexact.model.statespace import local_controllers
@@ -21,6 +28,7 @@ from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.decentralized import design_decentralized
 from tests.checker.handmade import Document, changed
 from tests.checker.manifests import manifest, sentence, write
+from tests.checker.recorded import compare, keys
 
 GAIN = [[[-3]], [[0]]]
 
@@ -134,6 +142,180 @@ def test_a_plant_nearby_is_in_a_loop_with_the_controller_that_is_asked_for(tmp_p
     found = [each for _, each in manifest_verdicts(str(tmp_path), wanted, Limits())]
     assert [each.verdict for each in found] == ["VALID", "INVALID", "INVALID"]
     assert found[1].code == "controller"
+
+
+# Plants nearby of which an answer is another one.
+
+
+def sums(a: Any, b: Any, shift: Any = 0, *, shown: bool = False, **parts: Any) -> Any:
+    """Two states whose sum no input moves if a = b, or that no output shows; its mode is shift."""
+    A = [[f"{-a + shift}", "3/4"], [f"{b}", f"{Fraction(-3, 4) + shift}"]]
+    columns, rows = [[1], [-1]], [[1, 0]]
+    if shown:
+        A, columns, rows = [*map(list, zip(*A, strict=True))], [[1], [0]], [[1, -1]]
+    return MultiChannelSystem(A, [columns], [rows], **parts)
+
+
+def ranked(system: MultiChannelSystem, mode: Any, subset: Sequence[str] = ()) -> Document:
+    return document(pencil_rank(system, subset, mode))
+
+
+def spectrum(system: MultiChannelSystem) -> Document:
+    return document(fixed_spectrum(system))
+
+
+def controls(system: MultiChannelSystem) -> Document:
+    return document(joint_controllability(system))
+
+
+def observes(system: MultiChannelSystem) -> Document:
+    return document(joint_observability(system))
+
+
+HALF, OFF, DIGIT = Fraction(1, 2), Fraction(1, 10**13), Fraction("0.00005")
+OWN, THERE = sums(HALF, HALF + OFF), sums(HALF, HALF)
+SHOWN, HIDDEN = (sums(HALF, HALF + off, shown=True) for off in (OFF, 0))
+FAST, STILL = (sums(HALF, HALF + off, Fraction(-2)) for off in (OFF, 0))
+SHORT = sums(Fraction("0.5004"), Fraction("0.5003"))
+LONG, WRONG = sums(Fraction("0.50035"), Fraction("0.50035")), sums(Fraction("0.5"), HALF)
+COARSE = sums(HALF, Fraction("0.49"))
+ROWS_OF_PLANTS: list[tuple[str, Document, Document, str, str]] = [
+    ("a rounding error", spectrum(OWN), ranked(THERE, 0), "nearby-fixed", "IMPLIED"),
+    ("the mode is not stable", spectrum(OWN), ranked(THERE, 0), "nearby-unstable", "IMPLIED"),
+    ("no input moves it", controls(OWN), ranked(THERE, 0), "nearby-uncontrollable", "IMPLIED"),
+    (
+        "no output shows it",
+        observes(SHOWN),
+        ranked(HIDDEN, 0, ["1"]),
+        "nearby-unobservable",
+        "IMPLIED",
+    ),
+    ("of the dual plant", spectrum(OWN), ranked(dual(THERE), 0, ["1"]), "nearby-fixed", "IMPLIED"),
+    (
+        "the dual plant's outputs",
+        controls(OWN),
+        ranked(dual(THERE), 0, ["1"]),
+        "nearby-uncontrollable",
+        "IMPLIED",
+    ),
+    (
+        "half a unit of the last digit",
+        spectrum(SHORT),
+        ranked(LONG, 0),
+        "nearby-unstable-digits",
+        "IMPLIED",
+    ),
+    (
+        "said without what the data allow",
+        spectrum(SHORT),
+        ranked(LONG, 0),
+        "nearby-unstable-part",
+        "IMPLIED",
+    ),
+    ("a stable mode", spectrum(FAST), ranked(STILL, -2), "nearby-fixed", "IMPLIED"),
+    ("a stable mode is no reason", spectrum(FAST), ranked(STILL, -2), "nearby-unstable", "INVALID"),
+    ("no rounding error", spectrum(SHORT), ranked(LONG, 0), "nearby-unstable", "INVALID"),
+    (
+        "more than half a unit",
+        spectrum(SHORT),
+        ranked(WRONG, 0),
+        "nearby-unstable-digits",
+        "INVALID",
+    ),
+    (
+        "two digits count as exact",
+        spectrum(COARSE),
+        ranked(THERE, 0),
+        "nearby-fixed-digits",
+        "INVALID",
+    ),
+    ("a rank of all states", spectrum(OWN), ranked(THERE, 1), "nearby-fixed", "INVALID"),
+    (
+        "it is controlled",
+        controls(OWN),
+        ranked(HIDDEN, 0, ["1"]),
+        "nearby-uncontrollable",
+        "INVALID",
+    ),
+    ("all outputs are needed", observes(OWN), ranked(THERE, 0), "nearby-unobservable", "INVALID"),
+    ("the plant itself lacks it", spectrum(THERE), ranked(THERE, 0), "nearby-fixed", "INVALID"),
+    (
+        "it is not stabilizable either",
+        spectrum(THERE),
+        ranked(THERE, 0),
+        "nearby-unstable",
+        "INVALID",
+    ),
+    (
+        "it is not controlled either",
+        controls(THERE),
+        ranked(THERE, 0),
+        "nearby-uncontrollable",
+        "INVALID",
+    ),
+    ("of another question", observes(OWN), ranked(THERE, 0), "nearby-uncontrollable", "INVALID"),
+    (
+        "another time",
+        spectrum(OWN),
+        ranked(sums(HALF, HALF, time="discrete"), 0),
+        "nearby-fixed",
+        "INVALID",
+    ),
+    (
+        "other channels",
+        spectrum(OWN),
+        ranked(sums(HALF, HALF, names=["a"]), 0),
+        "nearby-fixed",
+        "INVALID",
+    ),
+    ("a zero is moved", spectrum(SHOWN), ranked(THERE, 0), "nearby-fixed-part", "INVALID"),
+    (
+        "a rule about the plant itself",
+        spectrum(OWN),
+        spectrum(THERE),
+        "not-stabilizable",
+        "INVALID",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("given", "near", "rule", "verdict"),
+    [row[1:] for row in ROWS_OF_PLANTS],
+    ids=[f"{row[0]}, {row[3]}" for row in ROWS_OF_PLANTS],
+)
+def test_a_plant_nearby_lacks_what_is_said(
+    tmp_path: Path, given: Document, near: Document, rule: str, verdict: str
+) -> None:
+    *certificates, found = verdicts(tmp_path, given, near, rule)
+    assert {each.verdict for each in certificates} == {"VALID"}
+    assert found.verdict == verdict, found.line()
+
+
+def test_how_far_a_plant_is_follows_from_both_plants(tmp_path: Path) -> None:
+    found = verdicts(tmp_path, spectrum(SHORT), ranked(LONG, 0), "nearby-fixed-part")[-1]
+    part = DIGIT / Fraction("0.5003")
+    assert f"by at most {part} of the absolute value" in found.statement
+    assert f"the plant {SHORT.digest()}" in found.statement
+
+
+@pytest.mark.parametrize(
+    ("number", "half"),
+    [
+        ("0.475", "0.0005"), ("12.5", "0.05"), ("0.000001234", "0.0000000005"),
+        ("123456.789012", "0.0000005"), ("0.47", None), ("120", None), ("1/3", None),
+        ("1234567.8901234", None), ("1e-400", None), ("1.25e-300", "5e-303"),
+    ],
+)  # fmt: skip
+def test_what_the_last_digit_of_a_number_allows(number: str, half: str | None) -> None:
+    x = Fraction(number)
+    assert last_digit(x) == (x / 10**12 if half is None else Fraction(half))
+    assert typed(x) == rounding(x) if half is None else typed(x) == Fraction(half)
+
+
+@pytest.mark.parametrize("key", keys("nearby"))
+def test_a_rule_about_plants_nearby_answers_as_it_did(key: str) -> None:
+    compare(key)
 
 
 FILES = ("given.json", "manifest.json", "near.json")

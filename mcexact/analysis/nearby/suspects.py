@@ -37,7 +37,7 @@ _RIDGE = 1e-6
 _MOST = 12
 _NEAR = 0.05
 """An eigenvalue that moves by a larger part of its size and of A is not looked at."""
-_CLUSTER = 1e-3
+_CLUSTERS = (1e-3, 3e-2)
 _SMALL = 1e-2
 _DIMENSIONS = 4
 """The most singular values that count as small together."""
@@ -209,18 +209,20 @@ def suspects(plant: Balanced, discrete: bool) -> Iterator[Suspect]:
             point = complex(moved[k])
             point = complex(point.real, 0.0) if abs(point.imag) < 1e-9 * size else point
             yield from _cuts(plant, first, point, size)
-            if middle := _middle(point, moved, size):
-                yield from _cuts(plant, first, middle, size)
+            means = [_middle(point, moved, radius * size) for radius in _CLUSTERS]
+            for middle in dict.fromkeys(means):
+                if middle is not None:
+                    yield from _cuts(plant, first, middle, size)
 
 
-def _middle(point: complex, points: Floats, size: float) -> complex | None:
+def _middle(point: complex, points: Floats, radius: float) -> complex | None:
     """The mean of several eigenvalues nearby, which is far more accurate than each of them."""
     whole = np.concatenate([points, points[points.imag > 0].conj()])
-    cluster = whole[np.abs(whole - point) < _CLUSTER * size]
+    cluster = whole[np.abs(whole - point) < radius]
     if len(cluster) < 2:
         return None
     mean = complex(cluster.mean())
-    return complex(mean.real, 0.0) if abs(mean.imag) < 1e-9 * size else mean
+    return complex(mean.real, 0.0) if abs(mean.imag) < 1e-6 * radius else mean
 
 
 def _distances(points: Floats, others: Floats) -> Floats:

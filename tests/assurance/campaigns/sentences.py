@@ -30,6 +30,8 @@ from mcexact.answer.rulebook import everything
 from mcexact.answer.sentence import Context
 from mcexact.answer.templates import Sentence
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
+from mcexact.exact.linear_algebra import inverse
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
@@ -200,8 +202,59 @@ def analysis(rng: random.Random) -> Iterator[Judged]:
         asked["channel"] = rng.choice(plant.names)
     if rng.random() < 0.5:
         options.append("every-channel")
+    if plant.n and rng.random() < 0.3:
+        plant = disturbed(rng, mixed(rng, plant))
     found = analyze(plant, also=asked_by(*options), **asked)
-    yield from _cases(rows_of(found.account.sentences), Case(plant_of(plant), asked))
+    rows = rows_of(found.account.sentences)
+    if not found.nearby_left_out:
+        asked["nearby"] = {each.lost: plant_of(each.plant) for each in found.nearby.plants}
+    yield from _cases(rows, Case(plant_of(plant), asked))
+
+
+def mixed(rng: random.Random, plant: MultiChannelSystem) -> MultiChannelSystem:
+    """The plant in other coordinates, in which what its zeros made fixed rests on equalities."""
+    n = plant.n
+    T = Matrix.identity(n)
+    for _ in range(2 * n):
+        i, j = rng.randrange(n), rng.randrange(n)
+        if i != j:
+            unit = Matrix.from_entries((n, n), [(i, j, rng.choice([1, -1, 2]))])
+            T = T @ (Matrix.identity(n) + unit)
+    back = inverse(T)
+    if back is None:
+        raise ArithmeticError("elementary matrices are invertible")
+    return MultiChannelSystem(
+        T @ plant.A @ back,
+        [T @ M for M in plant.B],
+        [M @ back for M in plant.C],
+        time=plant.time,
+        names=plant.names,
+        neighbors=plant.neighbors,
+    )
+
+
+def disturbed(rng: random.Random, plant: MultiChannelSystem) -> MultiChannelSystem:
+    """The plant with errors of its entries: of floats, larger ones, or of typing a few digits."""
+    part = rng.choice([1e-16, 1e-15, 1e-11, 1e-8, 1e-7, 0.0])
+    digits = rng.choice([3, 4, 5])
+    factor = rng.choice([Fraction(1), Fraction(10, 7), Fraction(1, 3)])
+
+    def moved(x: Fraction) -> Fraction:
+        if not part:
+            return Fraction(f"{float(x * factor):.{digits - 1}e}")
+        return Fraction(repr(float(x * factor) * (1 + part * rng.uniform(-1, 1))))
+
+    def table(M: Matrix) -> Matrix:
+        return Matrix.from_entries(M.shape, ((i, j, moved(M[i, j])) for i, j, _ in M.nonzero()))
+
+    return MultiChannelSystem(
+        table(plant.A),
+        [table(M) for M in plant.B],
+        [table(M) for M in plant.C],
+        time=plant.time,
+        names=plant.names,
+        neighbors=plant.neighbors,
+    )
 
 
 def allocation(rng: random.Random) -> Iterator[Judged]:
