@@ -384,6 +384,10 @@ class _Search:
                 exact = refined(side, near)
                 for tolerance in _TOLERANCES:
                     made = corrected(side, exact, tolerance)
+                    if made is not None and not made.change:
+                        # The given plant has this mode itself.
+                        self._computed.pop(suspect, None)
+                        return
                     change = None if made is None else _Change.of(target, made, side is not target)
                     if change is not None:
                         yield change
