@@ -74,7 +74,7 @@ def disturbed(system: MultiChannelSystem, part: float, seed: int = 0) -> MultiCh
         return Matrix.from_entries(M.shape, entries)
 
     return MultiChannelSystem(
-        moved(system.A), map(moved, system.B), map(moved, system.C), time=system.time
+        moved(system.A), [*map(moved, system.B)], [*map(moved, system.C)], time=system.time
     )
 
 
@@ -171,7 +171,7 @@ def test_a_mode_fixed_between_two_channels_is_found_again(part: float) -> None:
 
 def test_a_pair_of_complex_modes_is_found() -> None:
     turn = [["1/3", "2/3"], ["-4/3", "1/5"]]
-    A = [
+    A: list[list[Any]] = [
         [*turn[0], 0, 0],
         [*turn[1], 0, 0],
         ["1/2", "1/3", "-1/7", "3/5"],
