@@ -574,14 +574,11 @@ class Analysis(ShownByAccount):
         return (*asked, *left, *self._effort_nearby())
 
     def _effort_nearby(self) -> Iterator[Effort]:
-        """The time that the search for plants nearby took, or why it was left out."""
+        """Why the search for plants nearby was left out, if it was."""
         if self.parameters or "fixed_spectrum" not in self._asked:
             return
         if reason := self.nearby_left_out:
             yield Effort(_NEARBY, "left out", 0.0, reason)
-        else:
-            self._look_nearby()
-            yield Effort(_NEARBY, "decided", self._seconds[_NEARBY])
 
     def __repr__(self) -> str:
         plant = self.plant
@@ -681,10 +678,6 @@ class Analysis(ShownByAccount):
         InputError
             If the plant has parameters or is a derived system.
         """
-        return self._look_nearby()
-
-    def _look_nearby(self) -> Nearby:
-        """Search plants nearby, once for what the answers so far say that the plant has."""
         # It computes in floating point, and the other questions load no numpy.
         from mcexact.analysis.nearby.plants import nearby_plants
 
@@ -696,9 +689,7 @@ class Analysis(ShownByAccount):
             if name in answers and answers[name].controllable:
                 lost.append(lack)
         if tuple(lost) not in self._nearby:
-            began = time.perf_counter()
             self._nearby[tuple(lost)] = nearby_plants(self.plant, lost)
-            self._seconds[_NEARBY] = time.perf_counter() - began
         return self._nearby[tuple(lost)]
 
     def failing(self) -> dict[str, Answer]:

@@ -298,6 +298,10 @@ _MADE = (
 _WORDS = {True: "agree", False: "DISAGREE", None: "no answer"}
 
 
+def _word(row: CrossCheck) -> str:
+    return "within the data" if row.within_data else _WORDS[row.agree]
+
+
 def crosscheck_view(crosschecks: CrossChecks) -> dict[str, Any]:
     """The cross-checks as plain data: every row, and a plant nearby that has a fixed mode."""
     near = crosschecks.nearest
@@ -314,6 +318,7 @@ def crosscheck_view(crosschecks: CrossChecks) -> dict[str, Any]:
                 "floating": row.floating,
                 "exact": row.exact,
                 "agree": row.agree,
+                "within_data": row.within_data,
             }
             for row in crosschecks.rows
         ],
@@ -333,11 +338,12 @@ def crosscheck_view(crosschecks: CrossChecks) -> dict[str, Any]:
 def crosscheck_tables(crosschecks: CrossChecks) -> tuple[Table, ...]:
     """The cross-checks as tables: a row for each question, then how near a fixed mode is."""
     rows = tuple(
-        (row.question, row.floating, row.exact, _WORDS[row.agree], row.call)
-        for row in crosschecks.rows
+        (row.question, row.floating, row.exact, _word(row), row.call) for row in crosschecks.rows
     )
     count = len(crosschecks.disagreements)
     verdict = "no disagreement" if not count else f"{count} wrong in floating point"
+    if others := len(crosschecks.within_data):
+        verdict = f"{count} wrong in floating point, {others} within what the data allow"
     tables = [
         Table(
             f"{crosschecks.system.name or 'system'}: floating point beside exact, {verdict}",
@@ -349,6 +355,9 @@ def crosscheck_tables(crosschecks: CrossChecks) -> tuple[Table, ...]:
     recorded = shown_in(crosschecks)
     if recorded:
         tables += exhibit_tables(recorded)
+    if others and crosschecks.nearby is not None:
+        plants = tuple((each.within or "", each.explain()) for each in crosschecks.nearby.leading)
+        tables.append(Table("plants that the data allow as well, decided exactly", (), plants))
     near = crosschecks.nearest
     if near is not None:
         lines = (

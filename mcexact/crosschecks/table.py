@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, partial
 from importlib import metadata, resources
@@ -28,6 +28,7 @@ from mcexact.analysis.controllability import (
     observability_indices,
 )
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
+from mcexact.analysis.nearby.plants import Lost, Nearby, nearby_plants
 from mcexact.analysis.structure import strong_components, transfer_graph
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.errors import InputError, LimitReached
@@ -145,6 +146,8 @@ def libraries_of(document: Mapping[str, Any]) -> Libraries:
 
 _SEED = 0
 _DIGITS = (6, 8, 10)
+_SMALL_ENOUGH = 30
+"""The states up to which floating point is judged by plants nearby, which are decided, too."""
 _TRIES, _SMALL = 3, 12
 """Tries for a plant nearby with a fixed mode, and the states up to which one is searched."""
 
@@ -162,6 +165,9 @@ class CrossCheck:
         Both answers in words.
     agree : bool or None
         None if the floating-point call gave no answer.
+    within_data : bool
+        Whether the answers differ, and that of floating point is the exact one of a plant nearby
+        that the data allow as well: then neither is wrong.
     """
 
     question: str
@@ -169,6 +175,7 @@ class CrossCheck:
     floating: str
     exact: str
     agree: bool | None
+    within_data: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,12 +190,15 @@ class CrossChecks(Shown):
         A plant nearby that has a fixed mode, which is decided exactly; None if none was found.
     libraries : Libraries
         The libraries that computed the floating-point answers.
+    nearby : Nearby or None
+        The plants nearby that the data allow as well; None if they were not looked for.
     """
 
     system: MultiChannelSystem
     rows: tuple[CrossCheck, ...]
     nearest: FailingPlant | None
     libraries: Libraries
+    nearby: Nearby | None = None
 
     def __repr__(self) -> str:
         wrong = len(self.disagreements)
@@ -219,7 +229,12 @@ class CrossChecks(Shown):
     @property
     def disagreements(self) -> tuple[CrossCheck, ...]:
         """The rows with a wrong floating-point answer."""
-        return tuple(row for row in self.rows if row.agree is False)
+        return tuple(row for row in self.rows if row.agree is False and not row.within_data)
+
+    @property
+    def within_data(self) -> tuple[CrossCheck, ...]:
+        """The rows whose answers differ within what the data allow."""
+        return tuple(row for row in self.rows if row.within_data)
 
 
 @dataclass(frozen=True)
@@ -257,7 +272,9 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
     The floating-point functions are those of numpy, scipy and python-control at their default
     tolerances, applied to the floats nearest to the entries.  Random gains are drawn from a fixed
     seed.  A verdict that depends on rounding errors can differ between processors, so `libraries`
-    names the libraries and the kernel.
+    names the libraries and the kernel.  Where the answers differ, those of floating point are
+    compared with the exact ones of plants nearby, too, if rounding errors or digits that were not
+    typed may have led to these (`Analysis.nearby`): then neither answer is wrong.
 
     Examples
     --------
@@ -275,19 +292,47 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
         tuple(matrix_to_float(system.C(i)) for i in range(system.m)),
     )
     spectrum = fixed_spectrum(system)
-    rows = [
+    rows, near = _rows(system, floats, spectrum), _nearby(system, spectrum)
+    for each in () if near is None else near.leading:
+        others = _rows(each.plant, floats, fixed_spectrum(each.plant))
+        rows = [
+            replace(row, within_data=True) if row.agree is False and other.agree else row
+            for row, other in zip(rows, others, strict=True)
+        ]
+    return CrossChecks(
+        system,
+        tuple(rows),
+        _nearest(system, spectrum),
+        libraries_here(),
+        near,
+    )
+
+
+def _rows(system: MultiChannelSystem, floats: _Floats, spectrum: FixedSpectrum) -> list[CrossCheck]:
+    """All questions, with the answers of floats and the exact ones of a system."""
+    return [
         *_controllability(system, floats),
         *_indices(system, floats),
         *_fixed_modes(system, floats, spectrum),
         *_graph(system, floats),
         _stability(system, floats),
     ]
-    return CrossChecks(
-        system,
-        tuple(rows),
-        _nearest(system, spectrum),
-        libraries_here(),
-    )
+
+
+def _nearby(system: MultiChannelSystem, spectrum: FixedSpectrum) -> Nearby | None:
+    """The plants near a small one of which an answer is another one."""
+    if system.subject or system.n > _SMALL_ENOUGH:
+        return None
+    lost: list[Lost] = []
+    if spectrum.stabilizable:
+        lost.append("unstable")
+    if spectrum.empty:
+        lost.append("fixed")
+    if joint_controllability(system).controllable:
+        lost.append("uncontrollable")
+    if joint_observability(system).controllable:
+        lost.append("unobservable")
+    return nearby_plants(system, lost)
 
 
 def _nearest(system: MultiChannelSystem, spectrum: FixedSpectrum) -> FailingPlant | None:

@@ -547,7 +547,14 @@ def check() -> Schema:
 def crosscheck() -> Schema:
     """The JSON of `mcexact crosscheck`."""
     row = record(
-        {"question": TEXT, "call": TEXT, "floating": TEXT, "exact": TEXT, "agree": some(YES)}
+        {
+            "question": TEXT,
+            "call": TEXT,
+            "floating": TEXT,
+            "exact": TEXT,
+            "agree": some(YES),
+            "within_data": YES,
+        }
     )
     libraries = record({"versions": table(TEXT), "kernel": TEXT})
     return record(

@@ -21,6 +21,7 @@ from mcexact.analysis.questions import (
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.kinds import Expectation
 from mcexact.checker.reading import Limits
+from mcexact.derived.constructions import dual
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model import gallery
 from mcexact.model.box import Box
@@ -284,7 +285,7 @@ def test_a_limit_on_time_keeps_what_was_decided(
     found.save(tmp_path)
     assert {path.stem for path in tmp_path.iterdir()} == {
         "manifest",
-        *(outcomes.keys() - undecided),
+        *(name for name, (outcome, _) in outcomes.items() if outcome == "decided"),
     }
     monkeypatch.undo()
     again = analyze(PARAMETRIC, timeout=100)
@@ -375,3 +376,45 @@ def test_links_are_not_asked_about_where_nothing_is_fixed_or_questions_are_chose
     assert "linked_fixed_spectrum" not in analyze(free).decided()
     chosen = analyze(canal({"gate": ["farm"]}), ["fixed_spectrum"])
     assert list(chosen.decided()) == ["fixed_spectrum"]
+
+
+FLOATS = [["-0.30000000000000004", "0.7"], ["0.3", "-0.7"]]
+
+
+def test_a_plant_that_rounding_errors_explain_leads_the_answer_and_has_a_certificate(
+    tmp_path: Path,
+) -> None:
+    plant = MultiChannelSystem(FLOATS, [[["0.1"], ["-0.1"]]], [[[1, 0]]])
+    found = analyze(plant)
+    first = found.sentences.at("answer")[0]
+    assert first.template.key == "nearby-unstable"
+    assert found.fixed_spectrum.empty and found.nearby.get("unstable") is not None
+    assert str(first) == found.explain().splitlines()[1]
+    view = found.to_dict()
+    assert view["nearby"]["plants"][0]["lost"] == "unstable"
+    assert view["nearby_unstable"]["rank"] == 1
+    found.save(tmp_path)
+    assert check_manifest(tmp_path) == {"VALID", "IMPLIED", "REMARK"}
+
+
+def test_plants_nearby_are_left_out_where_that_is_asked_and_it_is_said() -> None:
+    plant = MultiChannelSystem(FLOATS, [[["0.1"], ["-0.1"]]], [[[1, 0]]])
+    found = analyze(plant, nearby=False)
+    assert not any(each.template.key.startswith("nearby-") for each in found.sentences)
+    assert "nearby" not in found.to_dict()
+    *_, last = found.effort()
+    assert (last.question, last.outcome) == ("nearby_plants", "left out") and last.reason
+    assert found.nearby.plants  # it can still be asked for
+
+
+def test_a_derived_system_and_agents_that_hear_others_have_no_plants_nearby() -> None:
+    plant = MultiChannelSystem(
+        FLOATS, [[["0.1"], ["-0.1"]]] * 2, [[[1, 0]]] * 2, neighbors={"1": ["2"], "2": ["1"]}
+    )
+    for found in (analyze(dual(plant)), analyze(plant, information="outputs")):
+        assert found.nearby_left_out and "nearby" not in found.to_dict()
+
+
+def check_manifest(folder: Path) -> set[str]:
+    """The verdicts on the certificates and sentences of a folder."""
+    return {each.verdict for _, each in manifest_verdicts(str(folder), Expectation(), Limits())}

@@ -71,3 +71,25 @@ def test_numbers_beyond_doubles_are_no_error():
 
 def test_the_package_is_called_by_the_name_that_it_exports():
     assert len(mcexact.crosscheck(PLAIN).rows) == len(crosscheck(PLAIN).rows)
+
+
+def test_floating_point_is_not_wrong_where_rounding_errors_explain_the_difference() -> None:
+    # The sum of both states is not controlled but for a rounding error.
+    plant = MultiChannelSystem(
+        [["-0.30000000000000004", "0.7"], ["0.3", "-0.7"]],
+        [[["0.1"], ["-0.1"]]],
+        [[["1", 0]]],
+    )
+    found = crosscheck(plant)
+    judged = {row.question: row for row in found.rows}
+    row = judged["joint controllability, Hautus"]
+    assert (row.exact, row.agree) != ("yes", False) or row.within_data
+    assert found.nearby is not None and found.nearby.leading
+    assert all(row.agree is False for row in found.within_data)
+    assert not {*found.within_data} & {*found.disagreements}
+
+
+def test_an_input_that_is_not_zero_is_no_rounding_error() -> None:
+    plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], ["1e-20"]]], [[[1, 1]]])
+    found = crosscheck(plant)
+    assert found.disagreements and found.within_data == ()
