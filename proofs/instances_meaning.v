@@ -1,7 +1,8 @@
 (* The equations behind the extended, the lifted and the held system (meaning.v), for the example: one number shared by
    each agent, messages of others late by one step, and every agent acting as it likes. *)
-From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel extended delayed_systems example concrete meaning.
+From mathcomp Require Import all_ssreflect all_algebra all_field.
+From mcexact Require Import multichannel joint_controllability neighbor_graph extended extended_bound delayed_systems.
+From mcexact Require Import example example_hypotheses concrete meaning lifted_states instances_paper.
 From mcexact Require Import instances_example instances_sharing_gap.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -70,3 +71,13 @@ Lemma within_1 : (1 <= dmax N3 late (inord 1))%N. Proof. by rewrite late_at_most
 Example lifted_shared_example s := lifted_shared (lifted_course_steps s) within_1 (isT : (1 <= 5)%N).
 Example lifted_outputs_example s := lifted_outputs (lifted_course_steps s) (isT : (0 < 1)%N) within_1 (isT : (1 <= 5)%N).
 End Example.
+
+(* Theorem 3 where sub-states alone are sent *)
+Notation plantQ := (example.plant Q).
+Notation ones := (fun _ : 'I_3 => 1%N).
+Example rank_lifted_states_example := rank_lifted_states N3 ones instances_example.late (oner_neq0 Q) plantQ [set inord 1].
+Example theorem_3_states_example : ~ fixed_over f (lifted_states N3 ones instances_example.late plantQ) 1.
+Proof.
+apply: (theorem_3_states (example_controllable Q) (example_observable Q) example_connected) (oner_neq0 _).
+by move=> i s lambda s0 sT _ el; exact: bound_27.
+Qed.
