@@ -2,7 +2,7 @@
    each agent, messages of others late by one step, and every agent acting as it likes. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel joint_controllability neighbor_graph extended extended_bound delayed_systems.
-From mcexact Require Import example example_hypotheses concrete meaning lifted_states instances_paper.
+From mcexact Require Import example example_hypotheses concrete meaning lifted_states equation_36 instances_paper.
 From mcexact Require Import instances_example instances_sharing_gap.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -81,3 +81,13 @@ Proof.
 apply: (theorem_3_states (example_controllable Q) (example_observable Q) example_connected) (oner_neq0 _).
 by move=> i s lambda s0 sT _ el; exact: bound_27.
 Qed.
+
+(* (36) with two steps, at the eigenvalue of the example *)
+Notation mode := (mcA plantQ ord0 ord0).
+Lemma mode_not_0 : mode != 0.
+Proof.
+rewrite !mxE eqxx; have -> : (ord0 == inord 2 :> 'I_3) = false by rewrite -val_eqE /= inordK.
+by rewrite addr0 oner_neq0.
+Qed.
+Example equation_36_example (i : 'I_3) : \rank (col_mx (shifted_rows 2 mode) (delta_mx 0 i : 'rV_3)) = 3%N :=
+  equation_36 i mode_not_0.
