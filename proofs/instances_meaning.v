@@ -2,7 +2,8 @@
    each agent, messages of others late by one step, and every agent acting as it likes. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel joint_controllability neighbor_graph extended extended_bound delayed_systems.
-From mcexact Require Import example example_hypotheses concrete meaning lifted_states equation_36 instances_paper.
+From mcexact Require Import example example_hypotheses concrete meaning lifted_states equation_36.
+From mcexact Require Import delayed_observability instances_paper.
 From mcexact Require Import instances_example instances_sharing_gap.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -91,3 +92,10 @@ by rewrite addr0 oner_neq0.
 Qed.
 Example equation_36_example (i : 'I_3) : \rank (col_mx (shifted_rows 2 mode) (delta_mx 0 i : 'rV_3)) = 3%N :=
   equation_36 i mode_not_0.
+
+(* the example under delays is jointly observable, and its mode 1 is controllable *)
+Lemma late_own (i : 'I_3) : instances_example.late i i = 0%N. Proof. by rewrite /instances_example.late eqxx. Qed.
+Example lifted_jointly_observable_example : jointly_observable (lifted N3 ones instances_example.late plantQ) :=
+  lifted_jointly_observable f ones N3_own late_own (example_observable Q).
+Example lifted_uncontrollable_at_0_example := lifted_uncontrollable_at_0 f N3 ones instances_example.late
+  (example_controllable Q) (oner_neq0 [ringType of algC]).
