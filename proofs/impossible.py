@@ -30,7 +30,8 @@ def weakened(source: str, name: str) -> str:
     found = re.search(rf"^(\w+) {name}\b(.*?)\nProof\..*?Qed\.\n", source, re.MULTILINE | re.DOTALL)
     if found is None:
         raise SystemExit(f"paper.v has no {name}")
-    spared = re.sub(rf"(?<![\w.]){name}\b", f"{name}_", source)
+    head, begin, body = source.partition("Section Paper.")
+    spared = head + begin + re.sub(rf"(?<![\w.]){name}\b", f"{name}_", body)
     end = spared.index(f"{found[1]} {name}_")
     end = spared.index("Qed.\n", end) + len("Qed.\n")
     weak = f"{found[1]} {name} (impossible : (n < 0)%N){found[2]}\n"
