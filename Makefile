@@ -65,6 +65,10 @@ designs: $(STAMP)
 boxes: $(STAMP)
 	$(BIN)/python -m benchmarks.boxes $(PARTS)
 
+# Plants nearby of which an answer is another one: how many are found, and how long that takes: minutes.
+nearby: $(STAMP)
+	$(BIN)/python -m benchmarks.nearby $(PARTS)
+
 # How many digits of the gains of designed controllers are safe, and how many are too few: minutes.
 # NAMES='theorem compleib-ac1' tries some; a folder of further system files can be among them.
 digits: $(STAMP)

@@ -286,11 +286,14 @@ class _Search:
         self.region = StabilityRegion(system.time)
         self.discrete = is_discrete(system.time)
         self.suspects = by_bottleneck(suspects(floats, self.discrete))
-        self.has_typed = any(
-            is_typed(Fraction(x, M.denominator))
+        values = [
+            Fraction(x, M.denominator)
             for M in (system.A, *system.B, *system.C)
             for *_, x in M.nonzero()
-        )
+            if x % M.denominator
+        ]
+        # Of floats some have few digits by chance.
+        self.has_typed = 4 * sum(map(is_typed, values)) > len(values)
         self._known: dict[Suspect, NearPlant | None] = {}
         self._computed: dict[Suspect, float] = {}
 

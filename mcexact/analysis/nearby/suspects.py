@@ -35,6 +35,8 @@ _HUBER = 3.0
 """Entries so many powers of 2 from 1 count less: they may be rounding errors."""
 _RIDGE = 1e-6
 _MOST = 12
+_LARGE = 100
+"""Of so many states fewer eigenvalues are looked at: each takes a decomposition."""
 _NEAR = 0.05
 """An eigenvalue that moves by a larger part of its size and of A is not looked at."""
 _CLUSTERS = (1e-3, 3e-2)
@@ -203,9 +205,10 @@ def suspects(plant: Balanced, discrete: bool) -> Iterator[Suspect]:
     margin = 1e-6 * size
     unstable = np.abs(moved) >= limit - margin if discrete else moved.real >= -margin
     order = np.argsort(part)
-    chosen = [*order[:_MOST], *order[unstable[order]][: _MOST // 2]]
+    most, near = (_MOST, _NEAR) if n < _LARGE else (_MOST // 3, _NEAR / 50)
+    chosen = [*order[:most], *order[unstable[order]][: most // 2]]
     for k in dict.fromkeys(int(k) for k in chosen):
-        if part[k] < _NEAR:
+        if part[k] < near:
             point = complex(moved[k])
             point = complex(point.real, 0.0) if abs(point.imag) < 1e-9 * size else point
             yield from _cuts(plant, first, point, size)
