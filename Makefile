@@ -93,6 +93,12 @@ absence: $(STAMP)
 parameters: $(STAMP)
 	$(BIN)/python -m tests.assurance.campaigns.parametric $(or $(N),1000) $(or $(FIRST),0)
 
+# Every question about 3,000 drawn plants (generic, with modes out of reach, with prescribed indices,
+# sparse, in several components), all certificates checked and judged by exact elimination over Q: a
+# quarter of an hour.  The same command continues after an interruption.
+every-question: $(STAMP)
+	$(BIN)/python -m tests.assurance.campaigns.every_question $(or $(N),3000) $(or $(FIRST),0)
+
 # Exceptional hypersurfaces of several parameters beside enumeration on other lines modulo primes, on
 # 300 drawn systems: a quarter of an hour.  The same command continues after an interruption.
 hypersurfaces: $(STAMP)

@@ -48,6 +48,7 @@ from mcexact.analysis.sparse import (
 from mcexact.analysis.stability import located, open_loop_spectrum
 from mcexact.analysis.structure import (
     Edge,
+    short_powers,
     suspected_edges,
     transfer_graph,
     witnessed_powers,
@@ -425,11 +426,14 @@ def _connected_by_structure(system: MultiChannelSystem, proof: ByBlocks) -> Evid
 
 def _connected(modular: ModularSystem, proof: Freedom, chosen: set[Edge]) -> Evidence:
     """The evidence for yes, with edges that connect all channels."""
-    powers, names = witnessed_powers(modular, chosen), modular.system.names
+    found, ell, names = witnessed_powers(modular, chosen), modular.modulus, modular.system.names
+    powers = {edge: found[edge] for edge in chosen}
+    if isinstance(proof, ByBlocks):
+        ell, powers = short_powers(modular, powers)
     arcs = tuple((names[j], names[i], powers[j, i]) for j, i in sorted(chosen))
     if isinstance(proof, ByBlocks):
-        return BlocksWitness(proof.blocks, modular.modulus, arcs)
-    return FreedomWitness(modular.modulus, proof, arcs)
+        return BlocksWitness(proof.blocks, ell, arcs)
+    return FreedomWitness(ell, proof, arcs)
 
 
 def _freedom(

@@ -70,6 +70,9 @@ from mcexact.model.system import MultiChannelSystem
 # Edges of the transfer graph modulo a prime.
 
 Edge = tuple[int, int]
+# Modulo 7 every seventh of the edges of one input and one output is missed at each power.
+_LEAST_SHORT = 19
+_MORE_POWERS = 24
 
 
 def _channel_of(ranges: Sequence[range]) -> list[int]:
@@ -110,7 +113,9 @@ def suspected_edges(modular: ModularSystem, rng: random.Random) -> set[Edge]:
             return _nonzero_blocks(modular, (modular.C @ inverse) @ modular.B)
 
 
-def witnessed_powers(modular: ModularSystem, suspected: set[Edge]) -> dict[Edge, int]:
+def witnessed_powers(
+    modular: ModularSystem, suspected: set[Edge], most: int | None = None
+) -> dict[Edge, int]:
     """The least k with C_i A^k B_j ≠ 0 modulo ℓ, for every pair (j, i) that has one below n.
 
     Parameters
@@ -118,6 +123,8 @@ def witnessed_powers(modular: ModularSystem, suspected: set[Edge]) -> dict[Edge,
     modular : ModularSystem
     suspected : set of (int, int)
         The search ends as soon as each of these pairs has its k; the k of other pairs are kept.
+    most : int, optional
+        How many powers are tried, if not n.
 
     Notes
     -----
@@ -127,7 +134,8 @@ def witnessed_powers(modular: ModularSystem, suspected: set[Edge]) -> dict[Edge,
     if not suspected:
         return powers
     AkB = modular.B
-    for k in range(modular.system.n):
+    n = modular.system.n
+    for k in range(n if most is None else min(n, most)):
         if k:
             AkB = modular.A @ AkB
         for edge in _nonzero_blocks(modular, modular.C @ AkB):
@@ -135,6 +143,31 @@ def witnessed_powers(modular: ModularSystem, suspected: set[Edge]) -> dict[Edge,
         if suspected <= powers.keys():
             break
     return powers
+
+
+def short_powers(modular: ModularSystem, powers: dict[Edge, int]) -> tuple[int, dict[Edge, int]]:
+    """Find powers for the same edges modulo a short prime, which are quick to check.
+
+    Parameters
+    ----------
+    modular : ModularSystem
+    powers : dict
+        Those of `witnessed_powers` that are to be proved.
+
+    Returns
+    -------
+    modulus : int
+        A short prime; that of ``modular`` if some edge is not seen in about as many powers.
+    powers : dict
+        Of the same edges, and of others that are seen.
+    """
+    system, most = modular.system, max(powers.values(), default=0) + _MORE_POWERS
+    for ell in SHORT:
+        if ell >= _LEAST_SHORT and system.denominator % ell:
+            short = witnessed_powers(ModularSystem(system, ell), set(powers), most)
+            if powers.keys() <= short.keys():
+                return ell, short
+    return modular.modulus, powers
 
 
 def zero_transfer(
@@ -220,7 +253,7 @@ def transfer_graph(
         powers = witnessed_powers(modular, suspected)
         zeros = _zero_transfers(system, set(powers), rng)
         if zeros is not None:
-            return _graph_answer(system, modular.modulus, powers, zeros)
+            return _graph_answer(system, *short_powers(modular, powers), zeros)
     raise InternalError("the stream of primes is endless")
 
 

@@ -65,21 +65,31 @@ class PackedRows:
         return self.ncols * self.size * 8 // budget.LIMB + 1
 
     def _by_coefficient(self, u: Sequence[int]) -> bytes:
-        """`combined` for bytes: rows with equal coefficients are added, then multiplied."""
-        most, tables = most_addends(self.ell), multiples(self.ell)
-        parts = len(self.rows) // most + min(len(self.rows), self.ell)
-        spend(len(self.rows) * (4 + self._limbs // 16) + (parts + 1) * (40 + self.ncols // 8))
-        alike: list[list[int]] = [[] for _ in range(self.ell)]
-        for factor, row in zip(u, self.rows, strict=True):
-            alike[factor].append(row)
-        sums = (
-            sum(alike[factor][k : k + most])
-            .to_bytes(self.ncols, "little")
-            .translate(tables[factor])
-            for factor in range(1, self.ell)
-            for k in range(0, len(alike[factor]), most)
-        )
-        return byte_sum(sums, self.ncols, self.ell)
+        """`combined` for bytes."""
+        spend(by_coefficient_units(len(self.rows), self.ncols, self.ell))
+        pairs = zip(u, self.rows, strict=True)
+        return byte_sum(by_coefficient(pairs, self.ncols, self.ell), self.ncols, self.ell)
+
+
+def by_coefficient(pairs: Iterable[tuple[int, int]], ncols: int, ell: int) -> Iterator[bytes]:
+    """Parts of the sum of f·row over pairs (f, row), for residues f and rows as long integers.
+
+    The rows of equal coefficients are added, at most as many as a byte holds, then multiplied.
+    """
+    most, tables = most_addends(ell), multiples(ell)
+    alike: list[list[int]] = [[] for _ in range(ell)]
+    for factor, row in pairs:
+        alike[factor].append(row)
+    for factor in range(1, ell):
+        for k in range(0, len(alike[factor]), most):
+            total = sum(alike[factor][k : k + most])
+            yield total.to_bytes(ncols, "little").translate(tables[factor])
+
+
+def by_coefficient_units(rows: int, ncols: int, ell: int) -> int:
+    """The units of `by_coefficient` for so many rows."""
+    parts = rows // most_addends(ell) + min(rows, ell) + 1
+    return rows * (4 + ncols // 60) + parts * (40 + ncols // 8)
 
 
 def byte_sum(rows: Iterable[bytes], ncols: int, ell: int) -> bytes:
@@ -404,7 +414,7 @@ class ByteEchelon:
     def add(self, vector: Sequence[int]) -> bytes | None:
         """Reduce a vector; keep and return the remainder, or return None if it is zero."""
         ell, n, tables = self.ell, self.ncols, multiples(self.ell)
-        spend(n + self.count * (4 + n // 32) + len(self.blocks) * 2 * ell * (40 + n // 8))
+        spend(n + len(self.blocks) * by_coefficient_units(BLOCK, n, ell))
         left = self._reduced(bytes(vector))
         pivot = n - len(left.lstrip(b"\0"))
         if pivot == n:
@@ -426,17 +436,10 @@ class ByteEchelon:
 
     def _reduced(self, vector: bytes) -> bytes:
         """What is left of a vector: it is 0 at all pivots."""
-        ell, n, tables, most = self.ell, self.ncols, multiples(self.ell), most_addends(self.ell)
+        ell, n = self.ell, self.ncols
         for pivots, rows in self.blocks:
-            alike: list[list[int]] = [[] for _ in range(ell)]
-            for pivot, row in zip(pivots, rows, strict=True):
-                alike[vector[pivot]].append(row)
-            parts = (
-                sum(alike[f][k : k + most]).to_bytes(n, "little").translate(tables[-f % ell])
-                for f in range(1, ell)
-                for k in range(0, len(alike[f]), most)
-            )
-            vector = byte_sum(chain([vector], parts), n, ell)
+            pairs = ((-vector[pivot] % ell, row) for pivot, row in zip(pivots, rows, strict=True))
+            vector = byte_sum(chain([vector], by_coefficient(pairs, n, ell)), n, ell)
         return vector
 
 

@@ -32,6 +32,8 @@ from .arithmetic import (
     Rows,
     SparseMatrix,
     beside,
+    by_coefficient,
+    by_coefficient_units,
     byte_sum,
     characteristic_polynomial,
     convolution,
@@ -277,12 +279,22 @@ def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
 def _products(
     lines: list[list[tuple[int, int]]], power: list[bytes], width: int, ell: int
 ) -> list[bytes]:
-    """The rows of the product of a sparse matrix with one of ``width`` columns, modulo ℓ."""
-    tables, terms = multiples(ell), sum(map(len, lines))
+    """The rows of the product of a sparse matrix with one of ``width`` columns, modulo ℓ.
+
+    Long lines are added by coefficient.
+    """
+    tables, long = multiples(ell), [len(line) > 2 * ell for line in lines]
+    terms = sum(len(line) for line, many in zip(lines, long, strict=True) if not many)
     spend(len(lines) * (60 + width // 8) + terms * (40 + width // 4))
-    return [
-        byte_sum((power[j].translate(tables[x]) for j, x in line), width, ell) for line in lines
-    ]
+    numbers = [int.from_bytes(row, "little") for row in power] if any(long) else []
+    made = []
+    for line, many in zip(lines, long, strict=True):
+        parts: Iterable[bytes] = (power[j].translate(tables[x]) for j, x in line)
+        if many:
+            spend(by_coefficient_units(len(line), width, ell))
+            parts = by_coefficient(((x, numbers[j]) for j, x in line), width, ell)
+        made.append(byte_sum(parts, width, ell))
+    return made
 
 
 # Products of a row with a matrix of few entries, modulo ℓ.

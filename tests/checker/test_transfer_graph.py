@@ -124,6 +124,31 @@ PATHS = [
 test_what_a_path_connects_needs_a_power_or_a_zero_transfer = rejects(PATHS)
 
 
+@pytest.mark.parametrize("ell", [2, 7, 19, 31])
+def test_long_rows_are_added_by_coefficient_to_the_same_powers(ell: int) -> None:
+    rng, n = random.Random(ell), 3 * ell + 60
+
+    def drawn(nrows: int, ncols: int, share: float) -> Matrix:
+        rows = [
+            [rng.randint(1, 99) if rng.random() < share else 0 for _ in range(ncols)]
+            for _ in range(nrows)
+        ]
+        return Matrix(rows, ncols)
+
+    shown = set()
+    for share in (0.05, 0.9):
+        B, C = [drawn(n, 2, 0.02), drawn(n, 1, 0.5)], [drawn(1, n, 0.02), drawn(2, n, 1.0)]
+        system = System("continuous", ["a", "b"], drawn(n, n, share), B, C)
+        for j, i, k in itertools.product(range(2), range(2), range(3)):
+            power = B[j].modulo(ell)
+            for _ in range(k):
+                power = product(system.A.modulo(ell), power, B[j].ncols, ell)
+            nonzero = any(map(any, product(C[i].modulo(ell), power, B[j].ncols, ell)))
+            assert unseen(system, [(j, i, k)], ell) == (None if nonzero else (j, i, k))
+            shown.add(nonzero)
+    assert True in shown
+
+
 @pytest.mark.parametrize("ell", [2, 3, 7, 31, 61, 64])
 def test_powers_of_all_channels_at_once_are_those_of_each(ell: int) -> None:
     rng, shown = random.Random(ell), set()
