@@ -404,7 +404,7 @@ class ByteEchelon:
     all blocks before it.  So the multiples of them that a vector has are its entries there, and
     all are taken off at once, the rows with the same multiple added up first.
 
-    Theorem ``arithmetic.rank_from_below``.  Open: see ``proofs/OPEN.md``.
+    Theorems ``arithmetic.rank_from_below``, ``echelon.block_echelon``.
     """
 
     def __init__(self, ell: int, ncols: int) -> None:

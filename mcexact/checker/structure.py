@@ -207,7 +207,7 @@ def _require_growth(shown: list[Json], ranks: list[int], A: Matrix, B: Matrix) -
     A step from one rank to the next is at most the step before, and at most the number of inputs
     without a relation of this degree; and the rows that annihilate all blocks bound every rank.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``rank_growth.growth_rule``, ``rank_growth.relations_bound``.
     """
     rows, columns, polynomials, chosen = shown
     W, _ = annihilator(rows, columns, "witness", A, [B])
@@ -227,7 +227,7 @@ def relation_degrees(polynomials: Json, chosen: Json, A: Matrix, B: Matrix) -> l
     The last coefficients of the columns are independent: each is not 0 at an input of its own, at
     which the last coefficients of all later columns are 0.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorem ``rank_growth.own_inputs_free``.
     """
     place = "witness.relations"
     own = [integer(j, "witness.inputs") for j in items(chosen, "witness.inputs")]
