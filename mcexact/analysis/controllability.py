@@ -63,7 +63,6 @@ from mcexact.exact.linear_algebra import (
 )
 from mcexact.exact.matrix import Matrix, hstack
 from mcexact.exact.modular import ModularMatrix, polynomial_residues, primes, residues
-from mcexact.exact.modular import hstack as hstack_residues
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import root_discs
 from mcexact.model.entries import as_matrix, require_shape
@@ -364,23 +363,24 @@ def _column_degrees(A: ModularMatrix, B: ModularMatrix) -> list[int]:
     """
     n, p, blocks = A.nrows, B.ncols, 0
     degrees, live, power = [0] * p, list(range(p)), B
-    basis = ModularMatrix.zeros(n, 0, A.modulus)
-    while live and basis.ncols < n:
-        turns = -(-(n - basis.ncols) // len(live))
-        parts = [power]
+    basis: list[list[int]] = []
+    while live and len(basis) < n:
+        turns = -(-(n - len(basis)) // len(live))
+        rows = power.T.rows()
         for _ in range(turns - 1):
-            parts.append(A @ parts[-1])
+            power = A @ power
+            rows += power.T.rows()
         places = [(blocks + turn, j) for turn in range(turns) for j in live]
-        table = hstack_residues([basis, *parts])
-        independent = table.rref()[1]
-        grown = {places[c - basis.ncols] for c in independent if c >= basis.ncols}
-        for block, j in grown:
-            degrees[j] = max(degrees[j], block + 1)
+        table = ModularMatrix.from_rows(basis + rows, A.modulus, ncols=n)
+        grown = [c - len(basis) for c in table.T.rref()[1] if c >= len(basis)]
+        for c in grown:
+            block, j = places[c]
+            degrees[j] = block + 1
+        basis += [rows[c] for c in grown]
         blocks += turns
         kept = [k for k, j in enumerate(live) if degrees[j] == blocks]
         live = [live[k] for k in kept]
-        power = A @ parts[-1].take(cols=kept)
-        basis = table.take(cols=independent)
+        power = A @ power.take(cols=kept)
     return degrees
 
 

@@ -39,7 +39,7 @@ HARMLESS: dict[str, str] = {
     ),
     "structure.py: check_complementary_subsystem: v <= n": "no matrix has a negative number of rows",
     "structure.py: check_complementary_subsystem: free >= 0": "no matrix has a negative number of columns",
-    "structure.py: check_controllability: len(pivots) == n - d": SHAPE,
+    "structure.py: relation_degrees: any((j >= B.ncols for j in own))": RAISES,
     "discs.py: require_covered: used < len(items(nodes, where))": (
         "without the first of the two there is an error, and nodes that are left over prove nothing"
     ),

@@ -148,6 +148,27 @@ TRAPS: dict[str, Document] = {
         },
     ),
     "a cut that a channel sees through": changed(CUT, ("system.channels.0.C", [[1, 1]])),
+    "a path that leaves the states and comes back": certificate(
+        "assignability",
+        plant([[0, 0, 0], [1, 0, 0], [0, 1, 0]], ([[1], [0], [0]], [[0, 0, 1]])),
+        {"blocks": [{"channels": ["1"], "dimension": 0}], "fixed_degree": 3},
+        {
+            "transfer_graph": {
+                "claim": {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
+                "witness": {"modulus": 7, "powers": [2], "zeros": []},
+            },
+            "degrees": [
+                {
+                    "states": [0, 2],
+                    "annihilator": matrix([0, 1]),
+                    "pivots": [1],
+                    "kernel": matrix([1, 0]),
+                    "kernel_pivots": [0],
+                    "sequence": None,
+                }
+            ],
+        },
+    ),
     "a row of zeros for a pencil of full rank": certificate(
         "setpoint",
         SHIFTED,
