@@ -1,7 +1,7 @@
 (* One state and one input: ranks that stop by a relation, a state that is not controlled and one that
    is not observed, and rows in two blocks. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel arithmetic controllability rank_growth realization echelon.
+From mcexact Require Import multichannel arithmetic controllability rank_growth realization echelon hankel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -73,4 +73,22 @@ Proof.
 apply: (@block_echelon _ 2 2 2 1%:M 1%:M id (fun s : 'I_2 => s : nat)) => // s t.
 - by rewrite mulmx1 mxE => ts; case: eqP ts => // ->; rewrite ltnn.
 - by move=> _; rewrite mulmx1 mxE.
+Qed.
+
+Definition l7 : modulus := @Modulus 7 isT.
+
+(* s = 1, 0, 0, ... has the degree 1, and 1 is its numerator. *)
+Lemma num_one (R : comRingType) (s : nat -> R) : s 0%N = 1 -> num 'X 1 s = 1.
+Proof.
+move=> s0; rewrite /num big_ord1 s0 scale1r /dual; apply/polyP => i.
+by rewrite coef_poly coefX coef1; case: i => [|[|i]].
+Qed.
+
+Lemma inst_mcmillan_from_below : (1 <= 1)%N.
+Proof.
+apply: (@mcmillan_from_below l7 'X 1 (fun k => (k == 0%N)%:R) 1 0 _ _ _ _ 1 1 1 A0 B1 B1 0 B1 B1 1 A0 B1 B1) => //.
+- exact: monicX.
+- by rewrite size_polyX.
+- by rewrite num_one ?mul1r ?mul0r ?addr0// rmorph1.
+- by move=> k; rewrite mulmx0 mul0mx addr0 !mulmx1 mul1mx; case: k => [|k]; rewrite ?krylovS ?mul0mx /= ?rmorph1 ?rmorph0 ?scalar_mx0 ?raddf0.
 Qed.

@@ -410,7 +410,7 @@ def _require_degree(system: System, c: list[int], d: int, value: Json) -> None:
     The realization on ker W / im U has the same transfer matrix, and a sequence of degree L has a
     nonsingular Hankel matrix of L rows.
 
-    Theorem ``realization.kernel_realization``.  Open: see ``proofs/OPEN.md``.
+    Theorems ``realization.kernel_realization``, ``hankel.mcmillan_from_below``.
     """
     place = "witness.degrees"
     keys = ("states", "annihilator", "pivots", "kernel", "kernel_pivots", "sequence")
