@@ -67,8 +67,8 @@ class SharingGap(Answer):
 
 OUTPUTS, STATES = "outputs+states", "states"
 _AT_MOST = {
-    OUTPUTS: "extended_bound.extended_no_fixed",
-    STATES: "extended_bound.extended_states_no_fixed",
+    OUTPUTS: "sharing_gap.bound_26_at_most",
+    STATES: "sharing_gap.bound_27_at_most",
 }
 FACTORS = Template(
     "sharing-gap",

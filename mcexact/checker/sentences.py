@@ -689,8 +689,8 @@ rule("allocate-reason-cut-off", LEAST)(partial(demands, agents="cut off"))
 FACTORS = {"outputs+states": "relays_at_most", "states": "boundary_at_most"}
 THEOREMS = {"outputs+states": "Theorem 2", "states": "Remark 2"}
 AT_MOST = {
-    "outputs+states": "extended_bound.extended_no_fixed",
-    "states": "extended_bound.extended_states_no_fixed",
+    "outputs+states": "sharing_gap.bound_26_at_most",
+    "states": "sharing_gap.bound_27_at_most",
 }
 
 

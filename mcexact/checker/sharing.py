@@ -156,7 +156,7 @@ def require_nested(node: Json, program: Program, subsets: list[set[int]]) -> Non
     The sets ascend.  Their multipliers are positive, and for every agent those of the sets whose
     boundary has it sum up to at most its cost.
 
-    Theorem ``allocation.branch_tree``.
+    Theorems ``nested_sets.total_at_least``, ``nested_sets.total_at_least_states``.
     """
     place = "witness.tree[0]"
     (listed,) = fields(node, place, "nested")

@@ -23,7 +23,8 @@ from .system import System
 def check_sharing_gap(claim: Json, witness: Json, system: System) -> None:
     """Check the sets that attain both numbers, and that no sets attain more.
 
-    Theorem ``allocation.branch_tree``.
+    Theorems ``allocation.branch_tree``, ``sharing_gap.boundary_number_domination``,
+    ``sharing_gap.relay_number_le``.
     """
     keys = ("relays", "relays_at_most", "boundary", "boundary_at_most")
     relays, relays_at_most, boundary, boundary_at_most = (
@@ -121,10 +122,10 @@ def require_no_more_relays(N: list[int], most: int) -> None:
         place = "claim.relays_at_most"
         require(relays <= most, "claim", place, f"two sets that are apart have {relays} relays")
         changes = [(followers[j] & rest).bit_count() * (undecided >> j & 1) for j in range(m)]
-        if any(changes):
-            j = changes.index(max(changes))
-            undecided &= ~(1 << j)
-            branches += [(undecided, receive), (undecided, receive | followers[j])]
+        # Some agent receives from an undecided one and not yet from R, so that this one counts.
+        j = changes.index(max(changes))
+        undecided &= ~(1 << j)
+        branches += [(undecided, receive), (undecided, receive | followers[j])]
 
 
 def bits(members: Iterable[int]) -> int:

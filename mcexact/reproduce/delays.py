@@ -201,6 +201,7 @@ def theorem_3(note: Notebook) -> None:
     ):
         bound = shared_dimension_bound(plant)
         spectrum = fixed_spectrum(lifted_system(plant, [bound.deficiency] * plant.m))
+        note.counts(bound.deficiency > 0)
         note.check("nothing but 0 is fixed", spectrum.polynomial in (ONE, X))
         note.certify(bound, spectrum)
         if spectrum.polynomial == X:
@@ -255,6 +256,7 @@ def theorem_3_states(note: Notebook) -> None:
         bound = shared_dimension_bound(plant, share="states")
         system = lifted_system(plant, [bound.deficiency] * plant.m, "states")
         spectrum = fixed_spectrum(system)
+        note.counts(bound.deficiency > 0)
         note.check("nothing but 0 is fixed", spectrum.polynomial in (ONE, X))
         note.certify(bound, spectrum)
         weaker = shared_dimension_bound(plant).deficiency
@@ -280,6 +282,7 @@ def less_than_the_bound(
             shared_dimension_bound(plant, share=share),
             common_dimension(plant, share=share),
         )
+        note.counts(bound.deficiency > 0)
         sizes = {0, bound.deficiency - 1, bound.deficiency}
         for size in sorted(sizes):
             spectrum = fixed_spectrum(construct(plant, [size] * plant.m, *options))
@@ -429,6 +432,7 @@ def theorem_4(note: Notebook) -> None:
     ):
         bound = shared_dimension_bound(plant, share="states")
         spectrum = fixed_spectrum(held_system(plant, [bound.deficiency] * plant.m))
+        note.counts(bound.deficiency > 0)
         note.check("nothing is fixed", spectrum.empty)
         note.certify(bound, spectrum)
         weaker = shared_dimension_bound(plant)

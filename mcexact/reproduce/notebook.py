@@ -302,8 +302,14 @@ class Examination:
         }
         return "; ".join(f"{numbers[kind]} {kind}" for kind in kinds)
 
-    def status(self, instances: int) -> str:
+    def status(self, instances: int, content: int | None = None) -> str:
         """What is known of its statements, and on how many instances it was checked.
+
+        Parameters
+        ----------
+        instances : int
+        content : int, optional
+            On how many of them the statement says something.
 
         Examples
         --------
@@ -311,10 +317,15 @@ class Examination:
         'proved as printed, checked on 7 instances'
         >>> examination("lemma-1").status(1)
         '41 proved under added hypotheses; 42 proved as printed, checked on 1 instance'
+        >>> examination("theorem-2").status(20, 9)
+        'proved as printed, checked on 20 instances, 9 of them with content'
         """
+        checked = f"checked on {instances} instance" + ("" if instances == 1 else "s")
+        if content is not None and content != instances:
+            checked += f", {content} of them with content"
         if self.kind == "example":
             return "computed exactly on the paper's data"
-        return f"{self.verdicts}, checked on {instances} instance" + ("" if instances == 1 else "s")
+        return f"{self.verdicts}, {checked}"
 
 
 @cache
@@ -449,6 +460,9 @@ class Notebook:
         Instances with their neighbor sets, and their matrices by name, with the entries as texts.
     broken : str
         Empty, or the error with which the examination ended early.
+    content : dict of str to bool
+        Whether the statement says something about an instance, as far as the examination counts
+        these: a bound of 0 allows everything.
     in_common : str
         What the instances have in common; set when the examination has ended.
     """
@@ -463,7 +477,17 @@ class Notebook:
     pictures: list[EmbeddedPicture] = field(default_factory=list)
     matrices: list[tuple[str, str, list[list[str]]]] = field(default_factory=list)
     broken: str = ""
+    content: dict[str, bool] = field(default_factory=dict)
     in_common: str = ""
+
+    def counts(self, holds: bool) -> None:
+        """Say whether the statement has content for the present instance."""
+        self.content[self.here] = self.content.get(self.here, False) or bool(holds)
+
+    @property
+    def with_content(self) -> int | None:
+        """The number of instances with content; None if the examination does not count them."""
+        return sum(self.content.values()) if self.content else None
 
     def on(self, instance: str, plant: MultiChannelSystem | None = None) -> None:
         """Name the instance of the next entries, and say which plant it is, if it is one."""

@@ -21,7 +21,7 @@ from mcexact.errors import UsageError
 from mcexact.report.formulas import matrix, typeset, typeset_latex
 from mcexact.report.html import page
 from mcexact.report.text import Table
-from mcexact.reproduce import decentralized, delays, lemmas, observer, setpoint, sharing
+from mcexact.reproduce import decentralized, delays, lemmas, nearest, observer, setpoint, sharing
 from mcexact.reproduce.notebook import (
     STATUSES,
     Examination,
@@ -48,6 +48,7 @@ SECTIONS: tuple[tuple[str, dict[str, Procedure]], ...] = (
     ("IV-E and VI, free assignment", sharing.FREEDOM),
     ("V-A, delays", delays.DELAYS),
     ("V-B, holding", delays.HOLDING),
+    ("IV-D, IV-E and V, near to what is true", nearest.NEAREST),
 )
 
 
@@ -63,7 +64,7 @@ class Row:
         """What is known, in words."""
         if not self.finding.holds:
             return "fails"
-        return self.examination.status(len(self.finding.instances))
+        return self.examination.status(len(self.finding.instances), self.finding.with_content)
 
 
 @dataclass(frozen=True)

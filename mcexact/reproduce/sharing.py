@@ -330,6 +330,7 @@ def theorem_2(note: Notebook) -> None:
     for plant in note.each(plants(8), drawn_plants(3, fixed=True, states=4, first=41)):
         bound = shared_dimension_bound(plant)
         spectrum = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
+        note.counts(bound.deficiency > 0)
         note.check(f"nothing is fixed with n_i = {bound.deficiency}", spectrum.empty)
         note.certify(neighbor_graph(plant), bound, spectrum)
     _less_than_the_bound(note, "outputs+states")
@@ -348,6 +349,7 @@ def _less_than_the_bound(note: Notebook, share: Share) -> None:
             common_dimension(plant, share=share),
         )
         enough = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m, share))
+        note.counts(bound.deficiency > 0)
         note.check(f"nothing is fixed with n_i = {bound.deficiency}", enough.empty)
         nothing = fixed_spectrum(extended_system(plant, [0] * plant.m, share))
         note.refute("n_i=0", not nothing.empty)

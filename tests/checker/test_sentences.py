@@ -139,7 +139,7 @@ ALWAYS = {
     *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),
     *("members-stabilizable", "members-setpoints"),
     *("allocate-proof", "allocate-cost-proof", "allocate-links-proof"),
-    *("allocate-nested-proof", "allocate-nested-cost-proof"),
+    "sharing-gap",
 }
 """What holds of every certificate of its kind: the words say what it is that holds."""
 
