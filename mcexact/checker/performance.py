@@ -235,7 +235,8 @@ def loop_of(system: System) -> tuple[System, Disturbed]:
 def check_loop_cost(claim: Json, witness: Json, system: System) -> None:
     """One Lyapunov inequality for the loop with its noise, whose matrix bounds the cost.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``performance.cost_continuous``, ``performance.cost_filtered``,
+    ``performance.cost_discrete``.
     """
     given, most = fields(claim, "claim", "weights", "cost")
     (form,) = fields(witness, "witness", "P")
@@ -393,6 +394,9 @@ def group_bound(
              discrete [A'PA + Q − P, A'PB; ·, R + B'PB] − [F, −I]'R_s[F, −I],
         N₂ = [AS + SA' + W, (I − A/ω)SC'; ·, V − (2/ω)CSC'], without ω [·, SC'; CS, V],
              discrete [S₊ − S, S₊C'; ·, CS₊C' + V].
+
+    Theorems ``cost_bound.bound_continuous``, ``cost_bound.bound_proper``,
+    ``cost_bound.bound_discrete``.
     """
     (A, B, C), (Q, R, W, V, omega) = plant, weights
     n, p = A.nrows, B.ncols
@@ -460,7 +464,7 @@ def cost_bound_statement(claim: Json, system: System) -> str:
 def check_disk_margin(claim: Json, witness: Json, system: System) -> None:
     """‖T + I/2‖ < 1/α by the bounded real lemma, T the response to what is added at the ports.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``performance.margin_continuous``, ``performance.margin_discrete``.
     """
     side, all_at_once, size = fields(claim, "claim", "at", "together", "margin")
     ports, together = string(side, "claim.at", *PORTS), boolean(all_at_once, "claim.together")
@@ -524,7 +528,7 @@ def disk_margin_statement(claim: Json, system: System) -> str:
 def check_sector(claim: Json, witness: Json, system: System) -> None:
     """The circle criterion: a quadratic form decreases wherever the nonlinearities may be.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``performance.sector_continuous``, ``performance.sector_discrete``.
     """
     (listed,) = fields(claim, "claim", "sectors")
     theta, form = fields(witness, "witness", "scaling", "P")
