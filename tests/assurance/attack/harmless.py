@@ -110,7 +110,7 @@ HARMLESS: dict[str, str] = {
     "reading.py: parse: depth > limits.depth": "no kind reads anything that is nested so deep",
     "reading.py: fields: not isinstance(value, Mapping)": RAISES,
     "reading.py: fields: key in optional and value[key] is None": RAISES,
-    "reading.py: polynomial_matrix: not 1 <= len(items(layers, f'{place}.coefficients')) <= degree": (
+    "reading.py: polynomial_matrix: not 1 <= found <= most": (
         "no layer is a matrix of zeros; a layer too many has no coefficient of p to go with it"
     ),
     "modes.py: require_fixed_modes_inside: (number is None) == (arcs is None)": UNREAD,
