@@ -40,7 +40,7 @@ from mcexact.answer.performance import (
     SectorStability,
     Symmetric,
 )
-from mcexact.errors import LimitReached, UsageError, one_of
+from mcexact.errors import InputError, LimitReached, UsageError, one_of
 from mcexact.exact.matrix import (
     Matrix,
     block,
@@ -148,6 +148,7 @@ def default_weights(system: MultiChannelSystem) -> CostWeights:
     >>> default_weights(MultiChannelSystem([[1]], [[[1]]], [[[1]]])).bandwidth
     Fraction(100, 1)
     """
+    InputError.require(system, MultiChannelSystem, "system")
     n, one = system.n, Fraction(1)
     p, q = (sum(map(size, range(system.m))) for size in (system.p, system.q))
     white = CostWeights((one,) * n, (one,) * p, (one,) * n, (Fraction(1, 100),) * q, bandwidth=None)
@@ -203,7 +204,7 @@ def loop_cost(
         ...
     mcexact.errors.LimitReached: no proof was found that the loop is stable with a finite cost
     """
-    loop = closed_loop(system, controller, graph)
+    loop = _closed(system, controller, graph)
     found = cost_of(loop, weights or default_weights(loop.plant))
     return _proved(found, "the loop is stable with a finite cost")
 
@@ -235,6 +236,7 @@ def cost_bound(
     >>> print(f"{float(cost_bound(plant).cost):.2f}")
     1.00
     """
+    InputError.require(system, MultiChannelSystem, "system")
     found = bound_of(system, weights or default_weights(system), graph)
     return _proved(found, "every controller costs something")
 
@@ -281,7 +283,7 @@ def disk_margin(
     """
     one_of(at, get_args(Side), "at")
     alpha = None if margin is None else as_fraction(margin)
-    loop = closed_loop(system, controller, graph)
+    loop = _closed(system, controller, graph)
     found = margin_of(loop, at, together=together, margin=alpha)
     claim = (
         "the loop has a disk margin" if alpha is None else f"the disk margin is at least {alpha}"
@@ -322,7 +324,7 @@ def sector_stability(
     >>> sector_stability(plant, deadbeat, [("1/2", "3/2")]).kind
     'sector'
     """
-    loop = closed_loop(system, controller, graph)
+    loop = _closed(system, controller, graph)
     ends = [(as_fraction(a), as_fraction(b)) for a, b in sectors]
     count = loop.disturbed.U.nrows
     if len(ends) != count or any(a >= b for a, b in ends):
@@ -330,6 +332,15 @@ def sector_stability(
             f"expected {count} pairs (a, b) with a < b, one for each input", where="sectors"
         )
     return _proved(sectors_of(loop, ends), "the loop is stable within these sectors")
+
+
+def _closed(
+    system: MultiChannelSystem, controller: Controller, graph: NeighborGraph | None
+) -> ClosedLoop:
+    """The loop of a plant and a controller, both of the right kind."""
+    InputError.require(system, MultiChannelSystem, "system")
+    InputError.require(controller, Controller, "controller")
+    return closed_loop(system, controller, graph)
 
 
 AnyProof = TypeVar("AnyProof", LoopCost, CostBound, DiskMargin, SectorStability)
@@ -503,6 +514,7 @@ def influences(plant: MultiChannelSystem, *, messages: bool = True) -> CostGraph
     """
     import networkx as nx
 
+    InputError.require(plant, MultiChannelSystem, "plant")
     acts: nx.DiGraph = nx.DiGraph()
     acts.add_nodes_from([("state", k) for k in range(plant.n)])
     acts.add_nodes_from([("agent", i) for i in range(plant.m)])
