@@ -281,9 +281,9 @@ def disk_margin(
         ...
     mcexact.errors.LimitReached: no proof was found that the disk margin is at least 7/10
     """
+    loop = _closed(system, controller, graph)
     one_of(at, get_args(Side), "at")
     alpha = None if margin is None else as_fraction(margin)
-    loop = _closed(system, controller, graph)
     found = margin_of(loop, at, together=together, margin=alpha)
     claim = (
         "the loop has a disk margin" if alpha is None else f"the disk margin is at least {alpha}"
