@@ -174,7 +174,7 @@ class MarginPart(Part):
 
 @answer("disk_margin")
 class DiskMargin(Answer):
-    """The loop is stable while ports are multiplied by (1 + d/2)/(1 − d/2), |d| ≤ ``margin``.
+    """The loop is stable while ports are multiplied by (1 + d/2)/(1 − d/2), abs(d) ≤ ``margin``.
 
     Attributes
     ----------
