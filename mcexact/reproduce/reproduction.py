@@ -298,7 +298,7 @@ def _shown(row: Row) -> dict[str, Any]:
         None,
     )
     return {
-        **{name: getattr(examination, name) for name in (*_OF_EXAMINATION, "says", "part", "code")},
+        **{name: getattr(examination, name) for name in (*_OF_EXAMINATION, "says", "code")},
         **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
         "name": examination.title,
         "title": typeset(examination.title),
