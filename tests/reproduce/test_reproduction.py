@@ -131,7 +131,7 @@ def test_a_terminal_shows_the_whole_paper_or_a_few_statements_in_full(whole: Rep
         "proved as corrected. The extended transfer graph has to be strongly connected besides",
         "Examined on the matrices of the example of IV-B; 5 drawn",
         "Machine-checked: paper.equation_31, paper.one_channel.",
-        "Correction: Statement 106: The extended transfer graph has to be strongly connected besides",
+        "Correction: Statement 106: The extended transfer graph has to be strongly connected",
         "The same with n_i = 0. yes A = 0 on a cycle, nothing shared",
     ):
         assert told in text, told
