@@ -2,7 +2,7 @@
    every controller, disk margins and sectors. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From Coq Require Import Ring.
-From mcexact Require Import location stability instability positive_forms performance cost_bound.
+From mcexact Require Import location stability instability positive_forms performance cost_bound cost_groups.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -19,35 +19,36 @@ End Abstract.
 
 Local Notation "X ^H" := (adjoint X) (at level 2, format "X ^H").
 (* A rational multiple of the identity. *)
-Definition times (a : rat) : 'M[algC]_2 := (ratr a)%:M.
+Definition multiple d (a : rat) : 'M[algC]_d := (ratr a)%:M.
 
-Lemma times_mul a b : times a *m times b = times (a * b).
-Proof. by rewrite /times -scalar_mxM -rmorphM. Qed.
-Lemma times_add a b : times a + times b = times (a + b).
-Proof. by rewrite /times -raddfD -rmorphD. Qed.
-Lemma times_opp a : - times a = times (- a).
-Proof. by rewrite /times -raddfN -rmorphN. Qed.
-Lemma times_adj a : (times a)^H = times a.
-Proof. by rewrite /times /adjoint tr_scalar_mx map_scalar_mx fmorph_rat. Qed.
-Lemma times_scale (c a : rat) : ratr c *: times a = times (c * a).
-Proof. by rewrite /times scale_scalar_mx -rmorphM. Qed.
-Lemma times1 : 1%:M = times 1. Proof. by congr (_%:M); rewrite rmorph1. Qed.
-Lemma times0 : 0 = times 0. Proof. by rewrite /times [ratr 0]rmorph0 raddf0. Qed.
-Lemma times_form a x : form (times a) x = ratr a * form 1%:M x.
+Lemma times_mul d a b : multiple d a *m multiple d b = multiple d (a * b).
+Proof. by rewrite /multiple -scalar_mxM -rmorphM. Qed.
+Lemma times_add d a b : multiple d a + multiple d b = multiple d (a + b).
+Proof. by rewrite /multiple -raddfD -rmorphD. Qed.
+Lemma times_opp d a : - multiple d a = multiple d (- a).
+Proof. by rewrite /multiple -raddfN -rmorphN. Qed.
+Lemma times_adj d a : (multiple d a)^H = multiple d a.
+Proof. by rewrite /multiple /adjoint tr_scalar_mx map_scalar_mx fmorph_rat. Qed.
+Lemma times_scale d (c a : rat) : ratr c *: multiple d a = multiple d (c * a).
+Proof. by rewrite /multiple scale_scalar_mx -rmorphM. Qed.
+Lemma times1 d : 1%:M = multiple d 1. Proof. by congr (_%:M); rewrite rmorph1. Qed.
+Lemma times0 d : 0 = multiple d 0. Proof. by rewrite /multiple [ratr 0]rmorph0 raddf0. Qed.
+Lemma times_form d a x : form (multiple d a) x = ratr a * form 1%:M x.
 Proof. by rewrite -formZ scalemx1. Qed.
 
 (* All these matrices are multiples of the identity again. *)
-Definition timesE := (times1, times0, times_mul, times_add, times_opp, times_adj, times_scale).
+Definition timesE := (@times1 2, @times0 2, @times_mul 2, @times_add 2, @times_opp 2, @times_adj 2, @times_scale 2).
+Notation times := (multiple 2).
 
-Lemma psd_times a : 0 <= a -> psd (times a).
+Lemma psd_times d a : 0 <= a -> psd (multiple d a).
 Proof. by move=> a0 x; rewrite times_form mulr_ge0 ?form1_ge0 ?ler0q. Qed.
-Lemma posdef_times a : 0 < a -> posdef (times a).
+Lemma posdef_times d a : 0 < a -> posdef (multiple d a).
 Proof. by move=> a0 x nx; rewrite times_form mulr_gt0 ?form1_gt0 ?ltr0q. Qed.
 
-Definition both (z w : 'cV[algC]_2) := (z^H *m w) 0 0 + ((z^H *m w) 0 0)^*.
-Lemma both_bound z w (b : rat) : - (ratr `|b| * (form 1%:M z + form 1%:M w)) <= ratr b * both z w.
+Definition both d (z w : 'cV[algC]_d) := (z^H *m w) 0 0 + ((z^H *m w) 0 0)^*.
+Lemma both_bound d (z w : 'cV[algC]_d) (b : rat) : - (ratr `|b| * (form 1%:M z + form 1%:M w)) <= ratr b * both z w.
 Proof.
-have one : (1%:M : 'M[algC]_2)^H = 1%:M by rewrite adj1.
+have one : (1%:M : 'M[algC]_d)^H = 1%:M by rewrite adj1.
 have up : 0 <= form 1%:M z + form 1%:M w + both z w.
   by have := form1_ge0 (z + w); rewrite form_sum// mulmx1.
 have low : 0 <= form 1%:M z + form 1%:M w - both z w.
@@ -59,21 +60,21 @@ have [b0|b0] := ger0P b.
 rewrite rmorphN mulNr opprK ler_nmul2l ?ltrq0// -subr_ge0; exact: low.
 Qed.
 
-Lemma form_times_block a b d z w :
-  form (block_mx (times a) (times b) (times b) (times d)) (col_mx z w) =
-  ratr a * form 1%:M z + ratr d * form 1%:M w + ratr b * both z w.
+Lemma form_times_block d a b e z w :
+  form (block_mx (multiple d a) (multiple d b) (multiple d b) (multiple d e)) (col_mx z w) =
+  ratr a * form 1%:M z + ratr e * form 1%:M w + ratr b * both z w.
 Proof.
-rewrite -[X in block_mx _ _ X _](times_adj b) form_block ?times_adj// !times_form.
-rewrite /times mul_mx_scalar -scalemxAl [((_ *: _) : 'M_1) 0 0]mxE rmorphM fmorph_rat -mulrDr.
+rewrite -[X in block_mx _ _ X _](times_adj d b) form_block ?times_adj// !times_form.
+rewrite /multiple mul_mx_scalar -scalemxAl [((_ *: _) : 'M_1) 0 0]mxE rmorphM fmorph_rat -mulrDr.
 by [].
 Qed.
 
-Lemma posdef_block (a b d : rat) : `|b| < a -> `|b| < d -> posdef (block_mx (times a) (times b) (times b) (times d)).
+Lemma posdef_block d (a b e : rat) : `|b| < a -> `|b| < e -> posdef (block_mx (multiple d a) (multiple d b) (multiple d b) (multiple d e)).
 Proof.
 move=> ba bd x; rewrite -[x]vsubmxK; move: (usubmx x) (dsubmx x) => z w nx; rewrite form_times_block.
 apply: lt_le_trans (ler_add (lexx _) (both_bound z w b)); rewrite mulrDr opprD addrACA -!mulrBl -!rmorphB.
 have pa : 0 < ratr (a - `|b|) :> algC by rewrite ltr0q subr_gt0.
-have pd : 0 < ratr (d - `|b|) :> algC by rewrite ltr0q subr_gt0.
+have pd : 0 < ratr (e - `|b|) :> algC by rewrite ltr0q subr_gt0.
 have [z0|nz] := eqVneq z 0; last first.
   by rewrite ltr_paddr ?(mulr_gt0 pa (form1_gt0 nz))// (mulr_ge0 (ltW pd) (form1_ge0 w)).
 have nw : w != 0 by apply: contra nx => /eqP w0; rewrite z0 w0 col_mx0.
@@ -181,7 +182,8 @@ Qed.
 Definition opE := (opp_col_mx, add_col_mx, opp_row_mx, add_row_mx).
 Lemma block_times0 a d : block_mx (times a) 0 0 (times d) = block_mx (times a) (times 0) (times 0) (times d).
 Proof. by rewrite -times0. Qed.
-Lemma psd_block (a b d : rat) : `|b| < a -> `|b| < d -> psd (block_mx (times a) (times b) (times b) (times d)).
+Lemma psd_block d (a b e : rat) : `|b| < a -> `|b| < e ->
+  psd (block_mx (multiple d a) (multiple d b) (multiple d b) (multiple d e)).
 Proof. by move=> ba bd; apply/posdef_psd/posdef_block. Qed.
 Lemma one_block : posdef (1%:M : 'M[algC]_(2 + 2)). Proof. by move=> x; apply: form1_gt0. Qed.
 
@@ -286,4 +288,86 @@ have [X [eX pX _]] := covariance_discrete stable_sampled pN; exists X; split=> /
 apply: (bound_discrete _ _ _ _ stable_sampled eX); rewrite ?times_adj//; do ?exact: psd_times.
   rewrite /first_discrete adj_row !mul_col_mx !mul_mx_row /block_mx !timesE !opE !timesE; exact: psd_block.
 rewrite /second_discrete /= !timesE; exact: psd_block.
+Qed.
+
+(* Two agents that do not act on each other, each a group of its own; the intensities are those that the groups share out. *)
+Definition nobody : rel 'I_2 := fun _ _ => false.
+Definition alone (l : 'I_2) : {set 'I_2} := [set l].
+Lemma alone_closed l j i : nobody j i -> j \in alone l -> i \in alone l. Proof. by []. Qed.
+Lemma along_times a : along nobody id id (times a).
+Proof. by move=> i j; rewrite mxE; case: (i =P j) => [->|]; rewrite ?eqxx //; left. Qed.
+Lemma restricted_times (G : {set 'I_2}) a : restricted G id id (times a) = multiple _ a.
+Proof. by rewrite /restricted /multiple mul_mx_scalar -scalemxAl chosen_one scalemx1. Qed.
+Definition shared : 'M[algC]_2 := \sum_l chosen [numClosedFieldType of algC] (alone l) (@id 'I_2) *m multiple _ 1 *m (chosen [numClosedFieldType of algC] (alone l) (@id 'I_2))^H.
+Lemma shared_rest : psd (shared - shared). Proof. by rewrite subrr; apply: psd0. Qed.
+Definition genE d := (times1 d, times0 d, times_mul d, times_add d, times_opp d, times_adj d, times_scale d).
+
+Lemma psd_shared : psd shared.
+Proof. by apply: psd_sum => l; apply/psd_of/psd_times. Qed.
+Notation certificate a := (fun l => multiple #|owned (alone l) (@id 'I_2)| a).
+
+Lemma inst_groups_proper : exists X, [/\ proper *m X + X *m proper^H + noise_proper I shared shared = 0, psd X &
+  \sum_(l < 2) (\tr (certificate (1 / 4%:R) l *m certificate 1 l) +
+    \tr ((certificate (-1) l)^H *m certificate (1 / 4%:R) l *m certificate (-1) l *m certificate (1 / 4%:R) l)) <=
+  \tr (I *m (state_proper _ 2 2 *m X *m (state_proper _ 2 2)^H)) +
+    \tr (I *m (inputs_proper 2 (times (-1)) *m X *m (inputs_proper 2 (times (-1)))^H))].
+Proof.
+have pN : psd (noise_proper I shared shared).
+  by apply: psd_blocks; [exact: psd_shared | apply: psd_of; exact: psd_shared].
+have [X [eX pX _]] := covariance_continuous stable_proper pN; exists X; split=> //.
+have ld l : psd (certificate 1 l) by exact: psd_times.
+have lq l : psd (certificate (1 / 4%:R) l) by exact: psd_times.
+have hS l : (certificate (1 / 4%:R) l)^H = certificate (1 / 4%:R) l by exact: times_adj.
+have h := bound_by_groups_proper (@along_times _) (@along_times _) (@along_times _) (@along_times _) (@along_times _) (@along_times _)
+  (psd_times ler01) (psd_times ler01) (@alone_closed) (P' := certificate (1 / 4%:R)) (F' := certificate (-1)) (@ld) (@ld) hS (@lq)
+  (@shared_rest) (@shared_rest) stable_proper eX.
+apply: h => l.
+  rewrite !restricted_times /first_continuous adj_row !mul_col_mx !mul_mx_row /block_mx !genE !opE !genE.
+  exact: psd_block.
+rewrite !restricted_times /second_proper !genE; exact: psd_block.
+Qed.
+
+Lemma inst_groups_continuous : exists X, [/\ filtered *m X + X *m filtered^H + noise_filtered 2 shared shared four = 0, psd X &
+  \sum_(l < 2) (\tr (certificate (1 / 4%:R) l *m certificate 1 l) +
+    \tr ((certificate (-1) l)^H *m certificate (1 / 4%:R) l *m certificate (-1) l *m certificate (1 / 4%:R) l)) <=
+  \tr (I *m (state_filtered _ 2 2 2 *m X *m (state_filtered _ 2 2 2)^H)) +
+    \tr (I *m (inputs_filtered I (times (-1)) (times (-1)) *m X *m (inputs_filtered I (times (-1)) (times (-1)))^H))].
+Proof.
+have four0 : 0 < four by rewrite ltr0q.
+have pN : psd (noise_filtered 2 shared shared four).
+  by apply: psd_corner; apply: psd_blocks; [exact: psd_shared | apply: psdZ psd_shared; rewrite exprn_ge0// ltW].
+have [X [eX pX _]] := covariance_continuous stable_filtered pN; exists X; split=> //.
+have ld l : psd (certificate 1 l) by exact: psd_times.
+have lq l : psd (certificate (1 / 4%:R) l) by exact: psd_times.
+have hS l : (certificate (1 / 4%:R) l)^H = certificate (1 / 4%:R) l by exact: times_adj.
+have h := bound_by_groups_continuous (@along_times _) (@along_times _) (@along_times _) (@along_times _) (@along_times _)
+  (@along_times _) (@along_times _) (psd_times ler01) (psd_times ler01) (@alone_closed) (P' := certificate (1 / 4%:R))
+  (F' := certificate (-1)) (@ld) (@ld) hS (@lq) (@shared_rest) (@shared_rest) four0 stable_filtered eX.
+apply: h => l.
+  rewrite !restricted_times /first_continuous adj_row !mul_col_mx !mul_mx_row /block_mx !genE !opE !genE.
+  exact: psd_block.
+have two : 2%:R / four = ratr (2%:R / 4%:R) by rewrite fmorph_div; congr (_ / _); rewrite rmorph_nat.
+rewrite !restricted_times /second_filtered /= two -fmorphV !genE; exact: psd_block.
+Qed.
+
+Lemma inst_groups_discrete : exists X, [/\ X = sampled *m X *m sampled^H + noise_discrete I half minus_half shared shared, psd X &
+  \sum_(l < 2) (\tr (certificate (1 / 2%:R) l *m certificate 1 l) + \tr ((certificate (- (1 / 2%:R)) l)^H *m
+    certificate (1 / 2%:R) l *m certificate (- (1 / 2%:R)) l *m certificate (1 / 4%:R) l)) <=
+  \tr (I *m (state_proper _ 2 2 *m X *m (state_proper _ 2 2)^H)) +
+    \tr (I *m (inputs_discrete half minus_quarter minus_half *m X *m (inputs_discrete half minus_quarter minus_half)^H +
+      minus_half *m shared *m minus_half^H))].
+Proof.
+have pN : psd (noise_discrete I half minus_half shared shared).
+  by apply: psdD; [apply: psd_corner psd_shared | apply: psd_of psd_shared].
+have [X [eX pX _]] := covariance_discrete stable_sampled pN; exists X; split=> //.
+have ld l : psd (certificate 1 l) by exact: psd_times.
+have lh l : psd (certificate (1 / 2%:R) l) by exact: psd_times.
+have hS l : (certificate (1 / 4%:R) l)^H = certificate (1 / 4%:R) l by exact: times_adj.
+have h := bound_by_groups_discrete (@along_times _) (@along_times _) (@along_times _) (@along_times _) (@along_times _)
+  (@along_times _) (@along_times _) (psd_times ler01) (psd_times ler01) (@alone_closed) (P' := certificate (1 / 2%:R))
+  (F' := certificate (- (1 / 2%:R))) (@ld) (@ld) hS (@lh) (@shared_rest) (@shared_rest) stable_sampled eX.
+apply: h => l.
+  rewrite !restricted_times /first_discrete adj_row !mul_col_mx !mul_mx_row /block_mx !genE !opE !genE.
+  exact: psd_block.
+rewrite !restricted_times /second_discrete /= !genE; exact: psd_block.
 Qed.

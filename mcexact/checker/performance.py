@@ -294,7 +294,8 @@ class Part(NamedTuple):
 def check_cost_bound(claim: Json, witness: Json, system: System) -> None:
     """Two matrix inequalities for each group of agents, whose bounds add up.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``cost_groups.bound_by_groups_continuous``, ``cost_groups.bound_by_groups_proper``,
+    ``cost_groups.bound_by_groups_discrete``.
     """
     given, least, graph = fields(claim, "claim", "weights", "cost", optional=("graph",))
     weights, c = read_weights(given, system), rational(least, "claim.cost")
