@@ -455,7 +455,7 @@ def _require_paths_within(A: Matrix, B: Matrix, C: Matrix, at: Mapping[int, int]
         b = rest.pop()
         stays = b not in measured and not any(a in at for a in driven[b])
         require(stays, "path", "witness.degrees", "a path leaves the states")
-        rest += (new := set(driven[b]) - outside)
+        rest += (new := {a for a in driven[b] if a not in at} - outside)
         outside |= new
 
 

@@ -276,7 +276,8 @@ def polynomial_matrix(
 ) -> list[Matrix]:
     """The coefficient matrices of a polynomial matrix, reduced modulo a p of this degree if any."""
     denominator, layers = fields(value, place, "denominator", "coefficients")
-    d, found = integer(denominator, f"{place}.denominator", 1), len(items(layers, place))
+    d = integer(denominator, f"{place}.denominator", 1)
+    found = len(items(layers, f"{place}.coefficients"))
     most = max(found, 1) if degree is None else degree
     if not 1 <= found <= most:
         malformed(f"{place}.coefficients", f"expected 1 to {most} matrices, found {found}")

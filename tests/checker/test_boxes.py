@@ -32,7 +32,10 @@ STEPS: dict[str, Any] = {
     "lifted": {"share": "outputs+states", "dimensions": [1, 1]},
     "merged": {"parts": [["1", "2"]]},
     "restricted": {"channels": ["2"]},
+    "slow": {"window": 4},
 }
+DISCRETE = {"held", "lifted", "slow"}
+"""The constructions of plants in discrete time."""
 
 
 def nonzero(M: Any) -> list[tuple[int, int, Any]]:
@@ -40,9 +43,9 @@ def nonzero(M: Any) -> list[tuple[int, int, Any]]:
     return [(i, j, x) for i, row in enumerate(fractions(M)) for j, x in enumerate(row) if x]
 
 
-@pytest.mark.parametrize("name", sorted({*STEPS} - {"error", "feedback"}))
+@pytest.mark.parametrize("name", sorted({*STEPS} - {"error", "feedback", "slow"}))
 def test_a_copy_of_an_entry_has_its_radius_and_all_else_is_certain(name: str) -> None:
-    start = DAMPED if name in ("held", "lifted") else CALM
+    start = DAMPED if name in DISCRETE else CALM
     box = subject_of(start, "box_fixed", (step_of(name),))
     plain = subject_of(start, "box_fixed", ())
     known = {x for M in (plain.radii.A, *plain.radii.B, *plain.radii.C) for *_, x in nonzero(M)}
@@ -79,7 +82,7 @@ def step_of(name: str) -> dict[str, Any]:
     "names", [[name] for name in STEPS] + [["feedback", "error"], ["error", "dual"]], ids="-".join
 )
 def test_what_is_made_of_a_member_is_within_the_radii_of_what_is_made(names: list[str]) -> None:
-    start = DAMPED if {"held", "lifted"} & set(names) else CALM
+    start = DAMPED if DISCRETE & set(names) else CALM
     plain, steps = subject_of(start, "box_fixed", ()), [step_of(name) for name in names]
     box = subject_of(start, "box_fixed", tuple(steps))
     reached = False
