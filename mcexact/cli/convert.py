@@ -30,7 +30,7 @@ from mcexact.cli.files import (
 )
 from mcexact.cli.options import FOLDER, as_json
 from mcexact.cli.output import emit, emit_json
-from mcexact.cli.results import Sampled
+from mcexact.cli.results import Converted, Sampled
 from mcexact.cli.running import Run, supervised
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import InputError
@@ -40,12 +40,16 @@ from mcexact.model.arrays import MARK, Reading
 from mcexact.model.files import is_folder, read_plant, require_suffix, system_files
 from mcexact.model.gallery import published
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
 from mcexact.model.system_file import template as starting_file
 from mcexact.model.text import write_text
 from mcexact.report.schema import DOCUMENTS, schema_text
 from mcexact.report.schema import FOLDER as SCHEMAS
 from mcexact.report.text import WIDE, Table, shorten
+
+_ASKED = ("fixed_spectrum", "joint_controllability", "joint_observability")
+"""What plants nearby may lack."""
 
 
 def sizes(text: str) -> tuple[int, ...]:
@@ -91,7 +95,8 @@ def convert_command(file: str, output: Path | None, **values: Any) -> None:
     Arrays are named A, B_1, C_1, B_2, C_2 and so on; or A, and the stacked B and C, with the sizes
     of the channels in inputs and outputs; in MATLAB B and C may be cells. Optional are time,
     sample_time, names, neighbors (row i marks whose messages agent i receives), delays, name and
-    source. Nothing is lost: numbers that the output cannot hold are an error. A system with
+    source. Nothing is lost: numbers that the output cannot hold are an error. Of a plant in floats
+    it warns where an answer is another one but for rounding errors. A system with
     parameters is written as JSON, which YAML is too, or with --at in every kind.
     """
     run = Run(values)
@@ -104,7 +109,7 @@ def convert_command(file: str, output: Path | None, **values: Any) -> None:
         require_writable(output)
     plant = run.read(file)
     target = "plant.json" if output is None else str(output)
-    content = run.result(
+    made = run.result(
         _converted,
         plant,
         run.limits,
@@ -116,12 +121,14 @@ def convert_command(file: str, output: Path | None, **values: Any) -> None:
         dict(values["at"]),
         doing=f"converting {plant[0]}",
     )
-    if not isinstance(content, bytes):
-        write_folder(Path(target), content)
+    for warning in made.warnings:
+        click.echo(f"mcexact: warning: {warning}", err=True)
+    if not isinstance(made.content, bytes):
+        write_folder(Path(target), made.content)
     elif output is None:
-        emit(content.decode("ascii"))
+        emit(made.content.decode("ascii"))
     else:
-        write_result(output, content)
+        write_result(output, made.content)
 
 
 def _converted(
@@ -133,7 +140,7 @@ def _converted(
     outputs: tuple[int, ...] | None,
     nearest: bool,
     at: dict[str, Fraction],
-) -> bytes | dict[str, str]:
+) -> Converted:
     """Read a system and return the contents of the output, in the child process."""
     place, data = plant
     with InputError.inside(place):
@@ -143,7 +150,25 @@ def _converted(
                 raise InputError("found a system without parameters: leave out --at")
             system = system.at(at)
     with InputError.inside(target):
-        return system_files(system, target, rounding=_used(rounding, target), nearest=nearest)
+        content = system_files(system, target, rounding=_used(rounding, target), nearest=nearest)
+    return Converted(content, _warnings(system))
+
+
+def _warnings(system: MultiChannelSystem | ParametricSystem) -> list[str]:
+    """Say of a plant in floats which plants that its rounding errors hide have other answers.
+
+    It is looked for the same as `mcexact analyze` looks for by default.
+    """
+    if isinstance(system, ParametricSystem) or system.rounding is None:
+        return []
+    # Only there: floating point needs numpy, whose threads forbid that this process is forked.
+    from mcexact.analysis.analyze import analyze
+
+    analysis = analyze(system, _ASKED)
+    if analysis.nearby_left_out:
+        return []
+    near = [each for each in analysis.nearby.leading if each.within == "rounding"]
+    return [f"an answer depends on rounding errors: {each.explain()}" for each in near]
 
 
 def _used(rounding: Rounding | None, target: str) -> Rounding | None:

@@ -235,6 +235,22 @@ class Compared:
 
 
 @dataclass(frozen=True)
+class Converted:
+    """A system in another file.
+
+    Attributes
+    ----------
+    content : bytes or mapping from names of files to texts
+        The file, or the files of a folder.
+    warnings : sequence of str
+        What rounding errors in the file that was read may have changed.
+    """
+
+    content: bytes | dict[str, str]
+    warnings: Sequence[str]
+
+
+@dataclass(frozen=True)
 class Sampled:
     """A sampled plant.
 

@@ -48,6 +48,26 @@ def test_floats_are_converted_by_a_rounding(
     assert document["source"].startswith(f"rounding {options[1] if options else 'simplest'}: ")
 
 
+@pytest.mark.parametrize(("rounding", "warned"), [("simplest", False), ("decimal", True)])
+def test_a_plant_is_converted_with_a_warning_where_an_answer_depends_on_rounding_errors(
+    rounding: str, warned: bool, tmp_path: Path
+) -> None:
+    """Columns that add up to 0 make the sum of all states uncontrollable, but for rounding."""
+    source = tmp_path / "p.npz"
+    rates = np.array([[0, 0.7, 1.9], [0.1, 0, 1.3], [0.2, 2.3, 0]]) / 7
+    A = rates - np.diag(rates.sum(axis=0))
+    assert np.any(A.sum(axis=0) != 0)
+    eye = np.eye(3)
+    B = [eye[:, [i]] - eye[:, [i + 1]] for i in range(2)]
+    np.savez(source, A=A, B_1=B[0], C_1=eye[:1], B_2=B[1], C_2=eye[1:2])
+    target = str(tmp_path / "p.json")
+    status, out, said = call("convert", str(source), "--rounding", rounding, "-o", target)
+    assert (status, out) == (0, "") and load_system(target).n == 3
+    assert ("warning: an answer depends on rounding errors: a plant within " in said) is warned
+    # What is typed was not rounded here.
+    assert "warning" not in call("convert", target, "-o", str(tmp_path / "q.json"))[2]
+
+
 def test_an_output_that_cannot_hold_the_numbers_is_not_written(tmp_path: Path) -> None:
     target = tmp_path / "p.mat"
     status, _, said = call("convert", TANKS, "-o", str(target), "--rounding", "decimal")
