@@ -133,7 +133,7 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
     Examples
     --------
     >>> chosen(["Theorem 2", "(26)", "26", "eqn:n_i", "statement 89", "Equation (21)"])
-    ('theorem-2', 'equation-21')
+    ('theorem-2', 'bound-by-ranks', 'equation-21')
     """
     by_name: dict[str, tuple[str, ...]] = {
         name.lower(): (each.key,) for each in examinations() for name in each.names
