@@ -132,8 +132,9 @@ OPPOSITE = [
     ("lifted-nothing-fixed", "lifted-fixed"),
     ("held-nothing-fixed", "held-fixed"),
 ]
-ELSEWHERE = (*OF_DESIGNS, "parametric-")
-"""How the rules begin that other files hold against certificates: of designs, of parameters."""
+ELSEWHERE = ("nearby-", *OF_DESIGNS, "parametric-")
+"""How the rules begin that other files hold against certificates: of designs, of parameters, of
+plants nearby."""
 ALWAYS = {
     *("picture-transfer-graph", "complete"),
     *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),
