@@ -161,7 +161,7 @@ def default_weights(system: MultiChannelSystem) -> CostWeights:
         _, S, F = solutions
         a, b, c = _with_ports(plant)
         regulator = a + b[:, :p] @ F
-        filtered = a - S @ c.T * 100
+        filtered = a - S @ c.T @ c * 100
         for M in (regulator, filtered):
             largest = max(largest, float(np.max(np.abs(np.linalg.eigvals(M)))))
     return replace(white, bandwidth=Fraction(10) ** round(math.log10(10 * largest)))
@@ -736,32 +736,66 @@ def _riccati(
     A: Matrix, B: Matrix, C: Matrix, weights: CostWeights, time: str, room: float
 ) -> tuple[Floats, Floats, Floats] | None:
     """P, S and F for weights that are smaller by a part."""
-    from scipy.linalg import solve_continuous_are, solve_discrete_are
-
     n, p = B.shape
     if not n:
         return np.zeros((0, 0)), np.zeros((0, 0)), np.zeros((p, 0))
-    a, b, c = _with_ports((A, B, C))
-    Q, R, W, V = (_diagonal_floats(d) for d in _diagonals(weights))
     less = 1 - room
-    Q, R, W, V = Q * less, R * less, W * less, V * less
-    if is_discrete(time):
+    Q, R, W, V = (_diagonal_floats(d) * less for d in _diagonals(weights))
+    bandwidth = None if weights.bandwidth is None else to_float(weights.bandwidth)
+    discrete = is_discrete(time)
+    solutions = riccati_solutions(
+        _with_ports((A, B, C)), (Q, R, W, V), discrete=discrete, bandwidth=bandwidth
+    )
+    if solutions is None:
+        return None
+    P, S, F = solutions
+    return P, S * (1 - room / 10) if discrete else S, F[:p]
+
+
+def riccati_solutions(
+    plant: tuple[Floats, Floats, Floats],
+    weights: tuple[Floats, Floats, Floats, Floats],
+    *,
+    discrete: bool,
+    bandwidth: float | None = None,
+) -> tuple[Floats, Floats, Floats] | None:
+    """Solve the Riccati equations of the best controller, in floating point.
+
+    Parameters
+    ----------
+    plant : tuple of ndarray
+        A, B and C, with at least one column of B and one row of C.
+    weights : tuple of ndarray
+        Q, R, W and V, which need not be diagonal.
+    discrete : bool
+    bandwidth : float, optional
+        ω in continuous time; without it the noise of outputs is white.
+
+    Returns
+    -------
+    P, S, F : ndarray, or None
+        The cost of the states, the covariance of the error of the best estimate, and the gain of
+        u = F x; with these the bound of `bound_of` is the cost of the best controller.
+    """
+    from scipy.linalg import solve_continuous_are, solve_discrete_are
+
+    (a, b, c), (Q, R, W, V) = plant, weights
+    if discrete:
         P = _solved(lambda: solve_discrete_are(a, b, Q, R))
         ahead = _solved(lambda: solve_discrete_are(a.T, c.T, W, V))
         if P is None or ahead is None:
             return None
         F = np.asarray(-np.linalg.solve(R + b.T @ P @ b, b.T @ P @ a), dtype=np.float64)
         S: Floats = ahead - ahead @ c.T @ np.linalg.solve(c @ ahead @ c.T + V, c @ ahead)
-        return P, (S + S.T) / 2 * (1 - room / 10), F[:p]
+        return P, (S + S.T) / 2, F
     P = _solved(lambda: solve_continuous_are(a, b, Q, R))
-    slow = 0.0 if weights.bandwidth is None else 1 / to_float(weights.bandwidth)
+    slow = 0.0 if bandwidth is None else 1 / bandwidth
     H = c @ (a * slow + np.eye(len(a)))
     N = c @ W @ c.T * slow**2 + V
     S_ = _solved(lambda: solve_continuous_are(a.T, H.T, W, N, s=W @ c.T * slow))
     if P is None or S_ is None:
         return None
-    gain = np.asarray(-np.linalg.solve(R, b.T @ P), dtype=np.float64)
-    return P, S_, gain[:p]
+    return P, S_, np.asarray(-np.linalg.solve(R, b.T @ P), dtype=np.float64)
 
 
 def _rounded_bound(
