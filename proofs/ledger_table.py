@@ -16,6 +16,7 @@ from pathlib import Path
 
 from mcexact.reproduce.notebook import (
     STATUSES,
+    anchor,
     errata,
     front_table,
     open_table,
@@ -58,9 +59,10 @@ def theorem_pages() -> str:
     """Every theorem that a statement cites: the statements that it proves, and its text in Coq."""
     proves: dict[str, list[str]] = {}
     for each in statements():
-        where = f"{each.section} {each.equation}".strip()
+        number = f"[statement {each.number}](STATEMENTS.md#{each.number})"
+        where = ", ".join(filter(None, (each.equation, f"section {each.section}")))
         for name in each.proofs:
-            row = f"statement {each.number} ({where}), {STATUSES[each.status]}: {each.says}"
+            row = f"{where}, {number}, {STATUSES[each.status]}: {each.says}"
             proves.setdefault(name, []).append(row)
     order = sorted(
         proves,
@@ -70,8 +72,26 @@ def theorem_pages() -> str:
     for name in order:
         stem, _, theorem = name.partition(".")
         rows = "\n".join(f"- {row}" for row in proves[name])
-        parts.append(f"### `{name}`\n\n{rows}\n\n```coq\n{texts(stem)[theorem][1]}\n```\n")
+        text = texts(stem)[theorem][1]
+        code = "\n".join([*abbreviations(stem, text), text])
+        place_of = f'<a id="{anchor(name)}"></a>'
+        parts.append(f"### {place_of}`{name}`\n\n{rows}\n\n```coq\n{code}\n```\n")
     return "\n".join(parts)
+
+
+ABBREVIATION = re.compile(
+    r"^(?:Local |Let )?(?:Notation|Definition|Let) \"?(\w+)\b.*?\.$(?=\n)", re.MULTILINE | re.DOTALL
+)
+
+
+def abbreviations(stem: str, text: str) -> list[str]:
+    """The definitions and notations of the file of a theorem that its text uses, as they stand."""
+    source = (FOLDER / f"{stem}.v").read_text(encoding="utf-8")
+    return [
+        match[0]
+        for match in ABBREVIATION.finditer(source)
+        if len(match[1]) > 2 and re.search(rf"(?<![\w.]){match[1]}\b", text)
+    ]
 
 
 def place(name: str) -> int:

@@ -13,13 +13,14 @@ the machine-checked theorems are for, and `Examination.status` tells the two apa
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
-from itertools import chain
+from itertools import chain, groupby
 from typing import Any
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
@@ -148,7 +149,8 @@ def statement_table() -> str:
     for each in statements():
         keys = ", ".join(f"`{key}`" for key in each.examined)
         proofs = ", ".join(f"`{name}`" for name in each.proofs)
-        cells = (str(each.number), each.section, each.equation, each.says, STATUSES[each.status])
+        number = f'<a id="{each.number}"></a>{each.number}'
+        cells = (number, each.section, each.equation, each.says, STATUSES[each.status])
         lines.append(f"| {' | '.join((*cells, keys, proofs, each.note))} |")
     return "\n".join(lines) + "\n"
 
@@ -173,15 +175,46 @@ def numbered() -> tuple[Statement, ...]:
 
 
 def front_table() -> str:
-    """The verdicts on the numbered results as ``proofs/README.md`` begins with them."""
-    lines = ["| result | verdict | theorems in Coq | what it says |", "|---|---|---|---|"]
-    for each in numbered():
-        name = each.equation or f"Open question ({each.section})"
-        proofs = ", ".join(f"`{proof}`" for proof in each.proofs[:3]) or "by definition"
-        lines.append(f"| {name} | {STATUSES[each.status]} | {proofs} | {each.says} |")
+    """The verdicts on the numbered results as ``proofs/README.md`` begins with them.
+
+    A result has one row.  Its name is a link to its theorems in ``proofs/THEOREMS.md``, and the
+    theorems named beside it, one for each of its statements, to their lines.
+    """
+    lines = ["| result | verdict | in Coq | what it says |", "|---|---|---|---|"]
+    for name, group in groupby(numbered(), key=_result):
+        said = list(group)
+        verdicts = "; ".join(dict.fromkeys(STATUSES[each.status] for each in said))
+        proofs = [each.proofs[0] for each in said if each.proofs]
+        label = f"[{name}](THEOREMS.md#{anchor(proofs[0])})" if proofs else name
+        theorems = ", ".join(f"`{proof}`" for proof in proofs) or "by definition"
+        says = " ".join(part for each in said for part in (each.says, _in_short(each)) if part)
+        lines.append(f"| {label} | {verdicts} | {theorems} | {says} |")
     sizes = [f"{size} {STATUSES[key]}" for key, size in counted(statements()).items() if size]
     lines += ["", f"Of all {len(statements())} statements: {'; '.join(sizes)}."]
     return "\n".join(lines) + "\n"
+
+
+def _in_short(statement: Statement) -> str:
+    """The first sentence of the note on a statement that is not proved as printed."""
+    if statement.status not in EXPLAINED:
+        return ""
+    return re.split(r"(?<=\.)\s", statement.note)[0]
+
+
+def _result(statement: Statement) -> str:
+    """The name of a numbered result without the numbers of its equations."""
+    return statement.equation.partition(",")[0] or f"Open question ({statement.section})"
+
+
+def anchor(theorem: str) -> str:
+    """The anchor of a theorem in ``proofs/THEOREMS.md``.
+
+    Examples
+    --------
+    >>> anchor("paper.theorem_2")
+    'paper-theorem_2'
+    """
+    return theorem.replace(".", "-")
 
 
 def open_table() -> str:

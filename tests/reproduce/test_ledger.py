@@ -135,6 +135,39 @@ def test_every_theorem_on_the_pages_is_a_link_to_its_line() -> None:
 def test_the_front_page_begins_with_the_verdict_on_every_numbered_result() -> None:
     text = (PROOFS / "README.md").read_text(encoding="utf-8")
     rows = [line for line in text.splitlines() if line.startswith("| ")][1:]
-    named = {row.split("|")[1].strip().partition(",")[0] for row in rows}
-    assert named == {*NUMBERED, "Open question (IV-D)"}
-    assert text.index(rows[-1]) < 6000, "the verdicts are not at the beginning"
+    named = [row.split("|")[1].strip(" []").partition("]")[0] for row in rows]
+    assert sorted(named) == sorted([*NUMBERED, "Open question (IV-D)"])
+    assert len(text.partition(rows[-1])[0].splitlines()) < 24, "they do not fit on one screen"
+
+
+def test_a_result_on_the_front_page_leads_to_its_statement_in_coq_and_that_back_to_the_paper() -> (
+    None
+):
+    pages = {
+        name: (PROOFS / name).read_text(encoding="utf-8")
+        for name in ("README.md", "THEOREMS.md", "STATEMENTS.md")
+    }
+    led = dict(re.findall(r"^\| \[([^\]]+)\]\(THEOREMS\.md#([\w-]+)\)", pages["README.md"], re.M))
+    assert set(led) == {*NUMBERED, "Open question (IV-D)"} - {"Remark 1"}
+    for name, place in led.items():
+        entry = pages["THEOREMS.md"].partition(f'<a id="{place}"></a>')[2].partition("\n### ")[0]
+        assert name.startswith("Open") or name in entry, name
+        code, theorem = entry.partition("```coq")[2], place.partition("-")[2]
+        assert re.search(rf"^\w+ {theorem}\b", code, re.M)
+        back = re.findall(r"\(STATEMENTS\.md#(\d+)\)", entry)
+        assert back
+        for number in back:
+            row = pages["STATEMENTS.md"].partition(f'| <a id="{number}"></a>{number} |')[2]
+            assert f"`{place.replace('-', '.', 1)}`" in row.partition("\n")[0]
+
+
+def test_a_theorem_is_shown_with_the_definitions_of_its_file_that_it_uses() -> None:
+    made = script("ledger_table")
+    shown = made.abbreviations("paper", made.texts("paper")["theorem_2"][1])
+    assert len(shown) == 3
+    assert [text.split()[1] for text in shown] == [
+        "no_fixed_mode",
+        "strongly_connected_neighbors",
+        "bound_26",
+    ]
+    assert shown[-1].endswith("<= k i)%N.")
