@@ -12,6 +12,7 @@ from functools import reduce
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum, pencil_rank
+from mcexact.analysis.sharing import shared_dimension_bound
 from mcexact.analysis.single_channel import single_channel_gains
 from mcexact.analysis.stability import closed_loop_spectrum
 from mcexact.analysis.structure import transfer_graph
@@ -37,11 +38,13 @@ from mcexact.reproduce.instances import (
     driven,
     fixed_zero,
     graph_of,
+    needs_gains,
     outputs,
     plants,
     split_spectrum,
     stacked,
     three_channels,
+    uses_few_directions,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.observer import designed, small
@@ -62,6 +65,7 @@ def continuous(note: Notebook) -> None:
         y = outputs(plant, x)
         u = [F @ y_i for F, y_i in zip(gains, y, strict=True)]
         closed = feedback(plant, gains)
+        note.counts(closed.A @ x != plant.A @ x)
         note.check("A + Σ B_i F_i C_i is the closed loop", driven(plant, x, u) == closed.A @ x)
         opposite = feedback(plant, [F * -1 for F in gains])
         if note.here == PAPER:
@@ -88,6 +92,7 @@ def discrete(note: Notebook) -> None:
             horizon=5,
         )
         last = Matrix.column(run.snapshots[-1].plant)
+        note.counts(last != plant.A.power(5) @ x)
         note.check(
             "five steps of the agents are five powers of A + Σ B_i F_i C_i",
             last == feedback(plant, gains).A.power(5) @ x,
@@ -102,6 +107,7 @@ def assumptions(note: Notebook) -> None:
     """Joint controllability and observability; B_i ≠ 0 and C_i ≠ 0."""
     for plant in note.each(plants(10)):
         note.joint(plant)
+        note.counts(needs_gains(plant))
         live = all(not c.B.is_zero() and not c.C.is_zero() for c in plant.channels)
         note.check("B_i and C_i are not zero", live)
     plant = note.at((PAPER, three_channels()))
@@ -119,6 +125,7 @@ def neighbor_sets(note: Notebook) -> None:
         own = all(i in graph.neighborhood(i) for i in range(plant.m))
         note.check("every agent is its own neighbor", own)
         edges = {(j, i) for i in range(plant.m) for j in graph.neighborhood(i) if j != i}
+        note.counts(0 < len(edges) < plant.m * (plant.m - 1))
         note.check("the edges are the neighbors", set(graph.edges()) == edges)
         x = Numbers(3).column(plant.n)
         y = outputs(plant, x)
@@ -153,6 +160,7 @@ def definition(note: Notebook) -> None:
     numbers = Numbers(11)
     for plant in note.each(drawn_plants(8, states=4), drawn_plants(3, states=4, fixed=True)):
         spectrum = fixed_spectrum(plant)
+        note.counts(not spectrum.empty)
         loops = [characteristic_polynomial(closed_by(plant, numbers.gains(plant))) for _ in "1234"]
         note.check(
             "the fixed polynomial divides the polynomial of every loop",
@@ -176,6 +184,7 @@ def proposition_2(note: Notebook) -> None:
     """Proposition 2: a fixed mode has a subset with a rank below n; the example has six subsets."""
     for plant in note.each(drawn_plants(10, states=4, fixed=True, first=11)):
         spectrum = fixed_spectrum(plant)
+        note.counts(not spectrum.empty)
         note.check("a planted fixed mode is found", not spectrum.empty)
         for factor in spectrum.factors:
             rank = pencil_rank(plant, factor.channels, factor.polynomial)
@@ -191,6 +200,7 @@ def proposition_2(note: Notebook) -> None:
         note.on(name, system)
         ranks = [pencil_rank(system, s, 1) for s in SUBSETS_OF_THREE]
         spectrum = fixed_spectrum(system)
+        note.counts(not spectrum.empty)
         note.check(
             "1 is fixed just when one of the six pencils has rank below 3",
             any(each.rank < 3 for each in ranks) != spectrum.empty,
@@ -224,7 +234,8 @@ def _two_of_three() -> Iterator[Instance]:
 
 def empty_and_all(note: Notebook) -> None:
     """The footnote: rank n for s = ∅ and s = m, by joint controllability and observability."""
-    for plant in note.each(plants(8)):
+    for plant in note.each(plants(8), deficient_plants(4)):
+        note.counts(uses_few_directions(plant))
         for mode, _ in characteristic_polynomial(plant.A).factor():
             for s in ((), plant.names):
                 answer = pencil_rank(plant, s, mode)
@@ -251,6 +262,8 @@ def transfer(note: Notebook) -> None:
             for i in range(plant.m)
             if i != j and any(not (plant.C(i) @ P @ plant.B(j)).is_zero() for P in powers)
         }
+        missing = len(edges) < plant.m * (plant.m - 1)
+        note.counts(missing or _direct(plant) != edges)
         note.check(
             "its edges are the nonzero blocks",
             set(graph.arcs) - {(c, c) for c in plant.names} == edges,
@@ -261,20 +274,26 @@ def transfer(note: Notebook) -> None:
     graph = transfer_graph(plant)
     backwards = {(i, j) for j, i in graph.arcs}
     note.refute("backwards", set(graph.arcs) != backwards)
-    direct = {
+    between = set(graph.arcs) - {(c, c) for c in plant.names}
+    note.refute("direct", between != _direct(plant))
+
+
+def _direct(plant: MultiChannelSystem) -> set[tuple[str, str]]:
+    """The edges from one channel to another where C_i B_j is not 0."""
+    return {
         (plant.names[j], plant.names[i])
         for j in range(plant.m)
         for i in range(plant.m)
-        if not (plant.C(i) @ plant.B(j)).is_zero()
+        if i != j and not (plant.C(i) @ plant.B(j)).is_zero()
     }
-    note.refute("direct", set(graph.arcs) - {(c, c) for c in plant.names} != direct)
 
 
 def corfmat_morse(note: Notebook) -> None:
     """Without fixed modes and strongly connected: some F serves each single channel."""
-    for plant in note.each(plants(14)):
+    for plant in note.each(plants(14), _extended(4)):
         whole = completeness(plant)
         gains = single_channel_gains(plant)
+        note.counts(whole.complete and needs_gains(plant))
         note.check(
             "gains for every channel exist just when it is complete", gains.exists == whole.complete
         )
@@ -293,12 +312,20 @@ def corfmat_morse(note: Notebook) -> None:
         note.certify(gains, fixed, graph)
 
 
+def _extended(count: int) -> Iterator[Instance]:
+    """The extended systems of plants with a bound, with as many shared sub-states."""
+    for name, plant in deficient_plants(count):
+        bound = shared_dimension_bound(plant).deficiency
+        yield f"{name}, extended", extended_system(plant, [bound] * plant.m)
+
+
 def free_assignment(note: Notebook) -> None:
     """For a complete system, one channel controller assigns any symmetric spectrum."""
     for name, plant in plants(6, states=2, channels=2):
         if not completeness(plant).complete:
             continue
         note.on(name, plant)
+        note.counts(needs_gains(plant))
         order = design_decentralized(plant, rate=1, aims=THEOREM).order
         wanted = [-3 - k for k in range(plant.n + order)]
         design = design_decentralized(plant, spectrum=wanted)
@@ -331,6 +358,7 @@ def partition(note: Notebook) -> None:
     """Not strongly connected: the spectrum is one symmetric set for each strong component."""
     plant = note.at(_in_series())
     graph = transfer_graph(plant)
+    note.counts(len(graph.components) > 1)
     note.check("there are two strong components", len(graph.components) == 2)
     note.check("nothing is fixed", fixed_spectrum(plant).empty)
     design = design_decentralized(plant, rate=2, aims=THEOREM)
@@ -360,6 +388,7 @@ def wang_davison(note: Notebook) -> None:
         spectrum = fixed_spectrum(plant)
         note.certify(spectrum)
         fast = 1000
+        note.counts(not StabilityRegion.of("continuous", fast).contains_roots_of(_modes(plant)))
         try:
             design = design_decentralized(plant, rate=fast, aims=THEOREM)
         except Impossible as refused:
@@ -371,6 +400,11 @@ def wang_davison(note: Notebook) -> None:
             note.certify(design.loop.proof)
 
 
+def _modes(plant: MultiChannelSystem) -> Polynomial:
+    """The characteristic polynomial of A."""
+    return characteristic_polynomial(plant.A)
+
+
 def wang_davison_discrete(note: Notebook) -> None:
     """In discrete time the fixed modes that hinder a rate are those other than 0."""
     plant = note.at(fixed_zero())
@@ -379,6 +413,7 @@ def wang_davison_discrete(note: Notebook) -> None:
     note.check("0 is the only fixed mode", spectrum.polynomial == Polynomial.x())
     design = design_decentralized(plant, radius="1/100", aims=THEOREM)
     inside = StabilityRegion.of("discrete", radius="1/100")
+    note.counts(not inside.contains_roots_of(_modes(plant)))
     reached = inside.contains_roots_of(design.loop.polynomial or Polynomial.of(0))
     note.check("every eigenvalue of the loop is below 1/100", reached)
     note.refute("zero-hinders", reached and not spectrum.empty)
@@ -386,10 +421,12 @@ def wang_davison_discrete(note: Notebook) -> None:
     for plant in note.each(deficient_plants(2, share="states", time="discrete")):
         spectrum = fixed_spectrum(plant)
         if spectrum.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x()):
+            note.counts(True)
             note.refute("nothing-hinders")
         note.certify(spectrum)
     for plant in note.each(drawn_plants(6, states=3, channels=2, time="discrete", first=21)):
         spectrum = fixed_spectrum(plant)
+        note.counts(not inside.contains_roots_of(_modes(plant)))
         nonzero = spectrum.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x())
         try:
             slow = design_decentralized(plant, radius="1/100", aims=THEOREM)
@@ -424,6 +461,7 @@ def dynamic(note: Notebook) -> None:
         plant = note.at((f"{PAPER}, {time} time", three_channels(time)))
         shared = augmented_outputs(plant)
         spectrum = fixed_spectrum(shared)
+        note.counts(not spectrum.empty)
         note.check("1 is fixed when outputs are shared", spectrum.polynomial(1) == 0)
         note.certify(spectrum)
         # Private states are shared sub-states that nobody else receives.
@@ -454,6 +492,7 @@ def sharing_states(note: Notebook) -> None:
     plant = note.at((PAPER, three_channels()))
     for each in note.each(small()):
         design = designed(note.here)
+        note.counts(not fixed_spectrum(each).empty)
         for i, agent in enumerate(design.controller.agents):
             others = {j for law in agent.maps() for j in law.outputs} - {i}
             note.check(f"agent {agent.name} uses its own output alone", not others)
@@ -479,6 +518,7 @@ def example(note: Notebook) -> None:
     rank = pencil_rank(system, ["2"], 1)
     note.check("rank [I − A, B_1, B_3; C_{N_2}, 0, 0] is 2", rank.rank == 2)
     spectrum = fixed_spectrum(system)
+    note.counts(not spectrum.empty)
     note.check("the fixed polynomial is x − 1", spectrum.polynomial == Polynomial.from_roots([1]))
     note.check(
         "no linear time-invariant distributed control with outputs alone stabilizes it",
@@ -545,11 +585,12 @@ def shared_outputs(note: Notebook) -> None:
         shared = augmented_outputs(plant)
         x = numbers.column(plant.n)
         y = outputs(plant, x)
-        graph = plant.neighbors
-        right = graph is not None and all(
+        graph = graph_of(plant)
+        right = all(
             shared.C(i) @ x == stacked([y[j] for j in graph.neighborhood(i)])
             for i in range(plant.m)
         )
+        note.counts(bool(graph.edges()))
         note.check("ȳ_i is column{y_j, j ∈ N_i}", right)
         note.check("A and B_i are the plant's", shared.A == plant.A)
         note.certify(fixed_spectrum(shared))

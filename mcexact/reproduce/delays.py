@@ -33,6 +33,7 @@ from mcexact.reproduce.instances import (
     deficient_plants,
     drawn_plants,
     graph_of,
+    is_late,
     late_example,
     messages_agree,
     plants,
@@ -91,6 +92,7 @@ def shifts(note: Notebook) -> None:
         note.on(f"d = {d}")
         values = Matrix.column(range(1, d + 1))
         shifted = Matrix.column([0, *range(1, d)])
+        note.counts(d > 1)
         note.check("S_d (a_1, …, a_d) is (0, a_1, …, a_{d−1})", shift(d) @ values == shifted)
         note.check("after d steps nothing is left", shift(d).power(d).is_zero())
         if d > 1:
@@ -108,6 +110,7 @@ def lifted(note: Notebook) -> None:
         d = [graph.longest_delay(i) for i in range(plant.m)]
         delays = {(i, j): d_ij for i, j, d_ij in graph.delays}
         size = plant.n + sum(sizes[i] + d[i] * (sizes[i] + plant.q(i)) for i in range(plant.m))
+        note.counts(is_late(plant))
         note.check("it has ñ = n + Σ (n_i + d_i n_i + d_i q_i) states", system.n == size)
         note.check(
             "agents see what comes late, step by step",
@@ -119,6 +122,7 @@ def lifted(note: Notebook) -> None:
     graph, sizes, share = graph_of(plant), [1, 1, 1], "outputs+states"
     system = lifted_system(plant, sizes)
     right = {(i, j): d for i, j, d in graph.delays}
+    note.counts(is_late(plant))
     note.check("delays as they are", messages_agree(plant, system, sizes, share, right, numbers))
     # As printed: the second entry of ỹ_1 arrives with the delay of the first, d_11 = 0.
     printed = {**right, (0, 1): 0}
@@ -140,6 +144,7 @@ def transfer_of_the_lift(note: Notebook) -> None:
     for plant in note.each(late(8)):
         before, after = transfer_graph(plant), transfer_graph(lifted_system(plant, [1] * plant.m))
         union = union_of_graphs(plant, before)
+        note.counts(not set(union.edges()) <= positions(plant, before))
         note.check("the union is a subgraph", set(union.edges()) <= positions(plant, after))
         note.certify(before, after)
         if set(union.edges()) != positions(plant, after):
@@ -155,6 +160,7 @@ def block_ranks(note: Notebook) -> None:
     """(36): [M_k; e_i'] is nonsingular for λ ≠ 0."""
     for value in (Fraction(1), Fraction(-2), Fraction(1, 3)):
         note.on(f"λ = {value}".replace("-", "−"))
+        note.counts(True)
         for k in range(1, 6):
             rows = [[0] * (k + 1) for _ in range(k)]
             M = Matrix.from_rows(
@@ -179,6 +185,7 @@ def only_zero_is_lost(note: Notebook) -> None:
     for plant in note.each(late(10)):
         system = lifted_system(plant, [1] * plant.m)
         sight, reach = joint_observability(system), joint_controllability(system)
+        note.counts(is_late(plant))
         note.check("jointly observable", sight.controllable)
         note.check(
             "uncontrollable modes are at 0",
@@ -220,6 +227,7 @@ def _rest_assigned(note: Notebook, delay: int) -> None:
     wanted = Polynomial.of("1/2", -1, 1) ** (free // 2) * Polynomial.of("-1/3", 1) ** (free % 2)
     design = design_extended(plant, network="lifted", dimensions=sizes, spectrum=wanted)
     assigned = characteristic_polynomial(design.loop.matrix)
+    note.counts(fixed > 0)
     note.check("all but the fixed 0 are assigned, complex pairs too", assigned == wanted * X**fixed)
     system, numbers = lifted_system(plant, sizes), Numbers(26)
     spectrum = fixed_spectrum(system)
@@ -238,6 +246,7 @@ def free_of_the_lift(note: Notebook) -> None:
         size = max(1, shared_dimension_bound(plant).deficiency)
         system = lifted_system(plant, [size] * plant.m)
         spectrum, graph = fixed_spectrum(system), transfer_graph(system)
+        note.counts(is_late(plant))
         note.check("the transfer graph is strongly connected", graph.strongly_connected)
         note.check("nothing but 0 is fixed", spectrum.polynomial.squarefree_part() in (ONE, X))
         note.certify(spectrum, graph)
@@ -309,6 +318,7 @@ def corollary_2(note: Notebook) -> None:
             design = design_extended(plant, spectrum=half, radius=radius)
             inside = StabilityRegion.of("discrete", radius=radius)
             reached = inside.contains_roots_of(characteristic_polynomial(design.loop.matrix))
+            note.counts(not inside.contains_roots_of(characteristic_polynomial(plant.A)))
             note.check(f"every eigenvalue is below the radius {radius}", reached)
             note.check("which is certified", "stability" in design.certificates)
             note.certify(*design.certificates.values())
@@ -353,6 +363,7 @@ def held(note: Notebook) -> None:
         d = [graph.longest_delay(i) for i in range(plant.m)]
         delays = {(i, j): d[j] for i in range(plant.m) for j in graph.neighborhood(i)}
         size = plant.n + sum((1 + d[i]) * sizes[i] for i in range(plant.m))
+        note.counts(any(d))
         note.check("it has n̂ = n + Σ (n_i + d_i n_i) states", system.n == size)
         note.check(
             "agents see what is released, step by step",
@@ -373,6 +384,7 @@ def held(note: Notebook) -> None:
             f"x of agent {j + 1} reaches agent {i + 1} after d_{j + 1} steps",
             arrived[d[j] :] == queue[: len(queue) - d[j]],
         )
+    note.counts(any(d))
     note.check(
         "which are the messages", messages_agree(plant, system, sizes, "states", composed, numbers)
     )
@@ -400,6 +412,7 @@ def held_joint(note: Notebook) -> None:
     """The held system is jointly controllable and observable."""
     for plant in note.each(late(10)):
         system = held_system(plant, [1] * plant.m)
+        note.counts(is_late(plant))
         note.joint(system)
     plant = note.at(late_example(1))
     joint = joint_controllability(lifted_system(plant, [1, 1, 1]))
@@ -411,6 +424,7 @@ def outputs_lose_controllability(note: Notebook) -> None:
     """Sending y_i with delays can make 0 fixed; holding and sending x_i alone does not."""
     plant = note.at(late_example(1))
     sent = joint_controllability(lifted_system(plant, [1, 1, 1]))
+    note.counts(not sent.controllable)
     note.check("with outputs on the links 0 is out of reach", not sent.controllable)
     kept = fixed_spectrum(held_system(plant, [1, 1, 1]))
     note.check("with holding nothing is fixed", kept.empty)
@@ -452,6 +466,7 @@ def transfer_of_the_held(note: Notebook) -> None:
     ):
         before, after = transfer_graph(plant), transfer_graph(held_system(plant, [1] * plant.m))
         union = union_of_graphs(plant, before)
+        note.counts(is_late(plant))
         note.check(
             "strongly connected just when the union is",
             after.strongly_connected == union.is_strongly_connected(),
@@ -471,6 +486,7 @@ def free_assignment(note: Notebook) -> None:
     plant = note.at(late_example(1))
     sizes = (1, 1, 1)
     note.certify(completeness(held_system(plant, sizes)))
+    note.counts(is_late(plant))
     least = design_extended(plant, network="held", dimensions=sizes, radius="1/2", aims=THEOREM)
     degree = least.loop.matrix.nrows
     wanted = [Fraction(k % 3, 4) for k in range(degree)]

@@ -24,6 +24,7 @@ from mcexact.derived.drawn.systems import (
     system_with_deficiency,
     system_with_fixed_mode,
 )
+from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix, vstack
 from mcexact.exact.roots import TIMES, is_discrete
 from mcexact.model import gallery
@@ -177,6 +178,25 @@ def graph_of(plant: MultiChannelSystem) -> NeighborGraph:
     if plant.neighbors is None:
         raise ValueError("the instance has a neighbor graph")
     return plant.neighbors
+
+
+def needs_gains(system: MultiChannelSystem) -> bool:
+    """Whether some channel alone, without gains of the others, does not control and observe it."""
+    single = (MultiChannelSystem(system.A, [channel.B], [channel.C]) for channel in system.channels)
+    return any(
+        not (joint_controllability(each).controllable and joint_observability(each).controllable)
+        for each in single
+    )
+
+
+def uses_few_directions(plant: MultiChannelSystem) -> bool:
+    """Whether all inputs together, or all outputs together, have a rank below n."""
+    return min(rank(plant.input_matrix()), rank(plant.output_matrix())) < plant.n
+
+
+def is_late(plant: MultiChannelSystem) -> bool:
+    """Whether some link has a delay."""
+    return any(delay for _, _, delay in graph_of(plant).delays)
 
 
 class Numbers:

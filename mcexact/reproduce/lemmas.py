@@ -31,10 +31,12 @@ from mcexact.report.figures import spectrum_picture
 from mcexact.reproduce.instances import (
     PAPER,
     Numbers,
+    deficient_plants,
     dependent_inputs,
     drawn_plants,
     graph_of,
     hidden_by_feedback,
+    needs_gains,
     plants,
     three_channels,
 )
@@ -50,8 +52,10 @@ INDEX_THREE = "four states, two inputs, index 3"
 def lemma_1(note: Notebook) -> None:
     """Lemma 1: the error system is jointly controllable and observable."""
     numbers = Numbers(8)
-    for plant in note.each(plants(10)):
+    for plant in note.each(plants(10), deficient_plants(4)):
         system = error_system(plant, numbers.feedbacks(plant))
+        apart = error_system(without_arcs(plant), zeros(plant))
+        note.counts(not joint_observability(apart).controllable)
         note.check(
             "[B̃_1 … B̃_m] is the identity",
             hstack([system.B(i) for i in range(system.m)]) == Matrix.identity(system.n),
@@ -98,6 +102,7 @@ def lemma_2(note: Notebook) -> None:
     for plant in note.each(plants(10)):
         note.certify(single_channel_gains(_graph_scalars(graph_of(plant)), want="controllable"))
         wide, _, D = _lifted_scalars(plant)
+        note.counts(needs_gains(_graph_scalars(graph_of(plant))))
         still = MultiChannelSystem(
             Matrix.zeros(plant.n, plant.n),
             [channel.B for channel in plant.channels],
@@ -127,6 +132,7 @@ def lemma_3(note: Notebook) -> None:
         note.on(name)
         n, r = B.shape
         exceptional = exceptional_gains(M, A, B)
+        note.counts(exceptional.index > 1)
         note.check(
             "finitely many g lose the first m blocks",
             not exceptional.index_set.polynomial.is_zero(),
@@ -185,6 +191,8 @@ def lemma_4(note: Notebook) -> None:
         D = feedback(system, wide).A - system.A
         sets = [exceptional_gains(M, D, system.B(i)).index_set for i in range(plant.m)]
         note.certify(*sets)
+        reached = [_indices(M, system.B(i)).index for i in range(plant.m)]
+        note.counts(any(index != plant.m for index in reached))
         g = next(g for g in range(1, 1000) if all(g not in each for each in sets))
         loop = feedback(system, [K + H * g for K, H in zip(base, wide, strict=True)])
         for q in plant.names:
@@ -207,6 +215,7 @@ def prescribed_rate(note: Notebook) -> None:
         rate, radius = (None, "1/10") if is_discrete(plant.time) else (5, None)
         design = design_observer(plant, rate=rate, radius=radius)
         wanted = StabilityRegion.of(plant.time, rate, radius)
+        note.counts(not wanted.contains_roots_of(characteristic_polynomial(plant.A)))
         spectrum = closed_loop_spectrum(design.loop.matrix, plant.time)
         note.check("the loop is stable", spectrum.stable)
         fast = wanted.contains_roots_of(characteristic_polynomial(design.loop.matrix))
@@ -229,6 +238,8 @@ def _in_floating_point(note: Notebook) -> None:
     design = design_observer(plant, rate=1, arithmetic="float")
     spectrum = closed_loop_spectrum(design.loop.matrix, plant.time)
     rate = spectrum.rate
+    open_loop = characteristic_polynomial(plant.A)
+    note.counts(not StabilityRegion.of(plant.time, rate=1).contains_roots_of(open_loop))
     note.check("every eigenvalue meets the rate 1", rate is not None and Fraction(rate.lower) > 1)
     note.certify(design.loop.proof)
     title = "A design in floating point, with its eigenvalues in certified discs"
@@ -249,6 +260,7 @@ def recipe(note: Notebook) -> None:
     literal = fed_back(plant, F)
     lost, fixed = joint_observability(literal), fixed_spectrum(error_system(literal, zeros(plant)))
     note.check("the plant is jointly observable", joint_observability(plant).controllable)
+    note.counts(not lost.controllable)
     note.check("what is fed back is not", not lost.controllable)
     note.refute("literal", fixed.polynomial == Polynomial.from_roots([-2]))
     gains = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
@@ -332,6 +344,7 @@ def error_gains(note: Notebook) -> None:
         note.check("all drawn gains serve every channel", all(serve(system, G) for G in drawn))
         note.refute("few", all(serve(system, G) for G in drawn))
         none = [G * 0 for G in drawn[0]]
+        note.counts(not serve(system, none))
         note.refute("all", not serve(system, none))
         _on_a_line(note, system, drawn[0], drawn[1])
         _on_a_line(note, system, drawn[0], drawn[1], dual=True)
@@ -343,6 +356,7 @@ def error_gains(note: Notebook) -> None:
         _on_a_line(note, system, start, H, index=plant.m)
         _on_a_line(note, system, start, numbers.gains(system), dual=True)
         note.check("some gains do both", serve(system, start))
+        note.counts(needs_gains(system))
         if note.here == PAPER:
             reach = controllability_indices(through(closed_by(system, K), system.B(0)))
             note.refute("H=0", reach.index is None)
@@ -364,7 +378,9 @@ def extended_gains(note: Notebook) -> None:
         drawn = [numbers.gains(system) for _ in range(DRAWN)]
         note.check("all drawn gains serve every channel", all(serve(system, G) for G in drawn))
         note.refute("few", all(serve(system, G) for G in drawn))
-        note.refute("all", not serve(system, [G * 0 for G in drawn[0]]))
+        none = [G * 0 for G in drawn[0]]
+        note.counts(not serve(system, none))
+        note.refute("all", not serve(system, none))
         _on_a_line(note, system, drawn[0], drawn[1])
         _on_a_line(note, system, drawn[0], drawn[1], dual=True)
 
@@ -373,7 +389,9 @@ def complementary(note: Notebook) -> None:
     """All complementary subsystems of (16) are complete."""
     numbers = Numbers(25)
     for plant in note.each(plants(8)):
-        answer = completeness(error_system(plant, numbers.feedbacks(plant)))
+        F = numbers.feedbacks(plant)
+        answer = completeness(error_system(plant, F))
+        note.counts(not completeness(error_system(without_arcs(plant), F)).complete)
         note.check("(16) is complete for all subsets of channels", answer.complete)
         note.certify(answer)
     plant = three_channels()
@@ -412,6 +430,7 @@ def one_agent(note: Notebook) -> None:
             plant.A + K @ C
         )
         note.check("the loop's polynomial is the product", characteristic_polynomial(loop) == apart)
+        note.counts(apart != characteristic_polynomial(plant.A) ** 2)
         if note.here == PAPER:
             twice = characteristic_polynomial(plant.A + B @ F) ** 2
             wrong = characteristic_polynomial(plant.A + B @ F) * characteristic_polynomial(
@@ -444,6 +463,7 @@ def small_errors(note: Notebook) -> None:
             - _after_steps(plant, F, x, [e * 0 for e in errors])
             for size in (1, -3, 2, 1000)
         }
+        note.counts(not deviations[1].is_zero())
         note.check(
             "errors times g make g times the deviation",
             all(deviation == deviations[1] * size for size, deviation in deviations.items()),
@@ -480,6 +500,7 @@ def graphs(note: Notebook) -> None:
         note.check("no B_j F_j is zero", acting == set(agents))
         kept = all(respects(plant, F, graph, i) for i in agents)
         everybody = all(len(graph.neighborhood(i)) == plant.m for i in agents)
+        note.counts(not everybody)
         note.check("the rule respects the graph just when the graph is complete", kept == everybody)
         for zero in product((False, True), repeat=plant.m):
             G = [F[j] * int(not zero[j]) for j in agents]

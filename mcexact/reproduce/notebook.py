@@ -277,6 +277,8 @@ class Examination:
         theorem, proposition, lemma, corollary or remark.
     says : str
         A short version of what is examined.
+    content : str
+        What an instance needs for the statement to say something about it, in words.
     code : tuple of str
         The functions of this package that construct or decide it.
     equations : tuple of int
@@ -294,6 +296,7 @@ class Examination:
     section: str
     kind: str
     says: str
+    content: str
     code: tuple[str, ...]
     equations: tuple[int, ...] = ()
     labels: tuple[str, ...] = ()
@@ -335,30 +338,29 @@ class Examination:
         }
         return "; ".join(f"{numbers[kind]} {kind}" for kind in kinds)
 
-    def status(self, instances: int, content: int | None = None) -> str:
+    def status(self, instances: int, content: int) -> str:
         """What is known of its statements, and on how many instances it was checked.
 
         Parameters
         ----------
         instances : int
-        content : int, optional
+        content : int
             On how many of them the statement says something.
 
         Examples
         --------
-        >>> examination("theorem-2").status(7)
-        'proved as printed, checked on 7 instances'
-        >>> examination("lemma-1").status(1)
-        '41 proved under added hypotheses; 42 proved as printed, checked on 1 instance'
         >>> examination("theorem-2").status(20, 9)
-        'proved as printed, checked on 20 instances, 9 of them with content'
+        'proved as printed, checked on 20 instances, 9 with content'
+        >>> examination("partition").status(1, 1)
+        'proved as printed, checked on 1 instance, with content'
+        >>> examination("theorem-1").status(3, 3)
+        'proved as printed, checked on 3 instances, all with content'
         """
-        checked = f"checked on {instances} instance" + ("" if instances == 1 else "s")
-        if content is not None and content != instances:
-            checked += f", {content} of them with content"
         if self.kind == "example":
             return "computed exactly on the paper's data"
-        return f"{self.verdicts}, {checked}"
+        many = "1 instance" if instances == 1 else f"{instances} instances"
+        some = str(content) if content != instances else "all" if instances > 1 else ""
+        return f"{self.verdicts}, checked on {many}, {some} with content".replace("  ", " ")
 
 
 @cache
@@ -396,16 +398,17 @@ def examination(key: str) -> Examination:
 def table() -> str:
     """The ledger as the table of ``proofs/README.md``."""
     lines = [
-        "| examined | statements | verdict | section | in the code | certificates "
-        "| theorems, or instances |",
-        "|---|---|---|---|---|---|---|",
+        "| examined | statements | verdict | section | an instance has content where "
+        "| in the code | certificates | theorems, or instances |",
+        "|---|---|---|---|---|---|---|---|",
     ]
     for each in examinations():
         code = ", ".join(f"`{name.removeprefix('mcexact.')}`" for name in each.code)
         kinds = ", ".join(f"`{kind}`" for kind in each.certificates) or "named checks"
         numbers = ", ".join(str(one.number) for one in each.about)
         proof = ", ".join(f"`{name}`" for name in each.proofs) or "instances"
-        cells = (each.title, numbers, each.verdicts, each.section, code, kinds, proof)
+        where = each.content
+        cells = (each.title, numbers, each.verdicts, each.section, where, code, kinds, proof)
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
@@ -494,8 +497,8 @@ class Notebook:
     broken : str
         Empty, or the error with which the examination ended early.
     content : dict of str to bool
-        Whether the statement says something about an instance, as far as the examination counts
-        these: a bound of 0 allows everything.
+        Whether the statement says something about an instance: a bound of 0 allows everything.
+        Instances that only refute a false statement are not among them.
     in_common : str
         What the instances have in common; set when the examination has ended.
     """
@@ -518,9 +521,9 @@ class Notebook:
         self.content[self.here] = self.content.get(self.here, False) or bool(holds)
 
     @property
-    def with_content(self) -> int | None:
-        """The number of instances with content; None if the examination does not count them."""
-        return sum(self.content.values()) if self.content else None
+    def with_content(self) -> int:
+        """The number of instances about which the statement says something."""
+        return sum(self.content.values())
 
     def on(self, instance: str, plant: MultiChannelSystem | None = None) -> None:
         """Name the instance of the next entries, and say which plant it is, if it is one."""
@@ -619,6 +622,8 @@ class Notebook:
         for name, false in examination(self.key).nearest_false.items():
             if name not in refuted:
                 return f"no instance refutes: {false}"
+        if not self.with_content:
+            return f"no instance has content: {examination(self.key).content}"
         return "" if self.checks or self.certificates else "nothing was checked"
 
     @property

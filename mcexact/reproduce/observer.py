@@ -30,6 +30,7 @@ from mcexact.reproduce.instances import (
     driven,
     errors_agree,
     graph_of,
+    needs_gains,
     outputs,
     plants,
     stacked,
@@ -186,6 +187,11 @@ def fed_back(plant: MultiChannelSystem, feedbacks: Sequence[Matrix]) -> MultiCha
     )
 
 
+def _acts(plant: MultiChannelSystem, feedbacks: Sequence[Matrix]) -> bool:
+    """Whether some B_i F_i is not 0."""
+    return any(not (plant.B(i) @ F_i).is_zero() for i, F_i in enumerate(feedbacks))
+
+
 @cache
 def small() -> tuple[Instance, ...]:
     """The example, and plants that are small enough for quick exact designs."""
@@ -209,6 +215,7 @@ def errors_without_feedback(note: Notebook) -> None:
     numbers = Numbers(5)
     for plant in note.each(plants(10)):
         system = error_system(plant, zeros(plant))
+        note.counts(bool(graph_of(plant).edges()))
         note.check(
             "x_i − x obeys the error system without F",
             errors_agree(plant, system, zeros(plant), numbers),
@@ -231,7 +238,9 @@ def errors_without_feedback(note: Notebook) -> None:
 def almost_any_choice(note: Notebook) -> None:
     """II-B: some K̃_i, H̃_ij make (7) controllable and observable through channel q."""
     for plant in note.each(plants(5)):
-        gains = single_channel_gains(error_system(plant, zeros(plant)))
+        system = error_system(plant, zeros(plant))
+        gains = single_channel_gains(system)
+        note.counts(needs_gains(system))
         note.check("one choice of gains serves every q", gains.exists)
         note.certify(gains)
     plant = note.at((PAPER, three_channels()))
@@ -251,6 +260,7 @@ def centralized_feedback(note: Notebook) -> None:
     for plant in note.each(plants(10)):
         wanted = default_polynomial(StabilityRegion.of("continuous", rate=1), plant.n)
         design = state_feedback(plant, wanted)
+        note.counts(characteristic_polynomial(plant.A) != wanted)
         B, F = plant.input_matrix(), vstack(list(design.gains), ncols=plant.n)
         parts = sum(
             (plant.B(i) @ design.gains[i] for i in range(plant.m)),
@@ -274,6 +284,7 @@ def errors_with_feedback(note: Notebook) -> None:
     for plant in note.each(plants(14)):
         F = numbers.feedbacks(plant)
         system = error_system(plant, F)
+        note.counts(_acts(plant, F))
         note.check("x_i − x obeys the error system", errors_agree(plant, system, F, numbers))
     for plant in note.each(plants(5)):
         observed = drawn_observer(plant, numbers.feedbacks(plant), numbers)
@@ -293,7 +304,9 @@ def whole_loop(note: Notebook) -> None:
     """(9) to (11): the loop of the agents' programs splits as the paper says."""
     numbers = Numbers(19)
     for each in note.each(plants(5)):
-        drawn = drawn_observer(each, numbers.feedbacks(each), numbers)
+        F = numbers.feedbacks(each)
+        drawn = drawn_observer(each, F, numbers)
+        note.counts(_acts(each, F))
         plant_moves, observer, *_ = equations_agree(drawn, numbers)
         note.check("the plant obeys (9)", plant_moves)
         note.check("the agents' programs obey (10) and (11)", observer)
@@ -301,17 +314,17 @@ def whole_loop(note: Notebook) -> None:
     drawn = drawn_observer(three_channels(), numbers.feedbacks(three_channels()), numbers)
     alone = replace(drawn, channel=replace(drawn.channel, D=drawn.channel.D * 0))
     note.refute("D̄", not equations_agree(alone, numbers)[1])
-    for name, _ in small():
+    for name, plant in small():
         note.on(name)
         design = designed(name)
+        open_loop = characteristic_polynomial(plant.A) * design.parts["error_polynomial"]
+        note.counts(design.loop.polynomial != open_loop)
         note.check(
             "the loop's polynomial is that of A + Σ B_i F_i times that of the errors",
             characteristic_polynomial(design.loop.matrix) == design.loop.polynomial,
         )
         note.certify(design.loop.proof)
         if name == PAPER:
-            plant, errors = three_channels(), design.parts["error_polynomial"]
-            open_loop = characteristic_polynomial(plant.A) * errors
             note.refute("plant-alone", design.loop.polynomial != open_loop)
             size = design.loop.matrix.nrows
             note.refute("one-more", size != plant.n + plant.n * plant.m + plant.m)
@@ -322,7 +335,9 @@ def proposition_1(note: Notebook) -> None:
     numbers = Numbers(7)
     for plant in note.each(plants(8)):
         F = numbers.feedbacks(plant)
-        gains = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
+        system = error_system(plant, F)
+        gains = single_channel_gains(system, want="both", index=plant.m)
+        note.counts(needs_gains(system))
         note.check("one choice of gains serves every q", gains.exists)
         note.check(
             "with controllability index m",
@@ -343,6 +358,7 @@ def theorem_1(note: Notebook) -> None:
     for name, plant in small():
         note.on(name, plant)
         design = designed(name)
+        note.counts(needs_gains(error_system(plant, zeros(plant))))
         size = plant.n * plant.m + plant.m - 1
         wanted = Polynomial.from_roots([-2 - k % 2 for k in range(size)])
         assigned = design.parts["error_polynomial"]
@@ -389,6 +405,8 @@ def remark_1(note: Notebook) -> None:
         note.on(name, plant)
         controller = designed(name).controller
         graph = graph_of(plant)
+        missing = len(graph.edges()) < plant.m * (plant.m - 1)
+        note.counts(missing or any(rank(plant.C(i)) < plant.n for i in range(plant.m)))
         note.check(
             "every signal that a program uses comes along an arc",
             set(controller.edges()) <= set(graph.edges()),

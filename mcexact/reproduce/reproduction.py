@@ -193,8 +193,8 @@ def reproduce(keys: Iterable[str] = ()) -> Reproduction:
 # The report of a reproduction: a page for a browser, plain data, and a table in LaTeX.
 
 _LARGEST_SAMPLE = 6000
-_OF_EXAMINATION = ("key", "title", "section", "proofs", "erratum")
-_OF_FINDING = ("holds", "instances", "in_common", "failure")
+_OF_EXAMINATION = ("key", "title", "section", "content", "proofs", "erratum")
+_OF_FINDING = ("holds", "instances", "with_content", "in_common", "failure")
 _OF_STATEMENT = ("number", "section", "equation", "says", "status", "examined", "proofs", "note")
 COMMON_BOUND = (
     "The paper asks whether its bound on the common dimension of shared sub-states is tight. The "
@@ -309,6 +309,7 @@ def _shown(row: Row) -> dict[str, Any]:
         "erratum": typeset(examination.erratum),
         "status": typeset(row.status),
         "instances": typeset(finding.in_common),
+        "content": typeset(_content(row)),
         "matrices": [
             (typeset(instance), [matrix(name, rows) for _, name, rows in group])
             for instance, group in groupby(finding.matrices, key=lambda each: each[0])
@@ -321,6 +322,12 @@ def _shown(row: Row) -> dict[str, Any]:
         ],
         "sample": sample,
     }
+
+
+def _content(row: Row) -> str:
+    """On how many instances the statement says something, and where it does."""
+    size, of = row.finding.with_content, len(row.finding.instances)
+    return f"With content {size} of {of}: {row.examination.content}."
 
 
 def _with_formulas(rows: Iterable[tuple[str, str, bool]]) -> list[tuple[str, str, str]]:
@@ -347,10 +354,7 @@ def reproduction_view(reproduction: Reproduction) -> dict[str, Any]:
         "examinations": [
             {
                 **{name: getattr(row.examination, name) for name in _OF_EXAMINATION},
-                **{
-                    name: getattr(row.finding, name)
-                    for name in ("holds", "instances", "in_common", "failure")
-                },
+                **{name: getattr(row.finding, name) for name in _OF_FINDING},
                 "status": row.status,
                 "checks": len(row.finding.checks),
                 "refutations": [
@@ -424,6 +428,7 @@ def _in_full(row: Row) -> Iterator[Table]:
     """All checks and refutations of an examination."""
     examination, finding = row.examination, row.finding
     title = f"{examination.title}: {examination.says} Examined on {finding.in_common}."
+    title += f" {_content(row)}"
     if examination.proofs:
         title += f" Machine-checked: {', '.join(examination.proofs)}."
     if examination.erratum:

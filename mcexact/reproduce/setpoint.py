@@ -25,6 +25,7 @@ from mcexact.reproduce.instances import (
     PAPER,
     Instance,
     Numbers,
+    deficient_plants,
     drawn_plants,
     hidden_zero,
     integrators_agree,
@@ -56,6 +57,7 @@ def integrators(note: Notebook) -> None:
     for name, plant in [*plants(5), *drawn_plants(2, time="discrete")]:
         note.on(f"{name}, {plant.time} time", plant)
         system = setpoint_system(plant)
+        note.counts(not plant.output_matrix().is_zero())
         note.check("the states w_i integrate y_i", integrators_agree(plant, system, numbers))
         note.certify(joint_observability(system))
     note.on(PAPER)
@@ -99,6 +101,7 @@ def any_stabilizing_control(note: Notebook) -> None:
         held = None if rest is None else C @ rest.take(rows=range(plant.n))
         note.check("at rest y = r under state feedback, for every r", held == wanted)
         for what, design in _designs(plant):
+            note.counts(True)
             note.check(f"at rest y = r, {what}", design.loop.closed.steady_gain == wanted)
             note.check(f"which is stable, {what}", "stability" in design.certificates)
             note.certify(*design.certificates.values())
@@ -130,8 +133,9 @@ def _designs(plant: MultiChannelSystem) -> Iterator[tuple[str, Design]]:
 
 def always_observable(note: Notebook) -> None:
     """(19): the plant with integrators is jointly observable if the plant is."""
-    for plant in note.each(plants(8), (washed_out(), hidden_zero())):
+    for plant in note.each(plants(8), deficient_plants(4), (washed_out(), hidden_zero())):
         observability = joint_observability(setpoint_system(plant))
+        note.counts(rank(plant.output_matrix()) < plant.n)
         note.check("jointly observable through the w_i", observability.controllable)
         note.certify(observability)
     plant = note.at(unseen())
@@ -142,9 +146,10 @@ def always_observable(note: Notebook) -> None:
 
 def only_zero_matters(note: Notebook) -> None:
     """(20) holds at every s ≠ 0: uncontrollable modes are at 0."""
-    for plant in note.each(plants(8), (washed_out(), hidden_zero())):
+    for plant in note.each(plants(8), deficient_plants(4), (washed_out(), hidden_zero())):
         controllability = joint_controllability(setpoint_system(plant))
         lost = controllability.uncontrollable_polynomial
+        note.counts(rank(plant.input_matrix()) < plant.n)
         note.check("what is out of reach is at 0", not any(lost.coefficients[:-1]))
         note.certify(controllability)
         if note.here == washed_out()[0]:
@@ -161,6 +166,7 @@ def condition(note: Notebook) -> None:
         solvability = setpoint_solvability(plant)
         B, C = plant.input_matrix(), plant.output_matrix()
         S = block([[plant.A, B], [C, Matrix.zeros(C.nrows, B.ncols)]])
+        note.counts(C.nrows <= B.ncols)
         note.check("the rank of [A B; C 0] is as reported", rank(S) == solvability.rank)
         augmented = joint_controllability(setpoint_system(plant))
         note.check(
@@ -181,6 +187,7 @@ def determinant_at_zero(note: Notebook) -> None:
     for plant in note.each((two_tanks(), washed_out())):
         B, C = plant.input_matrix(), plant.output_matrix()
         inside = solve(plant.A, B)
+        note.counts(inside is not None)
         nonzero = inside is not None and determinant(C @ inside) != 0
         solvability = setpoint_solvability(plant)
         note.check(
@@ -190,6 +197,7 @@ def determinant_at_zero(note: Notebook) -> None:
     plant = note.at(hidden_zero())
     note.print(plant)
     solvability = setpoint_solvability(plant)
+    note.counts(True)
     note.check("0 is a pole", characteristic_polynomial(plant.A)(0) == 0)
     # det [sI − A, B; −C, 0] = det(sI − A) det G(s), where the pole hides the zero.
     note.check(
@@ -214,6 +222,7 @@ def distributed_setpoints(note: Notebook) -> None:
     plant = note.at(two_tanks())
     for method in METHODS:
         design = design_setpoint(plant, rate=1, method=method, aims=THEOREM)
+        note.counts(True)
         note.check(f"a stable loop by the method {method}", "stability" in design.certificates)
         note.certify(*design.certificates.values())
     wanted = [Fraction(1), Fraction(-2)]
@@ -246,6 +255,7 @@ def _exactly_in_time(note: Notebook, wanted: Sequence[Fraction]) -> None:
     order = plant.n + plant.m
     spectrum = {"feedback": [0] * order, "error": [0] * (order * plant.m + plant.m - 1)}
     design = design_setpoint(plant, spectrum=spectrum, method="observer")
+    note.counts(True)
     size = design.loop.matrix.nrows
     nilpotent = characteristic_polynomial(design.loop.matrix) == Polynomial.x() ** size
     note.check("all eigenvalues of the loop are 0", nilpotent)
@@ -270,6 +280,7 @@ def wrong_estimates(note: Notebook) -> None:
         note.check("there is one equilibrium for every r", rest is not None)
         if rest is None:
             continue
+        note.counts(True)
         x = loop.pick("x") @ rest
         note.check("at which y = r", plant.output_matrix() @ x == Matrix.identity(2))
         wrong = [(loop.pick("x_", i) @ rest).take(rows=range(plant.n)) - x for i in range(plant.m)]
@@ -395,6 +406,7 @@ def tracked(note: Notebook) -> None:
             design = design_extended(system, rate=rate, radius=radius, aims=THEOREM)
             loop = design.loop.closed
             error = lasting_error(plant, loop, model, model)
+            note.counts(not model.divides(characteristic_polynomial(plant.A)))
             note.check(f"{what}: the error tends to 0", error is not None and error.is_zero())
             note.check(f"{what}: the loop is stable", "stability" in design.certificates)
             note.certify(*joint, *design.certificates.values())
@@ -432,6 +444,7 @@ def added_references(note: Notebook) -> None:
     for name, plant in small():
         note.on(name, plant)
         loop, m = designed(name).loop.closed, plant.m
+        note.counts(m > 1)
         own, all_ = Matrix.identity(m), Matrix.from_integers([[1] * m] * m)
         wrong = vstack(list(_errors_at_rest(plant, loop, own)))
         every = [wrong.take(cols=[k]) for k in range(wrong.ncols)]

@@ -58,6 +58,7 @@ from mcexact.reproduce.instances import (
     four_agents,
     graph_of,
     messages_agree,
+    needs_gains,
     outputs,
     plants,
     positions,
@@ -69,6 +70,7 @@ from mcexact.reproduce.instances import (
     two_circles,
     union_of_graphs,
     unreached,
+    uses_few_directions,
     with_dimensions,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
@@ -88,6 +90,7 @@ def construction(note: Notebook) -> None:
         for share in SHARING:
             note.on(f"{name}, {share}", plant)
             system = extended_system(plant, sizes, share)
+            note.counts(bool(graph_of(plant).edges()))
             note.check("there are n + Σ n_i states", system.n == plant.n + sum(sizes))
             note.check(
                 "ẋ_i = v_i, and agents see what (25) says",
@@ -105,10 +108,12 @@ def construction(note: Notebook) -> None:
 
 def any_graph(note: Notebook) -> None:
     """Jointly controllable and observable for every graph."""
-    for name, plant in (*plants(5, connected=None), *plants(1, connected=False)):
+    both_kinds = (*plants(5, connected=None), *plants(1, connected=False))
+    for name, plant in (*both_kinds, *deficient_plants(3)):
         for share in SHARING:
             note.on(f"{name}, {share}", plant)
             system = extended_system(plant, [1] * plant.m, share)
+            note.counts(uses_few_directions(plant))
             note.joint(system)
     plant = note.at(unreached())
     joint = joint_controllability(extended_system(plant, [1, 1]))
@@ -228,6 +233,7 @@ def equivalence(note: Notebook) -> None:
         system = extended_system(plant, sizes)
         laws = drawn_laws(system, private, numbers)
         controller = as_programs(plant, sizes, laws)
+        note.counts(bool(graph_of(plant).edges()))
         note.check(
             "the agents' loop is that of the extended system",
             loops_agree(plant, system, laws, controller, numbers),
@@ -312,6 +318,7 @@ def rank_identity(note: Notebook) -> None:
             outside = sum(n_i[i] for i in range(3) if i not in inside)
             heard = sum(n_i[j] for j in graph.union(inside))
             after, own = pencil_rank(extended, s, 1), pencil_rank(before, s, 1)
+            note.counts(own.rank < system.n or heard > sum(n_i[j] for j in inside))
             note.check(
                 f"s = {{{', '.join(s)}}}: rank M̄ is rank M plus n_i outside s plus n_j over N_s",
                 after.rank == own.rank + outside + heard,
@@ -369,6 +376,7 @@ def bound_zero(note: Notebook) -> None:
         note.on(name, plant)
         for share in SHARING:
             bound, printed = shared_dimension_bound(plant, share=share), printed_bound(plant, share)
+            note.counts(printed == 0)
             note.check(f"no rank is below n ({share})", printed <= 0)
             note.check(f"no dimension is needed ({share})", bound.deficiency == 0)
             note.certify(bound)
@@ -396,6 +404,7 @@ def bound_reached(note: Notebook) -> None:
         note.on(name, plant)
         ranks = list(all_ranks(plant))
         least = min(each.rank for each in ranks)
+        note.counts(plant.n - least >= 1)
         note.check("the bound is at least 1", plant.n - least >= 1)
         for i, agent in enumerate(plant.names):
             alone = [each for each in ranks if boundary(plant, each.subset) == {agent}]
@@ -413,6 +422,7 @@ def bound_reached(note: Notebook) -> None:
     for plant in note.each(deficient_plants(3)):
         bound = shared_dimension_bound(plant).deficiency
         ranks = list(all_ranks(plant))
+        note.counts(bound >= 1)
         note.check("the bound is the printed one", plant.n - min(r.rank for r in ranks) == bound)
         for i, agent in enumerate(plant.names):
             alone = [each for each in ranks if boundary(plant, each.subset) == {agent}]
@@ -444,6 +454,7 @@ def tightness(note: Notebook) -> None:
         stem = SHARES[share]
         bound = analysis[f"shared_dimension_bound_{stem}"]
         least = analysis[f"minimal_shared_dimensions_{stem}"]
+        note.counts(bound.deficiency > 0)
         note.check(f"{total} shared in all is the least ({share})", least.total == total)
         note.check("the bound asks for more", bound.total > total)
         common = analysis[f"common_dimension_{stem}"]
@@ -454,6 +465,7 @@ def tightness(note: Notebook) -> None:
         plant = note.at(instance)
         bound, common = shared_dimension_bound(plant), common_dimension(plant)
         both = (bound.deficiency, common.dimension)
+        note.counts(bound.deficiency > 0)
         note.check("the bound is 2, and n_i = 1 for all suffices", both == (2, 1))
         note.certify(bound, common)
         note.refute("tight", both == (2, 1))
@@ -507,6 +519,7 @@ def every_subset_receives(note: Notebook) -> None:
             for s in SUBSETS_OF_THREE
         )
         answer = neighbor_graph(plant.with_neighbors(graph))
+        note.counts(0 < sum(links) < len(links))
         note.check(
             "strongly connected just when every subset receives messages from outside",
             answer.strongly_connected == receives,
@@ -525,6 +538,7 @@ def sub_states_needed(note: Notebook) -> None:
     """Sub-states have to be shared if and only if sharing outputs leaves a mode fixed."""
     for plant in note.each(plants(8), drawn_plants(3, fixed=True, states=4, first=44)):
         alone, least = fixed_spectrum(augmented_outputs(plant)), minimal_shared_dimensions(plant)
+        note.counts(not alone.empty)
         note.check("some dimensions suffice", least.feasible)
         note.check("none are needed just when nothing is fixed", (least.total == 0) == alone.empty)
         note.certify(alone, least)
@@ -532,6 +546,7 @@ def sub_states_needed(note: Notebook) -> None:
             note.refute("always", alone.empty)
     for plant in note.each(deficient_plants(7)):
         alone, least = fixed_spectrum(augmented_outputs(plant)), minimal_shared_dimensions(plant)
+        note.counts(not alone.empty)
         note.refute("never", not alone.empty and (least.total or 0) > 0)
         note.certify(alone, least)
 
@@ -557,6 +572,7 @@ def proposition_3(note: Notebook) -> None:
         before = transfer_graph(plant)
         after = transfer_graph(extended_system(plant, [1] * plant.m))
         union = set(union_of_graphs(plant, before).edges())
+        note.counts(not union <= positions(plant, before))
         note.check("the extended transfer graph contains both", union <= positions(plant, after))
         note.certify(before, after)
         if graph_of(plant).is_strongly_connected():
@@ -577,6 +593,7 @@ def corollary_1(note: Notebook) -> None:
     for plant in note.each(plants(8)):
         size = max(1, shared_dimension_bound(plant).deficiency)
         whole = completeness(extended_system(plant, [size] * plant.m))
+        note.counts(not completeness(plant).complete)
         note.check("the extended system is complete", whole.complete)
         note.certify(whole)
     note.on(PAPER)
@@ -637,6 +654,7 @@ def parity(note: Notebook) -> None:
         note.check("the loop has the prescribed spectrum", loop.polynomial == wanted[0] * wanted[1])
         note.certify(loop.proof)
     split = assignability(plant)
+    note.counts(len(split.blocks) > 1)
     numbers = Numbers(17)
     loops = [characteristic_polynomial(closed_by(plant, numbers.gains(plant))) for _ in "1234"]
     real = all(factor.degree == 1 for loop in loops for factor, _ in loop.factor())
@@ -648,7 +666,9 @@ def through_any_channel(note: Notebook) -> None:
     """(31): one choice of gains F̄ serves every channel of the extended system."""
     for plant in note.each(plants(5)):
         size = max(1, shared_dimension_bound(plant).deficiency)
-        gains = single_channel_gains(extended_system(plant, [size] * plant.m))
+        system = extended_system(plant, [size] * plant.m)
+        gains = single_channel_gains(system)
+        note.counts(needs_gains(system))
         note.check("controllable and observable through every channel", gains.exists)
         note.certify(gains)
     plant = note.at(split_spectrum())
@@ -664,6 +684,7 @@ def total_dimension(note: Notebook) -> None:
         extended = design_extended(plant, rate=1, aims=THEOREM)
         orders = sum(each.order for each in extended.parts["blocks"])
         sizes = extended.parts["dimensions"]
+        note.counts(extended.order > 0)
         note.check("the order is k_q + Σ n_i", extended.order == orders + sum(sizes.values()))
         note.check("less than the observer's", extended.order < extended.parts["observer_order"])
         note.certify(*extended.certificates.values())
@@ -676,6 +697,7 @@ def total_dimension(note: Notebook) -> None:
     reach = controllability_indices(loop, [block.agent])
     sight = observability_indices(loop, [block.agent])
     both = [each.index or 0 for each in (reach, sight)]
+    note.counts(design.order > 0)
     note.check("the order k_q is the smaller index less 1", block.order == min(both) - 1)
     note.refute("larger-index", block.order != max(both) - 1)
     note.refute("private-state", block.order == 0)
@@ -689,6 +711,7 @@ def any_controller(note: Notebook) -> None:
     bound = shared_dimension_bound(plant)
     design = design_extended(plant, rate=1, aims=THEOREM)
     sizes = design.parts["dimensions"]
+    note.counts(bound.deficiency > 0)
     note.check("one number is shared in all", sum(sizes.values()) == 1)
     note.check("the loop is certified", "stability" in design.certificates)
     note.refute("bound-needed", min(sizes.values()) < bound.deficiency)

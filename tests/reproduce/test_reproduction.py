@@ -16,7 +16,13 @@ import pytest
 from mcexact.cli import main
 from mcexact.derived import constructions
 from mcexact.report.text import plain
-from mcexact.reproduce.notebook import STATUSES, Notebook, examinations, examined
+from mcexact.reproduce.notebook import (
+    STATUSES,
+    Notebook,
+    examination,
+    examinations,
+    examined,
+)
 from mcexact.reproduce.reproduction import (
     COMMON_BOUND,
     Reproduction,
@@ -61,6 +67,33 @@ def test_an_instance_that_does_not_refute_fails_the_examination() -> None:
 
     assert "an instance: this is not refuted: The bound" in examined("tight", lame).failure
     assert "no instance refutes: The bound" in examined("tight", silent).failure
+
+
+def test_an_examination_whose_instances_say_nothing_fails() -> None:
+    def empty(note: Notebook) -> None:
+        note.on("an instance")
+        note.check("something holds", True)
+        note.counts(False)
+        for name in examination("tight").nearest_false:
+            note.refute(name)
+
+    assert examined("tight", empty).failure == ("no instance has content: the bound is at least 1")
+
+
+def test_every_row_says_on_how_many_instances_it_has_content(whole: Reproduction) -> None:
+    for row in whole.rows:
+        instances, content = len(row.finding.instances), row.finding.with_content
+        assert 0 < content <= instances, row.examination.key
+        assert set(row.finding.content) <= set(row.finding.instances)
+        assert row.examination.content
+        if row.examination.kind != "example":
+            told = "all" if content == instances else str(content)
+            assert row.status.endswith(
+                ", with content" if instances == 1 else f", {told} with content"
+            )
+    sizes = {row.examination.key: row.finding.with_content for row in whole.rows}
+    for few in ("footnote", "equation-19", "lemma-1", "corfmat-morse", "extended-joint"):
+        assert sizes[few] > 3, "drawn plants alone have hardly any"
 
 
 def test_nothing_holds_without_a_check_or_a_certificate(whole: Reproduction) -> None:
