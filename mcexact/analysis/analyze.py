@@ -69,6 +69,7 @@ from mcexact.plot.graphs import structure
 from mcexact.processes import Child
 
 if TYPE_CHECKING:
+    from mcexact.analysis.nearby.equalities import WhyFixed
     from mcexact.analysis.nearby.plants import Nearby
 
 # Questions about one system, with their limits on time and work.
@@ -205,6 +206,7 @@ class Analysis(ShownByAccount):
         self._refuted: dict[str, Answer | None] = {}
         self._tells_nearby = nearby
         self._nearby: dict[tuple[str, ...], Nearby] = {}
+        self._why_fixed: WhyFixed | None = None
         self._chosen = questions is not None
         if self._chosen:
             self.left_out = {}
@@ -647,10 +649,12 @@ class Analysis(ShownByAccount):
         answers = self.decided()
         asked: dict[str, Any] = {"information": self.information}
         open_ = {*self.left_out, *self.open()} - answers.keys() - self._ended
-        near = {} if self.nearby_left_out else self.nearby.answers
+        near: dict[str, Any] = {} if self.nearby_left_out else dict(self.nearby.answers)
         if near:
             asked["nearby"] = {each.lost: (each.part, each.within) for each in self.nearby.plants}
-        given, answers = Context(self.system, asked), answers | near
+        why: dict[str, Any] = {} if self.nearby_left_out else dict(self.why_fixed.answers)
+        given, answers = Context(self.system, asked), answers | near | why
+        near |= {name: proof for name, proof in why.items() if name == "redrawn"}
         sentences = with_own(ANALYSIS, answers).sentences(answers, given, open_)
         about, failing = self.plant.subject, self.failing()
         return Account(answers, given, sentences, about, sorted(open_), failing, [*near])
@@ -692,6 +696,26 @@ class Analysis(ShownByAccount):
             self._nearby[tuple(lost)] = nearby_plants(self.plant, lost)
         return self._nearby[tuple(lost)]
 
+    @property
+    def why_fixed(self) -> WhyFixed:
+        """Why modes of the plant are fixed, by equalities between its entries or by its zeros.
+
+        Raises
+        ------
+        InputError
+            If the plant has parameters or is a derived system.
+        """
+        # Few plants have fixed modes, and this loads what decides about blocks.
+        from mcexact.analysis.nearby.equalities import WhyFixed, why_fixed
+
+        spectrum = self.answers.get("fixed_spectrum")
+        if spectrum is None or spectrum.empty:
+            InputError.require(self.plant, MultiChannelSystem, "system")
+            return WhyFixed(self.plant, (), None, (), ())
+        if self._why_fixed is None:
+            self._why_fixed = why_fixed(self.plant, spectrum)
+        return self._why_fixed
+
     def failing(self) -> dict[str, Answer]:
         """Return exact answers about plants within the radii that lack an unproved property.
 
@@ -723,6 +747,8 @@ class Analysis(ShownByAccount):
         known = {"failing_within_radii": failing} if failing else {}
         if not self.nearby_left_out:
             known["nearby"] = self.nearby.to_dict()
+            if self.why_fixed.known:
+                known["why_fixed"] = self.why_fixed.to_dict()
         return account.as_json(information=self.information, questions=efforts, **known, **open_)
 
     def to_rows(self) -> list[dict[str, Any]]:

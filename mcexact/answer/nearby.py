@@ -8,13 +8,23 @@ How far the plant is, and whether rounding errors or digits that were not typed 
 
 What the data allow leads the answer.  Where that is a fixed mode, the same mode's row about all
 channels together stands in the table, and so does what only lies within 10⁻⁶ of every entry.
+
+``redrawn`` is the fixed spectrum of a plant with other numbers at the same places.  A mode that is
+not fixed there is fixed by equalities between entries.  ``law_1``, … are ranks of pencils at modes
+of the given plant that all channels together do not observe or control: their null spaces name
+such equalities.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+
 from mcexact.answer.analysis import Said
-from mcexact.answer.sentence import Claim, Context, Rulebook
+from mcexact.answer.sentence import Claim, Context, Rulebook, Several
 from mcexact.answer.templates import Template
+from mcexact.exact.linear_algebra import PolynomialMatrix
+from mcexact.exact.polynomial import product
 
 LOST = ("unstable", "fixed", "uncontrollable", "unobservable")
 """What a plant nearby lacks, by the names of answers about it behind ``nearby_``."""
@@ -48,8 +58,30 @@ PART = {
     lost: Template(f"nearby-{lost}-part", f"{_PART}{what}", theorem, "nearby")
     for lost, (what, theorem) in _WHAT.items()
 }
+EQUALITIES = Template(
+    "nearby-equalities",
+    "equalities between entries: other numbers with the same zeros free {p:modes}",
+    "blocks.block_bounded",
+    "why fixed",
+)
+_UNOBSERVED = (
+    "{p:right} and C v = 0 for v = {vectors:vectors}",
+    "joint_controllability.observable_hautus",
+)
+_UNCONTROLLED = (
+    "{p:left} and w B = 0 for w = {vectors:vectors}",
+    "joint_controllability.controllable_hautus",
+)
+LAWS = {
+    "unobserved": Template("law-unobserved", *_UNOBSERVED, "law"),
+    "uncontrolled": Template("law-uncontrolled", *_UNCONTROLLED, "law"),
+}
+NEARLY = {
+    "unobserved": Template("nearby-law-unobserved", *_UNOBSERVED, "nearby law"),
+    "uncontrolled": Template("nearby-law-uncontrolled", *_UNCONTROLLED, "nearby law"),
+}
 
-NEARBY_RULES = Rulebook()
+NEARBY_RULES, WHY_RULES = Rulebook(), Rulebook()
 
 
 def _has(lost: str, own: Claim) -> bool:
@@ -92,3 +124,70 @@ for _lost, _question in zip(
     strict=True,
 ):
     _rules(_lost, _question)
+
+
+# Why modes are fixed.
+
+
+@WHY_RULES.rule("table", EQUALITIES, premises=("redrawn", "fixed_spectrum"))
+def _equalities(redrawn: Claim, own: Claim, given: Context) -> Said:
+    """One row for all modes if the other plant has none, else one for each that it frees."""
+    if redrawn.polynomial.degree == 0:
+        yield EQUALITIES(p=product(factor.polynomial for factor in own.factors))
+        return
+    kept = [factor.polynomial for factor in redrawn.factors]
+    for factor in own.factors.separately():
+        if factor.polynomial not in kept:
+            yield EQUALITIES(p=factor.polynomial)
+
+
+def _law(rank: Claim, templates: Mapping[str, Template], *, dual: bool) -> Said:
+    """The vectors of a pencil of all channels, if they are short."""
+    vectors = short_vectors(rank.proof.kernel)
+    if vectors:
+        template = templates["uncontrolled" if dual else "unobserved"]
+        yield template(p=rank.polynomial, vectors=vectors)
+
+
+@WHY_RULES.rule("table", *LAWS.values(), premises=("law",))
+def _laws(laws: Several, given: Context) -> Said:
+    for rank in laws.separately():
+        yield from _law(rank, LAWS, dual=bool(rank.subject))
+
+
+@WHY_RULES.rule("table", NEARLY["unobserved"], premises=("nearby_unobservable",))
+def _nearly_unobserved(near: Claim, given: Context) -> Said:
+    if near.polynomial.degree == 1 and not near.subject:
+        yield from _law(near, NEARLY, dual=False)
+
+
+@WHY_RULES.rule("table", NEARLY["uncontrolled"], premises=("nearby_uncontrollable",))
+def _nearly_uncontrolled(near: Claim, given: Context) -> Said:
+    if near.polynomial.degree == 1 and near.subject:
+        yield from _law(near, NEARLY, dual=True)
+
+
+_MOST_VECTORS, _LONGEST = 2, 1000
+
+
+def short_vectors(null_space: PolynomialMatrix) -> tuple[tuple[int, ...], ...]:
+    """The columns of a matrix, each times a number such that its entries are short integers.
+
+    Empty if there are many columns, or one has no such multiple.
+
+    Examples
+    --------
+    >>> from mcexact.exact.matrix import Matrix
+    >>> short_vectors(PolynomialMatrix.from_matrices(Matrix.from_rows([["-1/2"], [1]])))
+    ((1, -2),)
+    """
+    M = null_space.matrices[0]
+    if len(null_space.matrices) > 1 or M.ncols > _MOST_VECTORS:
+        return ()
+    columns = []
+    for k in range(M.ncols):
+        column = [row[k] for row in M.rows()]
+        scale = math.lcm(*(x.denominator for x in column))
+        scale *= next((-1 if x < 0 else 1 for x in column if x), 1)
+        columns.append(tuple(int(scale * x) for x in column))
+    return tuple(columns) if all(abs(x) < _LONGEST for v in columns for x in v) else ()

@@ -31,6 +31,7 @@ ANALYSIS = Rulebook(
     [
         *nearby.NEARBY_RULES,
         *analysis.ANALYSIS_RULES,
+        *nearby.WHY_RULES,
         *sharing.SHARING_RULES,
         *sharing_gap.GAP_RULES,
         *analysis.DETAIL_RULES,

@@ -328,6 +328,34 @@ def _lost(edges: Sequence[tuple[tuple[str, str], Sequence[str]]]) -> str:
     return "; ".join(cut(clauses, 12))
 
 
+def _eigenvector(p: Polynomial, before: str, after: str) -> str:
+    """Write that A times a vector is a multiple of it, which may be 0."""
+    mode = -p.coefficients[0] / p.coefficients[1]
+    if not mode:
+        return f"{before}A{after} = 0"
+    vector = (before + after).strip()
+    times = "" if mode == 1 else "-" if mode == -1 else f"{number(mode)} "
+    return f"{before}A{after} = {times}{vector}"
+
+
+def _vectors(vectors: Sequence[Sequence[int]]) -> str:
+    """Write vectors of integers; of a long one its entries that are not 0.
+
+    Examples
+    --------
+    >>> _vectors([(1, 0), (0, 1)]), _vectors([(0, 2) + 12 * (0,)])
+    ('(1, 0) and (0, 1)', '(entry 2 = 2, else 0)')
+    """
+    texts = []
+    for vector in vectors:
+        if len(vector) <= 12:
+            texts.append("(" + ", ".join(map(str, vector)) + ")")
+        else:
+            entries = [f"entry {k} = {x}" for k, x in enumerate(vector, 1) if x]
+            texts.append("(" + ", ".join([*cut(entries, 8), "else 0"]) + ")")
+    return listed(texts)
+
+
 def _values(where: Sequence[str]) -> str:
     """Write conditions on parameters."""
     return " or ".join(cut(where, 8))
@@ -412,6 +440,9 @@ FORMS: dict[str, Write] = {
     "words": str,
     "values": _values,
     "lost": _lost,
+    "right": lambda p: _eigenvector(p, "", " v"),
+    "left": lambda p: _eigenvector(p, "w ", ""),
+    "vectors": _vectors,
     "undefined": lambda where: f"; undefined where {_values(where)}" if where else "",
     "another": lambda more: "Another" if more else "A",
     "shared": _shared,

@@ -10,18 +10,22 @@ about the manifest's own plant.  How far the other plant is from it is computed 
 ``nearby-…-digits``  no entry differs by more than half a unit of its last digit (`last_digit`)
 ``nearby-…-part``    the distance is said, and no more
 ===================  ===========================================================================
+
+``nearby-equalities`` is about a plant with other numbers at the same places, however far these are:
+modes of the own plant that are not fixed there are fixed by equalities between its entries.
+``law-…`` and ``nearby-law-…`` name the vector that all channels do not observe, or not control.
 """
 
 from collections.abc import Callable
 from fractions import Fraction
 
 from . import budget
-from .arithmetic import Matrix
+from .arithmetic import FIRST, Matrix, coprime, entries_of, poly_modulo
 from .discs import absolute
-from .reading import polynomial
+from .reading import Json, polynomial
 from .roots import in_stability_region
 from .sentences import DUAL, PLANT, Premise, Role, everywhere, rule
-from .system import Pair, System, pairs_of
+from .system import Pair, System, pairs_of, polynomial_text
 
 EXACT_PART = Fraction(1, 10**12)
 """The part of an entry that rounding errors explain."""
@@ -158,3 +162,100 @@ of_mode(
     "all channels of its plant together do not observe these roots",
     OBSERVED,
 )
+
+
+# Modes that are fixed by equalities between entries.
+
+
+def moved_places(near: Premise, own: Premise) -> list[tuple[set[int], set[int]]]:
+    """The rows and the columns of entries that differ, of each matrix; zeros are the same."""
+    places = []
+    matrices = ([each.A, *each.B, *each.C] for each in (own.plant, near.plant))
+    for M, N in zip(*matrices, strict=True):
+        values, others = ({(i, j): x for i, j, x in entries_of(each)} for each in (M, N))
+        near.expect(values.keys() == others.keys(), "an entry is 0 in one plant alone")
+        budget.spend(100 + 4 * budget.fractions(len(values), max(M.limbs, N.limbs)))
+        differ = [at for at, x in values.items() if x * N.denominator != others[at] * M.denominator]
+        places.append(({i for i, _ in differ}, {j for _, j in differ}))
+    return places
+
+
+def freed_states(near: Premise) -> set[int]:
+    """The states of the blocks that leave no mode fixed; all of them if no mode is fixed."""
+    if not near["factors"]:
+        return set(range(near.plant.A.nrows))
+    parts = near.witness.get("blocks", [])
+    return {a for part in parts if _leaves_none(part) for a in part["states"]}
+
+
+def _leaves_none(part: dict[str, Json]) -> bool:
+    """Whether the verified evidence of a block leaves no mode of it."""
+    evidence = part["evidence"]
+    if evidence is None or "channel" not in evidence:
+        return evidence is not None
+    return len(evidence["recurrence"]) - 1 == len(part["states"])
+
+
+OTHER = Role(("fixed_spectrum",), PLANT, nearby=True)
+
+
+@rule("nearby-equalities", OTHER, FIXED, theorem="blocks.block_bounded")
+def _equalities(near: Premise, own: Premise) -> str:
+    """The blocks of both plants are the same, and so are those that leave a mode in the other one.
+
+    What is fixed in the own plant, and not in the other one, is so in blocks that leave none there.
+    """
+    differences(near, own)
+    freed, n = freed_states(near), own.plant.A.nrows
+    (rows, columns), *ports = moved_places(near, own)
+    inputs, outputs = ports[: len(own.plant.B)], ports[len(own.plant.B) :]
+    touched = rows.union(columns, *[a for a, _ in inputs], *[b for _, b in outputs])
+    near.expect(touched <= freed, "an entry of a block that leaves a mode is another one")
+    others = poly_modulo(polynomial(near["polynomial"], "claim.polynomial"), FIRST)
+    cited = own.cited("claim", "factors")
+    own.expect(bool(cited), "no mode is fixed")
+    listed = [polynomial(each["polynomial"], "claim.factors", 1) for each in cited]
+    for p in listed:
+        alone = coprime(poly_modulo(p, FIRST), others, FIRST)
+        near.expect(alone, "a mode is fixed in the other plant, too")
+    names = " and of ".join(map(polynomial_text, listed))
+    return (
+        f"{own.statement}; the roots of {names} are not fixed in {near.plant.words}, whose entries "
+        f"are 0 where those of {own.plant.words} are, and which differs from it in entries of "
+        f"{len(freed)} of {n} states alone, in blocks in which no mode of it is fixed"
+    )
+
+
+# The vector of a mode that all channels together do not observe, or not control.
+
+
+def law(key: str, ways: Role, *, shown: bool, theorem: str) -> None:
+    """Enter the rule about the null space of [λI − A; C], or with transposes of [λI − A, B]."""
+
+    @rule(key, ways, theorem=theorem)
+    def _law(rank: Premise) -> str:
+        rank.expect(whole(rank, shown=shown), "another set of channels")
+        rank.expect(rank["rank"] < rank.plant.A.nrows, "the rank is not below the states")
+        rank.expect(len(rank["polynomial"]) == 2, "the mode is not rational")
+        null_space = rank.witness["kernel"]
+        (rows,) = null_space["coefficients"]
+        d, number = null_space["denominator"], len(rows[0])
+        budget.spend(sum(100 + len(str(x)) for row in rows for x in row))
+        columns = [", ".join(str(Fraction(row[k], d)) for row in rows) for k in range(number)]
+        return f"{rank.statement}; its null space is spanned by ({'), ('.join(columns)})"
+
+
+for _near in (False, True):
+    _start = "nearby-law" if _near else "law"
+    law(
+        f"{_start}-unobserved",
+        Role(("pencil_rank",), PLANT, nearby=_near),
+        shown=True,
+        theorem=OBSERVED,
+    )
+    law(
+        f"{_start}-uncontrolled",
+        Role(("pencil_rank",), DUAL[:1], nearby=_near),
+        shown=False,
+        theorem=CONTROLLED,
+    )

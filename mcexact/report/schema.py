@@ -438,6 +438,18 @@ def certify_parameters() -> Schema:
 _QUESTION = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, {"reason": TEXT})
 
 
+_FACTOR = rows(NUMBER)
+_WHY_FIXED = record(
+    {
+        "by_equalities": rows(_FACTOR),
+        "laws": rows(record({"mode": _FACTOR, "certificate": TEXT}, closed=True)),
+        "computed_not_certified": rows(
+            record({"mode": _FACTOR, "fixed_by": {"enum": ["equalities", "zeros"]}}, closed=True)
+        ),
+    },
+    {"certificate": TEXT, "plant": {"type": "object"}},
+    closed=True,
+)
 _LOST = {"enum": [*LOST]}
 _NEARBY = record(
     {
@@ -478,6 +490,7 @@ def analyze() -> Schema:
             "largest_uncertainty": _LARGEST,
             "failing_within_radii": table({"type": "object"}),
             "nearby": _NEARBY,
+            "why_fixed": _WHY_FIXED,
         },
     )
 

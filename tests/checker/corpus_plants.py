@@ -400,6 +400,9 @@ def nearby() -> Iterator[tuple[str, list[Document]]]:
         ranks = [module.ranked(each, mode, s) for each in near for s in ([], ["1"])]
         ranks += [module.ranked(dual(each), mode, s) for each in near for s in ([], ["1"])]
         yield f"nearby_{name}", [*(answer(own) for answer in answers), *ranks]
+    for name, own, others in module.REDRAWN:
+        laws = [module.ranked(each, mode, ["1"]) for each in (own, dual(own)) for mode in (0, 1)]
+        yield f"nearby_{name}", [module.spectrum(own), *laws, *map(module.spectrum, others)]
 
 
 def pool() -> Iterator[tuple[str, list[Document]]]:

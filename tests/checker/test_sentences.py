@@ -132,7 +132,7 @@ OPPOSITE = [
     ("lifted-nothing-fixed", "lifted-fixed"),
     ("held-nothing-fixed", "held-fixed"),
 ]
-ELSEWHERE = ("nearby-", *OF_DESIGNS, "parametric-")
+ELSEWHERE = ("nearby-", "law-", *OF_DESIGNS, "parametric-")
 """How the rules begin that other files hold against certificates: of designs, of parameters, of
 plants nearby."""
 ALWAYS = {

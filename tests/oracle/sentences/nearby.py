@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from decimal import Decimal, localcontext
 from fractions import Fraction
 
+from flint import fmpq_mat
+
 from tests.oracle.certificates.systems import System
 from tests.oracle.sentences.analysis import judge
 from tests.oracle.sentences.cases import Case, Facts, Region, Said, irreducible
@@ -32,6 +34,11 @@ def _same_digits(x: Fraction, y: Fraction) -> bool:
     if Fraction(written) == x and exponent < 0 and 3 <= len(digits) <= 12:
         return abs(x - y) <= Fraction(10) ** exponent / 2
     return abs(x - y) <= abs(x) * EXACT
+
+
+def _zero_where(own: System, near: System) -> bool:
+    """Whether the entries of two plants of the same shapes are 0 at the same places."""
+    return all((x == 0) == (y == 0) for x, y in _pairs(own, near))
 
 
 def _lacks(lost: str, own: Facts, near: Facts, said: Said) -> bool:
@@ -64,3 +71,43 @@ def _nearby(said: Said, case: Case) -> bool:
         part = part if tier else min(part, EXACT)
         close = all(abs(x - y) <= part * abs(x) for x, y in pairs)
     return close and _lacks(lost, case.own, Facts(near), said)
+
+
+@judge("nearby-equalities")
+def _equalities(said: Said, case: Case) -> bool:
+    """The modes are fixed, and with other numbers at the same places fewer are.
+
+    Other modes may be fixed there only if they are so here, too: else these moved there.
+    """
+    other: System = case.asked["redrawn"]
+    there, own = ([str(p) for p in each.fixed] for each in (Facts(other), case.own))
+    named = [str(p) for p, _ in irreducible(said.values["p"])]
+    fixed = all(p in own for p in named) and all(p in own for p in there)
+    return fixed and not any(p in there for p in named) and _zero_where(case.plant, other)
+
+
+def _satisfied(said: Said, plant: System, *, left: bool) -> bool:
+    """Whether A maps each vector to its multiple, and the ports map it to 0."""
+    A, ports = plant.A, [*plant.B] if left else [*plant.C]
+    if left:
+        A, ports = A.transpose(), [M.transpose() for M in ports]
+    minus, one = (said.values["p"][k] for k in (0, 1))
+    vectors = [fmpq_mat(len(v), 1, list(v)) for v in said.values["vectors"]]
+    return all(
+        any(v.entries())
+        and A * v == v * (-minus / one)
+        and not any(x for M in ports for x in (M * v).entries())
+        for v in vectors
+    )
+
+
+@judge("law-unobserved", "law-uncontrolled")
+def _law(said: Said, case: Case) -> bool:
+    return _satisfied(said, case.plant, left=said.rule.endswith("uncontrolled"))
+
+
+@judge("nearby-law-unobserved", "nearby-law-uncontrolled")
+def _law_nearby(said: Said, case: Case) -> bool:
+    left = said.rule.endswith("uncontrolled")
+    lost = "uncontrollable" if left else "unobservable"
+    return _satisfied(said, case.asked["nearby"][lost], left=left)
