@@ -32,7 +32,8 @@ def fractions(x: Fraction, y: int) -> Fraction:
 def side_by_side(*plants: MultiChannelSystem) -> MultiChannelSystem:
     """Plants that nothing connects, each with channels of its own."""
     n, start = sum(plant.n for plant in plants), 0
-    A, B, C = [], [], []
+    A: list[list[Any]] = []
+    B, C = list[Any](), list[Any]()
     for plant in plants:
         after = n - start - plant.n
         A += [[0] * start + [*row] + [0] * after for row in plant.A.rows()]
