@@ -32,7 +32,7 @@ _HEAD = """\
 
 `python -m benchmarks.gallery_designs` asks for a decentralized controller, one with shared
 sub-states (over the plant's own links, or else over a ring) and one that holds set-points, for
-every plant of the gallery, without a rate: the rate is then half the sensible one, or slower.
+every plant of the gallery, without a rate: the cost is then least, with margins.
 `python -m benchmarks.families` asks for rates of eight families. Each loop is certified exactly at
 the rate of its row. All other figures are computed in floating point and not proved:
 

@@ -424,7 +424,8 @@ H_ij let one agent control and observe all estimation errors
     InputError.require(system, MultiChannelSystem, "system")
     one_of(order, (None, "least", "low"), "order")
     system, graph = with_graph(system, graph)
-    request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress)
+    arguments = system, agent, spectrum, rate, radius, arithmetic, progress
+    request = request_for(*arguments, least_cost=False)
     sizes = [system.n] * system.m
     exact = None if gains is None else checked_gains(system, gains, sizes, rounding=rounding)
     if order != "low":

@@ -63,6 +63,9 @@ class Request:
         A function that is called with a short description of each step.
     notes : tuple of str
         What was chosen for the user.
+    brisk : StabilityRegion or None
+        Where no rate was asked for and the cost is to be least: a faster region than `region`,
+        where a search starts, too.
     """
 
     region: StabilityRegion
@@ -71,6 +74,7 @@ class Request:
     arithmetic: Arithmetic
     tell: Progress
     notes: tuple[str, ...] = ()
+    brisk: StabilityRegion | None = None
 
     @classmethod
     def of(

@@ -1,10 +1,11 @@
-"""Requests without a rate: the sensible one, and slower designs.
+"""Requests without a rate: the least cost under margins, with a slow rate that is kept.
 
-A request without a rate gets half the sensible one as a rule; this is the fastest that one
-controller for all agents can afford (`optimum.diagnosis`).  `request_for` chooses it.  Agents that
-know less can be too slow for it, so `at_a_robust_rate` designs for smaller and smaller parts of a
-chosen rate until the loop has a margin of 0.3, and otherwise keeps the loop with the largest
-margin.  A prescribed rate is never changed.
+A request without a rate asks for the least cost, and its loop has to be hardly faster than the
+plant needs: `request_for` chooses the smaller of half the rate of the optimal state feedback and a
+tenth of the sensible rate, which is the fastest that one controller for all agents can afford
+(`optimum.diagnosis`).  Agents that know less can be too slow even for this, so
+`at_a_reachable_rate` designs for smaller and smaller parts of a chosen rate until a controller is
+found.  A prescribed rate is never changed here.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.gate import Arithmetic, Progress, Request, Warned
-from mcexact.synthesis.optimum.diagnosis import chosen_region
-from mcexact.synthesis.optimum.figures import MARGIN, Aims
+from mcexact.synthesis.optimum.diagnosis import chosen_regions
+from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.optimum.problem import Weights
 
 _NO_OPTIMUM = "a small one, since all agents together have no optimal controller"
@@ -45,6 +46,7 @@ def request_for(
     aims: Aims | None = None,
     controlled: MultiChannelSystem | None = None,
     avoids_fixed_modes: bool = False,
+    least_cost: bool = True,
 ) -> Request:
     """Check the arguments of a ``design_…`` function, and choose a rate if none is given.
 
@@ -57,6 +59,9 @@ def request_for(
         The plant with integrators, if its sensible rate counts and not that of the system.
     avoids_fixed_modes : bool
         Whether a chosen rate is slow enough for the stable fixed modes of the system.
+    least_cost : bool
+        Whether a search follows that looks for the least cost; otherwise, and without effort or for
+        a named agent, half the sensible rate is chosen.
 
     Raises
     ------
@@ -69,9 +74,11 @@ def request_for(
     >>> request_for(plant, spectrum=[-1]).notes
     ()
     >>> print(*request_for(plant).notes)
-    no rate was given: 21/5 is half the sensible rate
+    no rate was given: the cost is least, at a rate of at least 7/10, half that of the optimal \
+state feedback
     >>> print(*request_for(MultiChannelSystem([[1]], [[[0]]], [[[1]]])).notes)
-    no rate was given: 1/1000 is a small one, since all agents together have no optimal controller
+    no rate was given: the cost is least, at a rate of at least 1/1000, a small one, since all \
+agents together have no optimal controller
     """
     aims = Aims() if aims is None else aims
     InputError.require(aims, Aims, "aims")
@@ -83,14 +90,25 @@ def request_for(
     weights = Weights.of(system, aims.weights)
     if controlled is not None:
         weights = weights.with_integrators(system)
-    sensible = chosen_region(about, weights)
-    region, reason = sensible or _SMALL[StabilityRegion(system.time).discrete]
+    chosen = chosen_regions(about, weights)
+    searches = least_cost and agent is None and aims.effort != 0
+    brisk = None
+    if chosen is None:
+        region, reason = _SMALL[StabilityRegion(system.time).discrete]
+        brisk = region if searches else None
+    elif searches:
+        region, reason, brisk = chosen.slowest, chosen.reason, chosen.brisk
+    else:
+        region, reason = chosen.brisk, chosen.brisk_reason
     if controlled is None and avoids_fixed_modes:
         region, reason = _beyond(fixed_spectrum(system), region, reason)
     note = f"no {region.word} was given: {region.edge} is {reason}"
+    if searches:
+        limit = "a radius of at most" if region.discrete else "a rate of at least"
+        note = f"no {region.word} was given: the cost is least, at {limit} {region.edge}, {reason}"
     asked: dict[str, Any] = {region.word: region.edge}
-    chosen = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **asked)
-    return _limited(replace(chosen, notes=(note,)), aims)
+    request = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **asked)
+    return _limited(replace(request, notes=(note,), brisk=brisk), aims)
 
 
 def _limited(request: Request, aims: Aims | None) -> Request:
@@ -121,11 +139,11 @@ def _beyond(
     return region, reason
 
 
-_HALVINGS, _MORE_HALVINGS = 2, 4
+_HALVINGS = 2
 
 
-def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> Design:
-    """Design for a request; if its rate was chosen, also for half of it, a quarter and so on.
+def at_a_reachable_rate(request: Request, design: Callable[[Request], Design]) -> Design:
+    """Design for a request; if its rate was chosen, and not reached, for a half or a quarter of it.
 
     Parameters
     ----------
@@ -136,47 +154,31 @@ def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> D
     Returns
     -------
     Design
-        The first with a margin of 0.3, or else the one with the largest margin.  A design without a
-        search is not repeated, and a prescribed rate stays.
+        The first that is found.
 
     Raises
     ------
     LimitReached
         That of the first rate, if no controller was found for any.
-
-    Notes
-    -----
-    The sensible rate is that of one controller for all agents; agents that know less than it can be
-    too slow for half of it.  Where already this controller is fragile, a search that aims at a
-    margin can find a robust one for a slower rate all the same.  If it is robust but no loop of the
-    search is, an eighth and a sixteenth of the rate are tried, too.
     """
-    best, failed = None, None
-    for trial in range(_MORE_HALVINGS + 1):
-        if trial > _HALVINGS and (best is None or not _is_robust_for_all(best)):
-            break
+    failed = None
+    for trial in range(1 if request.brisk is None else _HALVINGS + 1):
         asked = request
         if trial:
             request.tell("a slower rate")
             asked = _halved(request, trial)
         try:
-            result = design(asked)
+            return design(asked)
         except LimitReached as limit:
             failed = failed or limit
-        else:
-            best = result if best is None or _margin(result) > _margin(best) else best
-        if not request.notes or (best is not None and _is_final(best)):
-            break
-    if best is None:
-        raise failed or LimitReached("no controller was found")
-    return best
+    raise failed or LimitReached("no controller was found")
 
 
 def _halved(request: Request, times: int) -> Request:
     region = request.region
     for _ in range(times):
         region = slower(region)
-    remark = f", and {region.edge} was taken, since no faster loop that was found is robust"
+    remark = f"; {region.edge} was taken, since no faster loop was found"
     notes = (*request.notes[:-1], request.notes[-1] + remark)
     return replace(request, region=region, notes=notes, tell=partial(_once_warned, request.tell))
 
@@ -185,21 +187,3 @@ def _once_warned(tell: Progress, step: str) -> None:
     """Report a step, but no warning that was already reported for the first rate."""
     if not isinstance(step, Warned):
         tell(step)
-
-
-def _margin(design: Design) -> float:
-    """The margin of a controller that was searched, 0 for others."""
-    optimum = design.parts.get("optimum")
-    return 0.0 if optimum is None else float(optimum.figures.margin)
-
-
-def _is_robust_for_all(design: Design) -> bool:
-    """Whether one controller for all agents has the margin that designs aim at."""
-    optimum = design.parts.get("optimum")
-    central = None if optimum is None else optimum.central
-    return central is not None and bool(central.margin >= MARGIN)
-
-
-def _is_final(design: Design) -> bool:
-    """Whether a slower rate is not tried: the loop is robust, or it was not searched."""
-    return _margin(design) >= MARGIN or "diagnosis" not in design.parts

@@ -45,7 +45,7 @@ from mcexact.synthesis.optimum.diagnosis import with_diagnosis
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.optimum.problem import Weights
 from mcexact.synthesis.optimum.search import Family, searched_proposals
-from mcexact.synthesis.rate import at_a_robust_rate, request_for
+from mcexact.synthesis.rate import at_a_reachable_rate, request_for
 
 SetpointMethod = Literal["observer", "extended"]
 
@@ -80,7 +80,7 @@ def design_setpoint(
         the key ``"closed_loop"`` as in `design_extended`.
     rate, radius : rational, optional
         A rate or radius to be certified, instead of a spectrum or in addition to it.  Without a
-        spectrum, the default is half the sensible rate, or less if that leads to a fragile loop.
+        spectrum, the default is the least cost with margins, as in `design_decentralized`.
         For a controller of a theorem, in exact arithmetic and continuous time, the eigenvalues are
         placed beyond three times the rate, if no fixed mode prevents this.
     method : {"observer", "extended"}, optional
@@ -139,7 +139,9 @@ invariant zero of the plant
     solvability = _required(system)
     integrated = setpoint_system(system)
     arguments = system, agent, spectrum, rate, radius, arithmetic, progress
-    request = request_for(*arguments, aims=aims, controlled=integrated_plant(system))
+    controlled = integrated_plant(system)
+    least_cost = method != "observer"
+    request = request_for(*arguments, aims=aims, controlled=controlled, least_cost=least_cost)
     _require_reachable(integrated, request.region)
 
     def attempt(asked: Request) -> Design:
@@ -147,7 +149,7 @@ invariant zero of the plant
         proposals = (_for_the_plant(system, each) for each in task.proposals())
         return designed("observer", asked, system, system.neighbors, proposals, stable=True)
 
-    design = at_a_robust_rate(request, attempt)
+    design = at_a_reachable_rate(request, attempt)
     gain = design.loop.closed.steady_gain
     if gain is None or gain != Matrix.identity(gain.nrows):
         raise InternalError("a stable loop with integrators does not attain its set-points")

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.linalg import solve_continuous_are, solve_discrete_are
 
 from mcexact.errors import Impossible, InputError, LimitReached, OutOfReach, UsageError
+from mcexact.exact.matrix import matrix_to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
@@ -19,7 +22,7 @@ from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Proposal, Warned
 from mcexact.synthesis.optimum import search
 from mcexact.synthesis.optimum.diagnosis import diagnosed
-from mcexact.synthesis.optimum.figures import THEOREM, Aims
+from mcexact.synthesis.optimum.figures import MARGINS, THEOREM, Aims, least_cost
 from mcexact.synthesis.optimum.problem import Weights
 from mcexact.synthesis.rate import request_for
 from mcexact.synthesis.setpoint import design_setpoint
@@ -32,27 +35,49 @@ NEARLY_FIXED = MultiChannelSystem([[1, 0], [0, -1]], [[[1], ["1e-7"]]], [[[1, 1]
 
 
 @pytest.mark.parametrize("plant", [coupled(), gallery.load("compleib-dis5")], ids=str)
-def test_without_a_rate_half_the_sensible_one_is_taken_and_said(plant) -> None:
+def test_without_a_rate_the_loop_is_as_fast_as_a_tenth_of_what_is_sensible_or_of_feedback(
+    plant: MultiChannelSystem,
+) -> None:
     request = request_for(plant)
     [note] = request.notes
-    known = diagnosed(plant, request.region)
+    assert request.brisk is not None
+    known = diagnosed(plant, request.brisk)
     assert known.is_sensible and known.sensible is not None
-    assert f"{request.region.edge} is" in note and "sensible" in note
     pace = np.log if request.region.discrete else float
-    ratio = float(pace(float(known.sensible.edge)) / pace(float(request.region.edge)))
-    assert ratio == pytest.approx(2, rel=0.15)
-    design = design_decentralized(plant, aims=Aims(effort=2))
-    [told] = design.notes
-    assert told.startswith(note) and f"{design.region.edge} " in told
-    assert (design.region == request.region) == (told == note)
+    sensible, slowest, brisk = (
+        float(pace(float(each.edge))) for each in (known.sensible, request.region, request.brisk)
+    )
+    assert sensible / brisk == pytest.approx(2, rel=0.15)
+    A, B = matrix_to_float(plant.A), matrix_to_float(plant.input_matrix())
+    weights = np.eye(len(A)), np.eye(B.shape[1])
+    if request.region.discrete:
+        P = solve_discrete_are(A, B, *weights)
+        F = np.linalg.solve(weights[1] + B.T @ P @ B, B.T @ P @ A)
+        rate = np.log(np.max(np.abs(np.linalg.eigvals(A - B @ F))))
+    else:
+        P = solve_continuous_are(A, B, *weights)
+        rate = -np.max(np.linalg.eigvals(A - B @ B.T @ P).real)
+    smaller = min(sensible / 10, rate / 2, key=abs)
+    assert slowest == pytest.approx(smaller, rel=0.15)
+    assert f"{request.region.edge}, " in note and "the cost is least" in note
 
 
 def test_a_chosen_radius_is_not_nearly_zero() -> None:
     """All agents together can bring this plant to rest within few steps."""
-    [note] = request_for(gallery.load("movable-by-periodic-gains")).notes
-    assert note == (
-        "no radius was given: 1/10 is fast enough, and slower than the root of the sensible radius"
-    )
+    request = request_for(gallery.load("movable-by-periodic-gains"))
+    assert request.brisk is not None
+    assert request.region.edge > request.brisk.edge == Fraction(1, 10)
+
+
+def test_without_a_rate_the_cost_is_less_than_with_the_rate_of_before_and_the_margins_are_kept():
+    plant = gallery.load("compleib-dis5")
+    request = request_for(plant)
+    least = design_decentralized(plant, aims=Aims(effort=2)).parts["optimum"]
+    fast = design_decentralized(plant, radius=request.brisk.edge, aims=Aims(effort=2))
+    assert least.figures.cost < 0.8 * fast.parts["optimum"].figures.cost
+    assert least.peaks.keep(MARGINS)
+    bound = least_cost(plant, Weights.unit(plant))
+    assert bound is not None and bound <= least.figures.cost <= 1.3 * bound
 
 
 @pytest.mark.parametrize(("time", "mode"), [("continuous", "-1/50"), ("discrete", "0.99")])

@@ -1,14 +1,16 @@
 """Descent from a gain matrix to a local optimum.
 
-The objective of a design is the linear-quadratic cost plus penalties: a barrier at the border of
-the region, the complementary sensitivity at the inputs, large gains, and eigenvalues that are badly
-damped or too fast.  It is infinite outside the region, so every descent has two parts.
+The objective of a design is the linear-quadratic cost over a bound for every controller, plus
+penalties: a barrier at the border of the region, peaks that leave single loops or all inputs
+together too little margin, large gains, and eigenvalues that are badly damped or too fast.  It is
+infinite outside the region, so every descent has two parts.
 
 1.  `inside` moves a start into the region.  `ratcheted` minimizes the cost for a part of the rate,
    then for more of it.  If it fails, `spectral_descent` minimizes the largest real part or modulus,
    which is not smooth where eigenvalues meet, and `ratcheted` goes on from where it ends.
 2.  `drafted` takes a few steps of least objective, to compare starts; `polished` goes on to the
-   local optimum, and then raises the weight of the sensitivity until the margin is enough.
+   local optimum, and then penalizes the peaks that it meets, with larger and larger weights, until
+   the margins are enough.
 
 Two more moves serve starts that are far from the region: `calmed` reduces what the agents do to the
 plant where this makes a loop faster, and `settled` lowers the cost of a stable loop outside the
@@ -23,7 +25,7 @@ Everything here is floating point and proves nothing.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -32,15 +34,17 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.floating.margins import is_within, spectral_bound
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.figures import (
-    GRID,
+    GRID_OF_PEAKS,
     INFINITE,
+    MARGINS,
     NO_LIMITS,
+    NO_MARGINS,
     Complexes,
     Eigenvalues,
-    Sensitivity,
+    Limits,
+    Margins,
     Shape,
     Valued,
-    frequencies,
     quadratic_costs,
     shift_of,
 )
@@ -61,36 +65,40 @@ SHARE_OF_SHIFTED = 0.0005
 
 With larger weights loops become faster than is asked, and dearer.
 """
+_NO_POINTS: Complexes = np.zeros(0, dtype=np.complex128)
 
 
 @dataclass(frozen=True, eq=False)
 class Objective:
-    """J_0 + σ J_a + μ Σ max(0, σ_max(T)/τ − 1)² + J_0 (Σ max(0, |K_ij|/g − 1)² + 100 e).
+    """(J_0 + σ J_a)/J* + μ e_T + Σ max(0, |K_ij|/g − 1)² + 100 e.
 
-    Here e is `Shape.excess`.
+    Here e_T is `Margins.excess`, and e is `Shape.excess`.
 
     Attributes
     ----------
     problem : FeedbackProblem
     shift : float
         The shift a (continuous time) or ρ (discrete time) of J_a.
+    least : float
+        J*, such as a bound for every controller.
     largest_gain : float
         g; infinite without a limit.
     weight : float
-        μ, the weight of the penalty on the sensitivity T.
-    limit : float
-        τ, the largest singular value of T that is not penalized.
-    points : ndarray of complex or None
-        The frequencies of the sum.
+        μ, the weight of the peaks of T.
+    limits : Limits
+        On the peaks.
+    points : ndarray of complex
+        The frequencies at which they are penalized.
     shape : Shape
     """
 
     problem: FeedbackProblem
     shift: float
+    least: float = 1.0
     largest_gain: float = np.inf
     weight: float = 0.0
-    limit: float = np.inf
-    points: Complexes | None = None
+    limits: Limits = NO_MARGINS
+    points: Complexes = field(default_factory=lambda: _NO_POINTS)
     shape: Shape = NO_LIMITS
 
     def __call__(self, x: Floats) -> Valued:
@@ -106,23 +114,35 @@ class Objective:
         (plain, G0), (shifted, Ga) = quadratic_costs(problem, K, (unshifted, self.shift))
         if not np.isfinite(plain) or not np.isfinite(shifted):
             return INFINITE
-        value, G = plain + SHARE_OF_SHIFTED * shifted, G0 + SHARE_OF_SHIFTED * Ga
-        if self.points is not None and self.weight:
-            excess, Gm = Sensitivity(problem, K).excess(self.points, self.limit)
+        value = (plain + SHARE_OF_SHIFTED * shifted) / self.least
+        G = (G0 + SHARE_OF_SHIFTED * Ga) / self.least
+        if self.points.size and self.weight:
+            excess, Gm = Margins(problem, K).excess(self.points, self.limits)
+            if not np.isfinite(excess):
+                return INFINITE
             value, G = value + self.weight * excess, G + self.weight * Gm
         if np.isfinite(self.largest_gain):
             over = np.maximum(np.abs(K) / self.largest_gain - 1, 0)
             size = float(np.sum(over**2))
             if size:
-                value += plain * size
-                G = G + size * G0 + plain * 2 * over * np.sign(K) / self.largest_gain
+                value, G = value + size, G + 2 * over * np.sign(K) / self.largest_gain
         if not self.shape.free:
             excess, Ge = self.shape.excess(problem, K)
-            value += _SHAPE * plain * excess
-            G = G + _SHAPE * (excess * G0 + plain * Ge)
+            value, G = value + _SHAPE * excess, G + _SHAPE * Ge
         if not np.isfinite(value):
             return INFINITE
         return value, problem.gradient(G)
+
+    @property
+    def work(self) -> float:
+        """How many times the work of one Lyapunov equation an evaluation takes, about."""
+        problem = self.problem
+        if not self.points.size:
+            return 2.0
+        rows, columns = problem.mask.shape
+        # Each point multiplies the L × N, N × P matrices; an equation has some 25 N³ operations.
+        of_points = len(self.points) * rows * columns / (6 * max(len(problem.A), 1) ** 2)
+        return float(4 + of_points)
 
 
 # The BFGS method with a line search that accepts infinite values (Lewis and Overton 2013).
@@ -253,10 +273,12 @@ SLACK = 1.02
 """The region is tightened by this factor, so that rounding the controller does not leave it."""
 _RATCHETS, _STALLS, _SHARE = 40, 4, 0.15
 _PARTS = (0.5, 0.25, 0.12, 0.06)
-_MARGIN_ROUNDS = 10
+_MARGIN_ROUNDS, _MARGIN_STEPS = 6, 120
+_AIMED_FURTHER, _NEARLY = 1.1, 1.02
+"""The peaks are penalized for margins a tenth larger than asked; a fiftieth larger is enough."""
 _SETTLED = 60
-_DRAFT, _POLISH = 60, 500
-_CHECKED = 200
+_DRAFT, _POLISH = 60, 400
+_TOLERANCE = 1e-4
 _GAIN_AIMED_AT = 0.95
 
 
@@ -268,15 +290,18 @@ class Target:
     ----------
     region : StabilityRegion
     largest_gain : float
-    margin : float
-        The margin that is enough; the search aims a tenth higher.
+    limits : Limits
+        The margins that are enough; the search aims a tenth higher.
+    least : float
+        A cost by which all costs are divided, such as the bound for every controller.
     shape : Shape
         Limits on the eigenvalues, which the search aims at.
     """
 
     region: StabilityRegion
     largest_gain: float = np.inf
-    margin: float = 0.3
+    limits: Limits = MARGINS
+    least: float = 1.0
     shape: Shape = NO_LIMITS
 
     def reached(self, bound: float, factor: float = 1.0) -> bool:
@@ -417,7 +442,8 @@ def settled(
         if not bound < edge or target.reached(bound, SLACK) or effort.over:
             break
         shift = (bound + edge) / 2 if problem.discrete else -bound / 2
-        objective = _counted(Objective(problem, shift, target.largest_gain), effort)
+        costs = Objective(problem, shift, target.least, target.largest_gain)
+        objective = _counted(costs, effort)
         x, _ = minimize(objective, x, steps=_SETTLED, stop=lambda: effort.over)
     return x
 
@@ -443,7 +469,8 @@ def _objective(problem: FeedbackProblem, x: Floats, target: Target) -> Objective
     shift = shift_of(target.region, SLACK)
     if not target.reached(bound, SLACK):
         shift = (edge + (bound if problem.discrete else -bound)) / 2
-    return Objective(problem, shift, _GAIN_AIMED_AT * target.largest_gain, shape=target.shape)
+    gain = _GAIN_AIMED_AT * target.largest_gain
+    return Objective(problem, shift, target.least, gain, shape=target.shape)
 
 
 def polished(
@@ -462,42 +489,49 @@ def polished(
     Yields
     ------
     ndarray
-        Free entries of K inside the region: first of least cost, without regard to the margin; then
-        with larger and larger margins, of larger and larger cost, until the margin is enough.
+        Free entries of K inside the region: first of least cost, without regard to the margins;
+        then with larger and larger margins, of larger and larger cost, until these are enough.
 
     Notes
     -----
-    A round penalizes the frequencies at which the loop is too sensitive.  The weight of the penalty
-    makes it as large as the cost at first, and grows fourfold from round to round.
+    A round penalizes the highest peaks that this round and all before it have met, so that a peak
+    that was lowered does not return; the weight of the penalty grows threefold.
     """
     objective, first = _objective(problem, x, target), effort.part(0.5)
     counted = _counted(objective, first)
-    x, value = minimize(counted, x, steps=_POLISH, stop=lambda: first.over)
+    x, value = minimize(counted, x, steps=_POLISH, tolerance=_TOLERANCE, stop=lambda: first.over)
     if not np.isfinite(value):
         return
-    limit, unshifted, weight = 1 / (1.1 * target.margin), 1.0 if problem.discrete else 0.0, 0.0
+    limits, weight = target.limits.tightened(_AIMED_FURTHER), 1.0
+    points = _NO_POINTS
     for _ in range(_MARGIN_ROUNDS):
         yield x
-        seen = Sensitivity(problem, problem.gain(x))
-        checked = frequencies(seen.eigenvalues, discrete=problem.discrete, count=_CHECKED)
-        effort.take(len(problem.A), 4.0)
-        if effort.over or seen.peak(checked) <= 1.02 * limit:
+        peaks = Margins(problem, problem.gain(x)).peaks(limits)
+        effort.take(len(problem.A), replace(objective, points=_GRID).work)
+        if effort.over or peaks.keep(target.limits.tightened(_NEARLY)):
             return
-        points = frequencies(seen.eigenvalues, discrete=problem.discrete, count=GRID)
-        if not weight:
-            [(cost, _)] = quadratic_costs(problem, problem.gain(x), (unshifted,))
-            weight = cost / max(seen.excess(points, limit)[0], 1.0)
-        penalized = replace(objective, weight=weight, limit=limit, points=points)
-        x, _ = minimize(_counted(penalized, effort), x, steps=80, stop=lambda: effort.over)
-        weight *= 4
+        points = np.unique(np.concatenate([points, peaks.points]))
+        penalized = replace(objective, weight=weight, limits=limits, points=points)
+        x, _ = minimize(
+            _counted(penalized, effort),
+            x,
+            steps=_MARGIN_STEPS,
+            tolerance=_TOLERANCE,
+            stop=lambda: effort.over,
+        )
+        weight *= 3
     yield x
+
+
+_GRID: Complexes = np.zeros(GRID_OF_PEAKS, dtype=np.complex128)
 
 
 def _counted(objective: Objective, effort: Effort) -> Function:
     """The objective, which counts its work."""
+    work = objective.work
 
     def value(x: Floats) -> Valued:
-        effort.take(len(objective.problem.A), 2.0 if objective.points is None else 5.0)
+        effort.take(len(objective.problem.A), work)
         return objective(x)
 
     return value
@@ -553,7 +587,7 @@ def _searched(model: Model, order: int, target: Target, effort: Effort) -> Reali
     plant = MultiChannelSystem.from_float(
         model.A, [model.B], [model.C], rounding="dyadic", time=target.region.time
     )
-    weights = Weights(model.Q, model.R, model.W, model.V)
+    weights = Weights(model.Q, model.R, model.W, model.V, model.bandwidth)
     problem = FeedbackProblem.of(single_channel(plant), (order,), weights)
     best, least = None, np.inf
     for seed in range(_SEEDS):

@@ -16,7 +16,8 @@ computes the curves of its page.
 `diagnosed` says before any search what a region costs: the optimal controller that all agents
 together would have, the fastest region for which this controller is affordable (ten times the least
 cost, margin 0.3), and the modes outside the region that are nearest to being fixed.
-`chosen_region` derives the rate of a request that names none from it.  Nothing here is proved.
+`chosen_regions` derives the slowest rate of a request that names none from it.  Nothing here is
+proved.
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ from mcexact.floating.verdicts import distance_at
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum.figures import (
     STEPS,
     CentralOptimum,
@@ -54,7 +56,15 @@ from mcexact.synthesis.optimum.figures import (
     peak_of_state,
     unstable_figures,
 )
-from mcexact.synthesis.optimum.problem import Floats, SchurForm, Weights, quiet_floats
+from mcexact.synthesis.optimum.problem import (
+    FeedbackProblem,
+    Floats,
+    SchurForm,
+    Weights,
+    filtered_noise,
+    quiet_floats,
+)
+from mcexact.synthesis.optimum.starts import regulator, whole_model
 
 # Figures of any closed loop, in double precision and accurately; rounding of programs.
 
@@ -86,6 +96,9 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
 
         J = tr(S (Q + U'R U)) + tr(R D V D')
 
+    In continuous time N V N' becomes N X' + X N', and J becomes tr(S (Q + U'R U)) + 2 tr(X'U'R D) +
+    tr(R D Y D'), with X and Y as in `filtered_noise`.
+
     Examples
     --------
     >>> from mcexact.model.statespace import local_controllers
@@ -94,7 +107,7 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
     >>> loop = closed_loop(plant, local_controllers(plant, [[[-3]]]))
     >>> figures = figures_of_loop(loop, Weights.unit(plant))
     >>> figures.bound, round(figures.margin, 3), round(figures.cost, 3)
-    (-2.0, 0.667, 2.815)
+    (-2.0, 0.667, 6.956)
     """
     M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.plant.time)
     order, gain = loop.controller.order, to_float(loop.controller.largest_entry())
@@ -396,13 +409,21 @@ def _cost(
     Q, W = np.zeros((size, size)), np.zeros((size, size))
     Q[np.ix_(places, places)] = weights.Q
     W[np.ix_(places, places)] = weights.W
-    Q, W = Q + U.T @ weights.R @ U, W + N @ weights.V @ N.T
+    X, Y = np.zeros(N.shape), weights.V
+    if weights.bandwidth is not None and not form.discrete:
+        M = matrix_to_float(loop.matrix)
+        X, Y = filtered_noise(M, N, weights.V, weights.bandwidth)
+        W = W + N @ X.T + X @ N.T
+    else:
+        W = W + N @ weights.V @ N.T
+    Q = Q + U.T @ weights.R @ U
     if scales is not None:
         Q, W = Q * np.outer(scales, scales), W / np.outer(scales, scales)
     gramians = form.gramians(W, Q, 1.0 if form.discrete else 0.0)
     if gramians is None:
         return np.inf
-    cost = float(np.sum(gramians[0] * Q)) + float(np.sum(weights.R * (D @ weights.V @ D.T)))
+    cost = float(np.sum(gramians[0] * Q)) + float(np.sum(weights.R * (D @ Y @ D.T)))
+    cost += 2 * float(np.sum(X * (U.T @ weights.R @ D)))
     return cost if cost > 0 and np.isfinite(cost) else np.inf
 
 
@@ -898,10 +919,33 @@ def with_diagnosis(
     return LimitReached(f"{limit}; {diagnosed(system, region, weights, controlled)}")
 
 
-def chosen_region(
+@dataclass(frozen=True)
+class ChosenRegions:
+    """The regions of a request that names no rate.
+
+    Attributes
+    ----------
+    slowest : StabilityRegion
+        That of the smaller of half the rate of the optimal state feedback and a tenth of the
+        sensible rate, with two digits; no radius is below a tenth.
+    reason : str
+        What it is.
+    brisk : StabilityRegion
+        That of half the sensible rate, or of the root of the sensible radius; where this is not
+        sensible, that of the sensible one.
+    brisk_reason : str
+    """
+
+    slowest: StabilityRegion
+    reason: str
+    brisk: StabilityRegion
+    brisk_reason: str
+
+
+def chosen_regions(
     system: MultiChannelSystem, weights: Weights | None = None
-) -> tuple[StabilityRegion, str] | None:
-    """Choose a region: of half the sensible rate, or of the root of the sensible radius.
+) -> ChosenRegions | None:
+    """Choose the regions of a request that names no rate.
 
     Parameters
     ----------
@@ -910,40 +954,70 @@ def chosen_region(
 
     Returns
     -------
-    (StabilityRegion, str) or None
-        The rate has two digits, in discrete time the distance of the radius to 1.  The text says
-        how it was chosen: where half the sensible rate is not sensible it is the sensible one, and
-        where none is, half the rate of the optimal controller of all agents together; no radius is
-        below a tenth.  None without such a controller in floating point.
+    ChosenRegions or None
+        Where no rate is sensible, the rate of the optimal controller of all agents together takes
+        its place.  None without such a controller in floating point.
 
     Examples
     --------
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> region, reason = chosen_region(plant)
-    >>> print(region, reason, sep=", ")
-    Re λ < -21/5, half the sensible rate
+    >>> regions = chosen_regions(plant)
+    >>> print(regions.slowest, regions.reason, regions.brisk, sep=", ")
+    Re λ < -7/10, half that of the optimal state feedback, Re λ < -49/10
     """
     weights, stable = weights or Weights.unit(system), StabilityRegion(system.time)
-    part = "the root of" if stable.discrete else "half"
     with quiet_floats():
         unhurried = central_optimum(system, weights, stable)
-        if unhurried is None:
-            return None
-        region = _own_region(system.time, unhurried)
-        if region is None:
+        region = None if unhurried is None else _own_region(system.time, unhurried)
+        if unhurried is None or region is None:
             return None
         central = central_optimum(system, weights, region)
         sensible = _sensible(system, weights, region, central, unhurried)
-        pace, reason = _pace(sensible or region) / 2, f"{part} the sensible {stable.word}"
+        pace, fed_back = _pace(sensible or region), _regulated_pace(system, weights)
+        part = "the root of" if stable.discrete else "half"
+        brisk, brisk_reason = pace / 2, f"{part} the sensible {stable.word}"
         if sensible is None:
-            reason = f"{part} that of the optimal controller of all agents together"
-        else:
-            slower = central_optimum(system, weights, _of_pace(system.time, pace))
-            if not _affordable(slower, unhurried):
-                pace, reason = 2 * pace, f"the sensible {stable.word}"
-    if stable.discrete and pace > _FAST_ENOUGH:
-        pace, reason = _FAST_ENOUGH, f"fast enough, and slower than {reason}"
-    return _rounded_region(system.time, pace), reason
+            brisk_reason = f"{part} that of the optimal controller of all agents together"
+        elif not _affordable(
+            central_optimum(system, weights, _of_pace(system.time, brisk)), unhurried
+        ):
+            brisk, brisk_reason = pace, f"the sensible {stable.word}"
+    word = f"sensible {stable.word}"
+    if sensible is None:
+        word = f"{stable.word} of the optimal controller of all agents together"
+    slowest = pace / 10
+    reason = f"{'the tenth root' if stable.discrete else 'a tenth'} of the {word}"
+    if fed_back is not None and fed_back / 2 < slowest:
+        slowest, reason = fed_back / 2, f"{part} that of the optimal state feedback"
+    (slowest, reason), (brisk, brisk_reason) = (
+        _not_instant(*each, discrete=stable.discrete)
+        for each in ((slowest, reason), (brisk, brisk_reason))
+    )
+    return ChosenRegions(
+        _rounded_region(system.time, slowest),
+        reason,
+        _rounded_region(system.time, brisk),
+        brisk_reason,
+    )
+
+
+def _not_instant(pace: float, reason: str, *, discrete: bool) -> tuple[float, str]:
+    """The pace, or one whose radius is a tenth where that is slower."""
+    if discrete and pace > _FAST_ENOUGH:
+        return _FAST_ENOUGH, f"fast enough, and slower than {reason}"
+    return pace, reason
+
+
+def _regulated_pace(system: MultiChannelSystem, weights: Weights) -> float | None:
+    """The pace of the optimal state feedback; None if floating point has none."""
+    problem = FeedbackProblem.of(decentralized_network(system), (0,) * system.m, weights)
+    model = whole_model(problem, weights)
+    F = regulator(model, 1.0 if model.discrete else 0.0)
+    form = None if F is None else SchurForm.of(model.A + model.B @ F, discrete=model.discrete)
+    if form is None:
+        return None
+    pace = -float(np.log(max(form.bound, 1e-12))) if model.discrete else -form.bound
+    return pace if 0 < pace < np.inf else None
 
 
 def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[SlowMode, ...]:

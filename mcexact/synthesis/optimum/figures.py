@@ -27,11 +27,12 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import eig, expm, lapack, rsf2csf
 
+from mcexact.analysis.performance import riccati_solutions
 from mcexact.derived.constructions import merged
 from mcexact.errors import UsageError, require_seconds, shown_value
-from mcexact.exact.matrix import as_requested, to_float
+from mcexact.exact.matrix import as_requested, matrix_to_float, to_float
 from mcexact.exact.rational import Entry
-from mcexact.exact.roots import StabilityRegion
+from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.synthesis.gate import Request
 from mcexact.synthesis.networks import decentralized_network
@@ -42,6 +43,8 @@ from mcexact.synthesis.optimum.problem import (
     Sizes,
     Weights,
     balanced,
+    filtered_noise,
+    solved_or_nan,
 )
 from mcexact.synthesis.optimum.starts import Model, gaussian_controller
 
@@ -76,33 +79,73 @@ def quadratic_costs(problem: FeedbackProblem, K: Floats, shifts: tuple[float, ..
         J = tr(S Qˢ) + tr(R K V K')
         ∇J = 2 (B'P M S C' + R K C S C' + B'P B K V + R K V)     (without M in continuous time)
 
-    (Levine and Athans 1970; Rautert and Sachs 1997).  The second term of J is the power of the
-    noise that K passes on to its inputs at once: a part of E[u'Ru] in discrete time, and kept as a
-    definition in continuous time, where that power would be infinite.  One Schur form serves all
-    shifts.
+    (Levine and Athans 1970; Rautert and Sachs 1997).  In discrete time that is E[x'Qx + u'Ru]; in
+    continuous time it is if the noise has a bandwidth, by which the states and the signals grow::
+
+        [M, B K; 0, −ωI],   [C, I],   Wˢ = diag(W, ω² V)
+
+    Then all products with V vanish above.  The Gramians of these are computed by blocks, from those
+    of M and from linear systems in ωI − M.  One Schur form serves all shifts.
     """
-    A, B, C, R = problem.A, problem.B, problem.C, problem.R
-    BK, RK, KV = B @ K, R @ K, K @ problem.V
-    M = A + BK @ C
-    form = SchurForm.of(M, discrete=problem.discrete)
+    form = SchurForm.of(problem.closed(K), discrete=problem.discrete)
     if form is None:
         return [INFINITE for _ in shifts]
+    if not problem.discrete and problem.bandwidth is not None:
+        return [_filtered_cost(problem, K, form, problem.bandwidth, each) for each in shifts]
+    return [_white_cost(problem, K, form, each) for each in shifts]
+
+
+def _white_cost(problem: FeedbackProblem, K: Floats, form: SchurForm, shift: float) -> Valued:
+    """The cost with white noise, as in discrete time."""
+    A, B, C, R = problem.A, problem.B, problem.C, problem.R
+    inside = form.bound < shift if problem.discrete else form.bound < -shift
+    if not inside:
+        return INFINITE
+    BK, RK, KV = B @ K, R @ K, K @ problem.V
     Q, W = problem.Q + C.T @ (K.T @ RK) @ C, problem.W + B @ (KV @ BK.T)
-    through = float(np.sum(RK * KV))
-    costs = []
-    for shift in shifts:
-        inside = form.bound < shift if problem.discrete else form.bound < -shift
-        gramians = form.gramians(W, Q, shift) if inside else None
-        if gramians is None:
-            costs.append(INFINITE)
-            continue
-        S, P = gramians
-        SC = S @ C.T
-        forward = P @ (M @ SC) / shift**2 if problem.discrete else P @ SC
-        G = 2 * (B.T @ (forward + P @ (B @ KV)) + RK @ (C @ SC) + R @ KV)
-        cost = float(np.sum(S * Q)) + through
-        costs.append((cost, G) if cost > 0 and np.all(np.isfinite(G)) else INFINITE)
-    return costs
+    gramians = form.gramians(W, Q, shift)
+    if gramians is None:
+        return INFINITE
+    S, P = gramians
+    SC = S @ C.T
+    forward = P @ ((A + BK @ C) @ SC) / shift**2 if problem.discrete else P @ SC
+    G = 2 * (B.T @ (forward + P @ (B @ KV)) + RK @ (C @ SC) + R @ KV)
+    return _finite(float(np.sum(S * Q)) + float(np.sum(RK * KV)), G)
+
+
+def _filtered_cost(
+    problem: FeedbackProblem, K: Floats, form: SchurForm, bandwidth: float, shift: float
+) -> Valued:
+    """The cost with filtered noise, in continuous time.
+
+    Notes
+    -----
+    With X, Y as in `filtered_noise`, and Z = E[P-block of ν] from (ω − 2a − M')Z = P G + C'K'R K_ν.
+    """
+    if not form.bound < -shift or not bandwidth > 2 * shift:
+        return INFINITE
+    B, C, RK = problem.B, problem.C, problem.R @ K
+    noisy = np.flatnonzero(np.diag(problem.V) > 0)
+    M, G, KC = problem.closed(K), B @ K[:, noisy], K @ C
+    X, Y = filtered_noise(M, G, problem.V[np.ix_(noisy, noisy)], bandwidth, shift)
+    Q, across = problem.Q + KC.T @ (RK @ C), KC.T @ RK[:, noisy]
+    gramians = form.gramians(problem.W + G @ X.T + X @ G.T, Q, shift)
+    if gramians is None:
+        return INFINITE
+    S, P = gramians
+    Z = solved_or_nan((bandwidth - 2 * shift) * np.eye(len(M)) - M.T, P @ G + across)
+    SC, XC = S @ C.T, X.T @ C.T
+    SC[:, noisy] += X
+    XC[:, noisy] += Y
+    seen = C @ SC
+    seen[noisy] += XC
+    cost = float(np.sum(S * Q)) + 2 * float(np.sum(X * across))
+    cost += float(np.sum((K[:, noisy] @ Y) * RK[:, noisy]))
+    return _finite(cost, 2 * (B.T @ (P @ SC + Z @ XC) + RK @ seen))
+
+
+def _finite(cost: float, G: Floats) -> Valued:
+    return (cost, G) if cost > 0 and bool(np.all(np.isfinite(G))) else INFINITE
 
 
 # The complementary sensitivity at the inputs of the plant, on a grid of frequencies.
@@ -227,31 +270,205 @@ class Sensitivity(Response):
         entering, leaving = problem.B[:, : problem.p], (K @ problem.C)[: problem.p]
         super().__init__(problem.closed(K), entering, leaving, discrete=problem.discrete)
 
-    def excess(self, points: Complexes, limit: float) -> Valued:
-        """Compute Σ max(0, σ_max(T(z))/limit − 1)² over some points, and its gradient in K.
 
-        Notes
-        -----
-        With u, v the singular vectors of σ_max, dσ = Re(uᴴ dT v), and dT = E dK C X B_u + U X B dK
-        C X B_u, X = (zI − M)⁻¹, where E picks the inputs of the plant.
+# The margins of single loops and of all inputs together, with gradients.
+
+_ACCURATE = 1e-9
+GRID_OF_PEAKS = 200
+"""The frequencies among which peaks are searched, besides those of the eigenvalues."""
+_LISTED = 0.7
+_HIGHEST = 3
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits on the peaks of a loop, which are those of its margins.
+
+    Attributes
+    ----------
+    disk : float
+        α: a disk margin of this size in every single loop is |T_ii + ½| ≤ 1/α.
+    margin : float
+        The margin of all inputs together: σ_max(T) ≤ 1/margin.
+    """
+
+    disk: float
+    margin: float
+
+    def tightened(self, factor: float) -> Limits:
+        """Return the limits for margins that are larger by a factor."""
+        return Limits(factor * self.disk, factor * self.margin)
+
+
+MARGIN, DISK = 0.3, 0.4
+MARGINS = Limits(DISK, MARGIN)
+"""The margins that designs aim at."""
+NO_MARGINS = Limits(0.0, 0.0)
+
+
+class Margins:
+    """T at the inputs of the plant and at its outputs, with all agents' other loops closed.
+
+    Parameters
+    ----------
+    problem : FeedbackProblem
+    K : ndarray, P × L
+
+    Notes
+    -----
+    With H(z) = C X B, X = (zI − M)⁻¹, S the rows of K for inputs of the plant, and E the columns of
+    its outputs, newest ones only::
+
+        T_in = SK H S',    dT_in = (S + SKH) dK H S'
+        T_out = E'H K E,   dT_out = E'H dK (E + HKE)
+
+    The loop at one input is opened alone where T_ii is used, and that at all inputs where T is.
+    One eigendecomposition of M serves all frequencies and loops; where the eigenvectors are too
+    ill-conditioned there is one linear system for each frequency.
+    """
+
+    def __init__(self, problem: FeedbackProblem, K: Floats) -> None:
+        self._problem, self._K, p = problem, K, problem.p
+        self._seen = np.concatenate([agent.own for agent in problem.agents]).astype(np.intp)
+        self._driving = np.eye(p, len(K))
+        M = problem.closed(K)
+        self._M, self.valid = M, bool(np.all(np.isfinite(M)))
+        self.eigenvalues: Complexes = np.zeros(0, dtype=np.complex128)
+        self._left: Complexes | None = None
+        if not self.valid:
+            return
+        values, vectors = np.linalg.eig(M)
+        self.eigenvalues = np.asarray(values, dtype=np.complex128)
+        try:
+            entering = np.linalg.solve(vectors, problem.B.astype(np.complex128))
+        except np.linalg.LinAlgError:
+            return
+        again = np.linalg.norm(vectors @ (self.eigenvalues[:, None] * entering) - M @ problem.B)
+        if again <= _ACCURATE * max(float(np.linalg.norm(M) * np.linalg.norm(problem.B)), 1e-300):
+            self._left, self._right = problem.C @ vectors, entering
+
+    def _responses(self, points: Complexes) -> Complexes:
+        """H at some points, Z × L × P."""
+        problem = self._problem
+        if self._left is None:
+            each = points[:, None, None] * np.eye(len(self._M)) - self._M
+            solved = np.linalg.solve(
+                each, np.broadcast_to(problem.B, (len(points), *problem.B.shape))
+            )
+            return np.asarray(problem.C @ solved)
+        scaled = self._left[None] / (points[:, None, None] - self.eigenvalues)
+        return np.asarray(scaled @ self._right)
+
+    def _loops(self, H: Complexes) -> tuple[Complexes, Complexes, Complexes]:
+        """T at all inputs, T_ii + ½ at the inputs, and at the outputs."""
+        p, K, seen = self._problem.p, self._K, self._seen
+        T = K[:p] @ H[:, :, :p]
+        at_outputs = np.einsum("zjk,kj->zj", H[:, seen], K[:, seen]) + 0.5
+        return T, np.einsum("zii->zi", T) + 0.5, at_outputs
+
+    def curves(self, points: Complexes) -> tuple[Floats, Floats]:
+        """Return |T_ii + ½| of every input and output, and σ_max(T), at some points.
+
+        Returns
+        -------
+        single, together : ndarray, Z × (p + q) and Z
         """
-        problem, K = self._problem, self._K
-        total, G = 0.0, np.zeros(K.shape)
-        if not self._leaving.size:
-            return total, G
-        for z in points:
-            inner = self._resolvent(z, self._entering)
-            left, sizes, right = np.linalg.svd(self._leaving @ inner)
-            excess = float(sizes[0]) / limit - 1
-            if not excess > 0:
-                continue
-            total += excess**2
-            u, v = left[:, 0], right[0].conj()
-            back = self._resolvent(z, self._leaving.T @ u.conj(), trans=1)
-            row = problem.B.T @ (self._Z.conj() @ back)
-            row[: problem.p] += u.conj()
-            G += 2 * excess / limit * np.real(np.outer(row, problem.C @ (self._Z @ (inner @ v))))
+        T, inputs, outputs = self._loops(self._responses(points))
+        sizes = np.linalg.norm(T, 2, axis=(1, 2)) if T.size else np.zeros(len(points))
+        return np.abs(np.hstack([inputs, outputs])), np.asarray(sizes, dtype=np.float64)
+
+    def excess(self, points: Complexes, limits: Limits) -> Valued:
+        """Compute the excess of all peaks over their limits, and its gradient in K.
+
+        Returns
+        -------
+        float, ndarray
+            Σ_z [Σ_i max(0, α|T_ii + ½| − 1)² + max(0, mσ_max(T) − 1)²] for the limits α and m.
+        """
+        K, p, seen, G = self._K, self._problem.p, self._seen, np.zeros(self._K.shape)
+        if not self.valid:
+            return INFINITE
+        H = self._responses(points)
+        T, inputs, outputs = self._loops(H)
+        if not all(np.all(np.isfinite(each)) for each in (T, inputs, outputs)):
+            return INFINITE
+        over, beyond = (np.maximum(limits.disk * np.abs(each) - 1, 0) for each in (inputs, outputs))
+        total, sizes = float(np.sum(over**2) + np.sum(beyond**2)), np.zeros(len(points))
+        if p:
+            left, values, right = np.linalg.svd(T)
+            sizes = np.maximum(limits.margin * values[:, 0] - 1, 0)
+            total += float(np.sum(sizes**2))
+        active = np.flatnonzero(np.any(over > 0, axis=1) | (sizes > 0))
+        if active.size:
+            # The differential is Re tr(D dT), D of the single loops and of the singular vectors.
+            slopes = 2 * limits.disk * _slopes(over[active], inputs[active])
+            D = slopes[:, :, None] * np.eye(p)
+            weights = 2 * limits.margin * sizes[active]
+            u, v = left[active, :, 0], right[active, 0, :]
+            D = D + weights[:, None, None] * v.conj()[:, :, None] * u.conj()[:, None, :]
+            h = H[active]
+            before = self._driving + K[:p] @ h
+            G += np.real(np.tensordot(h[:, :, :p] @ D, before, ([0, 2], [0, 1]))).T
+        active = np.flatnonzero(np.any(beyond > 0, axis=1))
+        if active.size:
+            h = H[active]
+            after = h @ K[:, seen]
+            after[:, seen, np.arange(len(seen))] += 1
+            slopes = 2 * limits.disk * _slopes(beyond[active], outputs[active])
+            G += np.real(np.tensordot(after * slopes[:, None], h[:, seen], ([0, 2], [0, 1]))).T
         return total, G
+
+    def peaks(self, limits: Limits) -> Peaks:
+        """Search the highest peaks of all curves on a grid over the eigenvalues of the loop."""
+        points = frequencies(
+            self.eigenvalues, discrete=self._problem.discrete, count=GRID_OF_PEAKS, widen=10.0
+        )
+        place = np.angle(points) if self._problem.discrete else points.imag
+        points = points[np.unique(place, return_index=True)[1]]
+        single, together = self.curves(points)
+        scaled = np.hstack([limits.disk * single, (limits.margin * together)[:, None]])
+        border = np.full((1, scaled.shape[1]), -1.0)
+        tops = (scaled >= np.vstack([border, scaled[:-1]])) & (
+            scaled >= np.vstack([scaled[1:], border])
+        )
+        chosen = set[int]()
+        for curve, top in zip(scaled.T, (tops & (scaled > _LISTED)).T, strict=True):
+            places = np.flatnonzero(top)
+            for k in places[np.argsort(-curve[places])][:_HIGHEST]:
+                chosen |= {max(int(k) - 1, 0), int(k), min(int(k) + 1, len(points) - 1)}
+        # Far from all eigenvalues T is 0.
+        worst = max(float(np.max(single, initial=0.0)), 0.5)
+        largest = float(np.max(together, initial=0.0))
+        return Peaks(points[sorted(chosen)], 1 / worst, 1 / largest if largest else np.inf)
+
+
+def _slopes(over: Floats, values: Complexes) -> Complexes:
+    """The excess times the conjugate direction of each value."""
+    sizes = np.maximum(np.abs(values), np.finfo(float).tiny)
+    return np.asarray(over * values.conj() / sizes)
+
+
+@dataclass(frozen=True, eq=False)
+class Peaks:
+    """The margins of a loop on a grid of frequencies, and where its curves are highest.
+
+    Attributes
+    ----------
+    points : ndarray of complex
+        The three highest peaks of each curve that is near its limit, with their neighbors.
+    disk : float
+        The least disk margin of a single loop; see python-control's ``disk_margins``, skew 0.
+    margin : float
+        That of all inputs together, 1/max σ_max(T).
+    """
+
+    points: Complexes
+    disk: float
+    margin: float
+
+    def keep(self, limits: Limits) -> bool:
+        """Whether both margins are as large as limits ask."""
+        return self.disk >= limits.disk and self.margin >= limits.margin
 
 
 # The eigenvalues of a loop, and their derivatives in the gains.
@@ -401,7 +618,6 @@ NO_LIMITS = Shape()
 
 # The aims of a search besides the rate or the radius.
 
-MARGIN = 0.3
 SEEDS = 4
 
 
@@ -417,7 +633,9 @@ class Aims:
     weights : mapping of {"Q", "R", "W", "V"} to matrix, optional
         See `Weights.of`; by default Q = R = W = I and V = I/100.
     margin : float
-        The margin at the inputs of the plant, which the search raises to this if it can.
+        The margin of all inputs of the plant together, which the search raises to this if it can.
+    disk : float
+        The disk margin of every single loop, at each input and at each output, alike.
     largest_gain : float, optional
         The largest entry that is not penalized; by default ten times that of the optimal controller
         of all agents together.
@@ -454,6 +672,7 @@ class Aims:
 
     weights: Mapping[str, Any] | None = None
     margin: float = MARGIN
+    disk: float = DISK
     largest_gain: float | None = None
     largest_order: int | None = None
     damping: Entry | None = None
@@ -463,11 +682,13 @@ class Aims:
     seeds: int = SEEDS
 
     def __post_init__(self) -> None:
-        for name in ("margin", "largest_gain", "damping", "largest_modulus"):
+        for name in ("margin", "disk", "largest_gain", "damping", "largest_modulus"):
             number = getattr(self, name)
             if isinstance(number, bool) or not isinstance(number, Real):
-                _require(number is None and name != "margin", name, "a number", shown_value(number))
+                optional = number is None and name not in ("margin", "disk")
+                _require(optional, name, "a number", shown_value(number))
         _require(0 < self.margin < 1, "margin", "a number above 0 and below 1", self.margin)
+        _require(0 < self.disk < 2, "disk", "a number above 0 and below 2", self.disk)
         if self.largest_gain is not None:
             good = 0 < self.largest_gain and isfinite(self.largest_gain)
             _require(good, "largest_gain", "a number above 0", self.largest_gain)
@@ -514,7 +735,6 @@ THEOREM = Aims(effort=0)
 
 # Figures of a loop, and those of the optimal controller of all agents together.
 
-_FREQUENCIES = 200
 STEPS = 400
 _FIGURE_BEYOND_SENSE = 1e30
 
@@ -538,7 +758,7 @@ class Figures:
         The largest ‖x(t)‖ from a unit state of the plant, the agents' states being 0.  Where the
         plant is one with integrators, these count, and their sizes depend on the unit of time.
     cost : float
-        E[x'Qx + u'Ru], with tr(R K_y V K_y') also in continuous time.
+        E[x'Qx + u'Ru], as `loop_cost` defines it.
     damping : float
         The least damping ratio of an eigenvalue; see `least_damping`.
     fastest : float
@@ -564,7 +784,7 @@ def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Fig
     if form is None or not bound < (1.0 if problem.discrete else 0.0):
         return unstable_figures(problem.order, gain, form)
     points = frequencies(
-        form.eigenvalues, discrete=problem.discrete, count=_FREQUENCIES, widen=10.0
+        form.eigenvalues, discrete=problem.discrete, count=GRID_OF_PEAKS, widen=10.0
     )
     [(cost, _)] = quadratic_costs(problem.bare, K, (1.0 if problem.discrete else 0.0,))
     largest = seen.peak(points)
@@ -712,6 +932,46 @@ def central_optimum(
     K = balanced(problem, np.block([[D_k, C_k], [B_k, A_k]]))
     figures = figures_of(problem, K)
     return CentralOptimum(figures, _sizes(problem, K, region))
+
+
+def least_cost(system: MultiChannelSystem, weights: Weights) -> float | None:
+    """Compute the cost of the best linear controller, in floating point.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    weights : Weights
+
+    Returns
+    -------
+    float or None
+        The bound of `cost_bound`, without room for rounding; None where the Riccati equations have
+        no stabilizing solution in floating point.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]], time="discrete")
+    >>> round(least_cost(plant, Weights.unit(plant)), 2)
+    1.0
+    """
+    A, B, C = map(matrix_to_float, (system.A, system.input_matrix(), system.output_matrix()))
+    if not A.size:
+        return None
+    Q, R, W, V = weights.Q, weights.R, weights.W, weights.V
+    if not B.size:
+        B, R = np.zeros((len(A), 1)), np.eye(1)
+    if not C.size:
+        C, V = np.zeros((1, len(A))), np.eye(1)
+    discrete = is_discrete(system.time)
+    solutions = riccati_solutions(
+        (A, B, C), (Q, R, W, V), discrete=discrete, bandwidth=weights.bandwidth
+    )
+    if solutions is None:
+        return None
+    P, S, F = solutions
+    spent = R + B.T @ P @ B if discrete else R
+    cost = float(np.sum(P * W)) + float(np.sum((F.T @ spent @ F) * S))
+    return cost if cost > 0 and isfinite(cost) else None
 
 
 def _sizes(problem: FeedbackProblem, K: Floats, region: StabilityRegion) -> Sizes:

@@ -26,8 +26,9 @@ import numpy.typing as npt
 from scipy.linalg import block_diag, lapack
 from threadpoolctl import threadpool_limits
 
+from mcexact.analysis.performance import default_weights
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, matrix_from_float, matrix_to_float
+from mcexact.exact.matrix import Matrix, matrix_from_float, matrix_to_float, to_float
 from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import Controller
 from mcexact.model.system import MultiChannelSystem
@@ -115,7 +116,6 @@ class Effort:
 
 Floats = npt.NDArray[np.float64]
 
-_NOISE = 1e-2
 _ROUNDING = 1e-12
 NAMES = ("Q", "R", "W", "V")
 
@@ -131,27 +131,34 @@ class Weights:
     R : ndarray, p × p
         The weight of all inputs, in the order of the channels.
     V : ndarray, q × q
-        The covariance of the noise of all outputs, in the order of the channels.
+        The intensity of the noise of all outputs, in the order of the channels; in discrete time
+        its covariance.
+    bandwidth : float or None
+        ω in continuous time, where the noise ν of the outputs has ν̇ = ω(n − ν), n white; without it
+        the noise is white, and what a controller passes on at once counts tr(R K V K').
     """
 
     Q: Floats
     R: Floats
     W: Floats
     V: Floats
+    bandwidth: float | None = None
 
     @classmethod
     def unit(cls, system: MultiChannelSystem) -> Weights:
-        """Return Q = R = W = I and V = I/100.
+        """Return the weights of `default_weights`, which certificates of costs have by default.
 
         Examples
         --------
         >>> weights = Weights.unit(MultiChannelSystem([[1]], [[[1]]], [[[1]]]))
-        >>> weights.Q.tolist(), weights.V.tolist()
-        ([[1.0]], [[0.01]])
+        >>> weights.Q.tolist(), weights.V.tolist(), weights.bandwidth
+        ([[1.0]], [[0.01]], 100.0)
         """
-        p = sum(system.p(i) for i in range(system.m))
-        q = sum(system.q(i) for i in range(system.m))
-        return cls(np.eye(system.n), np.eye(p), np.eye(system.n), _NOISE * np.eye(q))
+        chosen = default_weights(system)
+        parts = (chosen.states, chosen.inputs, chosen.disturbances, chosen.noise)
+        Q, R, W, V = (np.diag([to_float(x) for x in part]) for part in parts)
+        bandwidth = None if chosen.bandwidth is None else to_float(chosen.bandwidth)
+        return cls(Q, R, W, V, bandwidth)
 
     @classmethod
     def of(cls, system: MultiChannelSystem, chosen: Mapping[str, Any] | None = None) -> Weights:
@@ -185,9 +192,8 @@ class Weights:
             if name not in NAMES:
                 raise InputError(f"expected one of {', '.join(NAMES)}, found {name!r}", where=where)
             size = len(getattr(weights, name))
-            weights = replace(
-                weights, **{name: _checked(entries, size, where, definite=name in "RV")}
-            )
+            changed: dict[str, Any] = {name: _checked(entries, size, where, definite=name in "RV")}
+            weights = replace(weights, **changed)
         return weights
 
     def with_integrators(self, system: MultiChannelSystem) -> Weights:
@@ -204,7 +210,7 @@ class Weights:
             np.intp
         )
         V = block_diag(self.V, self.V)[np.ix_(order, order)]
-        return Weights(block_diag(self.Q, one), self.R, block_diag(self.W, one), V)
+        return Weights(block_diag(self.Q, one), self.R, block_diag(self.W, one), V, self.bandwidth)
 
 
 def _checked(entries: Any, size: int, where: str, *, definite: bool) -> Floats:
@@ -368,6 +374,8 @@ class FeedbackProblem:
         The entries of K are multiples of these.
     ties : Ties or None
         Free entries that are equal, if any are.
+    bandwidth : float or None
+        That of the noise; see `Weights`.
     """
 
     network: DerivedNetwork
@@ -385,6 +393,7 @@ class FeedbackProblem:
     V: Floats
     scale: Floats
     ties: Ties | None = None
+    bandwidth: float | None = None
 
     @classmethod
     def of(
@@ -443,6 +452,7 @@ class FeedbackProblem:
             _corner(_corner(weights.W, N - n, _SMALL), z, _SMALL),
             _corner(_noise(network, sources, weights.V), z, 0.0),
             _scale(mask.shape, _outputs(network, sources), sizes),
+            bandwidth=weights.bandwidth,
         )
 
     @property
@@ -725,6 +735,40 @@ class SchurForm:
             ):
                 return None
         return S, P
+
+
+def filtered_noise(
+    M: Floats, entering: Floats, V: Floats, bandwidth: float, shift: float = 0.0
+) -> tuple[Floats, Floats]:
+    """Compute the covariances of filtered noise ν, ν̇ = ω(n − ν), with a loop ẋ = M x + G ν, and ν.
+
+    Parameters
+    ----------
+    M, entering : ndarray, N × N and N × q
+        M and G; with a shift a the loop is M + aI and the filter has ω − a in place of ω, but for
+        the size of the noise.
+    V : ndarray, q × q
+        The intensity of n.
+    bandwidth : float
+        ω, above 2a.
+    shift : float
+
+    Returns
+    -------
+    X, Y : ndarray, N × q and q × q
+        E[xν'] and E[νν']: 2(ω − a) Y = ω² V and (ω − 2a − M) X = G Y.
+    """
+    Y = V * (bandwidth**2 / (2 * (bandwidth - shift)))
+    slower = (bandwidth - 2 * shift) * np.eye(len(M)) - M
+    return solved_or_nan(slower, entering @ Y), Y
+
+
+def solved_or_nan(M: Floats, right: Floats) -> Floats:
+    """Solve a linear system; NaN where floating point cannot."""
+    try:
+        return np.asarray(np.linalg.solve(M, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return np.full((len(M), right.shape[1]), np.nan)
 
 
 # Controllers as gain matrices, and gain matrices as controllers.

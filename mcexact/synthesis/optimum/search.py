@@ -27,6 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,7 @@ import numpy as np
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached, OutOfReach, UsageError
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import Controller
 from mcexact.synthesis.gate import Progress, Proposal, Request, Warned, certify
 from mcexact.synthesis.network_design import network_proposals, require_fast
@@ -53,7 +55,11 @@ from mcexact.synthesis.optimum.figures import (
     SEEDS,
     Aims,
     Figures,
+    Limits,
+    Margins,
+    Peaks,
     figures_of,
+    least_cost,
     quadratic_costs,
     shift_of,
 )
@@ -120,6 +126,8 @@ class Ladder:
         The largest number of states of each agent; None without a limit, where starts are drawn
         for orders up to 3.
     tell : callable
+    brisk : StabilityRegion or None
+        A faster region in which starts are sought, too, where no rate was asked for.
     """
 
     structure: Callable[[int | Sequence[int]], Structure]
@@ -133,6 +141,21 @@ class Ladder:
     most_digits: int | None = None
     most_order: int | None = None
     tell: Progress = field(default=lambda _: None)
+    brisk: StabilityRegion | None = None
+
+    @property
+    def regions(self) -> Iterator[tuple[StabilityRegion, float]]:
+        """The regions for which Riccati equations give starts, with factors of their rates."""
+        if self.brisk is None:
+            yield from ((self.target.region, factor) for factor in _SHIFTS)
+        else:
+            yield self.target.region, 1.0
+            yield from ((self.brisk, factor) for factor in _SHIFTS)
+
+    @property
+    def shifts(self) -> list[float]:
+        """The shifts of these regions."""
+        return [shift_of(region, factor) for region, factor in self.regions]
 
     @property
     def large(self) -> bool:
@@ -158,11 +181,12 @@ class Ladder:
         sizes = zip(problem.orders, problem.network.dimensions, strict=True)
         return self.most_order is None or all(z + x <= self.most_order for z, x in sizes)
 
-    def fine(self, figures: Figures) -> bool:
+    def fine(self, candidate: Candidate) -> bool:
         """Whether a controller is good enough to end the search."""
+        figures = candidate.figures
         return (
             figures.cost <= self.enough
-            and figures.margin >= self.target.margin
+            and candidate.peaks.keep(self.target.limits)
             and self.target.shape.met(figures.damping, figures.fastest)
             and figures.largest_gain <= 1.001 * self.target.largest_gain
         )
@@ -187,12 +211,15 @@ class Candidate:
         Balanced.
     figures : Figures
         Without the peak.
+    peaks : Peaks
+        The margins, on a grid of frequencies.
     """
 
     step: str
     problem: FeedbackProblem
     K: Floats
     figures: Figures
+    peaks: Peaks
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,8 +243,13 @@ def _price(ladder: Ladder, candidate: Candidate) -> float:
     not make it higher.
     """
     figures, target = candidate.figures, ladder.target
-    lacking = _FRAGILE * target.margin / max(figures.margin, 1e-9)
-    lacking = 1.0 if figures.margin >= target.margin else lacking
+    lacking = 1.0
+    for size, limit in (
+        (candidate.peaks.disk, target.limits.disk),
+        (candidate.peaks.margin, target.limits.margin),
+    ):
+        if size < limit:
+            lacking = max(lacking, _FRAGILE * limit / max(size, 1e-9))
     large = max(figures.largest_gain / target.largest_gain, 1.0)
     if not target.shape.met(figures.damping, figures.fastest):
         lacking *= _NOT_CERTIFIED if target.region.limits else _FRAGILE
@@ -260,7 +292,7 @@ def steps_of(
     narrow = localities(static, ladder.weights, much=True)
     if all(_states(narrow) != _states(each) for each in parts):
         parts.append(narrow)
-    yield [Start(_STATIC, static, _best_static(ladder, static, parts))]
+    yield [Start(_STATIC, static, K) for K in _best_static(ladder, static, parts)]
     cut = _cut(ladder, static, parts[1])
     if ladder.large and any(sum(each.problem.network.dimensions) for each in cut):
         # Controllers that agents find alone disturb each other more, the more agents there are.
@@ -320,21 +352,34 @@ def _alone(
         yield Start(f"order {order} per agent, each for itself", problem, balanced(problem, K))
 
 
-def _best_static(ladder: Ladder, problem: FeedbackProblem, parts: list[list[Locality]]) -> Floats:
-    """The best of the local regulators of several rates, and of no feedback at all."""
-    shifts = [shift_of(ladder.target.region, factor) for factor in _SHIFTS]
-    starts = [local_regulators(problem, each, shift) for each in parts for shift in shifts]
+def _best_static(
+    ladder: Ladder, problem: FeedbackProblem, parts: list[list[Locality]]
+) -> list[Floats]:
+    """The best of the regulators of several rates: the agents' own, and that of all, cut.
+
+    With no feedback at all they are at most three, the best first; where a rate was asked for there
+    is one.
+    """
     model = whole_model(problem, ladder.weights)
-    cut = (cut_gains(problem, model, shift) for shift in shifts)
-    starts += [each for each in cut if each is not None]
+    kinds = [
+        [local_regulators(problem, each, shift) for each in parts for shift in ladder.shifts],
+        [K for shift in ladder.shifts if (K := cut_gains(problem, model, shift)) is not None],
+        [np.zeros(problem.mask.shape)],
+    ]
     if sum(problem.network.dimensions) + sum(problem.orders):
         dynamics = drawn_dynamics(problem, 0)
-        starts = [each + dynamics for each in starts]
-        starts.append(dynamics)
-    else:
-        starts.append(np.zeros(problem.mask.shape))
+        kinds = [[each + dynamics for each in kind] for kind in kinds]
+    best = [
+        min(((_rank(ladder, problem, K), k, K) for k, K in enumerate(kind)), key=_first_two)
+        for kind in kinds
+        if kind
+    ]
+    best.sort(key=_first_two)
+    return [K for *_, K in best][: 1 if ladder.brisk is None else len(best)]
 
-    return min(starts, key=lambda K: _rank(ladder, problem, K))
+
+def _first_two(ranked: tuple[Rank, int, Floats]) -> tuple[Rank, int]:
+    return ranked[:2]
 
 
 def _cut(ladder: Ladder, static: FeedbackProblem, parts: Sequence[Locality]) -> list[Start]:
@@ -349,8 +394,8 @@ def _cut(ladder: Ladder, static: FeedbackProblem, parts: Sequence[Locality]) -> 
     model, ranked = whole_model(static, ladder.weights), list[tuple[Rank, Floats]]()
     for noise, price in _REACHES if problem.ties is None else (*_REACHES, *_FURTHER_REACHES):
         weighed, tried = replace(model, V=noise * model.V, R=price * model.R), len(ranked)
-        for factor in _SHIFTS:
-            K = cut_observers(problem, held, weighed, shift_of(ladder.target.region, factor))
+        for shift in ladder.shifts:
+            K = cut_observers(problem, held, weighed, shift)
             if K is not None:
                 ranked.append((_rank(ladder, problem, K), K))
         ranked[tried:] = sorted(ranked[tried:], key=_first)[:1]
@@ -379,8 +424,9 @@ def _local_observers(
 ) -> list[Start]:
     """The optimal controllers of the agents' own parts, where they are not too large."""
     starts = []
-    for each in parts:
-        observers = local_observers(each, shift_of(ladder.target.region))
+    shifts = [shift_of(each) for each in (ladder.target.region, ladder.brisk) if each is not None]
+    for each, shift in product(parts, shifts):
+        observers = local_observers(each, shift)
         orders = [0 if part is None else len(part[0]) for part in observers]
         problem = ladder.problem((static.network, tuple(orders)))
         if not 0 < sum(orders) <= max(2 * problem.n, 8) or problem.size > _MOST_ENTRIES:
@@ -513,7 +559,7 @@ def _followed(ladder: Ladder, draft: Start, candidates: list[Candidate]) -> bool
         candidate = _candidate(ladder, draft.step, problem.untied, problem.gain(x))
         if candidate is not None:
             candidates.append(candidate)
-            if ladder.fine(candidate.figures) and ladder.keeps(candidate.problem, candidate.K):
+            if ladder.fine(candidate) and ladder.keeps(candidate.problem, candidate.K):
                 return True
     return False
 
@@ -524,7 +570,7 @@ def _candidate(ladder: Ladder, step: str, problem: FeedbackProblem, K: Floats) -
     figures = figures_of(problem, K, peak=False)
     if not ladder.target.reached(figures.bound) or not np.isfinite(figures.cost):
         return None
-    return Candidate(step, problem, K, figures)
+    return Candidate(step, problem, K, figures, Margins(problem, K).peaks(ladder.target.limits))
 
 
 # The structures of decentralized and of extended control, by the order of the agents' states.
@@ -575,6 +621,7 @@ _ENOUGH = 1.5
 _GAINS = 10.0
 _LEAST_GAIN = 1.0
 _LARGEST_UNKNOWN = 1e3
+_LEAST_EFFORT, _LEAST_ENOUGH = 20_000.0, 1.05
 _EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE_SHARE = 60_000.0, 40, 5.0, 130, 0.25
 
 
@@ -596,6 +643,8 @@ class Optimum:
         Of the rounded controller.
     central : Figures or None
         Of the optimal controller of all agents together, for the same region.
+    peaks : Peaks
+        The margins of the rounded controller.
     """
 
     step: str
@@ -604,6 +653,7 @@ class Optimum:
     digits: int | None
     figures: Figures
     central: Figures | None
+    peaks: Peaks
 
     @property
     def relative_cost(self) -> float:
@@ -616,24 +666,40 @@ class Optimum:
         return controller_of(self.problem, self.K)
 
 
-def target_of(request: Request, central: Figures | None, aims: Aims) -> Target:
-    """Return the target of a request: gains up to ten times those of the central optimum."""
+def target_of(
+    request: Request, central: Figures | None, aims: Aims, least: float | None = None
+) -> Target:
+    """Return the target of a request: gains up to ten times those of the central optimum.
+
+    Costs are divided by the least one for every controller, where it is known and no rate was asked
+    for, or else by that of the central optimum.
+    """
     largest = _LARGEST_UNKNOWN
     if aims.largest_gain is not None:
         largest = aims.largest_gain
     elif central is not None and np.isfinite(central.cost):
         largest = _GAINS * max(central.largest_gain, _LEAST_GAIN)
-    return Target(request.region, largest, aims.margin, aims.shape)
+    unit = 1.0
+    if request.brisk is not None and least is not None:
+        unit = least
+    elif central is not None and np.isfinite(central.cost):
+        unit = central.cost
+    limits = Limits(aims.disk, aims.margin)
+    return Target(request.region, largest, limits, unit, aims.shape)
 
 
-def _effort(seconds: float | None, states: int, central: Figures | None, target: Target) -> Effort:
+def _effort(
+    seconds: float | None, states: int, central: Figures | None, target: Target, *, least: bool
+) -> Effort:
     """Convert the effort from seconds to units; by default it grows with the number of states."""
     if seconds is not None:
         return Effort(seconds * PER_SECOND)
     grown = max(min((states / _GROWS) ** 2, _MOST_TIMES), (states / _GROWS_WITH_CUBE) ** 3)
-    units = _EFFORT * (1 + grown)
+    units = (_LEAST_EFFORT if least else _EFFORT) * (1 + grown)
+    if least:
+        return Effort(units)
     # What is fragile even in one hand does not become robust by a longer search.
-    fragile = central is None or central.margin < target.margin
+    fragile = central is None or central.margin < target.limits.margin
     return Effort(units * (_FRAGILE_SHARE if fragile else 1.0))
 
 
@@ -675,27 +741,32 @@ def optimum(
     >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 0], [0, 1]]])
     >>> request = Request.of(plant, rate=1, arithmetic="float")
     >>> result = optimum(Family(decentralized_network(plant)), request)
-    >>> result.step, result.figures.order, result.figures.bound < -1
-    ('static gains', 0, True)
+    >>> result.figures.order, result.peaks.margin > 0.3, result.figures.bound < -1
+    (1, True, True)
     """
     plant, aims = family.network.plant, aims or Aims()
     weights = weights or Weights.of(plant, aims.weights)
     known = diagnosis or diagnosed(plant, request.region, weights, family.network.system)
     central = known.central
     figures = None if central is None else central.figures
-    target = target_of(request, figures, aims)
+    asked = request.brisk is None
+    target = target_of(request, figures, aims, None if asked else least_cost(plant, weights))
+    enough = _LEAST_ENOUGH * target.least
+    if asked:
+        enough = np.inf if figures is None else _ENOUGH * figures.cost
     ladder = Ladder(
         family.of_order,
         lambda: family.theorem(request),
         weights,
         target,
-        np.inf if figures is None else _ENOUGH * figures.cost,
-        _effort(aims.effort, plant.n, figures, target),
+        enough,
+        _effort(aims.effort, plant.n, figures, target, least=not asked),
         None if central is None else central.sizes,
         seeds=aims.seeds,
         most_digits=aims.digits,
         most_order=aims.largest_order,
         tell=request.tell,
+        brisk=request.brisk,
     )
     with quiet_floats():
         candidates = climbed(ladder)
@@ -748,7 +819,8 @@ def with_few_digits(
         kept = max(least + 1, _LEAST_STORED)
         tried = [min(kept + k, most or _MOST_TRIED) for k in range(_MORE)]
         K = _stored(candidate, target, least, tried)
-    return Optimum(candidate.step, problem, K, least, figures_of(problem, K), central)
+    peaks = Margins(problem, K).peaks(target.limits)
+    return Optimum(candidate.step, problem, K, least, figures_of(problem, K), central, peaks)
 
 
 def _stored(candidate: Candidate, target: Target, least: int, tried: Iterable[int]) -> Floats:
@@ -757,12 +829,12 @@ def _stored(candidate: Candidate, target: Target, least: int, tried: Iterable[in
     Otherwise to the first number with which the loop stays in the region, or else to the least.
     """
     problem, first = candidate.problem, None
-    robust = candidate.figures.margin >= target.margin
+    robust = candidate.peaks.keep(target.limits)
     for digits in tried:
         stored = rounded(candidate.K, digits)
         if not target.keeps(problem, problem.entries(stored)):
             continue
-        if not robust or figures_of(problem, stored, peak=False).margin >= target.margin:
+        if not robust or Margins(problem, stored).peaks(target.limits).keep(target.limits):
             return stored
         first = stored if first is None else first
     return rounded(candidate.K, least) if first is None else first

@@ -52,6 +52,8 @@ class Model:
     Q, R, W, V : ndarray
         As in `Weights`.
     discrete : bool
+    bandwidth : float or None
+        As in `Weights`; the Riccati equations of starts have white noise.
     """
 
     A: Floats
@@ -62,6 +64,7 @@ class Model:
     W: Floats
     V: Floats
     discrete: bool
+    bandwidth: float | None = None
 
     @property
     def dual(self) -> Model:
@@ -287,6 +290,7 @@ def localities(
             weights.W[square],
             weights.V[np.ix_(outputs, outputs)],
             problem.discrete,
+            weights.bandwidth,
         )
         parts.append(Locality(tuple(sorted(states)), model))
     return parts
@@ -426,6 +430,7 @@ def whole_model(problem: FeedbackProblem, weights: Weights) -> Model:
         weights.W,
         weights.V,
         problem.discrete,
+        weights.bandwidth,
     )
 
 

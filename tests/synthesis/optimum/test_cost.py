@@ -1,15 +1,34 @@
 """The objective and its gradient, against finite differences and slow independent formulas."""
 
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
-from scipy.linalg import solve_continuous_lyapunov, solve_discrete_lyapunov
+from scipy.linalg import block_diag, solve_continuous_lyapunov, solve_discrete_lyapunov
 
+from mcexact.analysis.performance import cost_of, default_weights
+from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
+from mcexact.exact.roots import is_discrete
+from mcexact.model.loop import closed_loop
+from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum.descent import Objective
-from mcexact.synthesis.optimum.figures import Sensitivity, Shape, frequencies, quadratic_costs
-from mcexact.synthesis.optimum.problem import FeedbackProblem, SchurForm, Sizes, Weights
+from mcexact.synthesis.optimum.figures import (
+    Limits,
+    Margins,
+    Sensitivity,
+    Shape,
+    frequencies,
+    quadratic_costs,
+)
+from mcexact.synthesis.optimum.problem import (
+    FeedbackProblem,
+    SchurForm,
+    Sizes,
+    Weights,
+    controller_of,
+)
 from tests.synthesis.optimum.plants import coupled, networks
 
 NETWORKS = networks()
@@ -24,7 +43,8 @@ def stable(kind: str) -> tuple[FeedbackProblem, np.ndarray]:
         root = rng.standard_normal((size, size))
         return np.eye(size) + root @ root.T
 
-    weights = Weights(positive(4), positive(3), positive(4), positive(4))
+    bandwidth = None if is_discrete(given.time) else 7.0
+    weights = Weights(positive(4), positive(3), positive(4), positive(4), bandwidth)
     sizes = Sizes(np.array([1.0, 0.5, 2.0]), np.array([1.0, 3.0, 1.0, 2.0]), 1.5)
     of = FeedbackProblem.of(network, (1, 1, 0), weights, sizes)
     A = of.A / 4 if of.discrete else of.A - 3 * np.eye(len(of.A))
@@ -38,33 +58,52 @@ def differences(function, x: np.ndarray, step: float = 1e-5) -> np.ndarray:
 
 
 @pytest.mark.parametrize("kind", NETWORKS)
-@pytest.mark.parametrize("part", ["cost", "margin", "gains", "shape"])
+@pytest.mark.parametrize("part", ["cost", "single loops", "all inputs", "gains", "shape"])
 def test_the_gradient_agrees_with_finite_differences(kind, part):
     of, x = stable(kind)
     shift = 0.9 if of.discrete else 0.5
-    objective = Objective(of, shift)
-    if part == "margin":
+    objective = Objective(of, shift, least=3.0)
+    if part in ("single loops", "all inputs"):
         modes = np.linalg.eigvals(of.loop(x)).astype(complex)
         points = frequencies(modes, discrete=of.discrete, count=5)
-        limit = Sensitivity(of, of.gain(x)).peak(points) / 2
-        objective = replace(objective, weight=10.0, limit=limit, points=points)
+        single, together = Margins(of, of.gain(x)).curves(points)
+        half = 2 / float(np.max(single)), 2 / float(np.max(together))
+        limits = Limits(half[0], 0.0) if part == "single loops" else Limits(0.0, half[1])
+        objective = replace(objective, weight=10.0, limits=limits, points=points)
     elif part == "gains":
         objective = replace(objective, largest_gain=0.02)
     elif part == "shape":
         sizes = np.abs(np.linalg.eigvals(of.loop(x)))
-        limits = Shape(damping=0.97, largest=0.9 * float(np.max(sizes)))
-        objective = replace(objective, shape=limits)
+        shape = Shape(damping=0.97, largest=0.9 * float(np.max(sizes)))
+        objective = replace(objective, shape=shape)
     value, gradient = objective(x)
-    assert value > Objective(of, shift)(x)[0] or part == "cost"
+    assert value > Objective(of, shift, least=3.0)(x)[0] or part == "cost"
     expected = differences(objective, x)
     assert np.allclose(gradient, expected, rtol=1e-5, atol=1e-6 * np.max(np.abs(expected)))
 
 
+def with_filters(of: FeedbackProblem) -> FeedbackProblem:
+    """The same problem with the filters of the noise as states, for which all noise is white."""
+    if of.bandwidth is None:
+        return of
+    q, omega = len(of.V), of.bandwidth
+    return replace(
+        of,
+        A=block_diag(of.A, -omega * np.eye(q)),
+        B=np.vstack([of.B, np.zeros((q, of.B.shape[1]))]),
+        C=np.hstack([of.C, np.eye(q)]),
+        Q=block_diag(of.Q, np.zeros((q, q))),
+        W=block_diag(of.W, omega**2 * of.V),
+        V=0 * of.V,
+        bandwidth=None,
+    )
+
+
 @pytest.mark.parametrize("kind", NETWORKS)
-def test_the_cost_is_that_of_the_lyapunov_equation(kind):
-    of, x = stable(kind)
-    K = of.gain(x)
-    M, noise = of.loop(x), of.B @ K @ of.V @ K.T @ of.B.T + of.W
+def test_the_cost_is_that_of_the_lyapunov_equation_with_the_filters_of_the_noise(kind):
+    known, x = stable(kind)
+    of, K = with_filters(known), known.gain(x)
+    M, noise = of.closed(K), of.B @ K @ of.V @ K.T @ of.B.T + of.W
     weight = of.Q + of.C.T @ K.T @ of.R @ K @ of.C
     for shift in (1.0, 0.9) if of.discrete else (0.0, 0.7):
         if of.discrete:
@@ -72,8 +111,85 @@ def test_the_cost_is_that_of_the_lyapunov_equation(kind):
         else:
             S = solve_continuous_lyapunov(M + shift * np.eye(len(M)), -noise)
         expected = np.trace(S @ weight) + np.trace(of.R @ K @ of.V @ K.T)
-        [(cost, _)] = quadratic_costs(of, K, (shift,))
+        [(cost, _)] = quadratic_costs(known, K, (shift,))
         assert cost == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["decentralized", "decentralized, discrete", "extended"])
+def test_the_cost_is_the_one_that_certificates_bound(kind):
+    network = NETWORKS[kind]
+    plant, weights = network.plant, default_weights(network.plant)
+    of = FeedbackProblem.of(network, (1, 0, 1), Weights.unit(plant))
+    x = np.random.default_rng(3).standard_normal(of.size) * 0.01
+    slow = "1/8" if of.discrete else -1
+    A = plant.A * Fraction(slow) if of.discrete else plant.A - 1 * Matrix.identity(4)
+    calm = MultiChannelSystem(
+        A, [plant.B(i) for i in range(3)], [plant.C(i) for i in range(3)],
+        time=plant.time, neighbors=plant.neighbors,
+    )  # fmt: skip
+    K = of.gain(x)
+    for row, columns in enumerate(of.columns_of_states, start=of.p):
+        K[row, columns] = 0.5 if of.discrete else -1.0
+    loop = closed_loop(calm, controller_of(of, K), network.graph)
+    stay = replace(
+        of.bare,
+        A=of.A
+        + block_diag(
+            matrix_to_float(calm.A) - matrix_to_float(plant.A), np.zeros((len(of.A) - 4,) * 2)
+        ),
+    )
+    [(cost, _)] = quadratic_costs(stay, K, (float(of.discrete),))
+    proved = cost_of(loop, weights)
+    assert proved is not None
+    assert cost <= to_float(proved.cost) <= 1.01 * cost
+
+
+@pytest.mark.parametrize("kind", NETWORKS)
+def test_curves_of_single_loops_open_one_loop_and_close_the_others(kind):
+    of, x = stable(kind)
+    K, p = of.gain(x), of.p
+    outputs = [int(c) for agent in of.agents for c in agent.own]
+    for z in [np.exp(0.3j), np.exp(2j)] if of.discrete else [0.2j, 3j]:
+        X = np.linalg.inv(z * np.eye(len(of.A)) - of.A)
+        P, expected = of.C @ X @ of.B, []
+        for i in range(p):
+            # The loop with all signals but the i-th input of the plant.
+            others = np.delete(np.arange(len(K)), i)
+            closed = P + P[:, others] @ np.linalg.solve(
+                np.eye(len(others)) - K[others] @ P[:, others], K[others] @ P
+            )
+            L = (K @ closed)[i, i]
+            expected.append(abs(L / (1 - L) + 0.5))
+        for j in outputs:
+            others = np.delete(np.arange(len(P)), j)
+            u = np.linalg.solve(np.eye(len(K)) - K[:, others] @ P[others], K[:, [j]])
+            L = (P @ u)[j, 0]
+            expected.append(abs(L / (1 - L) + 0.5))
+        single, together = Margins(of, K).curves(np.array([z]))
+        assert single[0] == pytest.approx(expected, rel=1e-8)
+        inner = np.linalg.solve(z * np.eye(len(of.A)) - of.closed(K), of.B[:, :p])
+        assert together[0] == pytest.approx(np.linalg.norm((K @ of.C)[:p] @ inner, 2), rel=1e-9)
+
+
+def test_loops_whose_eigenvectors_coincide_have_accurate_curves():
+    plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0], [0, 1]]])
+    of = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
+    K = np.array([[-1.0, -2.0]])
+    single, together = Margins(of, K).curves(np.array([1j]))
+    T = -(1 + 2j) / (1j + 1) ** 2
+    assert together[0] == pytest.approx(abs(T), rel=1e-9)
+    assert single[0, 0] == pytest.approx(abs(T + 0.5), rel=1e-9)
+
+
+def test_peaks_are_those_of_a_fine_grid():
+    of, x = stable("decentralized")
+    K = 40 * of.gain(x)
+    seen = Margins(of, K)
+    assert np.max(seen.eigenvalues.real) < 0
+    peaks = seen.peaks(Limits(0.4, 0.3))
+    single, together = seen.curves(1j * np.concatenate([[0.0], np.geomspace(1e-4, 1e4, 20_000)]))
+    assert peaks.disk == pytest.approx(1 / np.max(single), rel=1e-3)
+    assert peaks.margin == pytest.approx(1 / np.max(together), rel=1e-3)
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
@@ -130,4 +246,5 @@ def test_a_plant_without_inputs_is_not_sensitive():
     none = replace(of, p=0)
     seen = Sensitivity(none, np.zeros(of.mask.shape))
     assert seen.peak(np.array([1j])) == 0
-    assert seen.excess(np.array([1j]), 1.0)[0] == 0
+    margins = Margins(none, np.zeros(of.mask.shape))
+    assert margins.excess(np.array([1j]), Limits(0.4, 0.3))[0] == 0

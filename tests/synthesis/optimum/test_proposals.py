@@ -23,7 +23,14 @@ from mcexact.synthesis.optimum.descent import (
     inside,
     polished,
 )
-from mcexact.synthesis.optimum.figures import Aims, figures_of
+from mcexact.synthesis.optimum.figures import (
+    MARGINS,
+    Aims,
+    Limits,
+    Margins,
+    Peaks,
+    figures_of,
+)
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
 from mcexact.synthesis.optimum.search import (
     Candidate,
@@ -171,6 +178,11 @@ def test_a_start_with_less_than_the_slack_is_polished_all_the_same():
     assert target.reached(bound_of(of, found), SLACK)
 
 
+def candidate_of(of: FeedbackProblem, K: np.ndarray) -> Candidate:
+    """A gain matrix with its figures."""
+    return Candidate("a start", of, K, figures_of(of, K), Margins(of, K).peaks(MARGINS))
+
+
 @pytest.mark.parametrize(
     ("gain", "rate", "digits", "stored"),
     [(-1.2597, "1/4", 2, -1.26), (-2.1, "0.9", 1, -2.1), (-1.2449, "0.2445", 4, -1.2449)],
@@ -179,7 +191,7 @@ def test_the_least_number_of_digits_is_found(gain, rate, digits, stored):
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     of = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
     K = np.array([[gain]])
-    candidate = Candidate("a start", of, K, figures_of(of, K))
+    candidate = candidate_of(of, K)
     found = with_few_digits(candidate, Target(request(plant, rate).region), None)
     assert (found.digits, found.K.tolist()) == (digits, [[stored]])
 
@@ -188,7 +200,7 @@ def test_a_controller_that_the_gate_refuses_is_not_proposed():
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     of = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
     K = np.array([[-1.25]])
-    candidate = Candidate("a start", of, K, figures_of(of, K))
+    candidate = candidate_of(of, K)
     with pytest.raises(LimitReached, match=r"could be certified for Re λ < -1/2"):
         with_few_digits(candidate, Target(request(plant, "1/2").region), None)
 
@@ -263,13 +275,15 @@ def test_digits_are_added_as_long_as_the_margin_needs_them(monkeypatch, needed, 
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     problem = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
     K = np.array([[-2.123456]])
-    figures = replace(figures_of(problem, K), margin=0.31)
+    known = candidate_of(problem, K)
 
-    def of(problem, K, *, peak=True):
-        digits = len(f"{abs(K[0, 0])}") - 1
-        return replace(figures, margin=0.31 if digits >= needed else 0.29)
+    class Seen(Margins):
+        def peaks(self, limits: Limits) -> Peaks:
+            digits = len(f"{abs(self._K[0, 0])}") - 1
+            return replace(known.peaks, margin=0.31 if digits >= needed else 0.29)
 
-    monkeypatch.setattr(search, "figures_of", of)
+    monkeypatch.setattr(search, "Margins", Seen)
     target = Target(request(plant, "1/2").region)
-    found = with_few_digits(Candidate("a start", problem, K, figures), target, None, most)
+    robust = replace(known, peaks=replace(known.peaks, margin=0.31))
+    found = with_few_digits(robust, target, None, most)
     assert found.K.tolist() == [[expected]]
