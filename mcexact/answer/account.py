@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -30,7 +31,7 @@ from mcexact.answer.parameters import (
     undefined_where,
 )
 from mcexact.answer.protocol import Answer
-from mcexact.answer.sentence import MANIFEST, Context, Sentences, manifest
+from mcexact.answer.sentence import MANIFEST, PLANT, Context, Sentences, manifest
 from mcexact.answer.several_parameters import RULES as SEVERAL
 from mcexact.answer.several_parameters import (
     Hypersurface,
@@ -134,6 +135,8 @@ PROVED = "proved for every point of lines"
 PROOFS = ("about", "line", "what holds on it")
 MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
 """The questions about modes, of which a table says more than a sentence."""
+SHORT = 4096
+"""The bytes up to which every certificate contains its plant, so that it can be read alone."""
 _OPEN = (
     "That no mode is fixed for almost all values is proved by a point at which none is. All else "
     "about almost all values, and the conditions, is proved along drawn lines; between them it is "
@@ -243,26 +246,39 @@ class Account(Shown):
     def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
         """Return the certificates and the manifest, keyed by the names of their files.
 
-        Without certificates for all values there is no file.
+        Without certificates for all values there is no file.  A long plant that several
+        certificates are about has a file of its own, and they name it by its digest.
 
         Parameters
         ----------
         system_by_digest : bool
-            Whether certificates name the plant by its digest alone, as in `codec.encode`; those
-            about a box around it, of which there is no file, contain it.
+            Whether that file is left out, and short plants are named by their digests, too; then
+            the checker needs the system file.  A box around the plant, of which there is no system
+            file, is not left out.
         """
         if self.for_all_values and not self.parts:
             return {}
-        texts = self.certificates
-        if system_by_digest:
-            own = self.given.system.digest()
-            texts = {
-                f"{name}.json": protocol.encode(
-                    part, system_by_digest=part.about.plant.digest() == own
-                )
-                for name, part in self.parts.items()
-            }
-        return texts | {MANIFEST: canonical(self._manifest(texts)) + "\n"}
+        own = self.given.system.digest() if system_by_digest else ""
+        beside = self._plants_beside(own)
+        texts = {
+            f"{name}.json": protocol.encode(
+                part, system_by_digest=part.about.plant.digest() in {own, *beside}
+            )
+            for name, part in self.parts.items()
+        }
+        plants = {f"{digest}{PLANT}": text for digest, text in beside.items()}
+        return texts | plants | {MANIFEST: canonical(self._manifest(texts)) + "\n"}
+
+    def _plants_beside(self, own: str) -> dict[str, str]:
+        """The plants that have files of their own, by their digests, without one of them."""
+        plants = {name: part.about.plant for name, part in self.parts.items()}
+        uses = Counter(plant.digest() for plant in plants.values())
+        texts = {plant.digest(): plant.canonical_text() for plant in plants.values()}
+        return {
+            digest: text
+            for digest, text in texts.items()
+            if digest != own and uses[digest] > 1 and len(text) > SHORT
+        }
 
     def save(self, folder: str | os.PathLike[str], *, system_by_digest: bool = False) -> None:
         """Write the certificates and the manifest into a folder, which is made if it is missing.
@@ -271,7 +287,7 @@ class Account(Shown):
         ----------
         folder : path
         system_by_digest : bool
-            Whether certificates name the plant by its digest alone, as in `save_certificate`.
+            Whether the file of the plant is left out, as in `files`.
 
         Raises
         ------

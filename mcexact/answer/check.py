@@ -22,8 +22,8 @@ from typing import TYPE_CHECKING, Any
 
 from mcexact import checker
 from mcexact.answer.protocol import Answer, fields_of, is_optional, key_of, kind_named
-from mcexact.checker.command import NAME, verdicts_of
-from mcexact.checker.kinds import Expectation, check_document
+from mcexact.checker.command import NAME, plants_beside, verdicts_of
+from mcexact.checker.kinds import PLANT, Expectation, check_document
 from mcexact.checker.kinds import Verdict as Found
 from mcexact.checker.reading import Limits as reading_Limits
 from mcexact.checker.reading import Refused
@@ -210,16 +210,25 @@ fixed_spectrum(system), or the name of a certificate file, found dict
     if expect is not None:
         wanted = _asked("expect", wanted.saying, _expected(expect))
     tell("reading the certificate")
-    text = _text(certificate)
+    text, file = _text(certificate), None
+    if not isinstance(certificate, Answer):
+        file = os.fspath(certificate)
     tell(f"checking a certificate of {len(text):,} bytes")
     if timeout is None:
-        return Verdict.of(check_document(text, wanted))
-    return Verdict.of(_in_time(text, wanted, timeout))
+        return Verdict.of(_checked_beside(text, wanted, file))
+    return Verdict.of(_in_time(text, wanted, file, timeout))
 
 
-def _in_time(text: bytes, wanted: Expectation, seconds: float) -> Found:
+def _checked_beside(text: bytes, wanted: Expectation, file: str | None) -> Found:
+    """The verdict on a certificate, which may name a plant in the folder of its file."""
+    limits = reading_Limits()
+    beside = None if file is None else plants_beside(file, limits)
+    return check_document(text, wanted, limits, beside)
+
+
+def _in_time(text: bytes, wanted: Expectation, file: str | None, seconds: float) -> Found:
     """The verdict of a child process, or INCOMPLETE when the time is over."""
-    child = Child(_check_in_child, (text, wanted))
+    child = Child(_check_in_child, (text, wanted, file))
     try:
         if not child.connection.poll(seconds):
             message = f"not decided after {seconds:g} s (timeout= allows more)"
@@ -233,8 +242,8 @@ def _in_time(text: bytes, wanted: Expectation, seconds: float) -> Found:
     return verdict
 
 
-def _check_in_child(connection: Any, text: bytes, wanted: Expectation) -> None:
-    connection.send(check_document(text, wanted))
+def _check_in_child(connection: Any, text: bytes, wanted: Expectation, file: str | None) -> None:
+    connection.send(_checked_beside(text, wanted, file))
 
 
 def _asked(
@@ -298,7 +307,8 @@ def recheck(
     Parameters
     ----------
     files : mapping from names to texts
-        Certificates, and perhaps a manifest, whose sentences are then verified.
+        Certificates, the plants that they name, and perhaps a manifest, whose sentences are then
+        verified.
     plant : str or mapping
         The plant as the ``system`` object of a certificate; or such a text for each file, where
         that of the manifest is the plant of its sentences.
@@ -337,13 +347,20 @@ def _verdicts(
     """Return the verdicts on the certificates and on the sentences of the manifest."""
     plants = dict.fromkeys(files, plant) if isinstance(plant, str) else plant
     listed: set[str] = set()
+
+    def beside(digest: str) -> bytes | None:
+        text = files.get(f"{digest}{PLANT}")
+        return None if text is None else text.encode("ascii")
+
     if NAME in files:
         listed = {NAME, *json.loads(files[NAME])["certificates"]}
         known = about_plant(plants[NAME])
-        yield from verdicts_of(lambda name: files[name or NAME].encode(), known, limits)
-    for name in (name for name in files if name not in listed):
-        expected = about_plant(plants[name])
-        yield {"file": name}, check_document(files[name].encode("ascii"), expected, limits)
+        yield from verdicts_of(lambda name: files[name or NAME].encode(), known, limits, beside)
+    for name, text in files.items():
+        if name not in listed and not name.endswith(PLANT):
+            expected = about_plant(plants[name])
+            verdict = check_document(text.encode("ascii"), expected, limits, beside)
+            yield {"file": name}, verdict
 
 
 def _limits(size: int) -> reading_Limits:
@@ -355,7 +372,9 @@ def _limits(size: int) -> reading_Limits:
     return reading_Limits(**limits, work=10**30)
 
 
-def checked(data: bytes, system_digest: str = "", plant: str | None = None) -> Found:
+def checked(
+    data: bytes, system_digest: str = "", plant: str | None = None, file: str | None = None
+) -> Found:
     """Return the checker's verdict on the text of a certificate of any length.
 
     Parameters
@@ -365,9 +384,13 @@ def checked(data: bytes, system_digest: str = "", plant: str | None = None) -> F
         The digest of the plant that it must be about; empty for any.
     plant : str, optional
         In place of the digest, the plant as the ``system`` object of a certificate.
+    file : str, optional
+        The file of the certificate, in whose folder that of its plant may be.
     """
     expected = Expectation(system=system_digest) if plant is None else about_plant(plant)
-    return check_document(data, expected, _limits(len(data)))
+    limits = _limits(len(data))
+    beside = None if file is None else plants_beside(file, limits)
+    return check_document(data, expected, limits, beside)
 
 
 def _text(certificate: Any) -> bytes:
@@ -403,7 +426,8 @@ def load_certificate(
     ----------
     path : path
     system : MultiChannelSystem or ParametricSystem, optional
-        The plant that the certificate must be about, and may name by its digest.
+        The plant that the certificate must be about, and may name by its digest; one that is named
+        by its digest may also have its file beside the certificate.
 
     Raises
     ------
@@ -420,14 +444,19 @@ def load_certificate(
         InputError.require(system, MultiChannelSystem, "system")
     plant = None if system is None else system.plant
     text = None if plant is None else plant.canonical_text()
-    verdict = checked(data, plant=text)
+    file = os.fspath(path)
+    verdict = checked(data, plant=text, file=file)
     if verdict.verdict != "VALID":
         raise InputError(f"the checker does not accept it ({verdict.line()})", where=str(path))
     digits = sys.get_int_max_str_digits()
     try:
         # A certificate may contain longer numbers than the interpreter reads by default.
         sys.set_int_max_str_digits(0)
-        return answer_of(json.loads(data), plant)
+        document = json.loads(data)
+        if plant is None and isinstance(document["system"], str):
+            beside = plants_beside(file, _limits(len(data)))(document["system"])
+            document["system"] = json.loads(beside or b"")
+        return answer_of(document, plant)
     finally:
         sys.set_int_max_str_digits(digits)
 

@@ -22,6 +22,8 @@ from mcexact.shown import framed
 FORMAT = "mcexact-manifest/1"
 MANIFEST = "manifest.json"
 """The name of the manifest's file, in the folder of the certificates."""
+PLANT = ".plant"
+"""The end of the name of a plant's file there, behind its digest."""
 LOOP = ("closed_loop_spectrum", "stability", "distributed_observer")
 """The kinds about a closed loop; rules refer to the first one that is available as ``loop``."""
 _ALIASES = {"loop": LOOP, "bounded_loop": LOOP[1:]}

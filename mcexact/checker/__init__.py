@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .reading import Limits
 
 __all__ = ["Expectation", "Limits", "Verdict", "check_document"]
-_FILES = dict(zip(__all__, ("expectation", "reading", "kinds", "kinds"), strict=True))
+_FILES = dict(zip(__all__, ("kinds", "reading", "kinds", "kinds"), strict=True))
 """The file of each public name."""
 
 

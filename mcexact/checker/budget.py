@@ -14,10 +14,13 @@ long is charged before it starts, by a formula in the sizes of its numbers and m
   claim.
 - The message names a budget that should suffice.  For this estimate loops run through `counted`,
   which records how many turns are left.
+
+What several certificates of a manifest need is made once (`kept`): the plant, a subject, a proof
+that each of them repeats.  Then it is charged once, too.
 """
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -171,6 +174,39 @@ def counted(items: Sequence[Item]) -> Iterator[Item]:
             yield item
     finally:
         del budget.loops[depth:]
+
+
+# What is made once for all certificates of a manifest.
+
+Kept = dict[Hashable, tuple[tuple[object, ...], Any]]
+_kept: ContextVar[Kept | None] = ContextVar("kept", default=None)
+
+
+@contextmanager
+def keeping(known: Kept) -> Iterator[None]:
+    """Let `kept` find what is known, and add to it."""
+    token = _kept.set(known)
+    try:
+        yield
+    finally:
+        _kept.reset(token)
+
+
+def kept(name: Hashable, make: Callable[[], Item], *about: object) -> Item:
+    """What was made before under this name about the very same objects, or else is made now.
+
+    The objects are kept as well, so that no other one can have the identity of one of them.  An
+    exception is not kept.
+    """
+    known = _kept.get()
+    if known is None:
+        return make()
+    key = name, *map(id, about)
+    spend(STEP)
+    if key not in known:
+        known[key] = about, make()
+    made: Item = known[key][1]
+    return made
 
 
 # The units of a step.

@@ -23,14 +23,16 @@ from functools import partial
 from typing import IO, NoReturn
 
 from . import reading, sentences_loops, sentences_nearby, sentences_parameters
-from .budget import Budget, current, limited, spend
-from .cells import constructed, subject_of
+from .budget import Budget, Kept, current, keeping, limited, spend
+from .cells import constructed
 from .discs import at_values
 from .kinds import (
     CLAIM,
     DIGEST,
-    KINDS,
+    PLANT,
     SUPPORTED,
+    Beside,
+    Check,
     Clock,
     Expectation,
     Found,
@@ -39,10 +41,11 @@ from .kinds import (
     attempt,
     check_document,
     memory,
+    nothing_beside,
     refusal,
     same,
 )
-from .parametric_system import FunctionSystem, digest_of_values, plant_of
+from .parametric_system import FunctionSystem, digest_of_values
 from .reading import (
     Json,
     Limits,
@@ -87,7 +90,8 @@ def manifest_verdicts(path: str, expected: Expectation, limits: Limits) -> Itera
         For the manifest and for each certificate.
     """
     path = _file_of(path)
-    return verdicts_of(lambda name: _bytes(path, name, limits), expected, limits)
+    beside = plants_beside(path, limits)
+    return verdicts_of(lambda name: _bytes(path, name, limits), expected, limits, beside)
 
 
 def _file_of(manifest: str) -> str:
@@ -96,7 +100,9 @@ def _file_of(manifest: str) -> str:
     return os.path.join(manifest, NAME) if folder else os.path.join(".", manifest)
 
 
-def verdicts_of(read: Read, expected: Expectation, limits: Limits) -> Iterator[Found]:
+def verdicts_of(
+    read: Read, expected: Expectation, limits: Limits, beside: Beside = nothing_beside
+) -> Iterator[Found]:
     """The verdicts on a manifest from anywhere: ``read`` takes the name of a file, or "" for it."""
     budget = current(limits.work)
 
@@ -112,7 +118,7 @@ def verdicts_of(read: Read, expected: Expectation, limits: Limits) -> Iterator[F
         yield {"file": NAME}, parts
         return
     digests, sentences, base, nearby = parts
-    known = Evidence(read, base, limits, expected, budget, nearby)
+    known = Evidence(read, base, limits, expected, budget, nearby, beside)
     for name in sorted(digests):
         yield {"file": name}, known.taken(name, digests[name])
     refused = attempt(known.make_subject)
@@ -138,6 +144,21 @@ def _bytes(manifest: str, name: str, limits: Limits) -> bytes:
     elif os.path.exists(path) and not os.path.isfile(path):
         malformed("file", "a manifest is a regular file")
     return reading.read_file(path, limits)
+
+
+def plants_beside(path: str, limits: Limits) -> Beside:
+    """What reads the regular files of plants in the folder of a file, which are no links."""
+    folder = os.path.dirname(path)
+
+    def read(digest: str) -> bytes | None:
+        beside = os.path.join(folder, digest + PLANT)
+        if not os.path.lexists(beside):
+            return None
+        regular = os.path.isfile(beside) and not os.path.islink(beside)
+        require(regular, "file", "system", f"{digest}{PLANT} is not a regular file of this folder")
+        return reading.read_file(beside, limits)
+
+    return read
 
 
 def _parts(document: Json) -> tuple[Json, ...]:
@@ -186,8 +207,12 @@ class Evidence:
         The work that all of them may take together.
     nearby : collection of str
         The names of certificates that may be about another plant, with the controller of the loops.
+    beside : callable
+        The bytes of the file of a plant, by its digest.
     verdicts, premises : dict
         The verdicts on all certificates, and the premises made of VALID ones.
+    kept : dict
+        What is made once for all certificates.
     """
 
     read: Read
@@ -196,8 +221,10 @@ class Evidence:
     expected: Expectation
     budget: Budget = field(default_factory=lambda: current(None))
     nearby: Collection[str] = ()
+    beside: Beside = nothing_beside
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     premises: dict[str, Premise] = field(default_factory=dict)
+    kept: Kept = field(default_factory=dict)
 
     def taken(self, name: str, wanted: str) -> Verdict:
         """Check one certificate; if it is VALID it becomes a premise."""
@@ -207,15 +234,16 @@ class Evidence:
             large = len(data) > self.limits.bytes
             right = large or hashlib.sha256(data).hexdigest() == wanted
             require(right, "digest", "file", "not the bytes that the manifest names")
-            with limited(self.budget):
+            with limited(self.budget), keeping(self.kept):
                 any_loop = replace(self.expected, controller="")
                 any_loop = Expectation() if name in self.nearby else any_loop
-                verdict = check_document(data, any_loop, self.limits)
+                found = Check(any_loop, self.limits, self.beside)
+                verdict = found.of(data)
                 if verdict.verdict == "VALID":
-                    document, controller = parse(data, self.limits), verdict.controller_digest
-                    if controller:
-                        self.expected.require_subject(document["subject"], controller)
-                    self.premises[name] = self._premise(name, document, verdict.system_digest)
+                    if found.controller:
+                        steps = found.document["subject"]
+                        self.expected.require_subject(steps, found.controller)
+                    self.premises[name] = self._premise(name, found)
                 return verdict
 
         self.verdicts[name] = attempt(check).inside(name)
@@ -235,21 +263,17 @@ class Evidence:
         """The certificates about the plant of the manifest, or boxes around it."""
         return [each for each in self.premises.values() if not each.nearby]
 
-    def _premise(self, name: str, document: Json, digest: str) -> Premise:
+    def _premise(self, name: str, found: Check) -> Premise:
         """A certificate that was found VALID."""
-        description, steps = document["system"], document["subject"]
-        description = self.expected.named(description) if type(description) is str else description
-        known, kind = replace(plant_of(description), words=f"the plant {digest}"), document["kind"]
-        nearby = name in self.nearby
+        document, known, system = found.document, found.plant, found.system
+        nearby, steps = name in self.nearby, document["subject"]
         if not (self.expected.system or nearby):
-            values = digest_of_values(known, digest)
+            values = digest_of_values(known, found.digest)
             self.expected = replace(self.expected, system=values)
         plant = known if isinstance(known, FunctionSystem) else at_values(known)
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
-        system = subject_of(steps, known, kind)
-        sentence = KINDS[kind].statement(document["claim"], system)
-        statement = f"For {system.words}: {sentence}"
+        statement = f"For {system.words}: {found.words}"
         return Premise(name, document, plant, system, plant, statement, path, nearby=nearby)
 
     def judged(self, sentence: dict[str, Json], place: str) -> Verdict:
@@ -369,8 +393,9 @@ def _expectation(
 
 def _certificate(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
     """The verdict on the certificate in a file."""
+    beside = None if path == "-" else plants_beside(path, limits)
     about = {"file": path}
-    yield about, attempt(lambda: check_document(read_file(path, limits), wanted, limits))
+    yield about, attempt(lambda: check_document(read_file(path, limits), wanted, limits, beside))
 
 
 def _nearby(manifest: str, limits: Limits) -> set[str]:
@@ -464,7 +489,12 @@ def seconds(text: str) -> float:
 
 OPTIONS: tuple[tuple[str, str, Callable[[str], object], str], ...] = (
     ("manifest", "FILE", str, "verify the sentences of this manifest from its certificates"),
-    ("system", "FILE", str, "require this system; certificates with its digest alone need it"),
+    (
+        "system",
+        "FILE",
+        str,
+        "require this system; certificates with a digest alone need it, or the plant beside",
+    ),
     ("controller", "FILE", str, "require loops of the plant with the controller in this file"),
     ("expect", "FILE", str, f"require a statement, its SHA-256, its line of a verdict, or {CLAIM}"),
     ("max-bytes", "N", count, "most bytes of a file"),

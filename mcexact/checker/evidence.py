@@ -60,7 +60,7 @@ from .reading import (
     require,
     shown,
 )
-from .system import System
+from .system import System, canonical_json
 
 # Rules that the evidence of several kinds shares; ``proofs/evidence.md``.
 
@@ -570,8 +570,12 @@ class Blocks:
 
     def __init__(self, value: Json, place: str, system: System, number: Json = None) -> None:
         self.place, self.number = f"{place}.blocks", number
-        parts = split(value, self.place, system)
-        self.left = sum(_left(proof, where, part) for where, part, proof in counted(parts))
+
+        def left() -> int:
+            parts = split(value, self.place, system)
+            return sum(_left(proof, where, part) for where, part, proof in counted(parts))
+
+        self.left: int = system.kept(("blocks", canonical_json(value)), left)
 
     @property
     def ell(self) -> int:

@@ -12,6 +12,7 @@ plant, and applies the rule.  An exception on the way becomes another verdict (`
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
 import re
 import signal
@@ -19,7 +20,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from types import FrameType
-from typing import NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from . import (
     boxes,
@@ -27,15 +28,14 @@ from . import (
     modes,
     parameters,
     performance,
-    reading,
     sharing,
     sharing_gap,
     structure,
 )
 from .arithmetic import NotAUnit
-from .budget import MORE, current, limited
+from .budget import MORE, Budget, current, kept, limited
 from .cells import subject_of
-from .parametric_system import FunctionSystem, digest, digest_of_values, plant_of, plant_of_file
+from .parametric_system import FunctionSystem, digest_of_values, plant_of, plant_of_file
 from .reading import (
     Json,
     Limits,
@@ -49,7 +49,14 @@ from .reading import (
     shown,
     string,
 )
-from .system import canonical_json, described, digest_of, read_controller_file
+from .system import (
+    System,
+    canonical_json,
+    described,
+    digest_of,
+    parse_canonical,
+    read_controller_file,
+)
 
 # What is asked of a certificate: the plant, the controller, and the statement or the claim.
 
@@ -58,6 +65,11 @@ LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
 """A statement, alone or in the line of its verdict."""
 CLAIM = 'a claim as a JSON object {"kind": ..., "subject": [...], "claim": {...}}'
 LOOP = "closed_loop"
+PLANT = ".plant"
+"""The end of the name of a plant's file, behind its digest."""
+Plant = System | FunctionSystem
+Beside = Callable[[str], bytes | None]
+"""The bytes of the file of a plant beside a certificate, by its digest; None if there is none."""
 
 
 @dataclass(frozen=True)
@@ -144,14 +156,27 @@ class Expectation:
             malformed("claim", f"expected an object, found {shown(claim)}")
         return replace(self, kind=string(kind, "kind"), subject=subject, claim=claim)
 
-    def named(self, value: str) -> Json:
-        """The plant that a certificate names by its digest."""
+    def named(self, value: str, beside: Beside, limits: Limits) -> Plant:
+        """The plant that a certificate names by its digest: the expected one, or its file's."""
         if not DIGEST.fullmatch(value):
             malformed("system", f"expected a system or its SHA-256, found {shown(value)}")
-        if self.plant is None:
-            reading.incomplete("system", "system", f"give the system of digest {value} (--system)")
-        self._require_system(value, "")
-        return self.plant
+        expected = self.plant is not None and value == self.system
+        data = None if expected else kept(("file", value), lambda: beside(value))
+        if data is None and self.plant is None:
+            message = f"give the system of digest {value} (--system), or {value}{PLANT} beside it"
+            incomplete("system", "system", message)
+        if data is None:
+            self._require_system(value, "")
+        current(limits.work).grant(self.size if data is None else len(data))
+        return kept(("plant", value), lambda: self._read(value, data, limits))
+
+    def _read(self, value: str, data: bytes | None, limits: Limits) -> Plant:
+        """The expected plant, or the one of this digest in a file, which has no other bytes."""
+        if data is None:
+            return plant_of(self.plant)
+        right = len(data) > limits.bytes or hashlib.sha256(data).hexdigest() == value
+        require(right, "digest", "system", f"not the bytes of {value}{PLANT}")
+        return plant_of(parse_canonical(data, limits))
 
     def require_plant(self, digest: str, values: str, ranged: bool = False) -> None:
         """Stop unless the certificate is about the plant, or about a box around it.
@@ -359,6 +384,7 @@ def check_document(
     data: bytes | Mapping[str, Json],
     expected: Expectation | None = None,
     limits: Limits | None = None,
+    beside: Beside | None = None,
 ) -> Verdict:
     """Check one certificate.
 
@@ -369,41 +395,92 @@ def check_document(
     expected : Expectation, optional
         What the certificate must be about, and what it must say.
     limits : Limits, optional
+    beside : callable, optional
+        What gives the files of plants that stand beside the certificate; by default there is none.
 
     Returns
     -------
     Verdict
         After anything unexpected, including an exception, the verdict is not VALID.
     """
-    wanted, known, controller, allowed = expected or Expectation(), "", "", limits or Limits()
+    return Check(expected or Expectation(), limits or Limits(), beside or nothing_beside).of(data)
 
-    def check() -> Verdict:
-        nonlocal known, controller
-        text = data if isinstance(data, bytes) else _text(data)
+
+def nothing_beside(digest: str) -> None:
+    """No file of a plant, for a certificate that is in no folder."""
+
+
+@dataclass
+class Check:
+    """The check of one certificate, and what it was about if that could be read.
+
+    Attributes
+    ----------
+    wanted : Expectation
+    allowed : Limits
+    beside : callable
+    digest, controller : str
+        The digests of the plant and of the controller.
+    document, plant, system, words : object
+        The certificate, its plant, its subject, and the words of its claim.
+    """
+
+    wanted: Expectation
+    allowed: Limits
+    beside: Beside
+    digest: str = ""
+    controller: str = ""
+    document: Json = None
+    plant: Any = None
+    system: Any = None
+    words: str = ""
+
+    def of(self, data: bytes | Mapping[str, Json]) -> Verdict:
+        """The verdict on a certificate."""
+        budget = current(self.allowed.work)
+        before = budget.spent
+        verdict = attempt(lambda: self._verdict(data, budget))
+        found = {"system_digest": self.digest, "controller_digest": self.controller}
+        return replace(verdict, spent=budget.spent - before, **found)
+
+    def _verdict(self, data: bytes | Mapping[str, Json], budget: Budget) -> Verdict:
+        """VALID, or the exception `Refused`."""
+        text, wanted = data if isinstance(data, bytes) else _text(data), self.wanted
         with limited(budget, len(text)):
-            kind, described_plant, steps, claim, witness = _parts(parse(text, allowed))
-            if type(described_plant) is str:
-                described_plant = wanted.named(described_plant)
-                budget.grant(wanted.size)
-            plant = plant_of(described_plant)
-            ranged = isinstance(plant, FunctionSystem)
+            self.document = parse(text, self.allowed)
+            kind, _, steps, claim, witness = _parts(self.document)
+            self.read_plant()
+            ranged = isinstance(self.plant, FunctionSystem)
             budget.times = MORE if ranged else budget.times
-            known = digest(plant)
-            wanted.require_plant(known, digest_of_values(plant, known), ranged)
+            values = digest_of_values(self.plant, self.digest)
+            wanted.require_plant(self.digest, values, ranged)
             budget.builds = True
-            system = subject_of(steps, replace(plant, words=f"the plant {known}"), kind)
+            self.build_subject()
             budget.builds = False
-            controller = system.controller
-            wanted.require_subject(steps, controller)
-            KINDS[kind].check(claim, witness, system)
-            statement = f"For {described(system)}: {KINDS[kind].statement(claim, system)}"
+            wanted.require_subject(steps, self.controller)
+            KINDS[kind].check(claim, witness, self.system)
+            self.words = KINDS[kind].statement(claim, self.system)
+            statement = f"For {described(self.system)}: {self.words}"
             wanted.require_statement(kind, claim, statement)
             return Verdict("VALID", statement, digest_of(statement))
 
-    budget = current(allowed.work)
-    before = budget.spent
-    verdict, spent = attempt(check), budget.spent - before
-    return replace(verdict, spent=spent, system_digest=known, controller_digest=controller)
+    def read_plant(self) -> None:
+        """Read the plant of the certificate, whose words are its digest."""
+        value = self.document["system"]
+        if type(value) is str:
+            plant, known = self.wanted.named(value, self.beside, self.allowed), value
+        else:
+            known = digest_of(canonical_json(value))
+            plant = kept(("plant", known), lambda: plant_of(value))
+        self.plant = kept("named", lambda: replace(plant, words=f"the plant {known}"), plant)
+        self.digest = known
+
+    def build_subject(self) -> None:
+        """Apply the constructions of the certificate to its plant."""
+        kind, steps = self.document["kind"], self.document["subject"]
+        name = "subject", kind, canonical_json(steps)
+        self.system = kept(name, lambda: subject_of(steps, self.plant, kind), self.plant)
+        self.controller = self.system.controller
 
 
 Found = tuple[dict[str, str], Verdict]

@@ -546,10 +546,24 @@ def require_arcs(system: System, triples: list[tuple[int, int, int]], ell: int) 
 
     Theorem ``transfer_graph.arc_rule``.
     """
+    proved: set[tuple[int, int, int]] = system.kept(("arcs", ell), set)
+    triples = [triple for triple in triples if triple not in proved]
     wanted: dict[int, dict[int, list[int]]] = {}
     for j, i, k in triples:
         require(k < system.n, "arc", "witness", f"the power {k} is not below {system.n}")
         wanted.setdefault(j, {}).setdefault(k, []).append(i)
+    if triples:
+        _require_parameters(system, wanted, triples, ell)
+    proved.update(triples)
+
+
+def _require_parameters(
+    system: System,
+    wanted: dict[int, dict[int, list[int]]],
+    triples: list[tuple[int, int, int]],
+    ell: int,
+) -> None:
+    """Stop unless C_i A^k B_j ≠ 0 modulo ℓ for every (j, i, k), which are ``wanted`` by j and k."""
     if ell <= SMALL:
         j, i, k = unseen(system, triples, ell) or (0, 0, -1)
         message = f"C A^{k} B is 0 modulo l from channel number {j + 1} to {i + 1}"

@@ -16,7 +16,7 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import chain
@@ -366,6 +366,10 @@ class System:
         """The position of one named channel."""
         return reading.names([name], place, self.names)[0]
 
+    def kept(self, name: Hashable, make: Callable[[], Any]) -> Any:
+        """What is proved once for all certificates about the same matrices and channels."""
+        return budget.kept((name, *self.names), make, self.A, *self.B, *self.C)
+
 
 def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -> System:
     """Read a system object by the grammar of system files; without limits, of a certificate.
@@ -458,6 +462,14 @@ def read_plant(value: Json) -> System:
     if canonical(system) != value:
         malformed("system", "expected the canonical form: lowest terms, neighbors in order")
     return system
+
+
+def parse_canonical(data: bytes, limits: Limits) -> Json:
+    """The object in the file of a plant beside certificates, whose bytes are its canonical JSON."""
+    value = parse(data, limits)
+    if canonical_json(value).encode("ascii") != data:
+        malformed("system", "expected canonical JSON in the file of the plant")
+    return value
 
 
 def parse_file(data: bytes, limits: Limits) -> Json:

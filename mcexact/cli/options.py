@@ -180,8 +180,8 @@ certificates = click.option(
 system_by_digest = click.option(
     "--system-by-digest",
     is_flag=True,
-    help="Name the system in these certificates by its digest alone, which is shorter; `mcexact "
-    "check` then needs the system file, too (--system).",
+    help="Leave the system out of these files, which name it by its digest; `mcexact check` then "
+    "needs the system file, too (--system).",
 )
 
 

@@ -34,7 +34,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from mcexact.answer.sentence import MANIFEST
+from mcexact.answer.sentence import MANIFEST, PLANT
 from mcexact.answer.templates import count
 from mcexact.cli import options
 from mcexact.cli.commands import INTERRUPTED
@@ -116,7 +116,8 @@ def rechecked(
     InternalError
         If the checker rejects a certificate, or a sentence that the certificates do not imply.
     """
-    names, kept, missing = [name for name in evidence.files if name != MANIFEST], Kept(), None
+    names = [name for name in evidence.files if name != MANIFEST and not name.endswith(PLANT)]
+    kept, missing = Kept(), None
     try:
         verdicts = supervised(
             _recheck,

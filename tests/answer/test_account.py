@@ -1,14 +1,22 @@
 """The JSON of an account has the names of the questions, and plain exact values."""
 
+import hashlib
 import json
+from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from mcexact import MultiChannelSystem, NeighborGraph, analyze
+from mcexact import MultiChannelSystem, NeighborGraph, analyze, check, load_certificate
 from mcexact.analysis.questions import QUESTIONS, Question
-from mcexact.errors import LimitReached
+from mcexact.answer.account import SHORT, Account
+from mcexact.answer.sentence import PLANT
+from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.kinds import Expectation
+from mcexact.checker.reading import Limits
+from mcexact.errors import InputError, LimitReached
 from mcexact.model import gallery
 from tests.answer.asking import asked
 from tests.report.test_account import EXAMPLE
@@ -101,3 +109,44 @@ def test_a_notebook_shows_the_sentences_with_their_reasons() -> None:
     assert "<th>fixed modes</th><td>the mode 1</td>" in html
     hostile = gallery.load("hidden-triple-mode")
     assert "<script" not in analyze(hostile)._repr_html_()
+
+
+def test_a_long_plant_stands_once_beside_the_certificates_that_name_it(tmp_path: Path) -> None:
+    plant = long_plant(44)
+    analysis = analyze(plant)
+    analysis.save(tmp_path)
+    (beside,) = tmp_path.glob("*.plant")
+    assert beside.name == f"{plant.digest()}.plant"
+    assert hashlib.sha256(beside.read_bytes()).hexdigest() == plant.digest()
+    assert [v.status for _, v in manifest_verdicts(str(tmp_path), Expectation(), Limits())] == (
+        [0] * (len(analysis.account.files()) - 2 + len(analysis.account.derived))
+    )
+    found = load_certificate(tmp_path / "fixed_spectrum.json")
+    assert found == analysis.fixed_spectrum
+    assert check(tmp_path / "fixed_spectrum.json", timeout=60).valid
+    beside.unlink()
+    assert check(tmp_path / "fixed_spectrum.json").code == "system"
+    with pytest.raises(InputError, match="system"):
+        load_certificate(tmp_path / "fixed_spectrum.json")
+    assert load_certificate(tmp_path / "fixed_spectrum.json", plant) == found
+
+
+@pytest.mark.parametrize("by_digest", [False, True])
+def test_a_plant_has_a_file_if_it_is_long_and_named_twice(by_digest: bool) -> None:
+    long, short = (analyze(long_plant(n)).account for n in (44, 3))
+    lengths = [len(each.given.system.canonical_text()) for each in (long, short)]
+    assert lengths[0] > SHORT >= lengths[1]
+
+    def plants(account: Account) -> list[str]:
+        files = account.files(system_by_digest=by_digest)
+        return [name for name in files if name.endswith(PLANT)]
+
+    assert len(plants(long)) == (not by_digest)
+    one = {name: answer for name, answer in long.answers.items() if name == "fixed_spectrum"}
+    assert plants(short) == plants(replace(long, answers=one)) == []
+
+
+def long_plant(n: int) -> MultiChannelSystem:
+    """A dense plant with one channel."""
+    rows = [[(i * i + 3 * j) % 17 - 8 for j in range(n)] for i in range(n)]
+    return MultiChannelSystem(rows, [[[1]] * n], [[[1, *[0] * (n - 1)]]])

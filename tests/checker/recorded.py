@@ -17,7 +17,7 @@ from typing import Any
 
 from mcexact.checker.budget import Budget
 from mcexact.checker.command import Evidence
-from mcexact.checker.kinds import Expectation, Verdict, attempt
+from mcexact.checker.kinds import KINDS, Check, Expectation, Verdict, attempt, nothing_beside
 from mcexact.checker.reading import Limits
 from mcexact.checker.sentences import RULES, Premise
 from mcexact.checker.system import digest, digest_of, read_plant
@@ -85,8 +85,11 @@ class World:
         for k in range(len(self.certificates)):
             name, document = self.file(k), self.document(k)
             found.verdicts[name] = Verdict("VALID")
-            own = digest(read_plant(document["system"])) if name in near else expected.system
-            found.premises[name] = found._premise(name, document, own)
+            check = Check(Expectation(), Limits(), nothing_beside, document=document)
+            check.read_plant()
+            check.build_subject()
+            check.words = KINDS[document["kind"]].statement(document["claim"], check.system)
+            found.premises[name] = found._premise(name, check)
         found.make_subject()
         return found
 
