@@ -2,15 +2,15 @@
 
 ``python -m tests.assurance.campaigns.schemas [NAME ...]``.  Plants that ``build/schemas.jsonl``
 holds without a fault are not tried again: after an interruption the same command goes on.  At the
-end it says which commands took longest, in seconds of the processor.
+end it says which commands took longest.
 """
 
 from __future__ import annotations
 
 import json
-import resource
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -73,11 +73,6 @@ def commands_for_all_values(plant: str, folder: Path) -> Iterator[tuple[str, tup
     yield "sweep", ("sweep", plant, *grid, *records, *LIMIT)
 
 
-def seconds() -> float:
-    """The time of the processor that finished commands took."""
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-
-
 def tried(name: str, folder: Path) -> dict[str, Any]:
     """What is not as a schema says, for one plant, and how long and with which status."""
     (folder / "plant.json").write_text(gallery.text(name), encoding="utf-8")
@@ -91,10 +86,10 @@ def tried(name: str, folder: Path) -> dict[str, Any]:
     problems: list[str] = []
     took: dict[str, tuple[float, int]] = {}
     for schema, arguments in asked(f"gallery:{name}", folder):
-        began = seconds()
+        began = time.monotonic()
         done = run(*arguments, "--json")
         command = " ".join(arguments[: 2 if schema == "design" else 1])
-        took[command] = (round(seconds() - began, 1), done.status)
+        took[command] = (round(time.monotonic() - began, 1), done.status)
         if done.status not in MEANT:
             problems.append(f"{' '.join(arguments)}: status {done.status}: {done.stderr[-300:]}")
             continue
