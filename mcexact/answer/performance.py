@@ -9,15 +9,22 @@ proposed in floating point, rounded to few bits, and verified exactly.
 - `DiskMargin`: the loop is stable while its inputs or outputs are multiplied by complex numbers
   near 1.
 - `SectorStability`: it is stable while its inputs pass through nonlinearities within sectors.
+
+The sentences name the weights, and say for which controllers a bound holds.  The first line of
+`design` and `certify` consists of short ones: the cost of the loop beside a bound of the same
+weights, the least disk margin of a single input or output, and the plants with stable loops.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal
+from typing import Any, Literal
 
+from mcexact.answer.analysis import Said
 from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
+from mcexact.answer.sentence import Claim, Context, Rulebook
+from mcexact.answer.templates import Template
 from mcexact.exact.matrix import Matrix
 
 
@@ -208,3 +215,153 @@ class SectorStability(Answer):
     sectors: tuple[tuple[Fraction, Fraction], ...] = claim()
     scaling: tuple[Fraction, ...] = witness()
     P: Symmetric = witness()
+
+
+# Templates.
+
+COST = Template("performance-cost", "at most {cost:digits_above}, {weights:weights}", label="cost")
+BOUND = Template(
+    "performance-bound",
+    "at least {cost:digits_below} for every linear time-invariant controller{proper:proper}, "
+    "{weights:weights}",
+    label="cost of others",
+)
+GROUP_BOUND = Template(
+    "performance-bound-graph",
+    "at least {cost:digits_below} for every linear time-invariant controller{proper:proper} by "
+    "which agents act on each other along {edges:edges} alone, {weights:weights}",
+    label="cost of others in the same graph",
+)
+_TIMES = "at most {ratio:digits_above} times this bound for every linear time-invariant controller"
+RATIO = Template("performance-ratio", _TIMES + "{proper:proper}", label="cost beside others")
+GROUP_RATIO = Template(
+    "performance-ratio-graph",
+    _TIMES + "{proper:proper} by which agents act on each other along {edges:edges} alone",
+    label="cost beside others in the same graph",
+)
+_MARGIN = "at least {margin:digits_below}"
+MARGINS = {
+    "input_margin": Template(
+        "performance-input-margin", _MARGIN, label="disk margin of each input by itself"
+    ),
+    "output_margin": Template(
+        "performance-output-margin", _MARGIN, label="disk margin of each output by itself"
+    ),
+    "all_inputs_margin": Template(
+        "performance-all-inputs-margin", _MARGIN, label="disk margin of all inputs together"
+    ),
+    "all_outputs_margin": Template(
+        "performance-all-outputs-margin", _MARGIN, label="disk margin of all outputs together"
+    ),
+}
+SECTORS = Template(
+    "performance-sectors",
+    "tends to rest if each input of the plant is any function of the time and of the value that "
+    "its agent computes, between the multiples {sectors:sectors} of this value",
+    label="loop with nonlinear inputs",
+)
+FIRST_COST = Template(
+    "first-cost", "cost ≤ {ratio:digits_above} × a bound for every LTI controller{proper:proper}"
+)
+FIRST_MARGIN = Template("first-margin", "disk margin ≥ {margin:digits_below} in every loop")
+FIRST_BOX = Template("first-box", "stable for plants within {part:percent} of each entry")
+FIRST_RADII = Template("first-radii", "stable for all plants within the radii")
+
+# Rules.
+
+RULES = Rulebook()
+
+
+def _weighed(weights: Claim) -> tuple[Any, ...]:
+    """The diagonals of Q, R, W and V, and the bandwidth, as a form writes them."""
+    lists = (weights.states, weights.inputs, weights.disturbances, weights.noise)
+    return (*lists, weights.bandwidth if weights.has("bandwidth") else None)
+
+
+def _only_proper(weights: tuple[Any, ...], context: Context) -> bool:
+    """Whether a bound holds only if no output passes to an input at once."""
+    return context.time == "continuous" and weights[-1] is None
+
+
+@RULES.rule("first", FIRST_COST, premises=("loop_cost", "cost_bound"))
+def _first_cost(loop_cost: Claim, cost_bound: Claim, context: Context) -> Said:
+    weights = _weighed(loop_cost.weights)
+    if weights == _weighed(cost_bound.weights) and cost_bound.cost:
+        ratio = loop_cost.cost / cost_bound.cost
+        yield FIRST_COST(ratio=ratio, proper=_only_proper(weights, context))
+
+
+@RULES.rule("first", FIRST_MARGIN, premises=("input_margin", "output_margin"))
+def _first_margin(input_margin: Claim, output_margin: Claim, context: Context) -> Said:
+    """The least margin of a single input or output."""
+    yield FIRST_MARGIN(margin=min(input_margin.margin, output_margin.margin))
+
+
+@RULES.rule("first", FIRST_BOX, FIRST_RADII, premises=("box_stability",))
+def _first_box(box_stability: Claim, context: Context) -> Said:
+    """The plants whose loops are all stable."""
+    _ = box_stability.bound
+    if not context.has("parameters"):
+        part = context.part_of_plant
+        yield FIRST_RADII() if part is None else FIRST_BOX(part=part)
+
+
+@RULES.rule("table", COST, premises=("loop_cost",))
+def _cost(loop_cost: Claim, context: Context) -> Said:
+    yield COST(cost=loop_cost.cost, weights=_weighed(loop_cost.weights))
+
+
+@RULES.rule("table", BOUND, premises=("cost_bound",))
+def _bound(cost_bound: Claim, context: Context) -> Said:
+    weights = _weighed(cost_bound.weights)
+    proper = _only_proper(weights, context)
+    yield BOUND(cost=cost_bound.cost, proper=proper, weights=weights)
+
+
+@RULES.rule("table", RATIO, premises=("loop_cost", "cost_bound"))
+def _ratio(loop_cost: Claim, cost_bound: Claim, context: Context) -> Said:
+    weights = _weighed(loop_cost.weights)
+    if weights == _weighed(cost_bound.weights) and cost_bound.cost:
+        ratio = loop_cost.cost / cost_bound.cost
+        yield RATIO(ratio=ratio, proper=_only_proper(weights, context))
+
+
+@RULES.rule("table", GROUP_BOUND, premises=("graph_cost_bound",))
+def _group_bound(graph_cost_bound: Claim, context: Context) -> Said:
+    if graph_cost_bound.has("graph"):
+        weights, edges = _weighed(graph_cost_bound.weights), graph_cost_bound.graph.edges
+        proper = _only_proper(weights, context)
+        cost = graph_cost_bound.cost
+        yield GROUP_BOUND(cost=cost, proper=proper, edges=edges, weights=weights)
+
+
+@RULES.rule("table", GROUP_RATIO, premises=("loop_cost", "graph_cost_bound"))
+def _group_ratio(loop_cost: Claim, graph_cost_bound: Claim, context: Context) -> Said:
+    weights = _weighed(loop_cost.weights)
+    same = weights == _weighed(graph_cost_bound.weights)
+    if same and graph_cost_bound.cost and graph_cost_bound.has("graph"):
+        ratio, edges = loop_cost.cost / graph_cost_bound.cost, graph_cost_bound.graph.edges
+        yield GROUP_RATIO(ratio=ratio, proper=_only_proper(weights, context), edges=edges)
+
+
+def _margin_rule(name: str, template: Template, *, at: str, together: bool) -> None:
+    """Make the rule about a margin of inputs or outputs, each by itself or all together."""
+
+    @RULES.rule("table", template, premises=(name,))
+    def _margin(margin: Claim, context: Context) -> Said:
+        if margin.at == at and margin.together == together:
+            yield template(margin=margin.margin)
+
+
+for _name, _template in MARGINS.items():
+    _margin_rule(
+        _name,
+        _template,
+        at="inputs" if "input" in _name else "outputs",
+        together=_name.startswith("all"),
+    )
+
+
+@RULES.rule("table", SECTORS, premises=("sector",))
+def _sectors(sector: Claim, context: Context) -> Said:
+    yield SECTORS(sectors=sector.sectors)

@@ -13,6 +13,7 @@ from mcexact.answer import (
     loops,
     nearby,
     parameters,
+    performance,
     several_parameters,
     sharing,
     sharing_gap,
@@ -40,7 +41,8 @@ ANALYSIS = Rulebook(
 ALLOCATION = Rulebook([*sharing.ALLOCATION_RULES, *sharing_gap.NOTE_RULES])
 PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 LINKS = sharing.LINK_RULES
-DESIGN, VERDICT = loops.DESIGN, loops.VERDICT
+DESIGN = Rulebook([*loops.DESIGN, *performance.RULES])
+VERDICT = Rulebook([*loops.VERDICT, *performance.RULES])
 REFUSALS = loops.REFUSAL_RULES
 OWN: Mapping[str, Rulebook] = {
     "box_controllable": boxes.BOX_CONTROLLABLE_RULES,
@@ -122,7 +124,7 @@ TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze, with parameters": (PARAMETERS, (parameters,)),
     "allocate": (ALLOCATION, (sharing, sharing_gap)),
     "allocate --links": (LINKS, (sharing,)),
-    "design, certify": (Rulebook([*DESIGN, *VERDICT]), (loops,)),
+    "design, certify": (Rulebook([*DESIGN, *VERDICT]), (loops, performance)),
     "design, if there is none": (REFUSALS, (loops,)),
 }
 """The rules of each topic, and the modules that define their templates."""

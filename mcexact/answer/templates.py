@@ -361,6 +361,30 @@ def _values(where: Sequence[str]) -> str:
     return " or ".join(cut(where, 8))
 
 
+def _diagonal(entries: Sequence[Fraction]) -> str:
+    """Write a diagonal matrix, as a multiple of I where its entries are equal."""
+    if len(set(entries)) == 1:
+        return "I" if entries[0] == 1 else f"{number(entries[0])} I"
+    return f"diag({', '.join(cut([number(x) for x in entries], 6))})"
+
+
+def _weights(weights: Sequence[Any]) -> str:
+    """Write the cost, the disturbances and the noise, from Q, R, W, V and the bandwidth."""
+    *diagonals, bandwidth = weights
+    Q, R, W, V = map(_diagonal, diagonals)
+    band = "" if bandwidth is None else f" behind v' = -ωv + ωn with ω = {number(bandwidth)}"
+    return (
+        f"the mean of x'Qx + u'Ru with Q = {Q}, R = {R} under white disturbances of intensity {W} "
+        f"and white noise of the outputs of intensity {V}{band}"
+    )
+
+
+def _sectors(sectors: Sequence[tuple[Fraction, Fraction]]) -> str:
+    """Write the ends of sectors, once if all are the same."""
+    pairs = [f"[{number(a)}, {number(b)}]" for a, b in sectors]
+    return pairs[0] if len(set(pairs)) == 1 else ", ".join(cut(pairs, 6))
+
+
 FORMS: dict[str, Write] = {
     "int": str,
     "int or open": lambda value: "open" if value is None else str(value),
@@ -450,6 +474,10 @@ FORMS: dict[str, Write] = {
     "part": lambda part: digits_outward(part, up=True, digits=2),
     "percent_above": lambda part: percent(part, up=True),
     "digits_above": lambda number: three_digits(number, up=True),
+    "digits_below": three_digits,
+    "weights": _weights,
+    "proper": lambda only: " whose inputs do not depend on the outputs at once" if only else "",
+    "sectors": _sectors,
     "gains": _gains,
 }
 

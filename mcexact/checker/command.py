@@ -22,7 +22,13 @@ from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import IO, NoReturn
 
-from . import reading, sentences_loops, sentences_nearby, sentences_parameters
+from . import (
+    reading,
+    sentences_loops,
+    sentences_nearby,
+    sentences_parameters,
+    sentences_performance,
+)
 from .budget import Budget, Kept, current, keeping, limited, spend
 from .cells import constructed
 from .discs import at_values
@@ -64,7 +70,7 @@ from .system import System, counted
 
 # Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them.
 
-RULE_MODULES = (sentences_loops, sentences_nearby, sentences_parameters)
+RULE_MODULES = (sentences_loops, sentences_nearby, sentences_parameters, sentences_performance)
 """The modules that enter their rules into `RULES` when they are imported, besides `sentences`."""
 MANIFEST_FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"

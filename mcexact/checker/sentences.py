@@ -13,7 +13,8 @@ conclusion names its theorem: of ``proofs/`` or of the literature.
 
 This module has the rules about an analysis and about sharing; `sentences_nearby` has those about
 other plants of which an answer is another one, `sentences_loops` those about
-loops and boxes, `sentences_parameters` those about all values of parameters.
+loops and boxes, `sentences_performance` those about costs and margins of loops,
+`sentences_parameters` those about all values of parameters.
 """
 
 import json

@@ -20,7 +20,7 @@ from scipy.linalg import solve_continuous_are, solve_discrete_are
 
 from .algebra import below, beside, identity, selection
 from .constructions import subject_of
-from .controllers import Loop, read_agents
+from .controllers import Agent, Loop, read_agents
 from .reading import Undecided, demand, listed, place, rational, record, text, truth
 from .roots import inside
 from .systems import System
@@ -46,7 +46,11 @@ def disturbed(document: Mapping[str, Any]) -> Disturbed:
     steps = document["subject"]
     demand(bool(steps) and steps[-1].get("construction") == "closed_loop", "expected a loop")
     plant = subject_of(document, len(steps) - 1)
-    agents = read_agents(plant, steps[-1]["controller"])
+    return disturbed_loop(plant, read_agents(plant, steps[-1]["controller"]))
+
+
+def disturbed_loop(plant: System, agents: Sequence[Agent]) -> Disturbed:
+    """The loop with d and e, which are states of a larger plant."""
     B, C, n = plant.inputs(), plant.outputs(), plant.n
     p, q = B.ncols(), C.nrows()
     more = p + q
@@ -115,27 +119,35 @@ def loop_cost(claim: Any, document: Mapping[str, Any], system: System) -> bool:
     """The covariance of the loop with its noise, from its Lyapunov equation."""
     found = record(claim, "weights", "cost")
     loop = disturbed(document)
-    (q, r, w, v), omega = weights_of(found["weights"], loop.plant)
+    cost = cost_of(loop, *weights_of(found["weights"], loop.plant), system.time)
+    return cost is not None and bool(cost <= rational(found["cost"]))
+
+
+def cost_of(
+    loop: Disturbed, diagonals: Sequence[Sequence[fmpq]], omega: fmpq | None, time: str
+) -> fmpq | None:
+    """The cost of a loop from the covariance of its state; None if it is not stable."""
+    q, r, w, v = diagonals
     M, U, G, K = loop.M, loop.U, loop.G, loop.K
     at_once = fmpq(0)
-    if system.time == "continuous" and omega is not None:
+    if time == "continuous" and omega is not None:
         ports, N = G.ncols(), M.nrows()
         filters = diagonal([omega] * ports)
         M = below([beside([M, G], N), beside([fmpq_mat(ports, N), -1 * filters], ports)], N + ports)
         U = beside([U, K], U.nrows())
         G = below([fmpq_mat(N, ports), filters], ports)
-    elif system.time == "continuous":
+    elif time == "continuous":
         demand(not any(K.entries()), "expected no noise that passes to the inputs at once")
     else:
         at_once = trace(K.transpose() * diagonal(r) * K * diagonal(v))
-    if not inside(M.charpoly(), system.time, None):
-        return False
+    if not inside(M.charpoly(), time, None):
+        return None
     N = M.nrows()
     x = selection(N, range(loop.plant.n))
     noise = x.transpose() * diagonal(w) * x + G * diagonal(v) * G.transpose()
-    X = stationary(M, noise, system.time)
+    X = stationary(M, noise, time)
     spent = x.transpose() * diagonal(q) * x + U.transpose() * diagonal(r) * U
-    return bool(trace(spent * X) + at_once <= rational(found["cost"]))
+    return trace(spent * X) + at_once
 
 
 def stationary(M: fmpq_mat, noise: fmpq_mat, time: str) -> fmpq_mat:
@@ -198,7 +210,7 @@ def cost_bound(claim: Any, document: Mapping[str, Any], system: System) -> bool:
             * selection(system.n, states).transpose(),
         )
         lists = [[q[k] for k in states], [r[k] for k in ports[0]], *parts]
-        total += _solved(matrices, lists, omega, system.time)
+        total += least_cost(matrices, lists, omega, system.time)
     demand(all(x >= 0 for rest in remaining for x in rest), "expected no more than there is")
     cost = rational(found["cost"])
     return float(int(cost.p) / int(cost.q)) <= total * (1 + 1e-7) + 1e-12
@@ -232,8 +244,11 @@ def _floats(M: fmpq_mat) -> Any:
     return np.array(values, dtype=float).reshape(M.nrows(), M.ncols())
 
 
-def _solved(
-    matrices: Sequence[fmpq_mat], lists: list[list[fmpq]], omega: fmpq | None, time: str
+def least_cost(
+    matrices: Sequence[fmpq_mat],
+    lists: Sequence[Sequence[fmpq]],
+    omega: fmpq | None,
+    time: str,
 ) -> float:
     """The least cost, with slightly larger weights where the equations have no solution."""
     for more in (fmpq(0), fmpq(1, 10**9), fmpq(1, 10**7)):
@@ -289,8 +304,7 @@ def disk_margin(claim: Any, document: Mapping[str, Any], system: System) -> bool
     alpha, together = rational(found["margin"]), truth(found["together"])
     demand(alpha > 0, "expected a margin above 0")
     loop = disturbed(document)
-    X, Y = (loop.E, loop.U) if found["at"] == "inputs" else (loop.G, loop.Y)
-    ports = Y.nrows()
+    ports = (loop.U if found["at"] == "inputs" else loop.Y).nrows()
     groups = [([k], [fmpq(1)]) for k in range(ports)]
     if together:
         parts = [
@@ -302,17 +316,24 @@ def disk_margin(claim: Any, document: Mapping[str, Any], system: System) -> bool
         groups = [(list(range(ports)), [rational(x) for x in listed(p["scaling"])]) for p in whole]
     if not inside(loop.M.charpoly(), system.time, None):
         return False
-    held = [
-        is_below(
-            (loop.M, X * selection(ports, k).transpose(), selection(ports, k) * Y),
-            fmpq(1, 2) * identity(len(k)),
-            theta,
-            1 / alpha,
-            system.time,
-        )
-        for k, theta in groups
-    ]
+    held = [has_margin(loop, found["at"], k, theta, alpha) for k, theta in groups]
     return any(held) if together else all(held)
+
+
+def has_margin(
+    loop: Disturbed, at: str, ports: Sequence[int], theta: Sequence[fmpq], alpha: fmpq
+) -> bool:
+    """Whether the loop is stable and ‖Θ^½(T + I/2)Θ^−½‖ < 1/α for T at some ports together."""
+    X, Y = (loop.E, loop.U) if at == "inputs" else (loop.G, loop.Y)
+    if not inside(loop.M.charpoly(), loop.plant.time, None):
+        return False
+    return is_below(
+        (loop.M, X * selection(Y.nrows(), ports).transpose(), selection(Y.nrows(), ports) * Y),
+        fmpq(1, 2) * identity(len(ports)),
+        theta,
+        1 / alpha,
+        loop.plant.time,
+    )
 
 
 def sector(claim: Any, document: Mapping[str, Any], system: System) -> bool:
