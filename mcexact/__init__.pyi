@@ -176,6 +176,8 @@ from .synthesis.design import Design as Design
 from .synthesis.distributed_observer import design_observer as design_observer
 from .synthesis.gate import CertifiedLoop as CertifiedLoop
 from .synthesis.optimum.figures import Aims as Aims
+from .synthesis.performance import Performance as Performance
+from .synthesis.performance import loop_performance as loop_performance
 from .synthesis.setpoint import design_setpoint as design_setpoint
 
 __version__: str

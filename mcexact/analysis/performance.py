@@ -420,6 +420,48 @@ def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
     return None
 
 
+def computed_cost(loop: ClosedLoop, weights: CostWeights) -> float:
+    """The cost of a loop in floating point; infinite where it is not stable, NaN if unknown.
+
+    Raises
+    ------
+    UsageError
+        If the cost is infinite, since white noise passes to an input at once.
+    """
+    from scipy.linalg import solve_continuous_lyapunov, solve_discrete_lyapunov
+
+    discrete = is_discrete(loop.plant.time)
+    M, U, entering = map(matrix_to_float, _with_noise(loop, weights))
+    n, N = loop.plant.n, len(M)
+    Q, R, W, V = (np.diag([to_float(x) for x in d]) for d in _diagonals(weights))
+    noise = entering @ V @ entering.T
+    noise[:n, :n] += W
+    solver = solve_discrete_lyapunov if discrete else solve_continuous_lyapunov
+    X = _solved(lambda: solver(M, noise if discrete else -noise)) if N else noise
+    if X is None:
+        return float("nan")
+    K = matrix_to_float(loop.disturbed.K)
+    at_once = float(np.trace(K.T @ R @ K @ V)) if discrete else 0.0
+    cost = float(np.trace(Q @ X[:n, :n]) + np.trace(R @ U @ X @ U.T)) + at_once
+    return cost if np.all(np.diag(X) >= 0) else math.inf
+
+
+def computed_bound(plant: MultiChannelSystem, weights: CostWeights) -> float:
+    """The cost of the best controller in floating point; NaN if it is not known."""
+    matrices = plant.A, plant.input_matrix(), plant.output_matrix()
+    solutions = _riccati(*matrices, weights, plant.time, 0.0)
+    if solutions is None:
+        return float("nan")
+    P, S, F = solutions
+    _, b, _ = _with_ports(matrices)
+    R, W = _diagonal_floats(weights.inputs), _diagonal_floats(weights.disturbances)
+    if not len(P):
+        return 0.0
+    b = b[:, : len(F)]
+    spent = R[: len(F), : len(F)] + (b.T @ P @ b if is_discrete(plant.time) else 0)
+    return float(np.trace(P @ W) + np.trace(F.T @ spent @ F @ S))
+
+
 def _with_noise(loop: ClosedLoop, weights: CostWeights) -> tuple[Matrix, Matrix, Matrix]:
     """The loop with its filtered noise, [M, G; 0, −ωI], its inputs, and where the noise enters."""
     plant, disturbed = loop.plant, loop.disturbed
@@ -863,6 +905,7 @@ def margin_of(
     *,
     together: bool = False,
     margin: Fraction | None = None,
+    response: PortResponse | None = None,
 ) -> DiskMargin | None:
     """Prove how far inputs, or outputs, may be from 1 before a stable loop fails.
 
@@ -874,6 +917,8 @@ def margin_of(
         Whether all of them are multiplied at once, with a number for each; else one at a time.
     margin : Fraction, optional
         The margin to prove; by default about the largest one.
+    response : PortResponse, optional
+        `response_of` these ports, if it is known.
 
     Returns
     -------
@@ -886,10 +931,8 @@ def margin_of(
     several ports together it is a lower bound on the margin, with constant scalings.  O(N³) for
     each inequality.
     """
-    disturbed = loop.disturbed
-    enter, leave = (disturbed.E, disturbed.U) if at == "inputs" else (disturbed.G, disturbed.Y)
-    ports = leave.nrows
-    system = _Response((disturbed.M, enter, leave), is_discrete(loop.plant.time), HALF)
+    system = response or response_of(loop, at)
+    ports = system.ports
     if system.unstable:
         return None
     groups = [range(ports)] if together or not ports else [range(k, k + 1) for k in range(ports)]
@@ -900,6 +943,25 @@ def margin_of(
         if parts := _margin_parts(system, alpha, groups):
             return DiskMargin(loop.system, at, together, alpha, parts)
     return None
+
+
+def response_of(loop: ClosedLoop, at: Side) -> PortResponse:
+    """The response T + I/2 of all inputs, or of all outputs, to what is added there."""
+    disturbed = loop.disturbed
+    enter, leave = (disturbed.E, disturbed.U) if at == "inputs" else (disturbed.G, disturbed.Y)
+    return PortResponse((disturbed.M, enter, leave), is_discrete(loop.plant.time), HALF)
+
+
+def computed_margins(response: PortResponse) -> tuple[float, float]:
+    """The least disk margin of a single port, and that of all together, at many frequencies.
+
+    Both are 0 for a loop that is not stable, and prove nothing; without ports they are 2.
+    """
+    if response.unstable:
+        return 0.0, 0.0
+    ports = range(response.ports)
+    single = max((response.scaled_norm([k])[0] for k in ports), default=0.5)
+    return 1 / max(single, 0.5), 1 / max(response.scaled_norm(ports)[0] if ports else 0.5, 0.5)
 
 
 HALF = Fraction(1, 2)
@@ -931,7 +993,7 @@ def sectors_of(
     middle = diagonal_matrix([(a + b) / 2 for a, b in sectors])
     half = [(b - a) / 2 for a, b in sectors]
     M = disturbed.M + disturbed.E @ (middle - Matrix.identity(len(half))) @ disturbed.U
-    response = _Response(
+    response = PortResponse(
         (M, disturbed.E @ diagonal_matrix(half), disturbed.U), discrete, Fraction(0)
     )
     if response.unstable or not all(half):
@@ -944,7 +1006,7 @@ def sectors_of(
 
 
 def _margin_parts(
-    system: _Response, alpha: Fraction, groups: Sequence[Sequence[int]]
+    system: PortResponse, alpha: Fraction, groups: Sequence[Sequence[int]]
 ) -> tuple[MarginPart, ...]:
     """The parts that prove a margin: one for all ports if it is there, else one for each group."""
     whole = range(system.ports)
@@ -959,7 +1021,7 @@ def _margin_parts(
     return tuple(parts)
 
 
-class _Response:
+class PortResponse:
     """The response T + cI of some ports to what is added there, in floating point and exactly.
 
     Parameters

@@ -344,8 +344,10 @@ def _group_ratio(loop_cost: Claim, graph_cost_bound: Claim, context: Context) ->
         yield GROUP_RATIO(ratio=ratio, proper=_only_proper(weights, context), edges=edges)
 
 
-def _margin_rule(name: str, template: Template, *, at: str, together: bool) -> None:
+def _margin_rule(name: str) -> None:
     """Make the rule about a margin of inputs or outputs, each by itself or all together."""
+    template, together = MARGINS[name], name.startswith("all")
+    at = "inputs" if "input" in name else "outputs"
 
     @RULES.rule("table", template, premises=(name,))
     def _margin(margin: Claim, context: Context) -> Said:
@@ -353,13 +355,8 @@ def _margin_rule(name: str, template: Template, *, at: str, together: bool) -> N
             yield template(margin=margin.margin)
 
 
-for _name, _template in MARGINS.items():
-    _margin_rule(
-        _name,
-        _template,
-        at="inputs" if "input" in _name else "outputs",
-        together=_name.startswith("all"),
-    )
+for _name in MARGINS:
+    _margin_rule(_name)
 
 
 @RULES.rule("table", SECTORS, premises=("sector",))

@@ -69,9 +69,12 @@ of_ports("performance-all-inputs-margin", "inputs", together=True)
 of_ports("performance-all-outputs-margin", "outputs", together=True)
 
 
-@rule("first-margin", MARGINS)
-def _every_loop(margins: list[Premise]) -> str:
-    """A margin of each input by itself, and one of each output by itself."""
+@rule("first-margin", MARGINS, MARGINS)
+def _every_loop(margins: list[Premise], _: list[Premise]) -> str:
+    """A margin of each input by itself, and one of each output by itself.
+
+    Both roles are played by all margins; the claims say which are of inputs and which of outputs.
+    """
     sides = {each["at"]: each for each in margins}
     margins[0].expect(len(sides) == 2, "expected a margin of inputs and one of outputs")
     inputs, outputs = sides["inputs"], sides["outputs"]

@@ -53,6 +53,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.observer import observer_coordinates
 from mcexact.synthesis.optimum.diagnosis import rounded_controller
+from mcexact.synthesis.performance import Performance
 
 _PARTS_TRIED = 32
 _MOST_ROUNDED = 1000
@@ -240,6 +241,7 @@ def account_of_verdict(
     every_loop: BoxStability | None = None,
     gains: Fraction | None = None,
     failing: FailingPlant | None = None,
+    performance: Performance | None = None,
 ) -> Account:
     """Make the account of a verdict on a closed loop.
 
@@ -254,6 +256,8 @@ def account_of_verdict(
         The radii of the gains in this box, as a part of their moduli.
     failing : FailingPlant, optional
         A plant nearby whose loop is not stable.
+    performance : Performance, optional
+        The cost and the margins of the loop.
     """
     asked = {"region": verdict.region, "states": verdict.about.n, "largest": largest}
     answers: dict[str, Answer] = {verdict.kind: verdict}
@@ -263,6 +267,8 @@ def account_of_verdict(
     if failing is not None and failing.refutation is not None:
         answers[FAILING] = failing.refutation
         asked |= failing.facts(verdict.about.plant)
+    if performance is not None:
+        answers |= performance.answers
     context = Context(verdict.about.plant, asked)
     sentences = VERDICT.sentences(answers, context)
     return Account(answers, context, sentences, verdict.about.subject[:-1], nearby=(FAILING,))

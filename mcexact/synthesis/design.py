@@ -26,6 +26,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.responses import loop as loop_figure
 from mcexact.synthesis.gate import Arithmetic, CertifiedLoop, Proposal, Request, first_certified
 from mcexact.synthesis.optimum.diagnosis import bound_of_eigenvalues, curves_of
+from mcexact.synthesis.performance import Performance
 from mcexact.synthesis.robustness import EveryLoop, every_loop
 
 Method = Literal["decentralized", "observer", "extended"]
@@ -129,8 +130,10 @@ class Design(ShownByAccount):
         """
         return every_loop(self.loop.closed, self.region, effort)
 
-    def account_with(self, around: EveryLoop | None) -> Account:
-        """Return the account with a certificate about all loops in a box, if there is one."""
+    def account_with(
+        self, around: EveryLoop | None, performance: Performance | None = None
+    ) -> Account:
+        """Return the account with certificates about all loops in a box, and about performance."""
         facts: dict[str, Any] = {
             "method": self.method,
             "arithmetic": self.arithmetic,
@@ -146,6 +149,8 @@ class Design(ShownByAccount):
         if failing is not None and failing.refutation is not None:
             answers[FAILING] = failing.refutation
             facts |= failing.facts(closed.plant)
+        if performance is not None:
+            answers |= performance.answers
         context = Context(closed.plant, {**facts, **self.parts})
         sentences = DESIGN.sentences(answers, context)
         return Account(answers, context, sentences, closed.subject[:-1], nearby=(FAILING,))

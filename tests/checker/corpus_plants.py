@@ -48,6 +48,7 @@ from tests.checker import (
     test_complementary_subsystem,
     test_nearby,
     test_sentences_design,
+    test_sentences_performance,
     test_setpoint,
     test_single_channel_gains,
 )
@@ -407,7 +408,7 @@ def nearby() -> Iterator[tuple[str, list[Document]]]:
 
 def pool() -> Iterator[tuple[str, list[Document]]]:
     """Plants, each with certificates about it."""
-    design = test_sentences_design
+    design, performance = test_sentences_design, test_sentences_performance
     for name, system in {"lost": design.LOST, "found": design.FOUND, "still": design.STILL}.items():
         yield name, [*everything(system), *designs(system)]
     for name, system in crafted().items():
@@ -447,3 +448,9 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
             more = designs(system) if system.neighbors is not None and system.n <= 3 else iter(())
             yield f"drawn_{seed}", [*everything(system, seed), *more]
     yield from nearby()
+    of_plants: dict[str, list[Document]] = {}
+    for _, listed in [*performance.IMPLIED, *performance.DENIED]:
+        for found in listed:
+            of_plants.setdefault(json.dumps(found["system"], sort_keys=True), []).append(found)
+    for k, listed in enumerate(of_plants.values()):
+        yield f"performance_{k}", listed

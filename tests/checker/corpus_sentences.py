@@ -39,7 +39,7 @@ MANY = 8
 """How many texts of one rule are looked for, which differ in more than names and numbers."""
 NEARBY = "nearby_"
 """How a plant begins that has certificates about plants nearby, too; the first is about itself."""
-WHOLE = ("design_", "tracking_", NEARBY)
+WHOLE = ("design_", "tracking_", "performance_", NEARBY)
 """How plants begin of which every certificate is kept."""
 CORE = ("fixed_spectrum", "assignability")
 """Kinds of which every plant has a certificate."""
@@ -48,6 +48,7 @@ FIRST = {
     "nearby-fixed": "nearby",
     "design-carrier": "design",
     "members-nothing-fixed": "boxes",
+    "performance-cost": "performance",
 }
 """The first rules of topics, in the order of the checker's table; the first is the analysis."""
 

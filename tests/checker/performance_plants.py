@@ -165,7 +165,38 @@ CONTINUOUS_SECTOR = certificate(
     static(DRIVEN, -3),
 )
 
+# For x(t+1) = x + u both inequalities are strict up to the golden ratio.
+STEP_BOUND = certificate(
+    "cost_bound",
+    STEP,
+    {"weights": weights(1, 1), "cost": "3/2"},
+    {
+        "groups": [
+            {
+                "agents": ["1"],
+                "disturbances": [1],
+                "noise": [1],
+                "P": form([6], exponent=-1),
+                "S": form([2], exponent=-1),
+                "F": matrix([0]),
+                "share": 0,
+            }
+        ]
+    },
+)
+OUTPUT_MARGIN = changed(MARGIN, ("claim.at", "outputs"))
+# x_2 is twice what x_1 was: P = diag(7, 5/4).
+ONE_WAY_COST = certificate(
+    "loop_cost",
+    ONE_WAY,
+    {"weights": weights(2, 2), "cost": 9},
+    {"P": form([28], [0, 5], exponent=-1)},
+    static(ONE_WAY, 0, 0),
+)
+
 ALL = {
+    "a bound above 1": STEP_BOUND,
+    "a cost of two agents": ONE_WAY_COST,
     "a cost in discrete time": COST,
     "a cost with filtered noise": FILTERED,
     "a cost without a bandwidth": IDLE,

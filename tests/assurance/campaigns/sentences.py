@@ -22,10 +22,12 @@ from typing import Any
 from mcexact.analysis.analyze import account_of_dimensions, account_of_links, analyze
 from mcexact.analysis.boxes.largest import largest_loop_ranges
 from mcexact.analysis.boxes.loops import box_stability
+from mcexact.analysis.performance import sectors_of
 from mcexact.analysis.questions import asked_by
 from mcexact.answer import protocol
 from mcexact.answer.account import Account
 from mcexact.answer.loops import EVERY_LOOP_RULES
+from mcexact.answer.performance import RULES as PERFORMANCE
 from mcexact.answer.rulebook import everything
 from mcexact.answer.sentence import Context
 from mcexact.answer.templates import Sentence
@@ -36,12 +38,14 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.loop import closed_loop
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
+from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.assurance.campaigns.resumed import main
 from tests.oracle.certificates.reading import Unspecified
@@ -348,9 +352,10 @@ def judged_design(
     document = document_of(json.loads(json.dumps(made.controller.document(), default=str)))
     case = Case(plant_of(plant), asked, document)
     try:
-        account = made.account_with(made.every_loop(0.2))
+        around = made.every_loop(0.2)
     except LimitReached:
-        account = made.account
+        around = None
+    account = made.account_with(around, performance_of(made.loop.closed))
     if "failing_loop" in account.answers:
         failing = plant_of(account.answers["failing_loop"].about.plant)
         asked["failing_plant"] = replace(failing, radii=None)
@@ -368,6 +373,13 @@ def certified(plant: MultiChannelSystem, controller: Any, case: Case) -> Iterato
             continue
         account = account_of_verdict(found, largest="largest" in options)
         yield from _cases(rows_of(account.sentences), case)
+    inputs = sum(map(plant.p, range(plant.m)))
+    sectors = sectors_of(
+        closed_loop(plant, controller), [(Fraction(1, 2), Fraction(3, 2))] * inputs
+    )
+    if sectors is not None:
+        given = Context(plant)
+        yield from _cases(rows_of(PERFORMANCE.sentences({"sector": sectors}, given)), case)
 
 
 def parameter(rng: random.Random) -> Iterator[Judged]:

@@ -1,0 +1,328 @@
+"""How well a loop performs: certified cost, bound and disk margins, within limits.
+
+`loop_performance` proves for any stable loop
+
+- its cost, a lower bound on the cost of every linear time-invariant controller, and where the plant
+  and the controller act along the edges of a graph alone, a bound for controllers of that graph;
+- the disk margin of every single input and output, and those of all inputs and all outputs at once.
+
+One symmetric matrix of the size of the loop proves each of these, and for single margins one for
+each port.  Together they may have two megabytes and take the checker about five seconds, unless all
+of them are asked for: both are estimated from the sizes of the matrices before a proof is sought,
+so that what is proved does not depend on the machine's load.  What is left out is computed in
+floating point, and said to be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import isfinite, isnan, nan
+from typing import Any
+
+from mcexact.analysis.performance import (
+    PortResponse,
+    Side,
+    bound_of,
+    computed_bound,
+    computed_cost,
+    computed_margins,
+    cost_of,
+    default_weights,
+    influences,
+    margin_of,
+    response_of,
+)
+from mcexact.answer.performance import CostBound, CostWeights, DiskMargin, LoopCost
+from mcexact.answer.protocol import Answer, encode
+from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.exact.matrix import finite, to_float
+from mcexact.exact.rational import three_digits, written
+from mcexact.model.controller import Controller
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.system import MultiChannelSystem
+from mcexact.shown import Shown
+
+MOST_BYTES, MOST_SECONDS = 2_000_000, 5.0
+"""What the certificates of a loop may have, and may take the checker, unless all are asked for."""
+_BYTES, _SECONDS = 8.0, 3.5e-7
+"""Of a proof: bytes for each entry of its matrix, and seconds for each product of a row, a column
+and an entry; both are those of large loops."""
+MARGINS: Mapping[str, tuple[Side, bool]] = {
+    "input_margin": ("inputs", False),
+    "output_margin": ("outputs", False),
+    "all_inputs_margin": ("inputs", True),
+    "all_outputs_margin": ("outputs", True),
+}
+"""The names of answers about disk margins: of each port by itself, or of all together."""
+SIDES: tuple[Side, ...] = ("inputs", "outputs")
+_LABELS = {
+    "loop_cost": "cost",
+    "cost_bound": "cost of the best controller",
+    "graph_cost_bound": "bound for controllers of the graph",
+    "input_margin": "disk margin of each input by itself",
+    "output_margin": "disk margin of each output by itself",
+    "all_inputs_margin": "disk margin of all inputs together",
+    "all_outputs_margin": "disk margin of all outputs together",
+}
+
+
+@dataclass(frozen=True, repr=False)
+class Performance(Shown):
+    """What is proved, and what is only computed, of the performance of a stable loop.
+
+    Attributes
+    ----------
+    weights : CostWeights or None
+        Of the cost and of the bounds; None where those that were asked for are not diagonal.
+    answers : mapping of str to answer
+        By the names ``loop_cost``, ``cost_bound``, ``graph_cost_bound`` and those of `MARGINS`.
+    computed : mapping of str to float
+        The same figures in floating point, by the same names; they prove nothing.
+    left_out : mapping of str to str
+        Why there is no proof, by the same names.
+    """
+
+    weights: CostWeights | None
+    answers: Mapping[str, Answer] = field(default_factory=dict)
+    computed: Mapping[str, float] = field(default_factory=dict)
+    left_out: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def ratio(self) -> Fraction | None:
+        """The proved cost divided by the proved bound for every controller, if there are both."""
+        cost, bound = self.answers.get("loop_cost"), self.answers.get("cost_bound")
+        if isinstance(cost, LoopCost) and isinstance(bound, CostBound) and bound.cost:
+            return cost.cost / bound.cost
+        return None
+
+    @property
+    def margin(self) -> Fraction | None:
+        """The least disk margin of a single input or output that is proved."""
+        single = [self.answers.get(name) for name in ("input_margin", "output_margin")]
+        proved = [each.margin for each in single if isinstance(each, DiskMargin)]
+        return min(proved) if len(proved) == len(single) else None
+
+    @property
+    def times_the_bound(self) -> float:
+        """The cost divided by the bound, proved or else computed; NaN if it is not known."""
+        if self.ratio is not None:
+            return to_float(self.ratio)
+        cost, bound = (self._seen(name) for name in ("loop_cost", "cost_bound"))
+        return cost / bound if bound > 0 else nan
+
+    @property
+    def least_margin(self) -> float:
+        """The least disk margin of a single input or output, proved or else computed."""
+        if self.margin is not None:
+            return to_float(self.margin)
+        single = [self._seen(name) for name in ("input_margin", "output_margin")]
+        return nan if any(map(isnan, single)) else min(single)
+
+    @property
+    def joint_margin(self) -> float:
+        """The smaller one of the disk margins of all inputs and of all outputs together."""
+        known = [self._margin(name) for name in ("all_inputs_margin", "all_outputs_margin")]
+        return min((each for each in known if not isnan(each)), default=nan)
+
+    def _margin(self, name: str) -> float:
+        proved = self.answers.get(name)
+        if isinstance(proved, DiskMargin):
+            return to_float(proved.margin)
+        return self._seen(name)
+
+    def _seen(self, name: str) -> float:
+        return self.computed.get(name, nan)
+
+    def rows(self) -> Iterator[tuple[str, str]]:
+        """Yield a label and a text for each figure that is computed and not proved."""
+        for name, reason in self.left_out.items():
+            value = self._seen(name)
+            known = f"{value:.3g}; " if isfinite(value) else ""
+            yield _LABELS[name], f"{known}not proved: {reason}"
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        yield from self.answers.items()
+        yield from self.rows()
+
+    def explain(self) -> str:
+        """Say what is proved, in plain words, and what is not."""
+        lines = [each.explain() for each in self.answers.values()]
+        return "\n".join([*lines, *(f"{label}: {text}" for label, text in self.rows())])
+
+    def __repr__(self) -> str:
+        parts = []
+        if self.ratio is not None:
+            parts.append(f"cost ≤ {three_digits(self.ratio, up=True)} × bound")
+        if self.margin is not None:
+            parts.append(f"disk margin ≥ {three_digits(self.margin)}")
+        return f"Performance({', '.join(parts) or 'nothing proved'})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the figures as plain data, those that are proved and those that are not."""
+        ratio, margin = self.ratio, self.margin
+        return {
+            "cost_over_bound": None if ratio is None else written(ratio),
+            "least_single_margin": None if margin is None else written(margin),
+            "proved": list(self.answers),
+            "computed": {name: finite(value) for name, value in self.computed.items()},
+            "left_out": dict(self.left_out),
+        }
+
+
+def loop_performance(
+    system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    weights: CostWeights | None = None,
+    prove_all: bool = False,
+) -> Performance:
+    """Prove the cost of a loop, a bound for every controller, and disk margins.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    controller : Controller
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    weights : CostWeights, optional
+        By default `default_weights`.
+    prove_all : bool
+        Whether everything is to be proved, however large the proofs are.
+
+    Returns
+    -------
+    Performance
+
+    Raises
+    ------
+    InputError
+        If the system is no `MultiChannelSystem` or the controller no `Controller`.
+
+    Notes
+    -----
+    Proposed in floating point, verified exactly.  By default the certificates have at most some two
+    megabytes; the others are left out, and their figures computed.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> performance = loop_performance(plant, local_controllers(plant, [[[-3]]]))
+    >>> performance
+    Performance(cost ≤ 1.06 × bound, disk margin ≥ 0.998)
+    >>> loop_performance(plant, local_controllers(plant, [[[0]]]))
+    Performance(nothing proved)
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    InputError.require(controller, Controller, "controller")
+    return performance_of(
+        closed_loop(system, controller, graph), weights=weights, prove_all=prove_all
+    )
+
+
+def performance_of(
+    loop: ClosedLoop, *, weights: CostWeights | None = None, prove_all: bool = False
+) -> Performance:
+    """Prove the cost of a loop, a bound for every controller, and disk margins.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    weights : CostWeights, optional
+    prove_all : bool
+        As for `loop_performance`.
+    """
+    weights = weights or default_weights(loop.plant)
+    responses = {side: response_of(loop, side) for side in SIDES}
+    if any(each.unstable for each in responses.values()):
+        return Performance(weights)
+    seen = _computed(loop, weights, responses)
+    work = _Work(prove_all=prove_all)
+    answers, left_out = dict[str, Answer](), dict[str, str]()
+    for name, (size, count, prove) in _proofs(loop, weights, responses).items():
+        if not work.allows(size, count):
+            left_out[name] = f"a proof has about {work.megabytes(size, count)} MB (--prove-all)"
+            continue
+        try:
+            proved = prove()
+        except (LimitReached, UsageError) as reached:
+            left_out[name] = reached.message
+            continue
+        if proved is None:
+            left_out[name] = "no proof was found"
+        else:
+            answers[name] = proved
+            work.done(size, count, len(encode(proved)))
+    return Performance(weights, answers, seen, left_out)
+
+
+Responses = Mapping[Side, PortResponse]
+
+
+def _computed(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dict[str, float]:
+    """The figures in floating point."""
+    seen = {"cost_bound": computed_bound(loop.plant, weights)}
+    with suppress(UsageError):
+        seen["loop_cost"] = computed_cost(loop, weights)
+    for side, response in responses.items():
+        single, together = computed_margins(response)
+        seen |= {f"{side.removesuffix('s')}_margin": single, f"all_{side}_margin": together}
+    return seen
+
+
+Proof = tuple[int, int, Callable[[], Answer | None]]
+
+
+def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dict[str, Proof]:
+    """What is proved, in the order of importance: the size and number of matrices, and how."""
+    plant, N = loop.plant, loop.dimension
+    p, q = (sum(map(ports, range(plant.m))) for ports in (plant.p, plant.q))
+    filtered = q if weights.bandwidth is not None else 0
+    proofs: dict[str, Proof] = {
+        "loop_cost": (N + filtered, 1, lambda: cost_of(loop, weights)),
+        "cost_bound": (plant.n + max(p, q), 2, lambda: bound_of(plant, weights)),
+    }
+
+    def margin(side: Side, *, together: bool) -> Callable[[], Answer | None]:
+        return lambda: margin_of(loop, side, together=together, response=responses[side])
+
+    for name, (side, together) in MARGINS.items():
+        ports = p if side == "inputs" else q
+        proofs[name] = (N + 1, 1 if together else ports, margin(side, together=together))
+    messages = bool(loop.controller.edges())
+    graph = influences(plant.with_neighbors(loop.graph), messages=messages)
+    if graph is not None:
+        groups = len({*graph.states}) + 1
+        proofs["graph_cost_bound"] = (
+            plant.n + max(p, q),
+            2 * groups,
+            lambda: bound_of(plant, weights, graph),
+        )
+    return proofs
+
+
+class _Work:
+    """What certificates may still have, and what they may still take the checker."""
+
+    def __init__(self, *, prove_all: bool) -> None:
+        self.all = prove_all
+        self.bytes, self.seconds = float(MOST_BYTES), MOST_SECONDS
+
+    def allows(self, size: int, count: int) -> bool:
+        """Whether so many matrices of a size are within what is left."""
+        needed = count * size**2 / 2 * _BYTES <= self.bytes
+        return self.all or (needed and count * size**3 * _SECONDS <= self.seconds)
+
+    def megabytes(self, size: int, count: int) -> str:
+        """How large so many matrices are."""
+        return f"{count * size**2 / 2 * _BYTES / 1e6:.1f}"
+
+    def done(self, size: int, count: int, written: int) -> None:
+        """Take off what a proof has, and takes."""
+        self.bytes -= written
+        self.seconds -= count * size**3 * _SECONDS

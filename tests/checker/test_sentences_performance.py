@@ -1,0 +1,100 @@
+"""The checker's rules about costs, bounds, margins and sectors of loops."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mcexact.checker.sentences import RULES
+from tests.checker.box_plants import PART_CERTAIN, PART_STABLE
+from tests.checker.handmade import Document, changed
+from tests.checker.performance_plants import (
+    COST,
+    GROUPS,
+    MARGIN,
+    ONE_WAY_COST,
+    OUTPUT_MARGIN,
+    SECTOR,
+    STEP_BOUND,
+)
+from tests.checker.recorded import compare, keys
+from tests.checker.test_sentences_design import STABLE, judged, rows
+
+TOGETHER = ("claim.together", True)
+ALL_INPUTS, ALL_OUTPUTS = changed(MARGIN, TOGETHER), changed(OUTPUT_MARGIN, TOGETHER)
+OTHER_WEIGHTS = changed(STEP_BOUND, ("claim.weights.noise", [2]), ("witness.groups.0.noise", [2]))
+NOTHING = changed(STEP_BOUND, ("claim.cost", 0))
+IMPLIED: list[tuple[str, list[Document]]] = [
+    ("performance-cost", [COST]),
+    ("performance-bound", [STEP_BOUND]),
+    ("performance-bound-graph", [GROUPS]),
+    ("performance-ratio first-cost", [COST, STEP_BOUND]),
+    ("performance-ratio first-cost", [STEP_BOUND, COST]),
+    ("performance-ratio-graph", [ONE_WAY_COST, GROUPS]),
+    ("performance-input-margin", [MARGIN]),
+    ("performance-output-margin", [OUTPUT_MARGIN]),
+    ("performance-all-inputs-margin", [ALL_INPUTS]),
+    ("performance-all-outputs-margin", [ALL_OUTPUTS]),
+    ("first-margin", [MARGIN, OUTPUT_MARGIN]),
+    ("first-margin", [ALL_OUTPUTS, MARGIN]),
+    ("performance-sectors", [SECTOR]),
+    *(("first-box first-radii", [each]) for each in (PART_STABLE, PART_CERTAIN)),
+]
+DENIED: list[tuple[str, list[Document]]] = [
+    ("performance-cost performance-ratio first-cost", [STEP_BOUND]),
+    ("performance-bound performance-bound-graph performance-ratio", [COST]),
+    ("performance-bound", [GROUPS]),
+    ("performance-bound-graph", [STEP_BOUND]),
+    ("performance-ratio first-cost", [COST, OTHER_WEIGHTS]),
+    ("performance-ratio first-cost", [COST, NOTHING]),
+    ("performance-ratio first-cost", [ONE_WAY_COST, GROUPS]),
+    ("performance-ratio-graph", [COST, STEP_BOUND]),
+    ("performance-input-margin", [OUTPUT_MARGIN]),
+    ("performance-output-margin", [MARGIN]),
+    ("performance-input-margin performance-output-margin", [ALL_INPUTS]),
+    ("performance-all-inputs-margin performance-all-outputs-margin", [MARGIN]),
+    ("performance-all-outputs-margin", [ALL_INPUTS]),
+    ("performance-all-inputs-margin", [ALL_OUTPUTS]),
+    ("first-margin", [MARGIN]),
+    ("first-margin", [OUTPUT_MARGIN, ALL_OUTPUTS]),
+    ("performance-sectors", [MARGIN]),
+    ("first-box first-radii", [STABLE]),
+]
+
+
+@pytest.mark.parametrize(("key", "documents"), rows(IMPLIED))
+def test_what_certificates_imply_of_performance(
+    tmp_path: Path, key: str, documents: list[Document]
+) -> None:
+    verdict = judged(tmp_path, key, documents)
+    assert verdict.verdict == "IMPLIED", verdict.line()
+
+
+@pytest.mark.parametrize(("key", "documents"), rows(DENIED))
+def test_what_certificates_do_not_imply_of_performance(
+    tmp_path: Path, key: str, documents: list[Document]
+) -> None:
+    assert judged(tmp_path, key, documents).verdict == "INVALID"
+
+
+def test_every_rule_about_performance_is_in_both_tables() -> None:
+    about = {key for key in RULES if key.startswith(("performance-", "first-"))}
+    assert about == {key for key, _ in rows(IMPLIED)} == {key for key, _ in rows(DENIED)}
+
+
+def test_the_ratio_of_a_cost_and_a_bound_is_that_of_the_claims(tmp_path: Path) -> None:
+    said = judged(tmp_path, "first-cost", [COST, STEP_BOUND]).statement
+    assert "the former is at most 14/3 of the latter" in said
+    assert "every linear time-invariant controller that makes the loop stable" in said
+
+
+def test_the_least_of_two_margins_is_said(tmp_path: Path) -> None:
+    less = changed(OUTPUT_MARGIN, ("claim.margin", "1/3"))
+    said = judged(tmp_path, "first-margin", [MARGIN, less]).statement
+    assert "each input and each output by itself has a disk margin of at least 1/3" in said
+
+
+@pytest.mark.parametrize("key", keys("performance"))
+def test_a_rule_answers_as_it_did(key: str) -> None:
+    compare(key)
