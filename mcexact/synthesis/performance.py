@@ -214,7 +214,7 @@ def loop_performance(
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> performance = loop_performance(plant, local_controllers(plant, [[[-3]]]))
     >>> performance
-    Performance(cost ≤ 1.06 × bound, disk margin ≥ 0.998)
+    Performance(cost ≤ 2.33 × bound, disk margin ≥ 0.998)
     >>> loop_performance(plant, local_controllers(plant, [[[0]]]))
     Performance(nothing proved)
     """
