@@ -132,15 +132,9 @@ OPPOSITE = [
     ("lifted-nothing-fixed", "lifted-fixed"),
     ("held-nothing-fixed", "held-fixed"),
 ]
-<<<<<<< HEAD
-ELSEWHERE = ("nearby-", "law-", *OF_DESIGNS, "parametric-")
-"""How the rules begin that other files hold against certificates: of designs, of parameters, of
-plants nearby."""
-=======
-ELSEWHERE = ("nearby-", *OF_DESIGNS, "performance-", "first-", "parametric-")
+ELSEWHERE = ("nearby-", "law-", *OF_DESIGNS, "performance-", "first-", "parametric-")
 """How the rules begin that other files hold against certificates: of designs, of performance, of
 parameters, of plants nearby."""
->>>>>>> 2da2cdc8 (Prove cost, bound and margins of any loop within limits, and judge what is said of them)
 ALWAYS = {
     *("picture-transfer-graph", "complete"),
     *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),
