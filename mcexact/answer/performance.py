@@ -26,6 +26,7 @@ from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witne
 from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Template
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import is_discrete
 
 
 @dataclass(frozen=True)
@@ -280,7 +281,7 @@ def _weighed(weights: Claim) -> tuple[Any, ...]:
 
 def _only_proper(weights: tuple[Any, ...], context: Context) -> bool:
     """Whether a bound holds only if no output passes to an input at once."""
-    return context.time == "continuous" and weights[-1] is None
+    return not is_discrete(context.time) and weights[-1] is None
 
 
 @RULES.rule("first", FIRST_COST, premises=("loop_cost", "cost_bound"))
