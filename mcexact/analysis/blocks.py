@@ -21,7 +21,7 @@ measure everything (`measured_system`).
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -38,6 +38,7 @@ from mcexact.derived.modular import (
 from mcexact.exact.krylov import Start, cofactors, least_recurrence
 from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.exact.modular import ModularPolynomial
+from mcexact.model.graph import components_of
 from mcexact.model.system import MultiChannelSystem
 
 # One Krylov sequence of one channel, which bounds how many modes are fixed.
@@ -186,7 +187,7 @@ def state_blocks(system: MultiChannelSystem) -> tuple[StateBlock, ...]:
         states = tuple(range(system.n))
         return (StateBlock(states, _part(system, states, system.active)),)
     blocks = []
-    for component in _components(*_arcs(system)):
+    for component in components_of(*_arcs(system)):
         states = tuple(sorted(v for v in component if v < system.n))
         if states:
             acting = sorted(v - system.n for v in component if v >= system.n)
@@ -275,39 +276,6 @@ def _flags(M: Matrix) -> bytes:
 
 def _number(flags: bytes) -> int:
     return int.from_bytes(flags, "little")
-
-
-def _components(into: list[list[int]], out: list[list[int]]) -> list[list[int]]:
-    """The strong components, by two depth-first searches; each is reached from later ones alone."""
-    unseen, components = bytearray(b"\1" * len(into)), []
-    order = _finished(into, range(len(into)), unseen)
-    unseen = bytearray(b"\1" * len(into))
-    for root in reversed(order):
-        component = _finished(out, [root], unseen)
-        if component:
-            components.append(component)
-    return components
-
-
-def _finished(arcs: list[list[int]], roots: Iterable[int], unseen: bytearray) -> list[int]:
-    """The unseen nodes that are reached, in the order in which the search leaves them."""
-    order = []
-    for root in roots:
-        if not unseen[root]:
-            continue
-        unseen[root] = 0
-        path = [(root, iter(arcs[root]))]
-        while path:
-            node, rest = path[-1]
-            for other in rest:
-                if unseen[other]:
-                    unseen[other] = 0
-                    path.append((other, iter(arcs[other])))
-                    break
-            else:
-                order.append(node)
-                path.pop()
-    return order
 
 
 def bounded_blocks(system: MultiChannelSystem, through: str | None = None) -> tuple[Block, ...]:

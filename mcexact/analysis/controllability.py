@@ -25,7 +25,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from random import Random
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from mcexact.analysis.blocks import (
     free_blocks,
@@ -34,13 +34,10 @@ from mcexact.analysis.blocks import (
     modes_left,
     transposed_blocks,
 )
-from mcexact.analysis.parameters.modes import parametric_controllability
-from mcexact.analysis.parameters.ranks import parametric_indices
 from mcexact.analysis.sparse import annihilator
 from mcexact.answer.evidence import Block, RootDisc
 from mcexact.answer.modes import ByBlocks as FixedByBlocks
 from mcexact.answer.modes import FixedSpectrum
-from mcexact.answer.parameters import ParametricFixedSpectrum, ParametricRank
 from mcexact.answer.structure import (
     ByBlocks,
     ByGrowth,
@@ -68,6 +65,9 @@ from mcexact.exact.roots import root_discs
 from mcexact.model.entries import as_matrix, require_shape
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
+
+if TYPE_CHECKING:
+    from mcexact.answer.parameters import ParametricFixedSpectrum, ParametricRank
 
 # Controllability and observability of channels together.
 
@@ -176,6 +176,9 @@ def _decided(
     """Decide controllability of the system or its dual, by rank if small, else by blocks."""
     spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
+        # start-up: few plants need it
+        from mcexact.analysis.parameters.modes import parametric_controllability
+
         return parametric_controllability(system, channels, observed=observed)
     InputError.require(system, MultiChannelSystem, "system")
     subject = dual(system) if observed else system
@@ -313,6 +316,9 @@ def controllability_indices(
     True
     """
     if isinstance(system, ParametricSystem):
+        # start-up: few plants need it
+        from mcexact.analysis.parameters.ranks import parametric_indices
+
         return parametric_indices(system, channels)
     InputError.require(system, MultiChannelSystem, "system")
     T = range(system.m) if channels is None else system.indices(channels)
@@ -350,6 +356,9 @@ def observability_indices(
         T, names of channels, by default all.
     """
     if isinstance(system, ParametricSystem):
+        # start-up: few plants need it
+        from mcexact.analysis.parameters.ranks import parametric_indices
+
         return parametric_indices(system, channels, observed=True)
     InputError.require(system, MultiChannelSystem, "system")
     return controllability_indices(dual(system), channels)

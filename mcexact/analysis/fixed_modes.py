@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, cast, overload
+from typing import TYPE_CHECKING, Any, cast, overload
 
 from mcexact.analysis.blocks import (
     MODULI,
@@ -33,11 +33,6 @@ from mcexact.analysis.blocks import (
     longest_sequence,
     modes_left,
 )
-from mcexact.analysis.parameters.hypersurfaces import (
-    ParametricCompleteness,
-    parametric_completeness,
-)
-from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.analysis.sparse import (
     edge_modulus,
     fixed_subspaces,
@@ -75,7 +70,6 @@ from mcexact.answer.modes import (
     SpectrumBlock,
     TwoPolynomials,
 )
-from mcexact.answer.parameters import ParametricFixedSpectrum
 from mcexact.answer.structure import TransferGraph
 from mcexact.derived.modular import (
     ModularSystem,
@@ -95,6 +89,10 @@ from mcexact.exact.rational import as_fraction
 from mcexact.exact.roots import StabilityRegion, Time
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
+
+if TYPE_CHECKING:
+    from mcexact.analysis.parameters.hypersurfaces import ParametricCompleteness
+    from mcexact.answer.parameters import ParametricFixedSpectrum
 
 # The fixed spectrum.
 
@@ -160,6 +158,9 @@ def fixed_spectrum(
     True
     """
     if isinstance(system, ParametricSystem):
+        # start-up: few plants need it
+        from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
+
         return parametric_fixed_spectrum(system)
     InputError.require(system, MultiChannelSystem, "system")
     blocks = bounded_blocks(system)
@@ -381,6 +382,9 @@ def completeness(
     """
     known = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
+        # start-up: few plants need it
+        from mcexact.analysis.parameters.hypersurfaces import parametric_completeness
+
         return parametric_completeness(system)
     InputError.require(system, MultiChannelSystem, "system")
     spectrum = fixed_spectrum(system) if known is None else known

@@ -45,7 +45,6 @@ from mcexact.analysis.covering import (
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.nested_sets import Inequalities, largest_lower_bound, nested_sets
 from mcexact.analysis.structure import (
-    strong_components,
     suspected_edges,
     transfer_graph,
     witnessed_powers,
@@ -105,7 +104,7 @@ from mcexact.exact.modular import polynomial_residues, random_matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry
 from mcexact.exact.roots import StabilityRegion
-from mcexact.model.graph import NeighborGraph
+from mcexact.model.graph import NeighborGraph, strong_components
 from mcexact.model.system import MultiChannelSystem, with_graph, with_links
 
 # Cuts: subsets of channels that a choice of dimensions violates.

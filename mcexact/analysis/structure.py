@@ -22,13 +22,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from random import Random
-from typing import overload
+from typing import TYPE_CHECKING, overload
 
-from mcexact.analysis.parameters.hypersurfaces import (
-    ParametricTransferGraph,
-    parametric_transfer_graph,
-)
-from mcexact.analysis.parameters.ranks import parametric_setpoints
 from mcexact.analysis.sparse import (
     edge_modulus,
     is_large_and_sparse,
@@ -36,7 +31,6 @@ from mcexact.analysis.sparse import (
     sparse_powers,
 )
 from mcexact.answer.evidence import ZeroTransfer
-from mcexact.answer.parameters import ParametricRank
 from mcexact.answer.structure import ComplementarySubsystem, SetpointSolvability, TransferGraph
 from mcexact.derived.modular import (
     SHORT,
@@ -64,8 +58,13 @@ from mcexact.exact.modular import ModularMatrix, primes, residues
 from mcexact.exact.modular import hstack as modular_hstack
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import steady_point
+from mcexact.model.graph import strong_components
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
+
+if TYPE_CHECKING:
+    from mcexact.analysis.parameters.hypersurfaces import ParametricTransferGraph
+    from mcexact.answer.parameters import ParametricRank
 
 # Edges of the transfer graph modulo a prime.
 
@@ -177,28 +176,6 @@ def zero_transfer(
     return ZeroTransfer(channels_from=system.named(sources), X=space.X, pivots=space.pivots)
 
 
-def strong_components(m: int, edges: Sequence[Edge]) -> tuple[tuple[int, ...], ...]:
-    """Strong components of a graph on 0 … m−1, each ascending, sorted by first member.
-
-    Parameters
-    ----------
-    m : int
-    edges : sequence of (int, int)
-        (j, i) is the edge j → i.
-
-    Examples
-    --------
-    >>> strong_components(3, [(0, 1), (1, 0), (1, 2)])
-    ((0, 1), (2,))
-    """
-    import networkx
-
-    graph = networkx.DiGraph()
-    graph.add_nodes_from(range(m))
-    graph.add_edges_from(edges)
-    return tuple(sorted(tuple(sorted(c)) for c in networkx.strongly_connected_components(graph)))
-
-
 # The transfer graph.
 
 
@@ -241,6 +218,9 @@ def transfer_graph(
     False
     """
     if isinstance(system, ParametricSystem):
+        # start-up: few plants need it
+        from mcexact.analysis.parameters.hypersurfaces import parametric_transfer_graph
+
         return parametric_transfer_graph(system)
     InputError.require(system, MultiChannelSystem, "system")
     if is_large_and_sparse(system):
@@ -554,6 +534,9 @@ def setpoint_solvability(
     True
     """
     if isinstance(system, ParametricSystem):
+        # start-up: few plants need it
+        from mcexact.analysis.parameters.ranks import parametric_setpoints
+
         return parametric_setpoints(system)
     InputError.require(system, MultiChannelSystem, "system")
     n, B, C = system.n, system.input_matrix(), system.output_matrix()

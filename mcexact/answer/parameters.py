@@ -31,6 +31,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction, rational_text, rounded
 from mcexact.exact.roots import exact_decimal, root_discs
+from mcexact.model.graph import connects
 from mcexact.model.parametric import ParametricSystem, Range
 
 # Values of a parameter in answers, the modes there, and their words.
@@ -1034,16 +1035,6 @@ def complete(
     every = max([values.every, *(found.every for _, _, found in columns)], key=len)
     told = Values(every, tuple(where))
     yield (COMPLETE[1] if where else COMPLETE[0])(**told.given)
-
-
-def connects(names: Sequence[str], edges: Iterable[Edge]) -> bool:
-    """Whether a digraph is strongly connected."""
-    import networkx  # start-up: every report loads this module
-
-    graph = networkx.DiGraph()
-    graph.add_nodes_from(names)
-    graph.add_edges_from(edges)
-    return bool(networkx.is_strongly_connected(graph))
 
 
 def indices(name: str, ranks: Sequence[int], values: Values) -> Said:

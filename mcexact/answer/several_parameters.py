@@ -36,7 +36,6 @@ from mcexact.answer.parameters import (
     Values,
     another,
     complete,
-    connects,
     fixed,
     graph,
     heading,
@@ -58,6 +57,7 @@ from mcexact.exact.rational_functions import (
     least_denominator,
     parameter_latex,
 )
+from mcexact.model.graph import connects
 from mcexact.model.parametric import ParametricSystem
 from mcexact.shown import LINE, Shown, escaped, fitting
 

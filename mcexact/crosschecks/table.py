@@ -29,7 +29,7 @@ from mcexact.analysis.controllability import (
 )
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.nearby.plants import Lost, Nearby, nearby_plants
-from mcexact.analysis.structure import strong_components, transfer_graph
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.linear_algebra import characteristic_polynomial
@@ -37,6 +37,7 @@ from mcexact.exact.matrix import matrix_to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.floating import margins, verdicts
 from mcexact.floating.verdicts import transfer_edges
+from mcexact.model.graph import strong_components
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.shown import Shown, grid
 

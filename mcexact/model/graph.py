@@ -3,6 +3,8 @@
 `NeighborGraph` is the directed graph of who receives whose messages, with an edge j → i if agent
 i receives messages of j; N_i always contains i.  Delays count steps and belong to edges.  Only
 directed graphs of networkx are converted, and edge weights are refused, since they would be lost.
+
+`strong_components` are those of any graph that is given by its edges.
 """
 
 from __future__ import annotations
@@ -15,6 +17,73 @@ from typing import Any
 from mcexact.errors import FloatRefused, InputError, UsageError, several
 from mcexact.model.text import checked_name, checked_names, nearest, quoted
 from mcexact.shown import LINE, Shown
+
+# Strong components, by lists: networkx takes longer to load than most answers to be found.
+
+
+def strong_components(m: int, edges: Iterable[tuple[int, int]]) -> tuple[tuple[int, ...], ...]:
+    """Strong components of a graph on 0 … m−1, each ascending, sorted by first member.
+
+    Parameters
+    ----------
+    m : int
+    edges : iterable of (int, int)
+        (j, i) is the edge j → i.
+
+    Examples
+    --------
+    >>> strong_components(3, [(0, 1), (1, 0), (1, 2)])
+    ((0, 1), (2,))
+    """
+    into: list[list[int]] = [[] for _ in range(m)]
+    out: list[list[int]] = [[] for _ in range(m)]
+    for j, i in edges:
+        into[i].append(j)
+        out[j].append(i)
+    return tuple(sorted(tuple(sorted(part)) for part in components_of(into, out)))
+
+
+def connects(names: Iterable[Any], edges: Iterable[tuple[Any, Any]]) -> bool:
+    """Whether edges between these names, at least one, make a strongly connected graph."""
+    place = {name: k for k, name in enumerate(names)}
+    return len(strong_components(len(place), ((place[j], place[i]) for j, i in edges))) == 1
+
+
+def components_of(into: list[list[int]], out: list[list[int]]) -> list[list[int]]:
+    """The strong components of a graph with these edges into and out of each node.
+
+    Two depth-first searches (Kosaraju): each component is reached from later ones alone.
+    """
+    unseen, components = bytearray(b"\1" * len(into)), []
+    order = _finished(into, range(len(into)), unseen)
+    unseen = bytearray(b"\1" * len(into))
+    for root in reversed(order):
+        component = _finished(out, [root], unseen)
+        if component:
+            components.append(component)
+    return components
+
+
+def _finished(arcs: list[list[int]], roots: Iterable[int], unseen: bytearray) -> list[int]:
+    """The unseen nodes that are reached, in the order in which the search leaves them."""
+    order = []
+    for root in roots:
+        if not unseen[root]:
+            continue
+        unseen[root] = 0
+        path = [(root, iter(arcs[root]))]
+        while path:
+            node, rest = path[-1]
+            for other in rest:
+                if unseen[other]:
+                    unseen[other] = 0
+                    path.append((other, iter(arcs[other])))
+                    break
+            else:
+                order.append(node)
+                path.pop()
+    return order
+
 
 # The delays of messages on the links of a graph, and the positions of its agents.
 
@@ -423,9 +492,7 @@ class NeighborGraph(Shown):
         >>> NeighborGraph.empty(["1", "2"]).is_strongly_connected()
         False
         """
-        import networkx
-
-        return bool(networkx.is_strongly_connected(self._digraph(range(self.m))))
+        return len(strong_components(self.m, self.edges())) == 1
 
     def _digraph(self, nodes: Sequence[Any]) -> Any:
         import networkx

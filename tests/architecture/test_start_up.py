@@ -67,3 +67,17 @@ def test_a_system_is_made_without_the_symbolic_and_the_plotting_libraries() -> N
     made = "import mcexact; mcexact.MultiChannelSystem([[1]], [[[1]]], [[[1]]])"
     loaded = loaded_after(made)
     assert not {"'sympy'", "'scipy'", "'matplotlib'"} & set(loaded.strip("[]").split(", "))
+
+
+@pytest.mark.parametrize("neighbors", ["None", "NeighborGraph.ring(['1', '2'])"])
+def test_the_questions_about_numbers_load_nothing_for_graphs_or_parameters(neighbors: str) -> None:
+    answered = (
+        "from mcexact import MultiChannelSystem, NeighborGraph, analyze; "
+        "ports = [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]]; "
+        f"plant = MultiChannelSystem([[0, 1], [1, 0]], *ports, neighbors={neighbors}); "
+        "account = analyze(plant, nearby=False).account; account.explain(); account.files(); "
+        "import sys; "
+        "assert not [x for x in sys.modules if x.startswith('mcexact.analysis.parameters')]"
+    )
+    loaded = set(loaded_after(answered).strip("[]").split(", "))
+    assert not {"'networkx'", "'numpy'", "'scipy'"} & loaded

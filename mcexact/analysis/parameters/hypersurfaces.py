@@ -26,8 +26,6 @@ from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any, Literal, overload
 
-import networkx as nx
-
 from mcexact.analysis.parameters.modes import parametric_controllability, parametric_fixed_spectrum
 from mcexact.analysis.parameters.ranks import (
     DRAWS,
@@ -74,6 +72,7 @@ from mcexact.exact.rational_functions import (
 )
 from mcexact.exact.roots import root_discs
 from mcexact.model.entries import as_functions
+from mcexact.model.graph import connects
 from mcexact.model.parametric import ParametricSystem
 
 # Fixed, uncontrollable and unobservable modes.
@@ -307,12 +306,9 @@ class ParametricTransferGraph:
 
     def strongly_connected(self, without: Surface | None = None) -> bool:
         """Whether the edges for almost every value, or for the roots of a polynomial, connect."""
-        graph = nx.DiGraph()
-        graph.add_nodes_from({name for pair in self.columns for name in pair})
-        for pair in self.arcs:
-            if without not in self.columns[pair].exceptional_at:
-                graph.add_edge(*pair)
-        return bool(nx.is_strongly_connected(graph))
+        names = {name for pair in self.columns for name in pair}
+        lasting = (p for p in self.arcs if without not in self.columns[p].exceptional_at)
+        return connects(names, lasting)
 
 
 def parametric_transfer_graph(system: ParametricSystem) -> ParametricTransferGraph:
