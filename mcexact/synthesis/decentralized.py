@@ -30,7 +30,7 @@ from mcexact.synthesis.networks import (
     sharing_of,
 )
 from mcexact.synthesis.optimum.figures import MARGIN, Aims
-from mcexact.synthesis.optimum.search import Family, searched_proposals
+from mcexact.synthesis.optimum.proposals import Family, searched_proposals
 from mcexact.synthesis.rate import at_a_reachable_rate, request_for
 
 

@@ -218,17 +218,18 @@ def designed(
         system, proposals, request.region, graph, stable=stable, tell=request.tell
     )
     certificates = {proof.kind: proof for proof in loop.proofs}
-    if not _is_inside(loop, request.region):
+    region = proposal.region or request.region
+    if not _is_inside(loop, region):
         unstable = certify_stability(loop.closed.system)
         certificates[unstable.kind] = unstable
     return Design(
         method,
         request.arithmetic,
         loop,
-        request.region,
+        region,
         certificates,
         proposal.parts,
-        request.notes,
+        (*request.notes, *proposal.notes),
     )
 
 

@@ -66,6 +66,8 @@ class Request:
     brisk : StabilityRegion or None
         Where no rate was asked for and the cost is to be least: a faster region than `region`,
         where a search starts, too.
+    deadline : float or None
+        The time of `time.monotonic` at which a search ends with the best controller so far.
     """
 
     region: StabilityRegion
@@ -75,6 +77,7 @@ class Request:
     tell: Progress
     notes: tuple[str, ...] = ()
     brisk: StabilityRegion | None = None
+    deadline: float | None = None
 
     @classmethod
     def of(
@@ -174,12 +177,18 @@ class Proposal:
         Coordinates in which the loop may be block triangular, the finest first.
     parts : mapping
         The parts of the controller by names.
+    region : StabilityRegion or None
+        Where its eigenvalues are, if that is not the region that was asked for.
+    notes : tuple of str
+        What is to be told of aims that it misses.
     """
 
     controller: Controller
     polynomials: tuple[Polynomial, ...] = ()
     coordinates: tuple[Coordinates, ...] = ()
     parts: Mapping[str, Any] = field(default_factory=dict)
+    region: StabilityRegion | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def is_tentative(self) -> bool:
@@ -324,7 +333,8 @@ def first_certified(
     for proposal in proposals:
         tell("certificate")
         try:
-            return proposal, certify(system, proposal, region, graph, stable=stable)
+            inside = proposal.region or region
+            return proposal, certify(system, proposal, inside, graph, stable=stable)
         except (Impossible, UsageError):
             if not proposal.is_tentative:
                 raise

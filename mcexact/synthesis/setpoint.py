@@ -44,7 +44,7 @@ from mcexact.synthesis.networks import (
 from mcexact.synthesis.optimum.diagnosis import with_diagnosis
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.optimum.problem import Weights
-from mcexact.synthesis.optimum.search import Family, searched_proposals
+from mcexact.synthesis.optimum.proposals import Family, searched_proposals
 from mcexact.synthesis.rate import at_a_reachable_rate, request_for
 
 SetpointMethod = Literal["observer", "extended"]

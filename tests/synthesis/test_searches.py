@@ -20,7 +20,7 @@ from mcexact.synthesis import distributed_observer, setpoint
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Proposal, Warned
-from mcexact.synthesis.optimum import search
+from mcexact.synthesis.optimum import proposals
 from mcexact.synthesis.optimum.diagnosis import diagnosed
 from mcexact.synthesis.optimum.figures import MARGINS, THEOREM, Aims, least_cost
 from mcexact.synthesis.optimum.problem import Weights
@@ -151,7 +151,7 @@ def nothing(*_: object, **__: object) -> Iterator[Proposal]:
 @pytest.mark.parametrize(
     ("module", "name", "design"),
     [
-        (search, "network_proposals", partial(design_decentralized, POSITION, aims=THEOREM)),
+        (proposals, "network_proposals", partial(design_decentralized, POSITION, aims=THEOREM)),
         (setpoint, "observers", partial(design_setpoint, two_tanks(), method="observer")),
         (distributed_observer, "observers", partial(design_observer, two_tanks())),
     ],

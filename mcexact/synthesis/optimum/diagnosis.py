@@ -973,13 +973,13 @@ def chosen_regions(
             return None
         central = central_optimum(system, weights, region)
         sensible = _sensible(system, weights, region, central, unhurried)
-        pace, fed_back = _pace(sensible or region), _regulated_pace(system, weights)
+        pace, fed_back = pace_of(sensible or region), _regulated_pace(system, weights)
         part = "the root of" if stable.discrete else "half"
         brisk, brisk_reason = pace / 2, f"{part} the sensible {stable.word}"
         if sensible is None:
             brisk_reason = f"{part} that of the optimal controller of all agents together"
         elif not _affordable(
-            central_optimum(system, weights, _of_pace(system.time, brisk)), unhurried
+            central_optimum(system, weights, region_of_pace(system.time, brisk)), unhurried
         ):
             brisk, brisk_reason = pace, f"the sensible {stable.word}"
     word = f"sensible {stable.word}"
@@ -994,9 +994,9 @@ def chosen_regions(
         for each in ((slowest, reason), (brisk, brisk_reason))
     )
     return ChosenRegions(
-        _rounded_region(system.time, slowest),
+        rounded_region(system.time, slowest),
         reason,
-        _rounded_region(system.time, brisk),
+        rounded_region(system.time, brisk),
         brisk_reason,
     )
 
@@ -1065,36 +1065,36 @@ def _sensible(
     steps = _STEPS_OF_RATE if system.n <= _LARGE else _STEPS_IF_LARGE
     if system.n > _LARGE and _affordable(central, unhurried):
         return region
-    pace, holds, fails = _pace(region), 0.0, np.inf
+    pace, holds, fails = pace_of(region), 0.0, np.inf
     optimum = central
     for _ in range(steps):
         if _affordable(optimum, unhurried):
             holds = pace
         else:
             fails = pace
-        if holds >= _FASTEST * _pace(region) or (holds and fails / holds < _WIDTH):
+        if holds >= _FASTEST * pace_of(region) or (holds and fails / holds < _WIDTH):
             break
         if holds and np.isfinite(fails):
             # Wide brackets are halved in the logarithm, too.
             pace = float(np.sqrt(holds * fails))
         else:
             pace = _FACTOR * holds if holds else fails / _FACTOR
-        optimum = central_optimum(system, weights, _of_pace(system.time, pace))
+        optimum = central_optimum(system, weights, region_of_pace(system.time, pace))
     if not holds and system.n <= _LARGE:
         # Without a rate the optimum can be fragile where that of a moderate rate is not.
         for factor in _FASTER:
-            faster = _of_pace(system.time, factor * _pace(region))
+            faster = region_of_pace(system.time, factor * pace_of(region))
             if _affordable(central_optimum(system, weights, faster), unhurried):
                 return faster
-    return _of_pace(system.time, holds) if holds else None
+    return region_of_pace(system.time, holds) if holds else None
 
 
-def _rounded_region(time: str, pace: float) -> StabilityRegion:
+def rounded_region(time: str, pace: float) -> StabilityRegion:
     """A region, not faster, whose rate or distance of the radius to 1 has two digits.
 
     Examples
     --------
-    >>> print(_rounded_region("continuous", 0.259), _rounded_region("discrete", 0.001), sep=", ")
+    >>> print(rounded_region("continuous", 0.259), rounded_region("discrete", 0.001), sep=", ")
     Re λ < -1/4, |λ| < 99901/100000
     """
     discrete = StabilityRegion(time).discrete
@@ -1107,17 +1107,17 @@ def _own_region(time: str, unhurried: CentralOptimum) -> StabilityRegion | None:
     """The region of the slowest eigenvalue of the optimal controller for which no rate is asked."""
     bound = unhurried.figures.bound
     pace = -float(np.log(max(bound, 1e-3))) if StabilityRegion(time).discrete else -bound
-    return _of_pace(time, pace) if 0 < pace < np.inf else None
+    return region_of_pace(time, pace) if 0 < pace < np.inf else None
 
 
-def _pace(region: StabilityRegion) -> float:
+def pace_of(region: StabilityRegion) -> float:
     """The rate, or −log of the radius, which is 0.02 for the radius 1."""
     if not region.discrete:
         return to_float(region.edge)
     return float(-np.log(to_float(region.edge))) or 0.02
 
 
-def _of_pace(time: str, pace: float) -> StabilityRegion:
+def region_of_pace(time: str, pace: float) -> StabilityRegion:
     """The region of a rate, or of the radius exp(−pace), to three digits."""
     bound = float(np.exp(-pace)) if StabilityRegion(time).discrete else pace
     # Beyond four digits a radius is 1.

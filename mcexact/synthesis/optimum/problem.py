@@ -13,6 +13,7 @@ search, which is counted and not timed so that it ends at the same step on every
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -74,6 +75,9 @@ class Effort:
     spent : float
     whole : Effort or None
         The effort of which this is a part, in which all work is counted as well.
+    deadline : float or None
+        The time of `time.monotonic` after which nothing is left, whatever was spent; results depend
+        on the machine's load only where it passes.
 
     Examples
     --------
@@ -87,6 +91,7 @@ class Effort:
     limit: float
     spent: float = 0.0
     whole: Effort | None = field(default=None, repr=False)
+    deadline: float | None = None
 
     def take(self, states: int, times: float = 1.0) -> None:
         """Count some costs of a loop of some states, of O(N³) operations each."""
@@ -105,11 +110,12 @@ class Effort:
     @property
     def over(self) -> bool:
         """Whether nothing is left."""
-        return self.left <= 0
+        late = self.deadline is not None and time.monotonic() >= self.deadline
+        return late or self.left <= 0
 
     def part(self, share: float) -> Effort:
         """Return a share of the units that are left, as an effort of its own."""
-        return Effort(self.left * share, whole=self)
+        return Effort(self.left * share, whole=self, deadline=self.deadline)
 
 
 # Weights of the linear-quadratic cost of a plant.

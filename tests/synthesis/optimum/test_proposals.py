@@ -14,7 +14,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.gate import Request
 from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import decentralized_network, sharing_network
-from mcexact.synthesis.optimum import search
+from mcexact.synthesis.optimum import proposals
 from mcexact.synthesis.optimum.descent import (
     SLACK,
     Target,
@@ -32,13 +32,13 @@ from mcexact.synthesis.optimum.figures import (
     figures_of,
 )
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
-from mcexact.synthesis.optimum.search import (
-    Candidate,
+from mcexact.synthesis.optimum.proposals import (
     Family,
     optimum,
     searched_proposals,
     with_few_digits,
 )
+from mcexact.synthesis.optimum.search import Candidate
 from mcexact.synthesis.optimum.starts import (
     local_regulators,
     localities,
@@ -282,7 +282,7 @@ def test_digits_are_added_as_long_as_the_margin_needs_them(monkeypatch, needed, 
             digits = len(f"{abs(self._K[0, 0])}") - 1
             return replace(known.peaks, margin=0.31 if digits >= needed else 0.29)
 
-    monkeypatch.setattr(search, "Margins", Seen)
+    monkeypatch.setattr(proposals, "Margins", Seen)
     target = Target(request(plant, "1/2").region)
     robust = replace(known, peaks=replace(known.peaks, margin=0.31))
     found = with_few_digits(robust, target, None, most)

@@ -1,0 +1,232 @@
+"""From a controller that was found to one with another aim, by continuation.
+
+The structure stays, and each step starts from the end of the one before it, which is far cheaper
+than another search:
+
+- `more_damped` asks for a damping ratio, and `with_larger_box` for a box of plants around the given
+  one within which every loop seems stable, by faster and faster loops;
+- `fastest` looks for the fastest rate at which a loop still keeps its margins: by factors of 1.5,
+  then by bisection.
+
+What the first two cost is compared with what was there before, and told where it is too much.  All
+of this is floating point, and finding nothing proves nothing: there may be faster loops.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import isfinite, log, sqrt
+
+from mcexact.analysis.boxes.loops import StabilitySearch
+from mcexact.errors import McexactError
+from mcexact.exact.rational import percent
+from mcexact.exact.roots import StabilityRegion, is_discrete
+from mcexact.model.box import Box
+from mcexact.model.loop import closed_loop
+from mcexact.synthesis.optimum.descent import Target, inside, polished
+from mcexact.synthesis.optimum.diagnosis import pace_of, region_of_pace, rounded_region
+from mcexact.synthesis.optimum.figures import Figures, Shape
+from mcexact.synthesis.optimum.problem import Effort, controller_of
+from mcexact.synthesis.optimum.search import Candidate, Ladder, candidate_of, ranked
+
+DAMPING, BOX = 0.07, Fraction(1, 100)
+"""The damping ratio and the part of all entries that designs without a rate aim at."""
+AFFORDABLE = 1.15
+"""They are kept where they make a loop at most this factor dearer."""
+_CERTIFIED_PART = 0.9
+"""Of what seems to be the largest box, the part that is likely proved."""
+_FASTER, _NARROW, _WALK = 1.5, 1.05, 6
+_MOST_SIGNALS = 120
+_SHARE = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Improved:
+    """A controller, and what is to be told of the aims that it misses.
+
+    Attributes
+    ----------
+    candidate : Candidate
+    notes : tuple of str
+    """
+
+    candidate: Candidate
+    notes: tuple[str, ...] = ()
+
+
+def followed(
+    ladder: Ladder, candidate: Candidate, target: Target, effort: Effort
+) -> Candidate | None:
+    """Go on from a controller to a local optimum for another target; None if that is not reached.
+
+    Parameters
+    ----------
+    ladder : Ladder
+        Whose prices rank what is found.
+    candidate : Candidate
+    target : Target
+    effort : Effort
+    """
+    problem, aimed = candidate.problem, replace(ladder, target=target)
+    x = inside(problem, problem.entries(candidate.K), target, effort.part(0.5))
+    if x is None:
+        return None
+    made = [
+        candidate_of(aimed, candidate.step, problem, problem.gain(each))
+        for each in polished(problem, x, target, effort)
+    ]
+    return next(iter(ranked(aimed, [each for each in made if each is not None])), None)
+
+
+def more_damped(ladder: Ladder, best: Candidate, damping: float = DAMPING) -> Improved:
+    """Ask for a damping ratio, and keep it where it costs little."""
+    shape = ladder.target.shape
+    if best.figures.damping >= damping or shape.damping is not None:
+        return Improved(best)
+    target = replace(ladder.target, shape=Shape(damping, shape.largest))
+    other = followed(ladder, best, target, ladder.effort.part(_SHARE))
+    told = f"the least damping ratio is {best.figures.damping:.2g}"
+    if other is None or other.figures.damping < damping or _loses_margins(ladder, best, other):
+        return Improved(best, (f"{told}: none of at least {damping:g} was found (computed)",))
+    if other.figures.cost <= AFFORDABLE * best.figures.cost:
+        return Improved(other)
+    dearer = _dearer(other.figures, best.figures)
+    return Improved(best, (f"{told}: at least {damping:g} would cost {dearer} more (computed)",))
+
+
+def with_larger_box(
+    ladder: Ladder, best: Candidate, part: Fraction | None = None, most: float = AFFORDABLE
+) -> Improved:
+    """Ask for a box of plants within which every loop seems stable, by faster and faster loops.
+
+    Parameters
+    ----------
+    ladder : Ladder
+    best : Candidate
+    part : Fraction, optional
+        The part of each entry by which plants of the box may differ; by default 1 %.
+    most : float
+        The factor by which the cost may grow.
+
+    Returns
+    -------
+    Improved
+        The first loop that seems to have the box, or ``best`` where none has, or only dearer ones.
+    """
+    aimed = BOX if part is None else part
+    seen = box_part(best)
+    if seen is None or seen >= aimed:
+        return Improved(best)
+    pace, found = _pace(best, ladder.target.region.time), best
+    told = f"the loop stays stable for plants within about {percent(_short(seen))} of each entry"
+    for _ in range(_WALK):
+        pace *= _FASTER
+        target = replace(ladder.target, region=region_of_pace(ladder.target.region.time, pace))
+        other = followed(ladder, found, target, ladder.effort.part(_SHARE))
+        if other is None or _loses_margins(ladder, best, other):
+            break
+        found, reached = other, box_part(other) or 0.0
+        if other.figures.cost > most * best.figures.cost:
+            if reached >= aimed:
+                dearer = _dearer(other.figures, best.figures)
+                note = f"{told}: {percent(aimed)} would cost {dearer} more (computed)"
+                return Improved(best, (note,))
+            if other.figures.cost > 4 * most * best.figures.cost:
+                break
+        elif reached >= aimed:
+            return Improved(other)
+    note = f"{told}: no faster loop for {percent(aimed)} was found (computed)"
+    return Improved(best, (note,))
+
+
+def box_part(candidate: Candidate) -> float | None:
+    """The part of each entry by which a plant may differ while a proof of its loop is likely.
+
+    None where it is not searched: for derived plants, and for loops of many signals.
+    """
+    problem = candidate.problem
+    plant, graph = problem.network.plant, problem.network.graph
+    rows, columns = problem.mask.shape
+    if plant.subject or plant.uncertainty is not None or problem.network.system.n != plant.n:
+        return None
+    if len(problem.A) + rows + columns > _MOST_SIGNALS:
+        return None
+    loop = closed_loop(plant, controller_of(problem, candidate.K), graph)
+    unit = replace(loop, plant=Box.relative(plant, 1).system)
+    try:
+        margins = StabilitySearch(unit, StabilityRegion(plant.time)).margins()
+        least = min((each for each, _ in margins), default=0.0)
+    except McexactError:
+        return None
+    return _CERTIFIED_PART * float(least)
+
+
+def fastest(
+    ladder: Ladder, start: Candidate, asked: StabilityRegion
+) -> tuple[Candidate, StabilityRegion] | None:
+    """Search the fastest rate at which a loop keeps its margins, from a slow loop that does.
+
+    Parameters
+    ----------
+    ladder : Ladder
+    start : Candidate
+    asked : StabilityRegion
+        The region that was asked for, beyond which nothing is tried.
+
+    Returns
+    -------
+    Candidate, StabilityRegion, or None
+        The controller, and its region: the one that was asked for, or a slower one of two digits.
+        None if the slow loop lacks the margins, too.
+
+    Notes
+    -----
+    By factors of 1.5 from the rate of the slow loop, then by bisection in the logarithm until the
+    bracket is narrower than 5 %, each time from the fastest loop so far.  A search, not a proof.
+    """
+    time, limits = asked.time, ladder.target.limits
+    if not start.peaks.keep(limits):
+        return None
+    most, holds, fails, best = pace_of(asked), 0.98 * _pace(start, time), float("inf"), start
+    if not 0 < holds < float("inf"):
+        return None
+    while holds < most and fails / holds > _NARROW and not ladder.effort.over:
+        trial = min(_FASTER * holds, most) if not isfinite(fails) else sqrt(holds * fails)
+        region = asked if trial == most else _like(asked, region_of_pace(time, trial))
+        target = replace(ladder.target, region=region)
+        other = followed(ladder, best, target, ladder.effort.part(_SHARE))
+        gains = 1.01 * ladder.target.largest_gain
+        if other is None or not other.peaks.keep(limits) or other.figures.largest_gain > gains:
+            fails = trial
+        else:
+            best, holds = other, trial
+            ladder.tell(f"the fastest rate with these margins: {region}")
+    return best, asked if holds >= most else _like(asked, rounded_region(time, holds))
+
+
+def _like(region: StabilityRegion, other: StabilityRegion) -> StabilityRegion:
+    """A region with the bound of another one."""
+    return replace(region, bound=other.bound)
+
+
+def _pace(candidate: Candidate, time: str) -> float:
+    """The rate of a loop, or −log of its radius."""
+    bound = candidate.figures.bound
+    return -log(max(bound, 1e-300)) if is_discrete(time) else -bound
+
+
+def _loses_margins(ladder: Ladder, before: Candidate, after: Candidate) -> bool:
+    """Whether a controller lacks the margins that another one has."""
+    limits = ladder.target.limits
+    return before.peaks.keep(limits) and not after.peaks.keep(limits)
+
+
+def _dearer(after: Figures, before: Figures) -> str:
+    """By how much a cost is larger, in percent."""
+    return f"{100 * (after.cost / before.cost - 1):.0f} %"
+
+
+def _short(part: float) -> Fraction:
+    """A part with two digits."""
+    return Fraction(f"{part:.1e}")
