@@ -58,6 +58,8 @@ def design_command() -> None:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
+_SEARCHING = 0.5
+"""The part of the time of --timeout after which a search ends."""
 HOW = ("rate", "radius", "arithmetic")
 """The options that are arguments of the functions of `mcexact.synthesis` with the same names."""
 
@@ -78,12 +80,12 @@ def design_options(
         click.option("--agent", metavar="NAME", help=agent_help),
         options.aims if searches else options.weights,
         click.option(
-            "--box/--no-box",
-            default=True,
-            show_default=True,
-            help="Search a part by which all entries of the plant may differ while every loop is "
-            "stable, or prove it for the uncertainty of FILE, with the work of --effort or of five "
-            "seconds; loops with more than 160 states, inputs and outputs are left out.",
+            "--no-box",
+            is_flag=True,
+            help="Search no part by which all entries of the plant may differ while every loop is "
+            "stable, which is otherwise proved, or for the uncertainty of FILE, with the work of "
+            "--effort or of five seconds; loops with more than 160 states, inputs and outputs are "
+            "left out.",
         ),
         options.controller_output,
         options.page("figures of the loop and all certificates"),
@@ -128,10 +130,14 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
     )
     keywords = {**wanted, "agent": values["agent"], **{key: values[key] for key in HOW}}
     aimed = {key: values[key] for key in options.AIMS if key in values}
+    left = run.deadline.left()
+    if aimed and left is not None:
+        # The best controller so far is certified in the rest of the time.
+        aimed["seconds"] = _SEARCHING * left
     plant = run.read(file)
     result = run.result(
         _designed,
-        *(name, plant, *extra, run.limits, keywords, aimed, values["box"]),
+        *(name, plant, *extra, run.limits, keywords, aimed, not values["no_box"]),
         *(html is not None, run.system_by_digest),
         doing=f"designing for {plant[0]}",
         telling=True,

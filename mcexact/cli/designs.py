@@ -150,7 +150,8 @@ def _aims(aimed: Mapping[str, Any], weights: Mapping[str, Any] | None) -> Aims:
     if not aimed:
         return Aims(weights=weights)
     chosen = {name: aimed[name] for name in AIMS}
-    return Aims(weights=weights, digits=chosen.pop("most_digits"), **chosen)
+    seconds = aimed.get("seconds")
+    return Aims(weights=weights, digits=chosen.pop("most_digits"), seconds=seconds, **chosen)
 
 
 def _advice(

@@ -310,7 +310,8 @@ def answering(function: F) -> F:
 
 
 AIMS = (
-    "margin", "damping", "largest_modulus", "largest_gain", "largest_order", "most_digits",
+    "margin", "disk", "box", "damping", "largest_modulus", "largest_gain", "largest_order",
+    "most_digits",
     "effort", "seeds",
 )  # fmt: skip
 """What a search aims at: the names of the options that `aims` adds."""
@@ -395,11 +396,25 @@ def aims(function: F) -> F:
         fastest,
         damping,
         click.option(
+            "--box",
+            type=part,
+            metavar="PART",
+            help="Part of each entry by which plants may differ while every loop is stable, such "
+            "as 2%, to aim at; without a rate by default 1% where it costs little.",
+        ),
+        click.option(
+            "--disk",
+            type=number,
+            default=0.4,
+            show_default=True,
+            help="Disk margin of every single input and output to aim at.",
+        ),
+        click.option(
             "--margin",
             type=number,
             default=0.3,
             show_default=True,
-            help="Margin at the plant's inputs to aim at.",
+            help="Margin of all of the plant's inputs together to aim at.",
         ),
         weights,
     ):

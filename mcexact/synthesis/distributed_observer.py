@@ -45,8 +45,13 @@ from mcexact.synthesis.observer import (
     observer_programs,
     observer_proposals,
 )
-from mcexact.synthesis.optimum.diagnosis import plain_figures, with_diagnosis
-from mcexact.synthesis.optimum.figures import MARGIN, Figures, central_optimum, shift_of
+from mcexact.synthesis.optimum.diagnosis import (
+    least_disk_margin,
+    margin_of,
+    plain_figures,
+    with_diagnosis,
+)
+from mcexact.synthesis.optimum.figures import DISK, MARGIN, Figures, central_optimum, shift_of
 from mcexact.synthesis.optimum.problem import (
     FeedbackProblem,
     Floats,
@@ -367,7 +372,8 @@ def design_observer(
     order : {"least", "low"}, optional
         "low" also designs a controller of low order over the same links, as `design_extended`, and
         keeps the better of both, which `Design.notes` tells with the figures of both: whoever
-        wants to control the plant needs no estimate of the whole state in every agent.
+        wants to control the plant needs no estimate of the whole state in every agent.  Where
+        nothing at all is asked, and the observer is fragile, this is done and told.
         "least" uses a channel controller of order one less than the smaller of the two indices,
         instead of m − 1; in floating point it uses an observer of reduced order instead of nm, if
         it can be certified.
@@ -428,11 +434,36 @@ H_ij let one agent control and observe all estimation errors
     request = request_for(*arguments, least_cost=False)
     sizes = [system.n] * system.m
     exact = None if gains is None else checked_gains(system, gains, sizes, rounding=rounding)
-    if order != "low":
+    special = spectrum is not None or agent is not None or gains is not None
+    if order == "low":
+        if special:
+            raise UsageError(
+                "a low order takes a rate or a radius, and no spectrum, agent or gains"
+            )
+        return _better(system, graph, request)
+    if order is not None or special or not request.notes:
         return _observer(system, graph, request, exact, order)
-    if spectrum is not None or agent is not None or gains is not None:
-        raise UsageError("a low order takes a rate or a radius, and no spectrum, agent or gains")
-    return _better(system, graph, request)
+    return _unless_fragile(system, graph, request)
+
+
+def _unless_fragile(system: MultiChannelSystem, graph: NeighborGraph, request: Request) -> Design:
+    """Design an observer; where its loop is fragile, or there is none, compare as for low order."""
+    try:
+        design = _observer(system, graph, request)
+    except LimitReached:
+        return _better(system, graph, request)
+    loop = design.loop.closed
+    with quiet_floats():
+        margin, disk = margin_of(loop), least_disk_margin(loop)
+    if margin >= MARGIN and disk >= DISK:
+        return design
+    request.tell("a controller of low order")
+    better = _better(system, graph, request, design)
+    note = (
+        f"the observer is fragile, with a disk margin of {disk:.2g} in a single loop and a margin "
+        f"of {margin:.2g} at all inputs together (computed), so that `--order low` was tried"
+    )
+    return replace(better, notes=(*better.notes, note))
 
 
 def _observer(
@@ -450,18 +481,26 @@ def _observer(
         raise with_diagnosis(limit, system, request.region) from None
 
 
-def _better(system: MultiChannelSystem, graph: NeighborGraph, request: Request) -> Design:
+def _better(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    request: Request,
+    observer: Design | None = None,
+) -> Design:
     """Design an observer and a controller of low order, and keep the better one.
+
+    Without a rate the controller of low order is one of least cost.  The observer may be known.
 
     Raises
     ------
     Impossible, LimitReached
         That of the observer, if both fail.
     """
-    bound: dict[str, Any] = {request.region.word: request.region.edge}
+    chosen = bool(request.notes)
+    bound: dict[str, Any] = {} if chosen else {request.region.word: request.region.edge}
     asked: dict[str, Any] = {"arithmetic": request.arithmetic, "progress": request.tell, **bound}
     ways: dict[str, Callable[[], Design]] = {
-        "the observer": lambda: _observer(system, graph, request),
+        "the observer": lambda: _observer(system, graph, request) if observer is None else observer,
         "a controller of low order": lambda: design_extended(system, graph, **asked),
     }
     designs, outcomes, failed = dict[str, Design](), list[str](), list[McexactError]()
@@ -480,10 +519,12 @@ def _better(system: MultiChannelSystem, graph: NeighborGraph, request: Request) 
         raise failed[0]
     best = min(designs, key=lambda name: _price(designs[name]))
     note = f"{best} was kept ({'; '.join(outcomes)}; computed)"
-    return replace(designs[best], notes=(*request.notes, note))
+    return replace(designs[best], notes=(*designs[best].notes, note))
 
 
 def _price(design: Design) -> tuple[bool, float]:
     """Whether a design is fragile, and its cost, dearer by two percent for each state."""
-    seen = plain_figures(design.loop.closed)
-    return not seen.margin >= MARGIN, seen.cost * _PRICE_OF_ORDER**seen.order
+    loop = design.loop.closed
+    seen = plain_figures(loop)
+    fragile = not (seen.margin >= MARGIN and least_disk_margin(loop) >= DISK)
+    return fragile, seen.cost * _PRICE_OF_ORDER**seen.order

@@ -10,6 +10,7 @@ found.  A prescribed rate is never changed here.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
@@ -111,9 +112,11 @@ agents together have no optimal controller
     return _limited(replace(request, notes=(note,), brisk=brisk), aims)
 
 
-def _limited(request: Request, aims: Aims | None) -> Request:
-    """Add the damping ratio and the largest modulus of the aims, which continuous time proves."""
-    if aims is None or request.region.discrete:
+def _limited(request: Request, aims: Aims) -> Request:
+    """Add the deadline, and the limits of the aims that are proved in continuous time."""
+    if aims.seconds is not None:
+        request = replace(request, deadline=time.monotonic() + aims.seconds)
+    if request.region.discrete:
         return request
     region = request.region.limited(aims.damping, aims.largest_modulus)
     if region.largest_modulus is not None and region.largest_modulus <= region.edge:

@@ -30,7 +30,7 @@ def test_a_file_is_enough_and_the_first_line_says_whether_to_install(
     assert done.status == 0, done.stderr
     first, *said = done.stdout.partition("\n\n")[0].splitlines()
     assert first.startswith("Worth installing: margin ")
-    rate = re.compile(r"note: no rate was given: the cost is least, at a rate of at least ")
+    rate = re.compile(r"note: no rate was given: the cost is least, at a rate of at least .*")
     assert any(rate.fullmatch(line) for line in said)
     assert done.stdout.count("not certified") == 1
     assert "numbers sent" in done.stdout and "sensible rate" in done.stdout
@@ -207,3 +207,12 @@ def test_a_link_that_the_plant_has_is_used_and_not_advised(
     path.write_text(json.dumps({**document, **neighbors}), encoding="utf-8")
     done = run("design", "decentralized", str(path), "--rate", "1/10")
     assert done.status == 1 and f"`{advised.format(path)}`" in done.stderr
+
+
+def test_a_box_and_disk_margins_are_aims_of_a_search(plant: str) -> None:
+    done = run("design", "decentralized", plant, "--box", "10%", "--disk", "0.8", "--json")
+    assert done.status == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["every_loop"]["certified"]
+    refused = run("design", "decentralized", plant, "--disk", "3")
+    assert refused.status == 2 and "disk: expected a number above 0 and below 2" in refused.stderr

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+import re
+import time
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
@@ -254,3 +257,22 @@ def test_set_points_are_held_without_a_graph_as_with_an_empty_one() -> None:
     design = design_setpoint(tanks, rate="1/100")
     assert design.method == "decentralized" and not design.controller.edges()
     assert design.loop.closed.plant.neighbors is None
+
+
+def test_a_search_whose_time_is_over_ends_with_the_best_controller_so_far(monkeypatch) -> None:
+    plant, whole, short = gallery.load("compleib-dis2"), list[str](), list[str]()
+    design_decentralized(plant, aims=Aims(effort=4), progress=whole.append)
+    ticks = itertools.count()
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(ticks)))
+    design = design_decentralized(plant, aims=Aims(effort=4, seconds=150), progress=short.append)
+    assert design.stable and "optimum" in design.parts
+    searched = [each for each in short if each in whole and each.startswith(("static", "order"))]
+    assert 0 < len(searched) < len([each for each in whole if each.startswith(("static", "order"))])
+
+
+def test_progress_says_what_the_best_controller_costs_and_its_margins() -> None:
+    told = list[str]()
+    design_decentralized(gallery.load("compleib-dis2"), aims=Aims(effort=4), progress=told.append)
+    costs = [re.search("so far (.+) times the bound, disk margin (.+) and (.+) together", each)
+             for each in told if each.startswith("order")]  # fmt: skip
+    assert costs and all(each is not None and float(each[1]) >= 1 for each in costs)

@@ -658,6 +658,9 @@ class Aims:
     box : rational or float, optional
         The part of each entry by which plants may differ while every loop is stable, at which the
         search aims by faster loops; without a rate by default 1/100 where that costs little.
+    seconds : float, optional
+        The time by the clock after which a search ends with the best controller so far, which is
+        then rounded and certified.
 
     Raises
     ------
@@ -684,6 +687,7 @@ class Aims:
     effort: float | None = None
     seeds: int = SEEDS
     box: Entry | None = None
+    seconds: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("margin", "disk", "box", "largest_gain", "damping", "largest_modulus"):
@@ -713,8 +717,9 @@ class Aims:
             if number is not None:
                 good = type(number) is int and number >= least
                 _require(good, name, f"an integer of at least {least}", number)
-        if self.effort is not None:
-            require_seconds(self.effort, "effort")
+        for name in ("effort", "seconds"):
+            if getattr(self, name) is not None:
+                require_seconds(getattr(self, name), name)
 
     def searched_for(self, request: Request) -> bool:
         """Whether there is a search: no spectrum, no agent with a channel controller, effort."""

@@ -20,7 +20,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate, pairwise
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -769,12 +769,15 @@ def filtered_noise(
     return solved_or_nan(slower, entering @ Y), Y
 
 
-def solved_or_nan(M: Floats, right: Floats) -> Floats:
+AnyNumbers = TypeVar("AnyNumbers", Floats, npt.NDArray[np.complex128])
+
+
+def solved_or_nan(M: AnyNumbers, right: AnyNumbers) -> AnyNumbers:
     """Solve a linear system; NaN where floating point cannot."""
     try:
-        return np.asarray(np.linalg.solve(M, right), dtype=np.float64)
+        return np.asarray(np.linalg.solve(M, right), dtype=M.dtype)
     except np.linalg.LinAlgError:
-        return np.full((len(M), right.shape[1]), np.nan)
+        return np.full((len(M), right.shape[1]), np.nan, dtype=M.dtype)
 
 
 # Controllers as gain matrices, and gain matrices as controllers.

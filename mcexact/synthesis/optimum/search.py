@@ -456,7 +456,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
         for start in filter(lambda each: ladder.allows(each.problem), step):
             if ladder.effort.over:
                 break
-            ladder.tell(start.step)
+            ladder.tell(f"{start.step}{_so_far(ladder, candidates)}")
             candidates += _as_it_is(ladder, start)
             before = ladder.effort.left
             value, draft = _draft(ladder, start)
@@ -480,6 +480,18 @@ def climbed(ladder: Ladder) -> list[Candidate]:
         if _finish(ladder, draft, candidates):
             break
     return candidates
+
+
+def _so_far(ladder: Ladder, candidates: list[Candidate]) -> str:
+    """What the best controller so far costs, and its margins."""
+    if not candidates:
+        return ""
+    best = min(candidates, key=lambda each: _price(ladder, each))
+    bound = "the bound" if ladder.brisk is not None else "the cost of one controller for all"
+    return (
+        f"; so far {best.figures.cost / ladder.target.least:.3g} times {bound}, disk "
+        f"margin {best.peaks.disk:.2g} and {best.peaks.margin:.2g} together"
+    )
 
 
 def _as_it_is(ladder: Ladder, start: Start) -> list[Candidate]:

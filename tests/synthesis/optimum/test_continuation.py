@@ -1,0 +1,139 @@
+"""From a controller that was found to more damping, a larger box, and the fastest rate."""
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mcexact import design_decentralized
+from mcexact.exact.matrix import matrix_to_float
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.box import Box
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.optimum.continuation import (
+    box_part,
+    fastest,
+    more_damped,
+    with_larger_box,
+)
+from mcexact.synthesis.optimum.descent import Target
+from mcexact.synthesis.optimum.figures import MARGINS, Aims, Limits, figures_of, least_cost
+from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
+from mcexact.synthesis.optimum.search import Candidate, Ladder, candidate_of
+from mcexact.synthesis.robustness import every_loop
+
+SPRING = MultiChannelSystem(
+    [[0, 1], [-1, "-1/100"]], [[[0], ["1/2"]]], [[[1, 0], [0, 1]]], time="continuous"
+)
+"""A mass on a spring, hardly damped, with its position and its speed measured."""
+DOUBLE = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+LEAD = [[-21.0, 20.0], [10.0, -10.0]]
+"""−(1 + 20 s/(s + 10)), which damps it."""
+
+
+def found(plant: MultiChannelSystem, K: Any, orders: tuple[int, ...] = (0,), rate: Any = "1/1000"):
+    """A ladder for a slow rate, and the candidate of some gains."""
+    weights = Weights.unit(plant)
+    problem = FeedbackProblem.of(decentralized_network(plant), orders, weights)
+    region = StabilityRegion.of(plant.time, bound=rate)
+    target = Target(region, 100.0, MARGINS, least_cost(plant, weights) or 1.0)
+    none: Any = None
+    ladder = Ladder(none, none, weights, target, 1.0, Effort(2e4), brisk=region)
+    candidate = candidate_of(ladder, "gains", problem, np.array(K, dtype=float))
+    assert candidate is not None
+    return ladder, candidate
+
+
+def test_damping_that_costs_little_is_taken_and_what_costs_much_is_told() -> None:
+    ladder, slow = found(SPRING, [[0.0, -0.02]])
+    assert slow.figures.damping < 0.07
+    taken = more_damped(ladder, slow)
+    assert taken.candidate.figures.damping >= 0.07 and not taken.notes
+    assert taken.candidate.figures.cost <= 1.15 * slow.figures.cost
+    cheap = replace(slow, figures=replace(slow.figures, cost=slow.figures.cost / 100))
+    kept = more_damped(ladder, cheap)
+    assert kept.candidate is cheap
+    [note] = kept.notes
+    assert "least damping ratio" in note and "would cost" in note and "computed" in note
+
+
+def test_a_damped_loop_is_left_alone() -> None:
+    ladder, calm = found(DOUBLE, LEAD, (1,))
+    before = ladder.effort.spent
+    assert calm.figures.damping >= 0.07
+    assert more_damped(ladder, calm).candidate is calm and ladder.effort.spent == before
+
+
+def test_the_seeming_box_is_one_that_can_be_proved() -> None:
+    _, candidate = found(SPRING, [[0.0, -1.0]])
+    part = box_part(candidate)
+    assert part is not None and 0.05 < part < 1
+    design = design_decentralized(SPRING, rate="1/5", aims=Aims(effort=1))
+    known = every_loop(design.loop.closed, design.region)
+    assert known.part is not None and known.failing is not None
+    seen = box_part(_candidate_of(design))
+    assert seen is not None and seen <= known.failing.distance
+    assert known.part <= 1.2 * seen
+
+
+def _candidate_of(design: Any) -> Candidate:
+    optimum = design.parts["optimum"]
+    return Candidate("", optimum.problem, optimum.K, optimum.figures, optimum.peaks)
+
+
+def test_no_box_is_sought_around_plants_that_have_radii() -> None:
+    _, candidate = found(SPRING, [[0.0, -1.0]])
+    boxed = Box.relative(SPRING, Fraction(1, 100)).system
+    network = decentralized_network(boxed)
+    problem = replace(candidate.problem, network=network)
+    assert box_part(replace(candidate, problem=problem)) is None
+
+
+def test_faster_loops_have_a_larger_box_and_the_box_is_reached_if_it_may_cost() -> None:
+    ladder, slow = found(SPRING, [[0.0, -0.02]])
+    small = box_part(slow)
+    assert small is not None and small < 0.05
+    wide = with_larger_box(ladder, slow, Fraction(1, 20), np.inf)
+    reached = box_part(wide.candidate)
+    assert reached is not None and reached >= 0.05 and not wide.notes
+    cheap = replace(slow, figures=replace(slow.figures, cost=slow.figures.cost / 100))
+    dear = with_larger_box(ladder, cheap, Fraction(1, 20))
+    assert dear.candidate is cheap and len(dear.notes) == 1
+    assert "computed" in dear.notes[0]
+
+
+@pytest.mark.parametrize("rate", ["1/5", 50])
+def test_the_fastest_loop_keeps_its_margins_and_faster_ones_fail(rate: Any) -> None:
+    ladder, start = found(DOUBLE, LEAD, (1,))
+    asked = StabilityRegion.of("continuous", rate=rate)
+    assert start.peaks.keep(MARGINS)
+    reached = fastest(ladder, start, asked)
+    assert reached is not None
+    best, region = reached
+    assert best.peaks.keep(MARGINS) and best.figures.bound < -float(region.edge)
+    assert region == asked if rate == "1/5" else region.edge < asked.edge
+
+
+def test_a_loop_without_margins_has_no_fastest_rate_with_them() -> None:
+    ladder, start = found(DOUBLE, LEAD, (1,))
+    hard = replace(ladder, target=replace(ladder.target, limits=Limits(1.9, 5.0)))
+    assert fastest(hard, start, StabilityRegion.of("continuous", rate=1)) is None
+
+
+def test_a_rate_that_no_loop_with_margins_has_is_answered_with_the_fastest_that_one_has() -> None:
+    asked, told = 8, list[str]()
+    design = design_decentralized(
+        DOUBLE, rate=asked, aims=Aims(effort=4, disk=0.9), progress=told.append
+    )
+    optimum = design.parts["optimum"]
+    assert design.stable and optimum.peaks.keep(Limits(0.9, 0.3))
+    [note] = design.notes
+    assert "a search, not a proof" in note and f"Re λ < -{asked}" in note
+    assert design.region.edge < asked
+    assert any(each.startswith("a slower rate, for the margins") for each in told)
+    values = np.linalg.eigvals(matrix_to_float(design.loop.matrix))
+    assert np.max(values.real) < -float(design.region.edge)
+    assert figures_of(optimum.problem, optimum.K, peak=False).bound == optimum.figures.bound
