@@ -247,7 +247,7 @@ def branch_tree(
         if len(nodes) == node_limit:
             raise LimitReached(
                 f"the branch tree reached its limit of {node_limit} nodes",
-                lower=_relaxation_bound(program, first),
+                lower=None if value is None else relaxation_bound(program, value)[0],
                 upper=value,
             )
         node = _node(program, value, lower, upper)
@@ -274,7 +274,7 @@ def _node(
     relaxed, duals = _relaxation(program, lower, upper)
     multipliers = _proving_multipliers(program, lower, upper, duals, value)
     if multipliers is not None:
-        return {"multipliers": [[k, y] for k, y in multipliers]}
+        return _leaf(multipliers)
     split = _most_fractional(relaxed)
     if split is not None:
         return {"variable": split, "at_most": math.floor(relaxed[split])}
@@ -286,15 +286,35 @@ def _node(
     return {"variable": widest, "at_most": lower[widest] + (widths[widest] - 1) // 2}
 
 
-def _relaxation_bound(program: CoveringProgram, upper: Sequence[int | None]) -> Fraction:
-    """A proved lower bound on the cost of every point below ``upper``, from the relaxation."""
+def relaxation_bound(program: CoveringProgram, value: Fraction) -> tuple[Fraction, Tree]:
+    """A lower bound of every cost from the linear relaxation, and the tree that proves it.
+
+    Parameters
+    ----------
+    program : CoveringProgram
+    value : Fraction
+        The cost of some point of the program.
+
+    Notes
+    -----
+    The tree is one leaf.  Its multipliers bound the points that cost less than ``value``, and so
+    all the more those that cost less than the bound, whose upper bounds are tighter.
+    """
+    upper = [_tighter(u, value, c) for u, c in zip(program.upper, program.costs, strict=True)]
     lower = (0,) * len(program.costs)
-    if program.violated_cut(upper) is not None:
-        return Fraction(0)
     _, duals = _relaxation(program, lower, upper)
-    multipliers = _multipliers(program, duals, _MULTIPLIER_DENOMINATORS[-1])
-    bound = leaf_bound(program, lower, upper, multipliers) or Fraction(0)
-    return Fraction(math.ceil(bound * program.grid), program.grid)
+    best, leaf = Fraction(0), _leaf([])
+    for denominator in _MULTIPLIER_DENOMINATORS:
+        multipliers = _multipliers(program, duals, denominator)
+        bound = leaf_bound(program, lower, upper, multipliers) or Fraction(0)
+        rounded = Fraction(math.ceil(bound * program.grid), program.grid)
+        if rounded > best:
+            best, leaf = rounded, _leaf(multipliers)
+    return best, (leaf,)
+
+
+def _leaf(multipliers: Sequence[tuple[int, Fraction]]) -> Node:
+    return {"multipliers": [[k, y] for k, y in multipliers]}
 
 
 def _tighter(upper: int | None, value: Fraction | None, cost: Fraction) -> int | None:

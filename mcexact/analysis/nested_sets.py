@@ -176,8 +176,12 @@ def nested_sets(
     return None
 
 
-def largest_lower_bound(program: CoveringProgram, factors: Sequence[Inequalities]) -> Fraction:
-    """The largest least cost of one factor alone, below which no dimensions suffice.
+def largest_lower_bound(
+    program: CoveringProgram, factors: Sequence[Inequalities]
+) -> NestedSets | None:
+    """Nested sets that prove the largest least cost of one factor alone.
+
+    No dimensions of a smaller cost suffice; None if no factor has such a proof.
 
     Parameters
     ----------
@@ -188,4 +192,5 @@ def largest_lower_bound(program: CoveringProgram, factors: Sequence[Inequalities
     """
     free = replace(program, upper=(None,) * len(program.costs), cuts=())
     proofs = (nested_sets(free, None, inequalities) for inequalities in factors)
-    return max((proof.cost for proof in proofs if proof is not None), default=Fraction(0))
+    found = [proof for proof in proofs if proof is not None]
+    return max(found, key=lambda proof: proof.cost, default=None)

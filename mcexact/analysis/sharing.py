@@ -41,9 +41,15 @@ from mcexact.analysis.covering import (
     Tree,
     branch_tree,
     minimize,
+    relaxation_bound,
 )
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.analysis.nested_sets import Inequalities, largest_lower_bound, nested_sets
+from mcexact.analysis.nested_sets import (
+    Inequalities,
+    NestedSets,
+    largest_lower_bound,
+    nested_sets,
+)
 from mcexact.analysis.structure import (
     suspected_edges,
     transfer_graph,
@@ -302,6 +308,9 @@ class CoveringProblem:
     by_factor : callable
         The inequalities of each factor at whose roots rank is lost, from which nested sets may be
         chosen: for one factor alone they prove the optimum in place of a branch tree.
+    bounds : bool
+        Whether a lower bound serves at the node limit, where the cheapest point found is not proved
+        to be the cheapest.
     """
 
     kind: str
@@ -311,6 +320,7 @@ class CoveringProblem:
     region: StabilityRegion | None = None
     connected: bool = False
     by_factor: Callable[[], Sequence[Inequalities]] = tuple
+    bounds: bool = False
 
 
 @dataclass(frozen=True)
@@ -322,6 +332,8 @@ class CoveringOptimum:
     values : tuple of int, or None
         The point; None if no point satisfies all cuts.
     cost : Fraction or None
+    at_least : Fraction or None
+        What every point costs at least, if the tree does not prove that none is cheaper.
     absence : BlocksAbsence, Absence or None
         The evidence that the system has the required properties at ``values``.
     cuts : tuple of CoveringCut
@@ -331,6 +343,7 @@ class CoveringOptimum:
 
     values: tuple[int, ...] | None
     cost: Fraction | None
+    at_least: Fraction | None
     absence: BlocksAbsence | Absence | None
     cuts: tuple[CoveringCut, ...]
     nodes: Tree
@@ -379,8 +392,8 @@ def covering_optimum(problem: CoveringProblem, node_limit: int) -> CoveringOptim
     UsageError
         If the node limit is not an integer of at least 1.
     LimitReached
-        At the node limit, where its ``lower`` and ``upper`` bound the least cost; or if the prices
-        are too far apart.
+        At the node limit, where its ``lower`` and ``upper`` bound the least cost, unless the
+        problem takes a lower bound instead; or if the prices are too far apart.
 
     Notes
     -----
@@ -395,7 +408,8 @@ def covering_optimum(problem: CoveringProblem, node_limit: int) -> CoveringOptim
     while True:
         values = minimize(program, canonical=canonical)
         if values is None:
-            return CoveringOptimum(None, None, None, *_proof(program, None, node_limit))
+            tree = branch_tree(program, None, node_limit=node_limit)
+            return CoveringOptimum(None, None, None, None, program.cuts, tree)
         system = problem.system(values)
         cuts = problem.violated(values, system)
         if canonical and not cuts:
@@ -403,43 +417,58 @@ def covering_optimum(problem: CoveringProblem, node_limit: int) -> CoveringOptim
         canonical = canonical or not cuts
         program = replace(program, cuts=(*program.cuts, *cuts))
     cost = program.cost(values)
-    proof = _by_nested_sets(problem, program, cost) or _proof(
-        program, cost, node_limit, problem.by_factor
-    )
+    proof = _by_nested_sets(problem, program, cost) or _proof(problem, program, cost, node_limit)
     rng = generator(system, problem.kind)
     evidence = absence(system, problem.region, rng, connected=problem.connected)
-    return CoveringOptimum(values, cost, evidence, *proof)
+    return CoveringOptimum(
+        values, cost, None if proof.bound == cost else proof.bound, evidence, proof.cuts, proof.tree
+    )
+
+
+@dataclass(frozen=True)
+class _Proof:
+    """Cuts, and a tree which proves that they leave no cost below a bound."""
+
+    bound: Fraction
+    cuts: tuple[CoveringCut, ...]
+    tree: Tree
+
+    @classmethod
+    def of(cls, proof: NestedSets, most: Fraction) -> _Proof:
+        return cls(min(proof.cost, most), proof.cuts, proof.tree)
 
 
 def _by_nested_sets(
     problem: CoveringProblem, program: CoveringProgram, cost: Fraction
-) -> tuple[tuple[CoveringCut, ...], Tree] | None:
-    """The cuts of nested sets that prove the cost, if one factor alone loses rank."""
+) -> _Proof | None:
+    """The nested sets that prove the cost, if one factor alone loses rank."""
     if not cost or any(limit is not None for limit in program.upper):
         return None
     factors = problem.by_factor()
     proof = nested_sets(program, cost, factors[0]) if len(factors) == 1 else None
-    return None if proof is None else (proof.cuts, proof.tree)
+    return None if proof is None else _Proof.of(proof, cost)
 
 
 def _proof(
-    program: CoveringProgram,
-    cost: Fraction | None,
-    node_limit: int,
-    by_factor: Callable[[], Sequence[Inequalities]] = tuple,
-) -> tuple[tuple[CoveringCut, ...], Tree]:
+    problem: CoveringProblem, program: CoveringProgram, cost: Fraction, node_limit: int
+) -> _Proof:
     """The cuts and the branch tree that prove that nothing is cheaper.
 
-    At the node limit nested sets of each factor give another lower bound.
+    At the node limit the linear relaxation, and nested sets of each factor, prove lower bounds.
     """
     try:
-        return program.cuts, branch_tree(program, cost, node_limit=node_limit)
+        return _Proof(cost, program.cuts, branch_tree(program, cost, node_limit=node_limit))
     except LimitReached as error:
         if error.lower is None:
             raise
-        lower = max(error.lower, largest_lower_bound(program, by_factor()))
-        message = f"{error.message}; the least cost is between {lower} and {cost}"
-        raise LimitReached(message, lower=lower, upper=cost) from None
+        if not problem.bounds:
+            message = f"{error.message}; the least cost is between {error.lower} and {cost}"
+            raise LimitReached(message, lower=error.lower, upper=cost) from None
+    bound, tree = relaxation_bound(program, cost)
+    one_factor = largest_lower_bound(program, problem.by_factor())
+    if one_factor is not None and one_factor.cost > bound:
+        return _Proof.of(one_factor, cost)
+    return _Proof(min(bound, cost), program.cuts, tree)
 
 
 # The largest deficiency n − rank P_s(λ): on (A, B_i, C_{N_i}) it is the bound of Theorem 2.
@@ -596,7 +625,9 @@ def minimal_shared_dimensions(
         Require also a strongly connected extended transfer graph, so that the whole closed-loop
         spectrum is freely assignable.
     node_limit : int
-        The number of nodes of the branch tree after which the search ends, at least 1.
+        The number of nodes of the branch tree after which the search ends, at least 1.  The answer
+        then has dimensions that suffice, and in ``at_least`` a bound below which no cost does; both
+        are certified.
 
     Raises
     ------
@@ -604,8 +635,7 @@ def minimal_shared_dimensions(
         If there is no neighbor graph, the system is a derived one, or a price, an upper limit,
         the rate, the radius or the node limit is out of range.
     LimitReached
-        At the node limit, where its ``lower`` and ``upper`` bound the least cost; or if the prices
-        are too far apart.
+        At the node limit if no dimensions suffice, or if the prices are too far apart.
 
     Notes
     -----
@@ -647,7 +677,14 @@ def minimal_shared_dimensions(
         return _by_factor(base, factors, neighbors, extended) if not free_assignability else []
 
     problem = CoveringProblem(
-        SharedDimensions.kind, program, extended, violated, region, free_assignability, by_factor
+        SharedDimensions.kind,
+        program,
+        extended,
+        violated,
+        region,
+        free_assignability,
+        by_factor,
+        bounds=True,
     )
     least = covering_optimum(problem, node_limit).with_cuts_of_leaves()
     return SharedDimensions(
@@ -660,6 +697,7 @@ def minimal_shared_dimensions(
         feasible=least.values is not None,
         dimensions=least.values,
         cost=least.cost,
+        at_least=least.at_least,
         absence=least.absence,
         cuts=tuple(cut.evidence for cut in least.cuts),
         tree=least.tree("agent", system.names),

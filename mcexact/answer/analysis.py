@@ -273,6 +273,11 @@ def _least_templates(key: str, before: str, alone: str) -> tuple[Template, ...]:
             label=label,
             claims=False,
         ),
+        Template(
+            f"least-{key}-between",
+            before + "{sizes:shared} suffice, fewer than {lower:int} in all do not{time:instant}",
+            label=label,
+        ),
     )
 
 
@@ -457,6 +462,11 @@ def _links_remove(minimal_communication: Claim, fixed_spectrum: Claim, context: 
 
 
 def usual(least: Claim, share: str) -> bool:
+    """Whether an answer has the fewest states with which no mode is fixed."""
+    return asked_usually(least, share) and not least.has("at_least")
+
+
+def asked_usually(least: Claim, share: str) -> bool:
     """Whether an answer is about the fewest states with which no mode is fixed."""
     return (
         least.share == share

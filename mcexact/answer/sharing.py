@@ -14,9 +14,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.answer import analysis as say
-from mcexact.answer.analysis import Said, empty, fewest, usual
+from mcexact.answer.analysis import Said, asked_usually, empty, fewest
 from mcexact.answer.evidence import (
     Absence,
     Block,
@@ -155,6 +156,8 @@ class Deficiency(Answer):
 class SharedDimensions(Answer):
     """The least dimensions with which the extended system has no fixed mode, if any exist.
 
+    With ``at_least`` they are dimensions that suffice, and not proved to be the least.
+
     Attributes
     ----------
     share : str
@@ -173,6 +176,9 @@ class SharedDimensions(Answer):
         The optimal n_i; None if no dimensions suffice.
     cost : Fraction or None
         Σ c_i n_i.
+    at_least : Fraction or None
+        A smaller cost, below which no dimensions suffice, where the search reached its node limit;
+        None if no dimensions below ``cost`` suffice.
     absence : BlocksAbsence, Absence or None
     cuts : tuple of DeficiencyCut and ConnectivityCut
     tree : Tree
@@ -186,6 +192,7 @@ class SharedDimensions(Answer):
     feasible: bool = claim()
     dimensions: tuple[int, ...] | None = claim()
     cost: Fraction | None = claim()
+    at_least: Fraction | None = claim(optional=True)
     absence: BlocksAbsence | Absence | None = witness()
     cuts: tuple[DeficiencyCut | ConnectivityCut, ...] = witness()
     tree: Tree = witness()
@@ -417,18 +424,21 @@ def _sharing_rules(share: str, stem: str) -> None:
 
 def _least_rules(share: str, stem: str) -> None:
     """Make the rules of the least dimensions for one way of sharing."""
-    some, none, impossible, limit = say.LEAST[share]
+    some, none, impossible, limit, between = say.LEAST[share]
     question = f"minimal_shared_dimensions_{stem}"
 
-    @sharing_rule("table", some, none, impossible, premises=(question,))
+    @sharing_rule("table", some, none, impossible, between, premises=(question,))
     def _least_of(least: Claim, context: Context) -> Said:
-        if not usual(least, share):
+        if not asked_usually(least, share):
             return
         if least.dimensions is None:
             yield impossible()
+            return
+        sizes, time = list(zip(context.names, least.dimensions, strict=True)), context.delays
+        if least.has("at_least"):
+            yield between(sizes=sizes, lower=least.at_least, time=time)
         else:
-            sizes = list(zip(context.names, least.dimensions, strict=True))
-            yield (some if any(least.dimensions) else none)(sizes=sizes, time=context.delays)
+            yield (some if any(least.dimensions) else none)(sizes=sizes, time=time)
 
     @sharing_rule("table", limit, missing=question)
     def _least_open(context: Context) -> Said:
@@ -463,6 +473,11 @@ LEAST = Template(
     "{name:name}: {price:price} shared states {share:share} so that {scope:scope}"
     "{limits:limits}{time:instant}",
 )
+WITHIN = Template(
+    "allocate-within",
+    "{name:name}: shared states {share:share} so that {scope:scope}{limits:limits}{time:instant}: "
+    "{sizes:shared} suffice, at a cost of {cost:number}, and nothing below {lower:number} does",
+)
 IMPOSSIBLE = Template(
     "allocate-impossible",
     "{name:name}: no shared states {share:share} suffice so that {scope:scope}{limits:limits}",
@@ -479,6 +494,10 @@ COST_PROOF = Template(
     "allocate-cost-proof",
     "least cost {cost:number}; proved with {cuts:count subset} and a branch tree of "
     "{nodes:count node}",
+)
+WITHIN_PROOF = Template(
+    "allocate-within-proof",
+    "the lower bound is proved with {cuts:count subset}; what lies between is not decided",
 )
 NESTED_PROOF = Template(
     "allocate-nested-proof",
@@ -511,11 +530,16 @@ ALLOCATION_RULES = Rulebook()
 allocation_rule = ALLOCATION_RULES.rule
 
 
-@allocation_rule("title", LEAST, IMPOSSIBLE, premises=("minimal_shared_dimensions",))
+@allocation_rule("title", LEAST, WITHIN, IMPOSSIBLE, premises=("minimal_shared_dimensions",))
 def _least(minimal_shared_dimensions: Claim, context: Context) -> Said:
     least = minimal_shared_dimensions
     template = IMPOSSIBLE if least.dimensions is None else LEAST
+    within: dict[str, Any] = {}
+    if least.has("at_least"):
+        sizes = list(zip(context.names, least.dimensions, strict=True))
+        template, within = WITHIN, {"sizes": sizes, "cost": least.cost, "lower": least.at_least}
     yield template(
+        **within,
         name=context.name or "system",
         share=least.share,
         scope=(context.time, least.bound, least.free_assignability),
@@ -552,7 +576,7 @@ def _rows(
     Theorem 2 says that no mode is fixed, but not that the whole spectrum is assignable.
     """
     least, reach = minimal_shared_dimensions, (joint_controllability, joint_observability)
-    if least.dimensions is None:
+    if least.dimensions is None or least.has("at_least"):
         return
     row, total, k = ROW, TOTAL, 0
     outputs = least.share == "outputs+states"
@@ -574,13 +598,16 @@ def _rows(
     COST_PROOF,
     NESTED_PROOF,
     NESTED_COST_PROOF,
+    WITHIN_PROOF,
     premises=("minimal_shared_dimensions",),
 )
 def _proof(minimal_shared_dimensions: Claim, context: Context) -> Said:
     least = minimal_shared_dimensions
     if least.dimensions is not None:
         equal, weights = all(cost == 1 for cost in least.costs), context.multiplicities
-        if weights is None:
+        if least.has("at_least"):
+            template = WITHIN_PROOF
+        elif weights is None:
             template = PROOF if equal else COST_PROOF
         else:
             disjoint = equal and all(y == 1 for y in weights)

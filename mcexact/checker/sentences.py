@@ -573,6 +573,11 @@ _enter_bound("enough-nothing", PLANT, "extended_bound.remark_2", positive=False)
 # The least dimensions.
 
 
+def proved_least(least: Premise) -> bool:
+    """Whether the cost is the least, and not only between two bounds."""
+    return "at_least" not in least.document["claim"]
+
+
 def usual(least: Premise, share: str) -> bool:
     """Whether the least number is asked for, without limits, so that no mode at all is fixed."""
     asked = least["share"] == share and least["bound"] is None and not least["free_assignability"]
@@ -585,19 +590,25 @@ def _enter_least(share: str, key: str, some: str = "", none: str = "", never: st
 
     def feasible(premise: Premise, positive: bool) -> bool:
         return (
-            usual(premise, share) and premise["feasible"] and any(premise["dimensions"]) == positive
+            usual(premise, share)
+            and premise["feasible"]
+            and proved_least(premise)
+            and any(premise["dimensions"]) == positive
         )
 
     restate(f"{key} {some}", LEAST, partial(feasible, positive=True))
     restate(f"{key}-none {none}", LEAST, partial(feasible, positive=False))
     restate(f"{key}-impossible {never}", LEAST, lambda c: usual(c, share) and not c["feasible"])
+    restate(f"{key}-between", LEAST, lambda c: usual(c, share) and not proved_least(c))
 
 
 BOTH = ("sharing-removes", "outputs-remove", "no-sharing")
 _enter_least("outputs+states", "least-outputs-states", *BOTH)
 _enter_least("states", "least-states")
 ALLOCATED = "allocate-least allocate-row allocate-total"
-either(ALLOCATED, "allocate-impossible", LEAST, lambda c: c["feasible"])
+restate(ALLOCATED, LEAST, lambda c: c["feasible"] and proved_least(c))
+restate("allocate-impossible", LEAST, lambda c: not c["feasible"])
+restate("allocate-within", LEAST, lambda c: not proved_least(c))
 
 
 def _enter_common(share: str, key: str, name: str) -> None:
@@ -629,6 +640,7 @@ def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
     fits = bound.path == (HEARD if least["share"] == "outputs+states" else PLANT)[0]
     bound.expect(fits, "the bound is for the other way of sharing")
     least.expect(least["feasible"] and not least["free_assignability"], "more is asked for")
+    least.expect(proved_least(least), "not proved to be the least")
     more = enough(bound, *hypotheses).removeprefix(f"{least.about}: ")
     return f"{least.statement}; {more}"
 
@@ -637,14 +649,23 @@ def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
 @rule("allocate-links-proof", LINKS)
 def _proved(least: Premise) -> str:
     """The claim, with the numbers of cuts and of nodes that prove that nothing costs less."""
+    least.expect(proved_least(least), "not proved to be the least")
     cuts, nodes = (len(least.witness[key]) for key in ("cuts", "tree"))
     return f"{least.statement}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
+
+
+@rule("allocate-within-proof", LEAST)
+def _bounded(least: Premise) -> str:
+    """The claim with both bounds, and the number of cuts that prove the lower one."""
+    least.expect(not proved_least(least), "proved to be the least")
+    return f"{least.statement}, by {counted(len(least.witness['cuts']), 'cut')}"
 
 
 @rule("allocate-nested-proof allocate-nested-cost-proof", LEAST)
 def _nested(least: Premise) -> str:
     """The claim, with the nested sets that prove that nothing costs less."""
     tree = least.witness["tree"]
+    least.expect(proved_least(least), "not proved to be the least")
     least.expect(bool(tree) and "nested" in tree[0], "proved by a branch tree")
     listed = ", ".join(
         f"{channel_set(least.witness['cuts'][number]['subset'])} {y} times"

@@ -30,8 +30,8 @@ Upper = Sequence[int | None]
 class Program:
     """Minimize Σ c_i x_i over integers with Σ_{i ∈ S} x_i ≥ d for every cut (S, d).
 
-    ``labels`` are the names of the variables in the tree, under the key ``key``; without a
-    ``value`` the tree has to show that the cuts have no common point.
+    ``labels`` are the names of the variables in the tree, under the key ``key``; the tree has to
+    show that nothing costs less than ``value``, or without it that the cuts have no common point.
     """
 
     costs: Sequence[Fraction]
@@ -115,10 +115,13 @@ class Program:
 def check_shared_dimensions(claim: Json, witness: Json, system: System) -> None:
     """Check that the dimensions suffice, every cut, and the tree that excludes a lower cost.
 
+    Where `at_least` is claimed, the tree excludes what costs less than that.
+
     Theorems ``allocation.branch_tree``, ``allocation.branch_tree_infeasible``.
     """
     keys = ("share", "bound", "free_assignability", "costs", "upper", "feasible", "dimensions")
-    share, limit, free, prices, most, _, sizes, _ = fields(claim, "claim", *keys, "cost")
+    found = fields(claim, "claim", *keys, "cost", optional=("at_least",))
+    share, limit, free, prices, most, _, sizes, _, least = found
     absence, listed, tree = fields(witness, "witness", "absence", "cuts", "tree")
     reading.string(share, "claim.share", *SHARED)
     bound = modes.read_rate_or_radius(limit, system)
@@ -141,6 +144,11 @@ def check_shared_dimensions(claim: Json, witness: Json, system: System) -> None:
         total = sum(n_i * c for n_i, c in zip(sizes, costs, strict=True))
         right = fits and value == total
         require(right, "claim", "claim.cost", "not the cost of dimensions below `upper`")
+    if least is not None:
+        below = reading.rational(least, "claim.at_least")
+        less = value is not None and 0 <= below < value
+        require(less, "claim", "claim.at_least", "expected less than the cost, and at least 0")
+        value = below
     program = Program(costs, cuts, "agent", system.names, value)
     first = tree[0] if isinstance(tree, list) and tree else None
     if isinstance(first, dict) and "nested" in first:
@@ -196,7 +204,10 @@ def shared_dimensions_statement(claim: Json, system: System) -> str:
     end = f"dimensions with the upper bounds {upper} and the costs {costs} of one dimension each"
     if not claim["feasible"]:
         return f"{start} no {end}"
-    return f"{start} the dimensions {sizes} of cost {claim['cost']}, and for no cheaper {end}"
+    cheaper = "no cheaper"
+    if "at_least" in claim:
+        end, cheaper = f"{end}, of cost below {claim['at_least']}", "no"
+    return f"{start} the dimensions {sizes} of cost {claim['cost']}, and for {cheaper} {end}"
 
 
 def read_cut(

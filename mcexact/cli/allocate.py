@@ -15,6 +15,7 @@ from mcexact.cli.commands import DEFINITE_NO
 from mcexact.cli.files import require_apart, require_page, write_result
 from mcexact.cli.results import Allocated
 from mcexact.cli.running import Rechecked, Run, show_tables
+from mcexact.errors import LimitReached
 
 
 @click.command(name="allocate", short_help="Find the least that agents must share, and prove it.")
@@ -72,7 +73,8 @@ from mcexact.cli.running import Rechecked, Run, show_tables
     type=click.IntRange(min=1),
     default=10_000,
     show_default=True,
-    help="Number of nodes of the branch tree after which the search ends with status 4.",
+    help="Number of nodes of the branch tree after which the search ends with status 4, and with "
+    "dimensions that suffice and a lower bound.",
 )
 @options.page("the answers, a picture and all certificates")
 @options.answering
@@ -106,6 +108,8 @@ def command(file: str, **values: Any) -> int:
 
     about = f"the answers about {plant[0]}"
     run.conclude(answer, show_tables(answer), about=about, write=write).require_complete()
+    if answer.within:
+        return LimitReached.exit_status
     return 0 if answer.feasible else DEFINITE_NO
 
 

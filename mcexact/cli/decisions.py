@@ -292,13 +292,14 @@ def allocated(
         tables=tables(account.sentences, note=account.reading),
         page=page,
         feasible=least.feasible,
+        within=getattr(least, "at_least", None) is not None,
     )
 
 
 def _shares(account: Account) -> dict[str, Any]:
     """The dimensions by agent and in all: the least, and those of a bound that holds."""
     least = account.answers.get("minimal_shared_dimensions")
-    if least is None or least.dimensions is None:
+    if least is None or least.dimensions is None or least.at_least is not None:
         return {}
     holds = any(each.template.key == ROW_BOUND.key for each in account.sentences)
     k = account.answers["shared_dimension_bound"].deficiency if holds else None

@@ -173,9 +173,18 @@ class Analyzed(Shown):
 
 @dataclass(frozen=True)
 class Allocated(Shown):
-    """What agents must share; ``feasible`` says whether any dimensions or links suffice."""
+    """What agents must share.
+
+    Attributes
+    ----------
+    feasible : bool
+        Whether any dimensions or links suffice.
+    within : bool
+        Whether the cost is not proved to be the least, and only bounded from below.
+    """
 
     feasible: bool
+    within: bool
 
 
 @dataclass(frozen=True)

@@ -231,7 +231,7 @@ def dimensions_picture(account: Account) -> Picture:
     ):
         sizes = (0,) * len(names) if answer.dimensions is None else answer.dimensions
         bound = answers[_BOUNDS[share]].deficiency if holds else None
-        _draw_bars(axis, names, sizes, bound, share)
+        _draw_bars(axis, names, sizes, bound, share, _of_bars(answer))
     caption = "; ".join(each.line for each in lines) + "."
     return Picture(figure, "".join(sentences.at("dimensions.title")), caption)
 
@@ -249,15 +249,26 @@ def allocation_picture(account: Account) -> Picture:
     bound = account.answers["shared_dimension_bound"].deficiency if compared else None
     names = account.given.names
     figure = empty_figure(max(4.4, min(1.5 + 0.3 * len(names), 9.0)), 3.2)
-    _draw_bars(figure.subplots(), names, least.dimensions, bound, least.share)
-    words = "The least dimension that each agent shares."
+    label = _of_bars(least)
+    _draw_bars(figure.subplots(), names, least.dimensions, bound, least.share, label)
+    words = f"The {label} dimension that each agent shares."
     return Picture(
         figure, "Dimensions", words + (" Gray: the bound of the paper." if compared else "")
     )
 
 
+def _of_bars(answer: Any) -> str:
+    """What the bars of dimensions are: proved to be the least, or only to suffice."""
+    return "least" if answer.at_least is None else "sufficient"
+
+
 def _draw_bars(
-    axis: Any, names: Sequence[str], sizes: Sequence[int], bound: int | None, title: str
+    axis: Any,
+    names: Sequence[str],
+    sizes: Sequence[int],
+    bound: int | None,
+    title: str,
+    label: str,
 ) -> None:
     """A bar for each agent, beside a gray one for the bound."""
     places = range(len(names))
@@ -269,7 +280,7 @@ def _draw_bars(
             color="#bbbbbb",
             label="bound of the paper",
         )
-    axis.bar([k + 0.2 for k in places], sizes, 0.4, color=MARKED, label="least")
+    axis.bar([k + 0.2 for k in places], sizes, 0.4, color=MARKED, label=label)
     turned = 90 if len(names) > _NAMED or max(map(len, names)) > _NAMED else 0
     axis.set_xticks(list(places), names, parse_math=False, rotation=turned)
     axis.set_yticks(range(max(bound or 0, *sizes, 1) + 1))

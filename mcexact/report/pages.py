@@ -32,6 +32,10 @@ _SHARED = (
     "The least that the agents must share, with a proof that less does not suffice.",
     "The least dimensions",
 )
+_WITHIN = (
+    "What suffices for the agents to share, with a proof of the cost below which nothing does.",
+    "Dimensions that suffice",
+)
 _LINKS = (
     "The cheapest links to add, with a proof that cheaper ones do not suffice.",
     "The links to add",
@@ -75,7 +79,9 @@ def allocation_page(account: Account) -> AnswerPage:
     system, sentences = account.given.system, account.sentences
     linked = account.answers.get("minimal_communication")
     least = account.answers["minimal_shared_dimensions"] if linked is None else linked
-    heading, title = _SHARED if linked is None else _LINKS
+    heading, title = _LINKS
+    if linked is None:
+        heading, title = _SHARED if least.at_least is None else _WITHIN
     drawn = []
     if least.feasible:
         drawn.append((allocation_picture if linked is None else links_picture)(account))

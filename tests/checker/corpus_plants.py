@@ -23,6 +23,7 @@ from mcexact.analysis.sharing import (
 from mcexact.analysis.single_channel import single_channel_gains
 from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.protocol import document
+from mcexact.answer.sharing import SharedDimensions
 from mcexact.derived.constructions import (
     Share,
     dual,
@@ -30,7 +31,7 @@ from mcexact.derived.constructions import (
     extended_system,
     setpoint_system,
 )
-from mcexact.errors import McexactError
+from mcexact.errors import InputError, McexactError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
@@ -54,6 +55,7 @@ from tests.checker import (
 )
 from tests.checker.box_plants import OF_ONE_PLANT
 from tests.checker.handmade import Document
+from tests.checker.polynomials import generous
 from tests.checker.test_fixed_spectrum import UNEVEN
 from tests.oracle.drawn.certificates import certified
 from tests.oracle.drawn.observers import drawn_observer
@@ -87,6 +89,14 @@ def analyses(system: MultiChannelSystem, gains: bool = True) -> Found:
             yield from map(document, analysis.decided().values())
 
 
+def _more(decide: Callable[[], SharedDimensions]) -> SharedDimensions:
+    """More than the least, if anything suffices."""
+    least = decide()
+    if not least.feasible:
+        raise InputError("nothing suffices")
+    return generous(least)
+
+
 def allocations(system: MultiChannelSystem) -> Found:
     """The least that agents have to share, at some prices and within some limits."""
     region = StabilityRegion(system.time, Fraction(1, 2))
@@ -98,6 +108,7 @@ def allocations(system: MultiChannelSystem) -> Found:
             least,
             partial(least, free_assignability=True),
             partial(least, region=region),
+            partial(_more, least),
         )
     yield from told(
         lambda: minimal_shared_dimensions(system, costs=[*range(1, m + 1)]),

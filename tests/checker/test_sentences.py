@@ -45,6 +45,7 @@ from tests.checker.box_plants import OF_ONE_PLANT
 from tests.checker.handmade import Document, changed
 from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.parameter_plants import HELD, LOOP_DAMPED, LOOP_SAMPLED, OBSERVED, QUARTERS
+from tests.checker.polynomials import generous
 from tests.checker.test_complementary_subsystem import TWICE
 from tests.checker.test_fixed_spectrum import UNEVEN
 from tests.checker.test_sentences_design import OF_DESIGNS
@@ -128,6 +129,8 @@ OPPOSITE = [
     ("neighbor-graph-connected", "neighbor-graph-not-connected"),
     ("setpoint-stable-rest", "setpoint-unstable-rest"),
     ("allocate-least", "allocate-impossible"),
+    ("allocate-least", "allocate-within"),
+    ("allocate-within", "allocate-impossible"),
     ("subsystem-zeros", "subsystem-no-zeros"),
     ("lifted-nothing-fixed", "lifted-fixed"),
     ("held-nothing-fixed", "held-fixed"),
@@ -139,7 +142,7 @@ ALWAYS = {
     *("picture-transfer-graph", "complete"),
     *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),
     *("members-stabilizable", "members-setpoints"),
-    *("allocate-proof", "allocate-cost-proof", "allocate-links-proof"),
+    "allocate-links-proof",
     "sharing-gap",
 }
 """What holds of every certificate of its kind: the words say what it is that holds."""
@@ -164,6 +167,10 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
     evidence += [{"a": changed(BLIND, ("claim.channels", ["1"]))}]
     evidence += [{"a": changed(CUT, ("claim.property", "both"))}]
     evidence += [{"a": document(least)} for least in infeasible()]
+    evidence += [
+        {"a": document(generous(minimal_shared_dimensions(PAPER, RING, share)))}
+        for share in get_args(Share)
+    ]
     evidence += [{"a": each} for each in OF_ONE_PLANT]
     near = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/100").system
     evidence += [{"a": document(box_setpoints(near))}]

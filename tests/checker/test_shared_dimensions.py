@@ -15,7 +15,7 @@ from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.handmade import Document, changed, checked, matrix, plant
-from tests.checker.polynomials import by_polynomials
+from tests.checker.polynomials import by_polynomials, generous
 from tests.checker.tables import accepts, rejects
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
@@ -57,6 +57,10 @@ STABLE = by_a_tree(
 )
 SPLIT: list[Document] = [{"agent": "1", "at_most": 0}, {"violated": 0}, {"violated": 0}]
 
+WITHIN = document(generous(minimal_shared_dimensions(PLANT, RING)))
+"""One state of each agent and one more of agent 3, at a cost of 4, where 1 is the least."""
+CHAIN_WITHIN = document(generous(minimal_shared_dimensions(ROW)))
+
 DECAYS = changed(
     NOTHING,
     ("system.A", [[-2, 0, 0], [0, -2, 0], [0, 1, -2]]),
@@ -86,6 +90,11 @@ ACCEPTED = [
             *101 * STATES["witness"]["tree"],
         ]),
     )),
+    ("dimensions that suffice, with a lower bound", WITHIN),
+    ("the same bound by a tree", by_a_tree(WITHIN)),
+    ("a lower bound below what is proved", changed(WITHIN, ("claim.at_least", "1/2"))),
+    ("a lower bound of 0", changed(WITHIN, ("claim.at_least", 0), ("witness.tree.0.nested", []))),
+    ("a lower bound by nested sets", CHAIN_WITHIN),
     ("nested sets", NESTED),
     ("nested sets with multiplicities", PRICED),
     ("the same sets in a tree", by_a_tree(NESTED)),
@@ -112,6 +121,16 @@ def impossible(sources: list[str], X: list[list[int]]) -> tuple[tuple[str, Any],
 
 
 REJECTED = [
+    ("a lower bound above what is proved", WITHIN, ("claim.at_least", 2)),
+    ("the same by a tree", by_a_tree(WITHIN), ("claim.at_least", 2)),
+    ("a lower bound as large as the cost", BOTH, ("claim.at_least", 1)),
+    ("a lower bound above the cost", BOTH, ("claim.at_least", 2)),
+    ("a negative lower bound", WITHIN, ("claim.at_least", -1)),
+    ("a lower bound of null", BOTH, ("claim.at_least", None)),
+    ("a lower bound in words", WITHIN, ("claim.at_least", "one")),
+    ("the least, by the proof of a lower bound", changed(WITHIN), ("claim.cost", 1)),
+    ("a lower bound where nothing suffices", NOTHING, ("claim.at_least", 0)),
+    ("a lower bound of a set left out", CHAIN_WITHIN, ("witness.tree.0.nested", [[0, 1], [2, 1]])),
     ("nested sets, the largest first", NESTED, ("witness.tree.0.nested", [[2, 1], [1, 1], [0, 1]])),
     ("one nested set three times", NESTED, ("witness.tree.0.nested", [[0, 1], [0, 1], [0, 1]])),
     ("a nested set left out", NESTED, ("witness.tree.0.nested", [[0, 1], [2, 1]])),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -13,11 +14,12 @@ from mcexact.analysis.sharing import (
     minimal_shared_dimensions,
     shared_dimension_bound,
 )
+from mcexact.answer.check import check
 from mcexact.answer.protocol import Answer, encode
 from mcexact.answer.sharing import SharedDimensions
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import augmented_outputs, extended_system
-from mcexact.errors import InputError, LimitReached, UsageError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
@@ -190,9 +192,33 @@ def test_free_assignability_asks_for_a_connected_graph_besides() -> None:
 
 
 def test_the_node_limit_ends_with_what_is_proved() -> None:
-    with pytest.raises(LimitReached, match="limit of 1 nodes") as stopped:
-        minimal_shared_dimensions(triangles(2), node_limit=1)
-    assert (stopped.value.lower, stopped.value.upper) == (3, 4)
+    found = minimal_shared_dimensions(triangles(2), node_limit=1)
+    assert (found.at_least, found.cost) == (3, 4)
+    assert found.dimensions is not None and sum(found.dimensions) == 4
+    assert len(found.tree) == 1 and check(found).verdict == "VALID"
+    exact = minimal_shared_dimensions(triangles(2))
+    assert (exact.at_least, exact.cost) == (None, 4)
+
+
+@pytest.mark.parametrize("change", [4, "7/2", 5, -1])
+def test_a_lower_bound_beyond_what_is_proved_is_refused(change: Any) -> None:
+    found = minimal_shared_dimensions(triangles(2), node_limit=1)
+    assert check(replace(found, at_least=Fraction(change))).verdict != "VALID"
+
+
+def test_less_than_what_is_proved_may_be_claimed() -> None:
+    found = minimal_shared_dimensions(triangles(2), node_limit=1)
+    assert check(replace(found, at_least=Fraction(2))).verdict == "VALID"
+
+
+def test_a_lower_bound_below_the_price_of_everything_is_proved_with_prices_and_limits() -> None:
+    plant = triangles(2)
+    costs, upper = [Fraction(3, 2)] * plant.m, [1] * plant.m
+    found = minimal_shared_dimensions(plant, costs=costs, upper=upper, node_limit=1)
+    assert found.at_least is not None and found.cost == 6 and 0 < found.at_least < 6
+    assert check(found).verdict == "VALID"
+    document = found.claim()
+    assert document["at_least"] == found.at_least
 
 
 @pytest.mark.parametrize("limit", [0, -1, True, 2.5, "3", None])

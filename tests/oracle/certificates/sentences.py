@@ -293,9 +293,12 @@ def _dimensions(claim: Any, system: System) -> str:
     )
     start = f"the extended system without delays sharing {SHARING[claim['share']]} has {goal}"
     if claim["feasible"]:
+        cheaper = "no" if "at_least" in claim else "no cheaper"
+        if "at_least" in claim:
+            limits += f", of cost below {number(rational(claim['at_least']))}"
         return (
             f"{start} for the dimensions {by_channel(names, claim['dimensions'])} of cost "
-            f"{number(rational(claim['cost']))}, and for no cheaper {limits}"
+            f"{number(rational(claim['cost']))}, and for {cheaper} {limits}"
         )
     return f"{start} for no {limits}"
 

@@ -74,7 +74,8 @@ def _optional(value: Any) -> fmpq | None:
 def shared_dimensions(claim: Any, witness: Any, system: System) -> bool:
     """All dimensions within the upper bounds, cheapest first."""
     keys = ("share", "bound", "free_assignability", "costs", "upper", "feasible", "dimensions")
-    found = record(claim, *keys, "cost")
+    bounded = isinstance(claim, dict) and "at_least" in claim
+    found = record(claim, *keys, "cost", *["at_least"] * bounded)
     share, m = found["share"], system.m
     demand(share in SHARES, "expected what is shared")
     region = Region(system.time, _optional(found["bound"]))
@@ -92,7 +93,8 @@ def shared_dimensions(claim: Any, witness: Any, system: System) -> bool:
         if meets(sizes, needed)
     ]
     if not truth(found["feasible"]):
-        return not prices and found["dimensions"] is None and found["cost"] is None
+        nothing = found["dimensions"] is None and found["cost"] is None
+        return not prices and nothing and not bounded
     sizes = [integer(d, 0) for d in listed(found["dimensions"], m)]
     if any(u is not None and d > u for d, u in zip(sizes, upper, strict=True)):
         return False
@@ -100,7 +102,13 @@ def shared_dimensions(claim: Any, witness: Any, system: System) -> bool:
     holds = free_of_fixed_modes(system, share, sizes, region, free=free)
     if holds is not meets(sizes, needed):
         raise ArithmeticError("the formula for ranks of extended systems fails")
-    return holds and total == rational(found["cost"]) == min(prices)
+    if not holds or total != rational(found["cost"]):
+        return False
+    if bounded:
+        return bool(
+            0 <= rational(found["at_least"]) <= min(prices) and rational(found["at_least"]) < total
+        )
+    return bool(total == min(prices))
 
 
 def common_dimension(claim: Any, witness: Any, system: System) -> bool:

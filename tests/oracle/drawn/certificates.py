@@ -96,6 +96,7 @@ def _dimensions(rng: random.Random, system: MultiChannelSystem) -> Found:
         upper=[rng.choice([None, None, 1, 0]) for _ in range(m)],
         free_assignability=rng.random() < 0.4,
         region=_region(rng, system.time),
+        node_limit=rng.choice((1, 10**4)),
     )
 
 

@@ -30,6 +30,7 @@ UNJUDGED = {
     "design-measured": "it says that figures are not certified, and claims none",
     "allocate-proof": _PROOF,
     "allocate-nested-proof": _PROOF,
+    "allocate-within-proof": _PROOF,
     "allocate-links-proof": _PROOF,
     "certify-decided": _PROOF,
     "certify-decided-blocks": _PROOF,

@@ -136,7 +136,6 @@ def least(
     bound, free = asked.get("bound"), asked.get("free", False)
     m, n = case.plant.m, case.plant.n
     costs = [Fraction(c) for c in asked.get("costs") or [1] * m]
-    limits = [n if u is None else min(u, n) for u in asked.get("upper") or [None] * m]
     if any(
         k > u for k, u in zip(sizes, asked.get("upper") or [n] * m, strict=True) if u is not None
     ):
@@ -144,10 +143,21 @@ def least(
     if not leaves(case.extended(sizes, share), bound, free):
         return False
     cost = sum((c * k for c, k in zip(costs, sizes, strict=True)), Fraction(0))
-    for count, v in enumerate(below(cost, costs, limits)):
+    return nothing_below(case, cost, share, asked)
+
+
+def nothing_below(
+    case: Case, cost: Fraction, share: str, asked: dict[str, Any] | None = None
+) -> bool:
+    """Whether no dimensions within their limits that cost less suffice."""
+    asked = asked or {}
+    m, n = case.plant.m, case.plant.n
+    costs = [Fraction(c) for c in asked.get("costs") or [1] * m]
+    limits = [n if u is None else min(u, n) for u in asked.get("upper") or [None] * m]
+    for count, v in enumerate(below(Fraction(cost), costs, limits)):
         if count >= MOST_TRIES:
             raise UnjudgedError("too many dimensions to try")
-        if leaves(case.extended(v, share), bound, free):
+        if leaves(case.extended(v, share), asked.get("bound"), asked.get("free", False)):
             return False
     return True
 
@@ -173,6 +183,12 @@ def _least(share: str, *rules: str) -> None:
     def _some(said: Said, case: Case) -> bool:
         sizes = _sizes(said, case)
         return any(sizes) and least(case, sizes, share) and instant(said, case)
+
+    @judge(some.split()[-1] + "-between")
+    def _between(said: Said, case: Case) -> bool:
+        sizes, lower = _sizes(said, case), said.values["lower"]
+        enough = leaves(case.extended(sizes, share)) and lower < sum(sizes)
+        return enough and instant(said, case) and nothing_below(case, lower, share)
 
     @judge(*none.split())
     def _none(said: Said, case: Case) -> bool:
@@ -361,6 +377,21 @@ def _allocated(said: Said, case: Case) -> bool:
     told = (v["share"], v["price"], v["limits"]) == (case.asked["share"], cheap, limits)
     right = told and instant(said, case) and _scope(said, case, asked["free"])
     return right and least(case, _rows(case), case.asked["share"], asked)
+
+
+@judge("allocate-within")
+def _allocated_within(said: Said, case: Case) -> bool:
+    """What is given suffices, at its cost, and nothing below the lower bound does."""
+    v, asked, share = said.values, _request(case), case.asked["share"]
+    sizes = _sizes(said, case)
+    prices = [Fraction(c) for c in asked["costs"] or [1] * len(sizes)]
+    limits = "upper" if any(u is not None for u in asked["upper"] or []) else "none"
+    told = (v["share"], v["limits"]) == (share, limits)
+    cost = sum((c * k for c, k in zip(prices, sizes, strict=True)), Fraction(0))
+    right = told and instant(said, case) and _scope(said, case, asked["free"])
+    priced = Fraction(v["lower"]) < Fraction(v["cost"]) == cost
+    enough = leaves(case.extended(sizes, share), asked["bound"], asked["free"])
+    return right and priced and enough and nothing_below(case, v["lower"], share, asked)
 
 
 @judge("allocate-impossible")
