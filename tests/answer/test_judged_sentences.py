@@ -5,17 +5,24 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
-from mcexact.answer.rulebook import everything
+from mcexact.analysis.sharing import minimal_shared_dimensions
+from mcexact.answer.rulebook import ALLOCATION, everything
+from mcexact.answer.sentence import Context
+from mcexact.answer.sharing import SHARING_RULES
+from mcexact.derived.constructions import Share
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial
+from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.decentralized import design_extended
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.assurance.campaigns.sentences import caught, drawn, examined
+from tests.checker.polynomials import generous
 from tests.oracle.sentences import JUDGES, UNJUDGED, Case, Said, plant_of, said, verdict
 from tests.oracle.sentences.cases import plain
 from tests.oracle.sentences.designs import document_of, tracks
@@ -84,6 +91,31 @@ def test_modes_of_messages_that_no_agent_uses_do_not_remain_in_the_loop() -> Non
     [told] = [each for each in made.account.sentences if each.template.key == "design-kept"]
     assert made.controller.order == 0
     assert told.values["p"] == characteristic_polynomial(made.loop.matrix) == Polynomial.of(0, 1)
+
+
+@pytest.mark.parametrize("share", ["outputs+states", "states"])
+def test_both_bounds_on_what_agents_share_are_judged(share: Share) -> None:
+    """The lower one by all dimensions that cost less, the upper one by those in the sentence."""
+    paper = gallery.load("liu2020-3ch-no-communication")
+    plant = paper.with_neighbors(NeighborGraph.ring(paper.names))
+    least = minimal_shared_dimensions(plant, share=share)
+    enough, given = generous(least), Context(plant, {"cuts": 1, "nodes": 1, "multiplicities": (1,)})
+    asked = {"share": share, "bound": None, "free_assignability": False}
+    case = Case(plant_of(plant), asked)
+    question = f"minimal_shared_dimensions_{share.replace('+', '_')}"
+    for sentences in (
+        ALLOCATION.sentences({"minimal_shared_dimensions": enough}, given),
+        SHARING_RULES.sentences({question: enough}, given),
+    ):
+        rows = [said(each) for each in sentences if each.template.key.endswith(("in", "between"))]
+        [told] = rows
+        lower, sizes = least.total or 0, told.values["sizes"]
+        assert verdict(told, case) and told.values["lower"] == lower
+        changes: list[dict[str, Any]] = [{"lower": lower + 1}, {"lower": lower + 4}]
+        changes += [{"sizes": [(name, 0) for name, _ in sizes]}]
+        changes += [{"cost": 3}] if "cost" in told.values else []
+        for change in changes:
+            assert verdict(replace(told, values={**told.values, **change}), case) is False
 
 
 @pytest.mark.slow

@@ -12,6 +12,7 @@ import pytest
 from mcexact.model import gallery
 from mcexact.model.files import save_system
 from mcexact.model.graph import NeighborGraph
+from tests.analysis.sharing.test_allocation import triangles
 from tests.end_to_end.command_line import run
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
@@ -60,6 +61,23 @@ def test_dimensions_are_told_by_agent_with_the_total_of_the_bound(ring: str, cha
     assert (sizes, bounds) == ([0, 0, 1], {1})
     assert shares["total"] == {"least": sum(sizes), "bound": len(sizes)}
     assert "shares" not in answer(chain, status=1)  # no numbers of shared states are enough
+
+
+def test_at_the_node_limit_both_bounds_are_said_and_certified(tmp_path: Path) -> None:
+    path, folder = str(tmp_path / "triangles.json"), tmp_path / "certificates"
+    save_system(triangles(2), path)
+    found = answer(path, "--node-limit", "1", "--certificates", str(folder), status=4)
+    claim = least(found)
+    assert (claim["cost"], claim["at_least"], len(claim["dimensions"])) == (4, 3, 18)
+    [title] = said(found, "allocate-within")
+    assert "suffice, at a cost of 4, and nothing below 3 does" in title
+    assert said(found, "allocate-within-proof") and "shares" not in found
+    assert not said(found, "allocate-least") + said(found, "allocate-row")
+    implied = run("check", "--manifest", str(folder), "--system", path)
+    assert implied.status == 0 and implied.stdout.count("IMPLIED") == len(found["sentences"])
+    page = tmp_path / "page.html"
+    assert run("allocate", path, "--node-limit", "1", "--html", str(page)).status == 4
+    assert "The sufficient dimension that each agent shares" in page.read_text(encoding="utf-8")
 
 
 def least(found: Any) -> Any:
