@@ -416,7 +416,9 @@ class Analysis(ShownByAccount):
     def _progress(self, name: str) -> str:
         """A line that says how many questions are decided, and which is next."""
         done, asked = len(self._answers), len(self._asked | self._answers.keys())
-        return f"{done} of {asked} questions decided, now the {name.replace('_', ' ')}"
+        long = self.left_out.get(name, "")
+        words = f", which takes long ({long})" if long else ""
+        return f"{done} of {asked} questions decided, now the {name.replace('_', ' ')}{words}"
 
     def _decide_in_time(self, names: list[str]) -> None:
         """Decide questions in a child process, which is ended when the time is over.
@@ -616,7 +618,7 @@ class Analysis(ShownByAccount):
 
     def _all_outcomes(self) -> dict[str, Any]:
         """Decide all questions asked or needed; their outcomes in the order of the table."""
-        # The evidence of questions with ports is long: a limit shall not discard others for it.
+        # Indices of many states take longest: a limit shall not discard others for them.
         names = sorted(self.asked, key=lambda name: bool(self.questions[name].ports))
         if self._left is not None and (rest := [n for n in names if n not in self._answers]):
             self._decide_in_time(rest)

@@ -28,13 +28,9 @@ _MOST_DEGREE = 60
 
 
 def _left_out_with_numbers(question: Question, system: Any) -> str:
-    """The limit for numbers: dense matrices of many states, and long Krylov sequences."""
-    n = system.n
-    if question.most and n > question.most:
+    """The limit for numbers: dense matrices of many states."""
+    if question.most and system.n > question.most:
         return f"more than {question.most} states, of which it needs dense matrices"
-    width = max(question.width(system), 1) if question.ports else n
-    if question.ports and (n**2 > 10**4 * width or n**3 > 2 * 10**6 * width):
-        return f"{n} states for {width} {question.ports}, which make very long evidence"
     return ""
 
 
@@ -95,9 +91,8 @@ class Question:
         The name of the option of `mcexact analyze` that asks it, with the help of its first
         question.
     ports : {"", "inputs", "outputs"}
-        If not empty, it is asked by default only if n² ≤ 10⁴ and n³ ≤ 2·10⁶ times the number of
-        these, since the evidence is a Krylov sequence, which is longer with fewer of them.  With
-        parameters the degree of minors is limited instead.
+        If not empty, it is about ranks of a Krylov sequence of these.  With parameters it is asked
+        by default only up to a degree of the minors of this sequence.
     most : int
         If not 0, it is asked by default only of at most so many states without parameters, which
         take about a minute on one processor.
@@ -237,12 +232,14 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "controllability:controllability_indices",
             "the controllability indices",
             ports="inputs",
+            most=_DENSE,
             for_all_values=True,
         ),
         "observability_indices": Question(
             "controllability:observability_indices",
             "the observability indices",
             ports="outputs",
+            most=_DENSE,
             kind="controllability_indices",
             dual=True,
             for_all_values=True,

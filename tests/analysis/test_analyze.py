@@ -105,16 +105,29 @@ def test_a_limit_leaves_a_question_open_and_the_others_answered(
         found.minimal_communication  # noqa: B018
 
 
-def test_indices_of_very_long_chains_are_asked_only_by_name() -> None:
+def test_indices_of_long_chains_are_asked_by_default() -> None:
     n = 101
     chain = [[int(i == j + 1) for j in range(n)] for i in range(n)]
     first = [[int(i == 0)] for i in range(n)]
-    found = analyze(MultiChannelSystem(chain, [first], [[[1] * n]]))
-    assert set(found.left_out) == {"controllability_indices", "observability_indices"}
+    found = analyze(MultiChannelSystem(chain, [first], [[[1] * n]]), nearby=False)
+    assert found.left_out == {}
     assert found.controllability_indices.index == n
-    assert "controllability_indices" in found.asked
-    alone = analyze(found.plant, ["joint_controllability"])
-    assert not any("left out" in each for each in alone.sentences)
+    assert mcexact.check(found.controllability_indices).valid
+
+
+def test_a_question_that_takes_long_says_so_before_it_starts(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    lines: list[str] = []
+    plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+    names = ("setpoint", "controllability_indices")
+    fewer = dict(QUESTIONS) | {name: replace(QUESTIONS[name], most=1) for name in names}
+    monkeypatch.setattr(Analysis, "questions", fewer)
+    found = analyze(plant, nearby=False, progress=lines.append)
+    assert set(found.left_out) == {"setpoint", "controllability_indices"}
+    assert found.setpoint.solvable
+    said = [line for line in lines if "takes long" in line]
+    assert len(said) == 1 and "more than 1 states" in said[0] and "setpoint" in said[0]
 
 
 def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
@@ -138,12 +151,13 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
 
 
 @pytest.mark.parametrize(
-    ("n", "width", "asked"), [(100, 1, True), (101, 1, False), (1000, 500, True), (600, 60, False)]
+    ("n", "width", "asked"), [(101, 1, True), (1500, 2, True), (1501, 500, False)]
 )
-def test_indices_are_asked_where_their_evidence_is_short(n: int, width: int, asked: bool) -> None:
+def test_indices_are_asked_of_as_many_states_as_set_points(n: int, width: int, asked: bool) -> None:
     system = SimpleNamespace(n=n, sizes=((width, 1),))
     reason = QUESTIONS["controllability_indices"].reason_to_leave_out(system)
     assert (reason == "") == asked
+    assert QUESTIONS["setpoint"].reason_to_leave_out(system) == reason
     assert QUESTIONS["fixed_spectrum"].reason_to_leave_out(system) == ""
 
 
