@@ -3,17 +3,19 @@
 The structure stays, and each step starts from the end of the one before it, which is far cheaper
 than another search:
 
+- `with_margins` insists on margins that a search did not reach;
 - `more_damped` asks for a damping ratio, and `with_larger_box` for a box of plants around the given
   one within which every loop seems stable, by faster and faster loops;
 - `fastest` looks for the fastest rate at which a loop still keeps its margins: by factors of 1.5,
   then by bisection.
 
-What the first two cost is compared with what was there before, and told where it is too much.  All
+What these cost is compared with what was there before, and told where it is too much.  All
 of this is floating point, and finding nothing proves nothing: there may be faster loops.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import isfinite, log, sqrt
@@ -39,6 +41,7 @@ _CERTIFIED_PART = 0.9
 _FASTER, _NARROW, _WALK = 1.5, 1.05, 6
 _MOST_SIGNALS = 120
 _SHARE = 0.3
+_INSISTING, _HEAVY = 3, 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +80,33 @@ def followed(
         for each in polished(problem, x, target, effort)
     ]
     return next(iter(ranked(aimed, [each for each in made if each is not None])), None)
+
+
+def with_margins(ladder: Ladder, candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Insist on the margins, from some controllers without them: with heavier penalties.
+
+    Parameters
+    ----------
+    ladder : Ladder
+    candidates : sequence of Candidate
+        The best first, of which some are followed until one has the margins.
+
+    Returns
+    -------
+    list of Candidate
+        What was found on the way, not ranked.
+    """
+    found: list[Candidate] = []
+    for start in candidates[:_INSISTING]:
+        problem, part = start.problem, ladder.effort.part(1 / _INSISTING)
+        x = problem.entries(start.K)
+        for each in polished(problem, x, ladder.target, part, _HEAVY):
+            other = candidate_of(ladder, start.step, problem, problem.gain(each))
+            if other is not None:
+                found.append(other)
+        if any(each.peaks.keep(ladder.target.limits) for each in found):
+            break
+    return found
 
 
 def more_damped(ladder: Ladder, best: Candidate, damping: float = DAMPING) -> Improved:

@@ -474,7 +474,11 @@ def _objective(problem: FeedbackProblem, x: Floats, target: Target) -> Objective
 
 
 def polished(
-    problem: FeedbackProblem, x: Floats, target: Target, effort: Effort
+    problem: FeedbackProblem,
+    x: Floats,
+    target: Target,
+    effort: Effort,
+    weight: float | None = None,
 ) -> Iterator[Floats]:
     """Minimize the objective from a loop inside the region, round by round.
 
@@ -485,6 +489,8 @@ def polished(
         Free entries of K.
     target : Target
     effort : Effort
+    weight : float, optional
+        That of the first penalty; by default 1, after a round without one.
 
     Yields
     ------
@@ -499,10 +505,16 @@ def polished(
     """
     objective, first = _objective(problem, x, target), effort.part(0.5)
     counted = _counted(objective, first)
-    x, value = minimize(counted, x, steps=_POLISH, tolerance=_TOLERANCE, stop=lambda: first.over)
+    if weight is None:
+        x, value = minimize(
+            counted, x, steps=_POLISH, tolerance=_TOLERANCE, stop=lambda: first.over
+        )
+        weight = 1.0
+    else:
+        value, _ = counted(x)
     if not np.isfinite(value):
         return
-    limits, weight = target.limits.tightened(_AIMED_FURTHER), 1.0
+    limits = target.limits.tightened(_AIMED_FURTHER)
     points = _NO_POINTS
     for _ in range(_MARGIN_ROUNDS):
         yield x

@@ -30,7 +30,12 @@ from mcexact.model.controller import Controller
 from mcexact.synthesis.gate import Proposal, Request, Warned, certify
 from mcexact.synthesis.network_design import network_proposals, require_fast
 from mcexact.synthesis.networks import DerivedNetwork, shared_network
-from mcexact.synthesis.optimum.continuation import fastest, more_damped, with_larger_box
+from mcexact.synthesis.optimum.continuation import (
+    fastest,
+    more_damped,
+    with_larger_box,
+    with_margins,
+)
 from mcexact.synthesis.optimum.descent import Target
 from mcexact.synthesis.optimum.diagnosis import (
     Diagnosis,
@@ -112,7 +117,7 @@ _ENOUGH = 1.5
 _GAINS = 10.0
 _LEAST_GAIN = 1.0
 _LARGEST_UNKNOWN = 1e3
-_LEAST_EFFORT, _LEAST_ENOUGH, _AFTERWARDS = 20_000.0, 1.05, 0.5
+_LEAST_EFFORT, _LEAST_ENOUGH, _AFTERWARDS = 40_000.0, 1.05, 0.5
 _EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE_SHARE = 60_000.0, 40, 5.0, 130, 0.25
 
 
@@ -249,6 +254,10 @@ def optimum(
         ladder = _ladder(family, request, aims, weights, known.central)
         candidates = ranked(ladder, climbed(ladder))
         result = _Result(tuple(candidates), ladder.target)
+        if candidates and not result.keeps_margins:
+            ladder.tell("larger margins")
+            candidates = ranked(ladder, [*with_margins(_more(ladder), candidates), *candidates])
+            result = replace(result, candidates=tuple(candidates))
         if request.brisk is None and not result.keeps_margins:
             result = _slower(family, request, aims, weights, result) or result
         elif candidates and (request.brisk is not None or aims.box is not None):

@@ -434,7 +434,7 @@ def _rank(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> Rank:
 
 # The climb: every start of a step is followed for a while, the best two to the end.
 
-_KEPT, _MOST_FREED = 2, 3000
+_KEPT, _MOST_FREED, _SAME = 2, 3000, 1e-3
 _GOOD_ENOUGH, _DEAR, _HOPELESS = 2.0, 0.05, 1000.0
 
 
@@ -467,8 +467,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
                 dear = ladder.effort.left < (1 - _DEAR) * before
                 if dear:
                     break
-        drafts.sort(key=lambda each: each[0])
-        for value, draft in drafts[:_KEPT]:
+        for value, draft in _different(drafts)[:_KEPT]:
             waits = dear and draft.problem.ties is None
             if value > (_GOOD_ENOUGH if waits else _HOPELESS) * ladder.enough:
                 later.append((value, draft))
@@ -480,6 +479,20 @@ def climbed(ladder: Ladder) -> list[Candidate]:
         if _finish(ladder, draft, candidates):
             break
     return candidates
+
+
+def _different(drafts: list[tuple[float, Start]]) -> list[tuple[float, Start]]:
+    """The drafts, the cheapest first, without those that seem to lead to the same optimum."""
+    kept: list[tuple[float, Start]] = []
+    for value, draft in sorted(drafts, key=lambda each: each[0]):
+        orders = draft.problem.network, draft.problem.orders
+        if not any(
+            value - other < _SAME * value
+            and orders == (known.problem.network, known.problem.orders)
+            for other, known in kept
+        ):
+            kept.append((value, draft))
+    return kept
 
 
 def _so_far(ladder: Ladder, candidates: list[Candidate]) -> str:

@@ -18,6 +18,7 @@ from mcexact.synthesis.optimum.continuation import (
     fastest,
     more_damped,
     with_larger_box,
+    with_margins,
 )
 from mcexact.synthesis.optimum.descent import Target
 from mcexact.synthesis.optimum.figures import MARGINS, Aims, Limits, figures_of, least_cost
@@ -137,3 +138,11 @@ def test_a_rate_that_no_loop_with_margins_has_is_answered_with_the_fastest_that_
     values = np.linalg.eigvals(matrix_to_float(design.loop.matrix))
     assert np.max(values.real) < -float(design.region.edge)
     assert figures_of(optimum.problem, optimum.K, peak=False).bound == optimum.figures.bound
+
+
+def test_margins_that_a_search_missed_are_insisted_on() -> None:
+    ladder, fragile = found(DOUBLE, [[-3.0, 20.0], [1.0, -10.0]], (1,))
+    assert fragile.peaks.margin < 0.3
+    insisted = with_margins(ladder, [fragile])
+    assert any(each.peaks.keep(MARGINS) for each in insisted)
+    assert min(each.figures.cost for each in insisted) > 0

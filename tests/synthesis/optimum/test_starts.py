@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from mcexact.exact.roots import StabilityRegion
@@ -12,6 +13,7 @@ from mcexact.synthesis.optimum import search
 from mcexact.synthesis.optimum.figures import Aims, figures_of, shift_of
 from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights
 from mcexact.synthesis.optimum.starts import local_regulators, localities
+from tests.synthesis.optimum.plants import coupled
 
 
 def sampled_string() -> MultiChannelSystem:
@@ -51,3 +53,22 @@ def test_a_start_inside_the_region_counts_as_it_is(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(search, "_as_it_is", lambda *_: [])
     made = design_decentralized(sampled_string(), radius="0.98", aims=Aims(seeds=1, effort=0.2))
     assert "optimum" not in made.parts
+
+
+def test_drafts_that_seem_to_lead_to_the_same_optimum_are_followed_once():
+    plant = coupled()
+    weights = Weights.unit(plant)
+    static, dynamic = (
+        FeedbackProblem.of(decentralized_network(plant), orders, weights)
+        for orders in ((0, 0, 0), (1, 1, 1))
+    )
+    drafts = [
+        (value, search.Start("start", problem, np.zeros(problem.mask.shape)))
+        for value, problem in [(2.0, static), (1.0, static), (1.0005, static), (1.0005, dynamic)]
+    ]
+    kept = search._different(drafts)
+    assert [(value, draft.problem.order) for value, draft in kept] == [
+        (1.0, 0),
+        (1.0005, 3),
+        (2.0, 0),
+    ]
