@@ -14,7 +14,8 @@ from pathlib import Path
 from benchmarks.kept_rows import ROWS, Row, kept
 
 PAGE = Path(__file__).with_name("DESIGNS.md")
-MARGIN, _PEAK, _TIMES, _DIGITS, _SECONDS, _CHEAPER = 0.3, 100.0, 10.0, 4, 60.0, 0.8
+MARGIN, _DISK, _DAMPING = 0.3, 0.4, 0.05
+_PEAK, _TIMES, _DIGITS, _SECONDS, _CHEAPER = 100.0, 10.0, 4, 60.0, 0.8
 _HAND = ("local LQR", "local LQG", "python-control")
 
 _NEARLY_EQUAL = "its two pairs of modes differ by one millionth"
@@ -39,6 +40,9 @@ the rate of its row. All other figures are computed in floating point and not pr
 - order: the states of all agents together;
 - gain: the largest number in a controller;
 - margin: an error of the plant's inputs, as a part of them, below which the loop stays stable;
+- disk: the least disk margin of a single input or output, with the other loops closed;
+- damping: the least damping ratio of an eigenvalue;
+- J/bound: the linear-quadratic cost over a lower bound for every linear controller;
 - J: the linear-quadratic cost, with weights 1 and 1/100 for the noise of outputs, relative to that
   of the optimal controller of all agents together at the same rate;
 - peak: the largest norm of the state from a start of norm 1;
@@ -62,6 +66,10 @@ def exceptions(row: Row) -> list[str]:
     told, central = list[str](), row["central"] or {}
     if row["margin"] < MARGIN:
         told.append(f"margin {row['margin']:.2g}")
+    if row.get("disk", _DISK) < _DISK:
+        told.append(f"disk margin {row['disk']:.2g}")
+    if row.get("damping", _DAMPING) < _DAMPING:
+        told.append(f"damping {row['damping']:.2g}")
     if row["peak"] > _PEAK:
         told.append(f"peak {row['peak']:.3g}")
     if row["cost"] is not None and row["cost"] > _TIMES:
@@ -132,7 +140,8 @@ def page(published: Mapping[str, Row], families: Mapping[str, Row]) -> str:
 
 
 _COLUMNS = (
-    "plant", "asked", "order", "gain", "margin", "J", "peak", "digits", "seconds", *_HAND,
+    "plant", "asked", "order", "gain", "margin", "disk", "damping", "J/bound", "J", "peak",
+    "digits", "seconds", *_HAND,
 )  # fmt: skip
 _ANSWERS = {
     "designed": "designed",
@@ -151,7 +160,8 @@ def _told_of_exceptions(rows: list[Row]) -> str:
     odd = sum(1 for row in rows if exceptions(row))
     return (
         f"Of {len(made)} designed controllers and {len(rows)} requests, {odd} are exceptions: a "
-        f"margin below {MARGIN}, a peak above {_PEAK:.0f}, a cost or a gain above {_TIMES:.0f} "
+        f"margin below {MARGIN}, a disk margin below {_DISK}, a damping ratio below {_DAMPING}, a "
+        f"peak above {_PEAK:.0f}, a cost or a gain above {_TIMES:.0f} "
         f"times that of one controller for all agents, more than {_DIGITS} digits, more than "
         f"{_SECONDS:.0f} seconds, or controllers by hand, each for one agent, that meet the rate, "
         f"have no higher order, are as robust, and cost less than {_CHEAPER} times as much. The "
@@ -168,10 +178,16 @@ def _designed(row: Row) -> tuple[str, ...]:
 
     return (
         row["name"], _asked(row), str(row["order"]), beside("gain", ".3g"),
-        beside("margin", ".2g"), f"{row['cost']:.3g}", beside("peak", ".3g"),
+        beside("margin", ".2g"), *(_known(row, name) for name in ("disk", "damping", "over bound")),
+        f"{row['cost']:.3g}", beside("peak", ".3g"),
         str(row["digits"]), f"{row['seconds']}",
         *(_by_hand(row["by hand"], name) for name in _HAND),
     )  # fmt: skip
+
+
+def _known(row: Row, name: str) -> str:
+    """A figure that rows of before, and set-points, do not have."""
+    return "–" if row.get(name) is None else f"{row[name]:.3g}"
 
 
 def _by_hand(found: Row, name: str) -> str:

@@ -36,7 +36,8 @@ from mcexact.exact.roots import is_discrete
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.optimum.figures import Figures
+from mcexact.synthesis.optimum.figures import Figures, least_cost
+from mcexact.synthesis.optimum.problem import Weights
 
 SIZES = (10, 40, 120)
 
@@ -210,12 +211,17 @@ def figures_row(made: Design) -> Row:
     if found is None:
         return {"answer": "theorem", "order": made.order}
     central: Figures | None = found.central
+    plant = found.problem.network.plant
+    least = None if "solvability" in made.parts else least_cost(plant, Weights.unit(plant))
     return {
         "answer": "designed",
         "order": made.order,
         "gain": found.figures.largest_gain,
         "margin": found.figures.margin,
+        "disk": found.peaks.disk,
+        "damping": found.figures.damping,
         "cost": found.relative_cost,
+        "over bound": None if least is None else found.figures.cost / least,
         "peak": found.figures.peak,
         "digits": found.digits,
         "step": found.step,
@@ -238,6 +244,8 @@ def told(row: Row) -> str:
     return (
         f"{row['order']} / {row['gain']:.3g} ({central['gain']:.3g}) / "
         f"{row['margin']:.2f} ({central['margin']:.2f}) / {row['cost']:.2f}, "
+        f"disk {row.get('disk') or nan:.2f}, damping {row.get('damping') or nan:.2f}, "
+        f"J/bound {row.get('over bound') or nan:.3g}, "
         f"peak {row['peak']:.3g} ({central.get('peak', nan):.3g}), digits {row['digits']}, "
         f"{row['step']}"
     )
