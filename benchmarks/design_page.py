@@ -33,7 +33,7 @@ _HEAD = """\
 
 `python -m benchmarks.gallery_designs` asks for a decentralized controller, one with shared
 sub-states (over the plant's own links, or else over a ring) and one that holds set-points, for
-every plant of the gallery, without a rate: the cost is then least, with margins.
+every plant of the gallery, without a rate; a row has the rate that was certified.
 `python -m benchmarks.families` asks for rates of eight families. Each loop is certified exactly at
 the rate of its row. All other figures are computed in floating point and not proved:
 
@@ -64,6 +64,8 @@ def exceptions(row: Row) -> list[str]:
     if row["answer"] != "designed":
         return [row.get("told") or "the controller of the theorem"]
     told, central = list[str](), row["central"] or {}
+    if "slower" in row:
+        told.append(f"{row['slower']}, the fastest that was found with the margins")
     if row["margin"] < MARGIN:
         told.append(f"margin {row['margin']:.2g}")
     if row.get("disk", _DISK) < _DISK:
@@ -160,6 +162,7 @@ def _told_of_exceptions(rows: list[Row]) -> str:
     odd = sum(1 for row in rows if exceptions(row))
     return (
         f"Of {len(made)} designed controllers and {len(rows)} requests, {odd} are exceptions: a "
+        "rate that is slower than asked, a "
         f"margin below {MARGIN}, a disk margin below {_DISK}, a damping ratio below {_DAMPING}, a "
         f"peak above {_PEAK:.0f}, a cost or a gain above {_TIMES:.0f} "
         f"times that of one controller for all agents, more than {_DIGITS} digits, more than "

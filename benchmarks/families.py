@@ -32,7 +32,7 @@ from benchmarks.design_page import PAGE, written
 from benchmarks.kept_rows import Row, chosen, kept, measured
 from mcexact import design_decentralized, design_extended
 from mcexact.errors import Impossible, LimitReached
-from mcexact.exact.roots import is_discrete
+from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.design import Design
@@ -256,7 +256,10 @@ def answered(kind: Kind, system: MultiChannelSystem) -> Row:
     bound = asked_of(kind, system.time)
     function: Any = design_extended if kind.structure == "extended" else design_decentralized
     try:
-        found = figures_row(function(system, arithmetic="float", **bound))
+        made = function(system, arithmetic="float", **bound)
+        found = figures_row(made)
+        if str(made.region.edge) != str(StabilityRegion.of(system.time, **bound).edge):
+            found["slower"] = str(made.region)
     except (Impossible, LimitReached) as refused:
         found = {"answer": type(refused).__name__, "told": str(refused)}
     cost = (found.get("central") or {}).get("cost")

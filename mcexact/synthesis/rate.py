@@ -165,7 +165,7 @@ def at_a_reachable_rate(request: Request, design: Callable[[Request], Design]) -
         That of the first rate, if no controller was found for any.
     """
     failed = None
-    for trial in range(1 if request.brisk is None else _HALVINGS + 1):
+    for trial in range(_HALVINGS + 1 if request.notes else 1):
         asked = request
         if trial:
             request.tell("a slower rate")

@@ -35,6 +35,13 @@ def test_what_is_remarked_on_is_an_exception() -> None:
     [
         ({}, []),
         ({"margin": 0.02}, ["margin 0.02"]),
+        ({"disk": 0.3}, ["disk margin 0.3"]),
+        ({"disk": 0.41, "damping": 0.05, "over bound": 2.0}, []),
+        ({"damping": 0.04}, ["damping 0.04"]),
+        (
+            {"slower": "Re λ < -1/4"},
+            ["Re λ < -1/4, the fastest that was found with the margins"],
+        ),
         ({"peak": 101.0}, ["peak 101"]),
         ({"gain": 11.0}, ["gain 11, 1 for all agents together"]),
         ({"cost": 11.0}, ["11 times the cost of one controller for all agents"]),

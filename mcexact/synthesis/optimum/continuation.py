@@ -146,6 +146,8 @@ def with_larger_box(
     """
     aimed = BOX if part is None else part
     seen = box_part(best)
+    if seen is None and part is not None:
+        return Improved(best, ("no box was sought: the loop is large, or its plant a derived one",))
     if seen is None or seen >= aimed:
         return Improved(best)
     pace, found = _pace(best, ladder.target.region.time), best

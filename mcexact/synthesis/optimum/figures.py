@@ -323,6 +323,8 @@ class Margins:
         T_out = E'H K E,   dT_out = E'H dK (E + HKE)
 
     The loop at one input is opened alone where T_ii is used, and that at all inputs where T is.
+    Outputs that come late by messages under way keep their values; the integral of an output is an
+    output of its own.
     One eigendecomposition of M serves all frequencies and loops; where the eigenvectors are too
     ill-conditioned there is one linear system for each frequency.
     """

@@ -111,7 +111,7 @@ class Family:
 
 # The result of a search, rounded to few digits, as a proposal to the gate.
 
-_MOST_TRIED = 12
+_MOST_TRIED, _STARTS_OF_FASTEST = 12, 2
 _LEAST_STORED, _MORE, _CERTIFIED = 3, 3, 20
 _ENOUGH = 1.5
 _GAINS = 10.0
@@ -349,7 +349,10 @@ def _improved(ladder: Ladder, request: Request, aims: Aims, result: _Result) -> 
 def _slower(
     family: Family, request: Request, aims: Aims, weights: Weights, result: _Result
 ) -> _Result | None:
-    """Search the fastest rate with the margins, from the loop of least cost; None if none has."""
+    """Search the fastest rate with the margins, from loops of least cost; None if none has them.
+
+    The cheapest loop is followed, and the cheapest of another order.
+    """
     plant, asked = family.network.plant, request.region
     chosen = chosen_regions(plant, weights)
     if chosen is None or not pace_of(chosen.slowest) < pace_of(asked):
@@ -362,11 +365,16 @@ def _slower(
         ladder.target, largest_gain=max(ladder.target.largest_gain, result.target.largest_gain)
     )
     ladder = replace(ladder, target=target)
-    start = next(iter(ranked(ladder, climbed(ladder))), None)
-    found = None if start is None else fastest(_more(ladder), start, asked)
-    if found is None:
+    starts: dict[int, Candidate] = {}
+    for each in ranked(ladder, climbed(ladder)):
+        if each.peaks.keep(target.limits):
+            starts.setdefault(each.figures.order, each)
+    further = _more(ladder)
+    tried = (fastest(further, each, asked) for each in [*starts.values()][:_STARTS_OF_FASTEST])
+    found = [each for each in tried if each is not None]
+    if not found:
         return None
-    candidate, region = found
+    candidate, region = max(found, key=lambda each: pace_of(each[1]))
     notes = () if region == asked else (_too_fast(asked, region, target.limits),)
     return _Result((candidate,), replace(target, region=region), notes)
 
