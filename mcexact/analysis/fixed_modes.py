@@ -38,6 +38,7 @@ from mcexact.analysis.sparse import (
     fixed_subspaces,
     is_connected,
     is_large_and_sparse,
+    reachable_pairs,
     sparse_powers,
 )
 from mcexact.analysis.stability import located, open_loop_spectrum
@@ -66,6 +67,7 @@ from mcexact.answer.modes import (
     FixedModeWitness,
     FixedSpectrum,
     FreedomWitness,
+    PathCutWitness,
     PencilRank,
     SpectrumBlock,
     TwoPolynomials,
@@ -87,6 +89,7 @@ from mcexact.exact.modular import polynomial_residues, primes, random_matrix, re
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.rational import as_fraction
 from mcexact.exact.roots import StabilityRegion, Time
+from mcexact.model.graph import strong_components
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
@@ -398,9 +401,9 @@ def _evidence(system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.R
     if not spectrum.empty:
         return FixedModeWitness(spectrum.factors[0].polynomial, spectrum.evidence.subspaces[0])
     if isinstance(spectrum.evidence, ByBlocks) and is_large_and_sparse(system):
-        connected = _connected_by_structure(system, spectrum.evidence)
-        if connected is not None:
-            return connected
+        shown = _by_structure(system, spectrum.evidence)
+        if shown is not None:
+            return shown
     # Some edges vanish by accident, perhaps modulo one prime for all draws.
     for modular, proof in _freedom(system, spectrum, rng):
         suspected = suspected_edges(modular, rng)
@@ -414,8 +417,12 @@ def _evidence(system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.R
     raise InternalError("the stream of primes is endless")
 
 
-def _connected_by_structure(system: MultiChannelSystem, proof: ByBlocks) -> Evidence | None:
-    """Edges of the least powers that connect all channels of a large sparse system, if any do."""
+def _by_structure(system: MultiChannelSystem, proof: ByBlocks) -> Evidence | None:
+    """A cut of a large sparse system that no path crosses, or edges of the least powers."""
+    paths = {(int(j), int(i)) for j, i in zip(*reachable_pairs(system).nonzero(), strict=True)}
+    closed = _closed_set(system.m, paths)
+    if closed is not None:
+        return PathCutWitness(system.named(closed))
     ell = edge_modulus(system)
     if ell is None:
         return None
@@ -476,13 +483,12 @@ def _reached(m: int, start: int, edges: set[Edge]) -> list[Edge]:
 
 
 def _closed_set(m: int, edges: set[Edge]) -> tuple[int, ...] | None:
-    """A smallest nonempty proper set of nodes that some node reaches and no edge leaves, if any."""
-    sets = []
-    for start in range(m):
-        reached = {start, *(i for _, i in _reached(m, start, edges))}
-        if len(reached) < m:
-            sets.append(tuple(sorted(reached)))
-    return min(sets, key=lambda s: (len(s), s), default=None)
+    """A smallest nonempty proper set of nodes that no edge leaves, if any: a strong component."""
+    components = strong_components(m, edges)
+    at = {node: k for k, component in enumerate(components) for node in component}
+    left = {at[j] for j, i in edges if at[i] != at[j]}
+    closed = [s for k, s in enumerate(components) if k not in left and len(s) < m]
+    return min(closed, key=lambda s: (len(s), s), default=None)
 
 
 def _connecting_edges(m: int, edges: set[Edge]) -> set[Edge]:

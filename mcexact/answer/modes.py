@@ -13,7 +13,7 @@ components.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from mcexact.answer.evidence import (
     Block,
@@ -276,7 +276,20 @@ class CutWitness(Part):
     zero: ZeroTransfer
 
 
-Evidence = BlocksWitness | FreedomWitness | FixedModeWitness | CutWitness
+@dataclass(frozen=True)
+class PathCutWitness(Part):
+    """Evidence for no: a nonempty proper set of channels from which no path leads to another one.
+
+    Attributes
+    ----------
+    sources : tuple of str
+        The channels, under the key ``from``.
+    """
+
+    sources: tuple[str, ...] = field(metadata={"key": "from"})
+
+
+Evidence = BlocksWitness | FreedomWitness | FixedModeWitness | CutWitness | PathCutWitness
 
 
 @answer("completeness")
@@ -290,7 +303,7 @@ class Completeness(Answer):
         subsets of channels included.  For n ≥ 1 this holds if and only if some F makes the system
         controllable and observable through every single channel.  For n = 0 every F does, but a
         system with several channels is not complete, since no channel affects another.
-    evidence : BlocksWitness, FreedomWitness, FixedModeWitness or CutWitness
+    evidence : BlocksWitness, FreedomWitness, FixedModeWitness, CutWitness or PathCutWitness
         One of the first two for yes, one of the others for no.
     """
 

@@ -226,6 +226,30 @@ def without_path(system: System, pairs: Iterable[tuple[int, int]]) -> set[tuple[
     return {(j, i) for j, i in pairs if not seen[i] >> j & 1}
 
 
+def require_cut(value: Json, place: str, system: System) -> None:
+    """Stop unless some but not all channels are named, from which no path leads to another one.
+
+    Theorem ``transfer_graph.closed_states_no_arc``.
+    """
+    sources = names(value, place, system.names)
+    rest = complement(system, sources)
+    require(bool(sources and rest), "cut", place, "expected a nonempty proper set")
+    arcs = entries_of(system.A)
+    spend(60 * (len(arcs) + system.n))
+    driven: list[list[int]] = [[] for _ in range(system.n)]
+    for a, b, _ in arcs:
+        driven[b].append(a)
+    reached = {a for j in sources for a, _, _ in entries_of(system.B[j])}
+    left = [*reached]
+    while left:
+        new = set(driven[left.pop()]) - reached
+        reached |= new
+        left += new
+    for i in rest:
+        seen = any(b in reached for _, b, _ in entries_of(system.C[i]))
+        require(not seen, "path", place, f"a path leads to channel number {i + 1}")
+
+
 # Markov parameters of all channels at once, modulo a byte; ``proofs/transfer_graph.md``.
 
 Triples = list[tuple[int, int, int]]
@@ -258,13 +282,13 @@ def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] |
 
 
 def _inputs(system: System, sizes: list[int], ell: int) -> list[bytes]:
-    """The rows of [B_1 … B_m] modulo ℓ, a byte for each column."""
+    """The rows of [B_1 … B_m] modulo ℓ, a byte for each column; none for a row of zeros."""
     spend(system.n * (64 + sizes[-1]))
     rows = [bytearray(sizes[-1]) for _ in range(system.n)]
     for B, start in zip(system.B, sizes, strict=False):
         for a, u, x in residues(B, ell):
             rows[a][start + u] = x
-    return [bytes(row) for row in rows]
+    return [bytes(row) if any(row) else b"" for row in rows]
 
 
 def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
@@ -281,7 +305,7 @@ def _products(
 ) -> list[bytes]:
     """The rows of the product of a sparse matrix with one of ``width`` columns, modulo ℓ.
 
-    Long lines are added by coefficient.
+    Long lines are added by coefficient.  A row of zeros may be an empty string.
     """
     tables, long = multiples(ell), [len(line) > 2 * ell for line in lines]
     terms = sum(len(line) for line, many in zip(lines, long, strict=True) if not many)
@@ -289,11 +313,13 @@ def _products(
     numbers = [int.from_bytes(row, "little") for row in power] if any(long) else []
     made = []
     for line, many in zip(lines, long, strict=True):
-        parts: Iterable[bytes] = (power[j].translate(tables[x]) for j, x in line)
         if many:
             spend(by_coefficient_units(len(line), width, ell))
-            parts = by_coefficient(((x, numbers[j]) for j, x in line), width, ell)
-        made.append(byte_sum(parts, width, ell))
+            pairs = ((x, numbers[j]) for j, x in line)
+            made.append(byte_sum(by_coefficient(pairs, width, ell), width, ell))
+            continue
+        parts = [power[j].translate(tables[x]) for j, x in line if power[j]]
+        made.append(byte_sum(parts, width, ell) if parts else b"")
     return made
 
 

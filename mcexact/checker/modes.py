@@ -245,7 +245,7 @@ def check_completeness(claim: Json, witness: Json, system: System) -> None:
     """Check `_require_complete` for yes; a fixed mode or a cut of the transfer graph for no.
 
     Theorems ``completeness.completeness_yes``, ``completeness.completeness_no_mode``,
-    ``completeness.completeness_no_cut``.
+    ``completeness.completeness_no_cut``, ``transfer_graph.closed_states_no_arc``.
     """
     (verdict,) = fields(claim, "claim", "complete")
     if boolean(verdict, "claim.complete"):
@@ -259,6 +259,9 @@ def check_completeness(claim: Json, witness: Json, system: System) -> None:
         for i in rest:
             message = f"C X is not zero for channel number {i + 1}"
             require((system.C[i] @ X).is_zero(), "identity", "witness.zero", message)
+    elif isinstance(witness, dict) and "from" in witness:
+        (sources,) = fields(witness, "witness", "from")
+        evidence.require_cut(sources, "witness.from", system)
     else:
         coefficients, subspace = fields(witness, "witness", "polynomial", "subspace")
         p = polynomial(coefficients, "witness.polynomial", 1)

@@ -13,7 +13,7 @@ from mcexact.analysis import structure as graph_module
 from mcexact.analysis.fixed_modes import completeness
 from mcexact.analysis.sparse import edge_modulus, reachable_pairs
 from mcexact.analysis.structure import transfer_graph
-from mcexact.answer.modes import BlocksWitness
+from mcexact.answer.modes import BlocksWitness, PathCutWitness
 from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.errors import LimitReached
@@ -49,10 +49,12 @@ def test_the_structure_gives_the_same_graph(monkeypatch: pytest.MonkeyPatch) -> 
         assert valid(answer)
         if len(expected.arcs) < system.m**2:
             counted["zeros" if found.zeros else "paths"] += 1
+        counted["cuts"] += isinstance(answer.evidence, PathCutWitness)
         if answer.complete and isinstance(answer.evidence, BlocksWitness):
             counted[f"modulus {answer.evidence.modulus}"] += 1
     assert counted["paths"] > 50 > counted["zeros"] > 1, counted
     assert counted["modulus 31"] > 5, counted
+    assert counted["cuts"] > 5, counted
 
 
 def test_terms_that_cancel_need_a_zero_transfer(by_structure: pytest.MonkeyPatch) -> None:

@@ -33,12 +33,30 @@ BY_BLOCKS = changed(
 
 EVERYBODY = {"from": ["1", "2"], "X": matrix([1, 0], [0, 1]), "pivots": [0, 1]}
 
+ALONG = certificate(
+    "completeness",
+    plant(
+        [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
+        ([[1], [0], [0]], [[1, 0, 0]]),
+        ([[0], [1], [0]], [[0, 0, 1]]),
+        ([[0], [0], [1]], [[0, 1, 0]]),
+    ),
+    {"complete": False},
+    {"from": ["2", "3"]},
+)
+"""Channel 1 drives the others along a chain of states, and nothing leads back to it."""
+
 ACCEPTED = [
     ("one integrator", COMPLETE),
     ("one integrator, by a block", BY_BLOCKS),
     ("two channels that reach each other", EXCHANGE),
     ("one channel needs no arcs", changed(COMPLETE, ("witness.arcs", []))),
     ("a cut between integrators", CUT),
+    ("a cut that no path crosses", ALONG),
+    (
+        "the same for one of them, where the other is not measured",
+        changed(ALONG, ("witness.from", ["3"]), ("system.channels.1.C", [[1, 0, 0]])),
+    ),
     ("the paper's fixed mode", MODE),
     ("other gains", changed(EXCHANGE, ("witness.gains.0", matrix([5])))),
 ]
@@ -61,6 +79,18 @@ REJECTED = [
     ("a cut from everybody", CUT, ("witness.zero", EVERYBODY)),
     ("a cut that leaks", CUT, ("system.channels.0.C", [[1, 1]])),
     ("a cut that is not invariant", CUT, ("system.A.0.1", 1)),
+    ("a cut that a path crosses, one way", ALONG, ("witness.from", ["1"])),
+    ("a path over a state between", ALONG, ("witness.from", ["1", "3"])),
+    ("an entry that leads back", ALONG, ("system.A.0.2", 1)),
+    ("an output that sees the last state", ALONG, ("system.channels.0.C", [[1, 0, 1]])),
+    ("an input on the first state", ALONG, ("system.channels.2.B", [[1], [0], [1]])),
+    ("no channels", ALONG, ("witness.from", [])),
+    ("all channels", ALONG, ("witness.from", ["1", "2", "3"])),
+    ("channels out of order", ALONG, ("witness.from", ["3", "2"])),
+    ("a channel that is not there", ALONG, ("witness.from", ["2", "4"])),
+    ("a channel by its position", ALONG, ("witness.from", [1, 2])),
+    ("yes by a cut along paths", ALONG, ("claim.complete", True)),
+    ("a cut by paths and by a subspace", ALONG, ("witness.zero", EVERYBODY)),
     ("no evidence", MODE, ("witness", {})),
     ("both kinds of evidence", MODE, ("witness", {**MODE["witness"], **CUT["witness"]})),
     ("deg p = 0", MODE, ("witness.polynomial", [1])),

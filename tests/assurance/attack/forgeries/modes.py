@@ -33,6 +33,8 @@ def no_subset_at_all(rng: random.Random, document: Document) -> Forged:
     sources = rng.choice(([], list(system.names), chosen))
     document["claim"]["complete"] = False
     document["witness"] = {"zero": cut_off(system.n, sources, whole=rng.random() < 0.5)}
+    if rng.random() < 0.5:
+        document["witness"] = {"from": sources}
     return document
 
 
