@@ -240,5 +240,19 @@ Proof.
 rewrite vE mul_col_mx add_col_mx col_mxKd mulNmx !mxcol_mul -{1}(submxcolK z) mul_mxdiag_mxcol.
 rewrite -mxcolN -!mxcolD mxcolK -addrA -innovation addrC addrAC [RHS]addrC -addrA; congr (_ + _).
 Qed.
+
+(* At rest under constant signals, b to the plant and c to the estimators: where all estimates are right, an estimator
+   without a channel controller receives the signal that the plant receives. *)
+Theorem right_at_rest (b : 'cV[K]_n) (c : 'cV[K]_nm) i : k i = 0%N -> usubmx v + b = 0 -> usubmx (dsubmx v) + c = 0 ->
+  (forall j, x_ j = x) -> block_of K n i *m c = b.
+Proof.
+move=> none plant estimates right.
+have z0 : submxcol z i = 0 by apply/matrixP => a; have := ltn_ord a; rewrite {2}none.
+have := congr1 (mulmx (block_of K n i)) estimates; rewrite mulmxDr mulmx0 observer_estimate z0 mulmx0 addr0 right.
+rewrite subrr mulmx0 addr0 big1 => [|j _]; last by rewrite !right subrr mulmx0.
+rewrite addr0 => e; move: plant; rewrite observer_plant (eq_bigr (fun j => mcB S j *m F j *m x)) => [|j _].
+  by rewrite -mulmx_suml => e'; apply: (addrI (mcA S *m x + (\sum_j mcB S j *m F j) *m x)); rewrite e e'.
+by rewrite right.
+Qed.
 End Equations.
 End Paper.

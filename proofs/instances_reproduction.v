@@ -8,7 +8,7 @@ From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp.real_closed Require Import complex.
 From mcexact Require Import multichannel evidence controllability rank_one_repair pencil_space anderson_clements.
 From mcexact Require Import joint_controllability neighbor_graph gain_lines extended extended_bound feedback.
-From mcexact Require Import error_system delayed_systems distributed_observer integrators example example_hypotheses.
+From mcexact Require Import error_system theorem_1 delayed_systems distributed_observer integrators example example_hypotheses.
 From mcexact Require Import free_assignment sharing_gap any_graph concrete instances_paper instances_sharing_gap paper.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
@@ -203,12 +203,84 @@ rewrite -{2}[rsubmx w]submxrowK /outputs mul_mxrow_mxcol summxE [RHS](bigD1 i) /
 by rewrite in_setT /= mxE [LHS]big_ord1 [X in _ * X]mxE [i == j]eq_sym (negPf ji) andbF mulr0.
 Qed.
 Example equation_21_example : jointly_controllable (integrated pair) := (equation_21 pair_controllable).2 pair_21.
-Example equation_21_not : ~ jointly_controllable (integrated plant).
+Lemma no_21 : ~ condition_21 plant.
 Proof.
-move/(equation_21 jc).1; rewrite /condition_21 /row_free => /eqP full.
+rewrite /condition_21 /row_free => /eqP full.
 have := rank_leq_col (block_mx (mcA plant) (inputs plant setT) (outputs plant setT) (0 : 'M_(\sum_i q3 i, \sum_i p3 i))).
 by rewrite full leq_add2l !big_ord_recl !big_ord0.
 Qed.
+Example equation_21_not : ~ jointly_controllable (integrated plant).
+Proof. by move/(equation_21 jc).1/no_21. Qed.
+Example zero_canceled_example : forall k (D : controllers R p3 q3 k), eigenvalue (map_mx f (dynamic_loop (integrated plant) D)) 0 :=
+  fun k D => zero_canceled D no_21.
+
+(* at rest without any control, a state that drifts and the estimates 0; and diag(1, 2) with references -1 and -2, of which
+   every estimator knows its own *)
+Notation N2 := (fun _ : 'I_2 => [set: 'I_2]).
+Definition drift : multichannel R 2 one2 one2 :=
+  Multichannel (delta_mx 0 1) (fun i => delta_mx i 0) (fun i => delta_mx 0 i).
+Definition idle n : controllers R (fun=> n) (fun i : 'I_2 => one2 i + \sum_(i < 2) n)%N (fun=> 0%N) :=
+  Controllers (fun=> 0) (fun=> 0) (fun=> 0) (fun=> 0).
+Notation e1 := (delta_mx 0 0 : 'cV[R]_2).
+Notation r1 := (outputs drift setT *m e1).
+Lemma drift_outputs : r1 != 0.
+Proof.
+apply/eqP => e; have := congr1 (fun M => submxcol M 0 0 0) e.
+rewrite /outputs mxcol_mul mxcolK in_setT /= -rowE submxcol0 !mxE eqxx /=.
+by move/eqP; rewrite oner_eq0.
+Qed.
+Lemma observer_idle n (S : multichannel R n one2 one2) (x : 'cV[R]_n) (X : 'cV[R]_(\sum_(i < 2) n)) :
+  observer_loop N2 S (fun=> 0) (idle n) *m col_mx x (col_mx X 0) =
+  col_mx (mcA S *m x) (col_mx (\mxcol_i (mcA S *m (block_of R n i *m X))) 0).
+Proof.
+set v := LHS; rewrite -[v]vsubmxK -[dsubmx v]vsubmxK; congr col_mx; last congr col_mx.
+- rewrite observer_plant (_ : \sum_i _ = 0) ?addr0 //; apply: big1 => i _; by rewrite mulmx0 mul0mx.
+- apply: blocks_eq => i; rewrite observer_estimate block_mxcol /= linear0 !mul0mx !addr0.
+  rewrite (_ : \sum_(j in _) _ = 0); last first.
+    apply: big1 => j _; rewrite (_ : submxrow _ _ = 0) ?mul0mx //; apply/matrixP => a b; by rewrite !mxE.
+  by rewrite (_ : \sum_j _ = 0) ?mul0mx ?addr0 //; apply: big1 => j _; rewrite mulmx0.
+by apply/matrixP => a; have := ltn_ord a; rewrite {2}big1.
+Qed.
+Notation nI := (2 + \sum_(i < 2) 1)%N.
+Global Instance drift_concrete : concrete_system drift.
+Proof. by split=> //; apply/eqP => /matrixP/(_ 0 1); rewrite !mxE !eqxx; apply/eqP; rewrite oner_eq0. Qed.
+Notation drift_at_rest := (observer_loop N2 (integrated drift) (fun=> 0) (idle nI) *m
+  col_mx (col_mx e1 0) (col_mx 0 0) + col_mx (col_mx 0 (- r1)) 0 = 0).
+Lemma drift_rest : drift_at_rest.
+Proof.
+rewrite observer_idle (_ : \mxcol_i (_ *m (_ *m 0)) = 0); last by rewrite -[RHS]mxcol0; apply: eq_mxcol => i; rewrite !mulmx0.
+rewrite /= /integrated_A mul_block_col !mul0mx !addr0 mul_delta_mx_cond mulr0n.
+by rewrite !add_col_mx !addr0 subrr !col_mx0.
+Qed.
+Example wrong_estimates_example : drift_at_rest /\ exists j, block_of R nI j *m (0 : 'cV[R]_(\sum_(i < 2) nI)) != col_mx e1 0
+  := conj drift_rest (wrong_estimates (i := ord0) erefl drift_outputs drift_rest).
+Notation less j := ((- (j.+1)%:R)%:M : 'cV[R]_1).
+Lemma pair_against (i : 'I_2) : mcB pair i *m less i = - (mcA pair *m delta_mx i 0).
+Proof.
+rewrite mul_mx_scalar scaleNr; congr (- _); apply/colP => a; rewrite /= mul_diag_mx !mxE.
+by case: (a =P i) => [->|] //; rewrite /= !mulr0.
+Qed.
+Notation units := (\mxcol_i delta_mx i 0 : 'cV[R]_(\sum_(i < 2) 2)).
+Notation pair_at_rest := (observer_loop N2 pair (fun=> 0) (idle 2) *m col_mx (const_mx 1) (col_mx units 0) +
+  col_mx (\sum_j mcB pair j *m less j) (col_mx (\mxcol_j (mcB pair j *m less j)) 0) = 0).
+Lemma pair_rest : pair_at_rest.
+Proof.
+have ones : const_mx 1 = \sum_i delta_mx i 0 :> 'cV[R]_2.
+  apply/colP => i; rewrite summxE mxE (bigD1 i) //= big1 => [|j ji]; first by rewrite mxE !eqxx addr0.
+  by rewrite mxE eq_sym (negPf ji).
+rewrite observer_idle !add_col_mx -mxcolD (_ : \mxcol_i (_ + _) = 0); last first.
+  rewrite -[RHS]mxcol0; apply: eq_mxcol => i; by rewrite block_mxcol pair_against subrr.
+rewrite (eq_bigr _ (fun j _ => pair_against j)) sumrN -mulmx_sumr -ones subrr addr0.
+by rewrite !col_mx0.
+Qed.
+Lemma others_act : \sum_(j | j != ord0) mcB pair j *m less j != 0.
+Proof.
+rewrite (big_pred1 (lift ord0 ord0 : 'I_2)) => [|j]; last by case: j => [[|[|]]].
+rewrite pair_against oppr_eq0 /= mul_diag_mx; apply/eqP => /matrixP/(_ (lift ord0 ord0) 0); rewrite !mxE !eqxx mulr1.
+by apply/eqP; rewrite pnatr_eq0.
+Qed.
+Example added_references_example : pair_at_rest /\ exists j, block_of R 2 j *m units != const_mx 1
+  := conj pair_rest (added_references (i := ord0) (r := fun j => less j) erefl others_act pair_rest).
 
 (* IV-A *)
 Notation enlarged := (extended N3 one_each plant).

@@ -347,6 +347,21 @@ apply/(controllable_modes f) => lambda; have [->|/equation_20 //] := eqVneq lamb
 by rewrite map0 zero.
 Qed.
 
+(* A zero at 0, where (21) fails, is canceled by the integrators: 0 is an eigenvalue of every loop of channel controllers. *)
+Theorem zero_canceled k (D : controllers R p q k) : ~ condition_21 -> eigenvalue (map_mx f (dynamic_loop I D)) 0.
+Proof.
+move=> no; rewrite map_dynamic_loop; apply: fixed_dynamic_over => F.
+have : uncontrollable_mode (mcA I) (inputs I setT) 0.
+  by apply: contra_notT no => h; rewrite /condition_21 -integrated_zero; move: h; rewrite inputs_integrated.
+case/uncontrollable_modeP => w [nw wA wB].
+have wBi i : w *m mcB I i = 0.
+  have := congr1 (fun M => submxrow M i) wB; rewrite /inputs mul_mxrow mxrowK inE => ->.
+  by apply/matrixP => a b; rewrite !mxE.
+rewrite -(rmorph0 f) eigenvalue_map; apply/eigenvalueP; exists w => //.
+rewrite /closed_loop mulmxDr wA mulmx_sumr -[RHS]addr0; congr (_ + _).
+by apply: big1 => i _; rewrite !mulmxA wBi !mul0mx.
+Qed.
+
 (* Whatever the set-points r are, every trajectory of x' = M x - (0, r, 0) goes as fast as exp(at) to one point e, where
    y = r; the first rows of x are the plant's state and the next the integrators'. *)
 Definition attains_setpoints l (M : 'M[R]_(n + \sum_i q i + l)) (a : R) :=
@@ -385,6 +400,41 @@ have still : dsubmx (\mxrow_j (mcB I j *m F j)) = 0.
   by apply/matrixP => i j; rewrite !mxE big1 // => l _; rewrite col_mxEd mxE mul0r.
 rewrite /observer_loop block_mxEv col_mxKu !lower still linear0 row_mx0.
 by rewrite /= /integrated_A block_mxEv col_mxKd.
+Qed.
+
+(* where the observers' estimates are no right ones: at rest, with set-points that are not all 0 and an agent without a
+   channel controller, some x_j is not the state x of plant and integrators *)
+Notation nI := (n + \sum_i q i)%N.
+Theorem wrong_estimates F k (D : controllers R (fun=> nI) (fun i => q i + \sum_(i < m) nI)%N k) (x : 'cV[R]_nI)
+    (X : 'cV[R]_(\sum_(i < m) nI)) (z : 'cV[R]_(\sum_i k i)) (r : 'cV[R]_(\sum_i q i)) i : k i = 0%N -> r != 0 ->
+  observer_loop N I F D *m col_mx x (col_mx X z) + col_mx (col_mx 0 (- r)) 0 = 0 ->
+  exists j, block_of R nI j *m X != x.
+Proof.
+move=> none r0 rest; apply/existsP; apply: contraNT r0 => /existsPn right.
+have := @right_at_rest _ _ _ _ _ k N I F D x X z (col_mx 0 (- r)) 0 i none.
+rewrite mulmx0 => h; have /(congr1 dsubmx) : 0 = col_mx (0 : 'cV_n) (- r); last first.
+  by rewrite col_mxKd linear0 => /eqP; rewrite eq_sym oppr_eq0.
+apply: h => [||j]; last by apply/eqP; move: (right j); rewrite negbK.
+  by have := congr1 usubmx rest; rewrite linearD linear0 /= col_mxKu.
+by have := congr1 (usubmx \o dsubmx) rest; rewrite /= !linearD !linear0 /= col_mxKd linear0.
+Qed.
+
+(* The substitution rule with references u_i = F_i x_i + r_i, of which estimator i knows its own: at rest, where those of
+   the others act on the plant and agent i has no channel controller, some estimate is wrong. *)
+Theorem added_references (F : forall i, 'M[R]_(p i, n)) k (D : controllers R (fun=> n) (fun i => q i + nm)%N k)
+    (x : 'cV[R]_n) (X : 'cV[R]_nm) (z : 'cV[R]_(\sum_i k i)) (r : forall j, 'cV_(p j)) i : k i = 0%N ->
+  \sum_(j | j != i) B j *m r j != 0 ->
+  observer_loop N S F D *m col_mx x (col_mx X z) +
+    col_mx (\sum_j B j *m r j) (col_mx (\mxcol_j (B j *m r j)) 0) = 0 ->
+  exists j, block_of R n j *m X != x.
+Proof.
+move=> none r0 rest; apply/existsP; apply: contraNT r0 => /existsPn right.
+have := @right_at_rest _ _ _ _ _ k N S F D x X z (\sum_j B j *m r j) (\mxcol_j (B j *m r j)) i none.
+have sumE : \sum_j B j *m r j = B i *m r i + \sum_(j | j != i) B j *m r j by rewrite (bigD1 i).
+rewrite block_mxcol => h; apply/eqP/(addrI (B i *m r i)); rewrite -sumE addr0; symmetry; apply: h => [||j].
+- by have := congr1 usubmx rest; rewrite linearD linear0 /= col_mxKu.
+- by have := congr1 (usubmx \o dsubmx) rest; rewrite /= !linearD !linear0 /= col_mxKd col_mxKu.
+by apply/eqP; move: (right j); rewrite negbK.
 Qed.
 
 (* IV-A.  The fixed spectrum is that under dynamic controllers *)
