@@ -62,7 +62,7 @@ def invalid(*answers: Answer) -> list[str]:
 
 
 def of_a_graph(number: int) -> Examined:
-    """Both numbers, and both plants in one time domain; in both for drawn graphs."""
+    """Both numbers, and both plants in both time domains."""
     graph = _graph(number)
     gap = sharing_gap(_named(graph))
     true = (gaps.relay_number(graph), gaps.boundary_number(graph))
