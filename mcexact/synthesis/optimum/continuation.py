@@ -135,7 +135,8 @@ def with_larger_box(
     ladder : Ladder
     best : Candidate
     part : Fraction, optional
-        The part of each entry by which plants of the box may differ; by default 1 %.
+        The part of each entry by which plants of the box may differ; by default 1 %.  Where the
+        plant has radii, these are the box.
     most : float
         The factor by which the cost may grow.
 
@@ -144,14 +145,15 @@ def with_larger_box(
     Improved
         The first loop that seems to have the box, or ``best`` where none has, or only dearer ones.
     """
-    aimed = BOX if part is None else part
+    own = best.problem.network.plant.uncertainty is not None
+    aimed, whole = (Fraction(1), "the radii") if own else (part or BOX, "each entry")
     seen = box_part(best)
     if seen is None and part is not None:
         return Improved(best, ("no box was sought: the loop is large, or its plant a derived one",))
     if seen is None or seen >= aimed:
         return Improved(best)
     pace, found = _pace(best, ladder.target.region.time), best
-    told = f"the loop stays stable for plants within about {percent(_short(seen))} of each entry"
+    told = f"the loop stays stable for plants within about {percent(_short(seen))} of {whole}"
     for _ in range(_WALK):
         pace *= _FASTER
         target = replace(ladder.target, region=region_of_pace(ladder.target.region.time, pace))
@@ -175,17 +177,19 @@ def with_larger_box(
 def box_part(candidate: Candidate) -> float | None:
     """The part of each entry by which a plant may differ while a proof of its loop is likely.
 
-    None where it is not searched: for derived plants, and for loops of many signals.
+    Where the plant has radii it is a part of these.  None where it is not searched: for derived
+    plants, and for loops of many signals.
     """
     problem = candidate.problem
     plant, graph = problem.network.plant, problem.network.graph
     rows, columns = problem.mask.shape
-    if plant.subject or plant.uncertainty is not None or problem.network.system.n != plant.n:
+    if plant.subject or problem.network.system.n != plant.n:
         return None
     if len(problem.A) + rows + columns > _MOST_SIGNALS:
         return None
     loop = closed_loop(plant, controller_of(problem, candidate.K), graph)
-    unit = replace(loop, plant=Box.relative(plant, 1).system)
+    own = plant.uncertainty is not None
+    unit = loop if own else replace(loop, plant=Box.relative(plant, 1).system)
     try:
         margins = StabilitySearch(unit, StabilityRegion(plant.time)).margins()
         least = min((each for each, _ in margins), default=0.0)

@@ -338,10 +338,11 @@ def _improved(ladder: Ladder, request: Request, aims: Aims, result: _Result) -> 
         step = more_damped(further, best)
         best, notes = step.candidate, (*notes, *step.notes)
     ladder.tell("a box of plants")
-    if aims.box is None:
+    if aims.box is None and best.problem.network.plant.uncertainty is None:
         step = with_larger_box(further, best)
     else:
-        step = with_larger_box(further, best, Fraction(aims.box), np.inf)
+        part = None if aims.box is None else Fraction(aims.box)
+        step = with_larger_box(further, best, part, np.inf)
     best, notes = step.candidate, (*notes, *step.notes)
     return replace(result, candidates=(best, *result.candidates), notes=notes)
 

@@ -85,12 +85,22 @@ def _candidate_of(design: Any) -> Candidate:
     return Candidate("", optimum.problem, optimum.K, optimum.figures, optimum.peaks)
 
 
-def test_no_box_is_sought_around_plants_that_have_radii() -> None:
+def test_the_box_of_a_plant_with_radii_is_a_part_of_these() -> None:
     _, candidate = found(SPRING, [[0.0, -1.0]])
-    boxed = Box.relative(SPRING, Fraction(1, 100)).system
-    network = decentralized_network(boxed)
-    problem = replace(candidate.problem, network=network)
-    assert box_part(replace(candidate, problem=problem)) is None
+    whole = box_part(candidate)
+    boxed = decentralized_network(Box.relative(SPRING, Fraction(1, 100)).system)
+    own = box_part(replace(candidate, problem=replace(candidate.problem, network=boxed)))
+    assert whole is not None and own == pytest.approx(100 * whole, rel=1e-6)
+
+
+def test_radii_are_aimed_at_whatever_it_costs() -> None:
+    boxed = Box.relative(SPRING, Fraction(1, 20)).system
+    ladder, slow = found(boxed, [[0.0, -0.02]])
+    small = box_part(slow)
+    assert small is not None and small < 1
+    wide = with_larger_box(ladder, slow, None, np.inf)
+    reached = box_part(wide.candidate)
+    assert reached is not None and reached >= 1 and not wide.notes
 
 
 def test_faster_loops_have_a_larger_box_and_the_box_is_reached_if_it_may_cost() -> None:
