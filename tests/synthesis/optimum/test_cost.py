@@ -7,19 +7,29 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag, solve_continuous_lyapunov, solve_discrete_lyapunov
 
-from mcexact.analysis.performance import cost_of, default_weights
+from mcexact import Aims, design_decentralized
+from mcexact.analysis.performance import (
+    bound_of,
+    computed_bound,
+    computed_margins,
+    cost_of,
+    default_weights,
+    response_of,
+)
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 from mcexact.exact.roots import is_discrete
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum.descent import Objective
+from mcexact.synthesis.optimum.diagnosis import least_disk_margin, margin_of
 from mcexact.synthesis.optimum.figures import (
     Limits,
     Margins,
     Sensitivity,
     Shape,
     frequencies,
+    least_cost,
     quadratic_costs,
 )
 from mcexact.synthesis.optimum.problem import (
@@ -248,3 +258,24 @@ def test_a_plant_without_inputs_is_not_sensitive():
     assert seen.peak(np.array([1j])) == 0
     margins = Margins(none, np.zeros(of.mask.shape))
     assert margins.excess(np.array([1j]), Limits(0.4, 0.3))[0] == 0
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_the_search_has_the_bound_the_cost_and_the_margins_of_certificates(time: str) -> None:
+    plant = coupled(time)
+    exact = default_weights(plant)
+    least = least_cost(plant, Weights.unit(plant))
+    assert least == pytest.approx(computed_bound(plant, exact), rel=1e-9)
+    proved = bound_of(plant, exact)
+    assert proved is not None and least is not None
+    assert 0.97 * least <= to_float(proved.cost) <= least * (1 + 1e-9)
+    design = design_decentralized(plant, aims=Aims(effort=1))
+    optimum, loop = design.parts["optimum"], design.loop.closed
+    cost = cost_of(loop, exact)
+    assert cost is not None
+    assert optimum.figures.cost == pytest.approx(to_float(cost.cost), rel=1e-2)
+    sides = [computed_margins(response_of(loop, side))[0] for side in ("inputs", "outputs")]
+    assert optimum.peaks.disk == pytest.approx(min(sides), rel=1e-2)
+    assert optimum.peaks.disk == pytest.approx(least_disk_margin(loop), rel=1e-2)
+    assert optimum.peaks.margin == pytest.approx(margin_of(loop), rel=1e-2)
+    assert optimum.peaks.disk >= 0.4 and optimum.peaks.margin >= 0.3
