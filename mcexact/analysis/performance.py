@@ -952,16 +952,16 @@ def response_of(loop: ClosedLoop, at: Side) -> PortResponse:
     return PortResponse((disturbed.M, enter, leave), is_discrete(loop.plant.time), HALF)
 
 
-def computed_margins(response: PortResponse) -> tuple[float, float]:
-    """The least disk margin of a single port, and that of all together, at many frequencies.
+def computed_margins(response: PortResponse) -> tuple[list[float], float]:
+    """The disk margin of each port by itself, and that of all together, at many frequencies.
 
-    Both are 0 for a loop that is not stable, and prove nothing; without ports they are 2.
+    All are 0 for a loop that is not stable, and prove nothing; without ports the latter is 2.
     """
-    if response.unstable:
-        return 0.0, 0.0
     ports = range(response.ports)
-    single = max((response.scaled_norm([k])[0] for k in ports), default=0.5)
-    return 1 / max(single, 0.5), 1 / max(response.scaled_norm(ports)[0] if ports else 0.5, 0.5)
+    if response.unstable:
+        return [0.0 for _ in ports], 0.0
+    single = [1 / max(response.scaled_norm([k])[0], 0.5) for k in ports]
+    return single, 1 / max(response.scaled_norm(ports)[0] if ports else 0.5, 0.5)
 
 
 HALF = Fraction(1, 2)

@@ -265,7 +265,7 @@ FIRST_COST = Template(
     "first-cost", "cost ≤ {ratio:digits_above} × a bound for every LTI controller{proper:proper}"
 )
 FIRST_MARGIN = Template("first-margin", "disk margin ≥ {margin:digits_below} in every loop")
-FIRST_BOX = Template("first-box", "stable for plants within {part:percent} of each entry")
+FIRST_BOX = Template("first-box", "stable within {part:percent} of each entry")
 FIRST_RADII = Template("first-radii", "stable for all plants within the radii")
 
 # Rules.

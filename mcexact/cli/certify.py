@@ -71,6 +71,8 @@ from mcexact.errors import LimitReached
     "moduli, such as 1%.",
 )
 @options.weights
+@options.no_box
+@options.prove_all
 @click.option(
     "-o",
     "--output",

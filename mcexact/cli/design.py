@@ -79,14 +79,8 @@ def design_options(
         options.arithmetic,
         click.option("--agent", metavar="NAME", help=agent_help),
         options.aims if searches else options.weights,
-        click.option(
-            "--no-box",
-            is_flag=True,
-            help="Search no part by which all entries of the plant may differ while every loop is "
-            "stable, which is otherwise proved, or for the uncertainty of FILE, with the work of "
-            "--effort or of five seconds; loops with more than 160 states, inputs and outputs are "
-            "left out.",
-        ),
+        options.no_box,
+        options.prove_all,
         options.controller_output,
         options.page("figures of the loop and all certificates"),
         options.answering,
@@ -137,7 +131,8 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
     plant = run.read(file)
     result = run.result(
         _designed,
-        *(name, plant, *extra, run.limits, keywords, aimed, not values["no_box"]),
+        *(name, plant, *extra, run.limits, keywords, aimed),
+        *(not values["no_box"], values["prove_all"]),
         *(html is not None, run.system_by_digest),
         doing=f"designing for {plant[0]}",
         telling=True,

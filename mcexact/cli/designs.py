@@ -20,7 +20,7 @@ from mcexact.answer.protocol import Answer
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import Sentence
 from mcexact.cli.files import system_in
-from mcexact.cli.loops import assessed, read_weights
+from mcexact.cli.loops import assessed, read_weights, unproved
 from mcexact.cli.options import AIMS
 from mcexact.cli.results import Evidence, Loop, Refused
 from mcexact.derived.constructions import augmented_outputs
@@ -37,6 +37,7 @@ from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Warned
 from mcexact.synthesis.optimum.figures import Aims
+from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.robustness import EveryLoop
 from mcexact.synthesis.setpoint import design_setpoint
 from mcexact.synthesis.state_feedback import require_numbers
@@ -58,6 +59,7 @@ def designed(
     wanted: dict[str, Any],
     aimed: Mapping[str, Any],
     with_box: bool,
+    prove_all: bool,
     with_page: bool,
     system_by_digest: bool,
     tell: Callable[[str], None],
@@ -80,6 +82,8 @@ def designed(
         The options of a search (`mcexact.cli.options.AIMS`); empty if the command has none.
     with_box : bool
         Whether to search a part by which the entries of the plant may differ.
+    prove_all : bool
+        Whether costs and margins are proved however large the certificates are.
     with_page, system_by_digest : bool
     tell : callable
         Shows a warning to the user at once.
@@ -125,10 +129,14 @@ def designed(
     every_loop = None
     if with_box and design.stable:
         every_loop = design.every_loop(**({"effort": aims.effort} if aims.effort else {}))
-    account, assessment = design.account_with(every_loop), assess(design, aims, every_loop)
-    figures = measured(
-        design.measures(), assessment.rows(), account.sentences, design.region.discrete
-    )
+    proved = None
+    if design.stable:
+        closed = design.loop.closed
+        proved = performance_of(closed, weights=weighed, prove_all=prove_all)
+    account = design.account_with(every_loop, proved)
+    assessment = assess(design, aims, every_loop, proved)
+    rows = [*unproved(proved), *assessment.rows()]
+    figures = measured(design.measures(), rows, account.sentences, design.region.discrete)
     return assessed(
         account,
         assessment,

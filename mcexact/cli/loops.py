@@ -60,10 +60,18 @@ from mcexact.synthesis.certify import (
     safe_digits,
 )
 from mcexact.synthesis.optimum.diagnosis import curves_of, rounded_controller
-from mcexact.synthesis.robustness import WithinRadii, failing_plant, known_within
+from mcexact.synthesis.performance import Performance, performance_of
+from mcexact.synthesis.robustness import (
+    WithinRadii,
+    every_loop,
+    failing_plant,
+    known_within,
+)
 
 _EFFORT = 5.0
 """The seconds of a search for the largest part of the ranges of parameters."""
+_OF_DIGITS = ("digits of the gains that are safe", "digits that are too few")
+"""The labels of the rows about rounded gains."""
 _OF_RANGES = ("rate", "radius")
 """The options of `mcexact certify` that say what is proved for all values, besides --gains."""
 
@@ -99,6 +107,7 @@ def certified(
         If options contradict each other, or do not apply to the plant.
     """
     gains, effort, at = wanted.pop("gains"), wanted.pop("effort"), dict(wanted.pop("at"))
+    with_box, prove_all = not wanted.pop("no_box"), wanted.pop("prove_all")
     typed_plant = plant_in(*plant, limits, at)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
@@ -126,21 +135,34 @@ def certified(
         notes = (*notes, f"{near}, outside {verdict.region}")
     loop, weighed = closed_loop(system, controller), read_weights(weights, limits)
     with InputError.inside(plant[0] if weights is None else weights[0]):
+        proved = None
+        if verdict.stable:
+            proved = performance_of(loop, weights=weighed, prove_all=prove_all)
         assessment = assessed_loop(
-            loop, verdict.region, certified=verdict.stable, weights=weighed, notes=notes
+            loop,
+            verdict.region,
+            certified=verdict.stable,
+            weights=weighed,
+            notes=notes,
+            performance=proved,
         )
     loops = loops_within(system, controller, verdict, gains, search)
-    assessment = replace(assessment, within_radii=loops.within_radii)
+    if with_box and verdict.stable and not loops.view:
+        loops, gains = loops_near(loop, verdict, loops)
+    assessment = replace(
+        assessment, within_radii=loops.within_radii, fails_within=loops.fails_within(system)
+    )
     account = account_of_verdict(
         verdict,
         largest=wanted["largest"],
         every_loop=loops.proof,
         gains=gains,
         failing=loops.failing,
+        performance=proved,
     )
     if digits is not None:
         loops = loops.with_digits(loops_with_digits(system, typed, verdict, digits))
-    figures = Table(BASIS, (), tuple(assessment.rows()))
+    figures = Table(BASIS, (), (*unproved(proved), *assessment.rows()))
     bound_text = None if verdict.bound is None else str(verdict.bound)
     return assessed(
         account,
@@ -205,9 +227,9 @@ def assessed(
         The controller's file.
     """
     all_loops = (EVERY_LOOP, EVERY_LOOP_PART)
-    lines = [assessment.verdict]
+    lines = [assessment.first_line(account.sentences.at("first"))]
     lines += [each.line for each in account.sentences if each.template in all_loops]
-    lines += [f"warning: {each}" for each in assessment.warnings[1:]]
+    lines += [f"warning: {each}" for each in assessment.warnings if each not in lines[0]]
     lines += [f"note: {each}" for each in assessment.notes]
     page = None
     if with_page:
@@ -215,7 +237,13 @@ def assessed(
         page = loop_page(account, assessment.install, lines, tables, curves, loop.controller)
         page = replace(page, pictures=(*pictures, *page.pictures))
     evidence = Evidence.of(account, system_by_digest)
-    return Loop(evidence, document, tables, page, lines, controller)
+    whole = {**document, "first_line": lines[0]}
+    return Loop(evidence, whole, tables, page, lines, controller)
+
+
+def unproved(performance: Performance | None) -> tuple[tuple[str, str], ...]:
+    """The rows of what is not proved of the performance."""
+    return () if performance is None else tuple(performance.rows())
 
 
 def read_weights(
@@ -261,9 +289,15 @@ class Loops:
     within_radii: WithinRadii | None = None
     failing: FailingPlant | None = None
 
+    def fails_within(self, plant: MultiChannelSystem) -> Fraction | None:
+        """The part of its entries within which a plant fails, if it has no radii of its own."""
+        own = plant.uncertainty is not None
+        return None if self.failing is None or own else self.failing.distance
+
     def tables(self) -> tuple[Table, ...]:
         """The table, if there is something to say."""
-        title = "every loop in the box" if "every_loop" in self.view else "rounded gains"
+        about_digits = all(label in _OF_DIGITS for label, _ in self.rows)
+        title = "rounded gains" if about_digits else "every loop in the box"
         return (Table(title, (), self.rows),) if self.rows else ()
 
     def with_digits(self, other: Loops) -> Loops:
@@ -316,6 +350,16 @@ def loops_within(
     if search is not None and search.proof is not None:
         within = _within_radii_of_file(search)
     return Loops(tuple(rows), proof, {"every_loop": view}, within, failing or near)
+
+
+def loops_near(
+    loop: ClosedLoop, verdict: StabilityVerdict, known: Loops
+) -> tuple[Loops, Fraction | None]:
+    """All loops in a box that is searched around a plant without radii, and the gains' radii."""
+    around = every_loop(loop, verdict.region)
+    failing = known.failing or around.failing
+    view = {"every_loop": around.to_dict()}
+    return Loops(tuple(around.rows()), around.proof, view, None, failing), around.gains
 
 
 def _within_radii_of_file(search: LargestUncertainty) -> WithinRadii | None:
@@ -372,7 +416,7 @@ def loops_with_digits(
         else f"{count(known.unsafe, 'digit')}, rounded up or down so that the loop fails"
     )
     view = {"safe_digits": {"safe": known.safe, "too_few": known.unsafe}}
-    rows = ("digits of the gains that are safe", safe), ("digits that are too few", few)
+    rows = tuple(zip(_OF_DIGITS, (safe, few), strict=True))
     return Loops(rows, None, view)
 
 

@@ -337,6 +337,21 @@ weights = click.option(
 )
 
 
+no_box = click.option(
+    "--no-box",
+    is_flag=True,
+    help="Search no part by which all entries of the plant may differ while every loop is stable, "
+    "which is otherwise proved, or for the uncertainty of FILE, with the work of --effort or of "
+    "five seconds; loops with more than 160 states, inputs and outputs are left out.",
+)
+prove_all = click.option(
+    "--prove-all",
+    is_flag=True,
+    help="Prove costs and disk margins however large the certificates are; by default those beyond "
+    "two megabytes, or some five seconds of checking, are left out and computed.",
+)
+
+
 damping = click.option(
     "--damping",
     type=rational,

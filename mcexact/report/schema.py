@@ -312,6 +312,19 @@ def _account(required: Schema, optional: Schema | None = None) -> Schema:
 
 
 _FIGURES = table({"type": ["number", "null", "integer"]})
+PERFORMANCE = record(
+    {
+        "cost_over_bound": some(NUMBER),
+        "least_single_margin": some(NUMBER),
+        "weakest": TEXT,
+        "proved": rows(TEXT),
+        "computed": table(some(FLOAT)),
+        "left_out": table(TEXT),
+    },
+    closed=True,
+    says="the proved cost beside a bound for every controller, and the least disk margin of a "
+    "single input or output; figures in floating point, and why some are not proved",
+)
 ASSESSMENT = record(
     {"basis": TEXT, "install": TEXT, "verdict": TEXT, "warnings": rows(TEXT), "notes": rows(TEXT)},
     {
@@ -323,6 +336,7 @@ ASSESSMENT = record(
         "peak": some(FLOAT),
         "cost": some(FLOAT),
         "relative_cost": some(FLOAT),
+        "performance": some(PERFORMANCE),
         "digits_that_suffice": some(WHOLE),
         "without_a_controller": some(_FIGURES),
         "links": rows(record({"sender": TEXT, "receiver": TEXT, "numbers": WHOLE})),
@@ -357,6 +371,7 @@ def design() -> Schema:
         "floating_point": _FIGURES,
         "controller": record(agents(), closed=True),
         "assessment": ASSESSMENT,
+        "first_line": TEXT,
     }
     parts: Schema = {
         key: {}
@@ -401,6 +416,7 @@ def certify() -> Schema:
             "rounded_to_digits": some(WHOLE),
             "eigenvalue_outside": some(record({"re": TEXT, "im": TEXT, "radius": TEXT})),
             "assessment": ASSESSMENT,
+            "first_line": TEXT,
         },
         {
             "every_loop": EVERY_LOOP,

@@ -4,20 +4,25 @@ A controller that is certified can still be useless: fragile, costly, or with ga
 has.  `assess` computes the figures that say so for a design, `assessed_loop` those of any loop, and
 the verdict of an `Assessment` follows from them:
 
-- "Do not install": the region is not certified, a plant or gains within the radii are refuted, or
-  the margin is next to nothing;
-- "Install with care": the loop is fragile, needs many digits, lets the state grow, costs or acts
-  much more than the one controller that all agents together would have, or the region is beyond
-  what is sensible;
+- "Do not install": the region is not certified, a plant or gains within the radii are refuted, a
+  plant within 0.1 % of each entry has a loop that fails, or a single input or output has next to no
+  disk margin;
+- "Install with care": a single input or output has a disk margin below 0.4, or all of them together
+  one below 0.2; a plant within 1 % fails; the damping is below 0.05, or below the aim; the loop is
+  slower than the plant without it; it costs more than three times a bound for every linear
+  time-invariant controller, or needs more than four digits;
 - "Worth installing": none of these.
 
-The figures are computed in floating point.  The verdict names what is proved and what is open.
+Only ratios decide, which no change of units changes: costs beside a bound, margins, damping ratios,
+parts of entries.  What is proved of them is in the first line (`Assessment.first_line`) and in the
+sentences of the account; the other figures are computed in floating point.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from math import isfinite, isnan
 from typing import Any, Literal
@@ -27,6 +32,7 @@ import numpy as np
 from mcexact.answer.templates import count, listed
 from mcexact.errors import InputError
 from mcexact.exact.matrix import finite, to_float
+from mcexact.exact.rational import percent
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop
@@ -44,16 +50,29 @@ from mcexact.synthesis.optimum.diagnosis import (
     step_peak,
     sure_figures,
 )
-from mcexact.synthesis.optimum.figures import MARGIN, NO_LIMITS, Aims, Figures, Shape, figures_of
+from mcexact.synthesis.optimum.figures import (
+    DISK,
+    MARGIN,
+    NO_LIMITS,
+    Aims,
+    Figures,
+    Shape,
+    figures_of,
+)
 from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights, quiet_floats
+from mcexact.synthesis.performance import Performance, performance_of
 from mcexact.synthesis.robustness import EveryLoop, WithinRadii
 
 Install = Literal["yes", "with care", "no"]
 
 BASIS = "computed in floating point, not certified"
 _COMPUTED = " (computed)"
-_NO_MARGIN, _PEAK, _TIMES_THE_PEAK, _TIMES_THE_COST = 0.05, 100.0, 5.0, 10.0
-_STEP_PEAK, _DIGITS, _TIMES_THE_GAIN = 2.0, 4, 10.0
+LONGEST = 160
+"""The characters of the first line."""
+_NO_DISK, _TOGETHER, _TIMES_THE_BOUND = 0.1, 0.2, 3.0
+_FAILS, _FAILS_AT_ONCE = Fraction(1, 100), Fraction(1, 1000)
+_DAMPING, _SLOWER = 0.05, 0.99
+_STEP_PEAK, _DIGITS = 2.0, 4
 _REFUTED = "within the given uncertainty there is a plant whose loop is not stable"
 _OPEN = "stability is not proved for everything within the given uncertainty"
 
@@ -102,6 +121,10 @@ class Assessment(Shown):
     within_radii : str or None
         Whether stability is proved or refuted for all plants and gains within the radii that were
         given; None if none were.
+    performance : Performance or None
+        The cost beside a bound, and disk margins, of a loop that is certified.
+    fails_within : Fraction or None
+        The part of each entry within which a plant is known whose loop is not stable.
     """
 
     orders: Mapping[str, int]
@@ -116,6 +139,8 @@ class Assessment(Shown):
     shape: Shape = NO_LIMITS
     uncontrolled: Figures | None = None
     within_radii: WithinRadii | None = None
+    performance: Performance | None = None
+    fails_within: Fraction | None = None
 
     def __repr__(self) -> str:
         return fitting(f"Assessment({self.verdict})")
@@ -136,109 +161,156 @@ class Assessment(Shown):
 
     @property
     def relative_cost(self) -> float:
-        """The cost divided by that of `central`; NaN if either is not known."""
-        return np.nan if self.central is None else self.figures.cost / self.central.cost
+        """The cost divided by a bound for every linear time-invariant controller, proved or not."""
+        return np.nan if self.performance is None else self.performance.times_the_bound
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
         """The warnings, the most important first."""
-        return (*self._dangers(), *self._cares())
+        return tuple(text for _, text in (*self._dangers(), *self._cares()))
 
     @property
     def install(self) -> Install:
         """Whether to install the controller."""
-        if any(True for _ in self._dangers()):
+        if self._dangers():
             return "no"
-        return "with care" if any(True for _ in self._cares()) else "yes"
+        return "with care" if self._cares() else "yes"
 
     @property
     def verdict(self) -> str:
         """One line that says whether to install the controller, and why."""
-        words = {
-            "yes": "Worth installing",
-            "with care": "Install with care",
-            "no": "Do not install",
-        }
-        reason = (self.warnings or (self._strengths(),))[0]
+        words, reason = _WORDS[self.install], (self.warnings or (self._strengths(),))[0]
         exact = not self.certified or reason in (_REFUTED, _OPEN)
-        marked = exact or reason.endswith(_COMPUTED)
-        return f"{words[self.install]}: {reason}{'' if marked else _COMPUTED}"
+        return f"{words}: {reason}{'' if exact or reason.endswith(_COMPUTED) else _COMPUTED}"
 
-    @property
-    def _is_sensible(self) -> bool:
-        """Whether this loop, or the one for all agents, shows that the region is affordable."""
-        return self.diagnosis.is_sensible or self.diagnosis.allows(self.figures)
+    def first_line(self, proved: Sequence[str] = ()) -> str:
+        """What is proved of the loop, and the verdict, in at most 160 characters.
 
-    @property
-    def _compares_peaks(self) -> bool:
-        """Whether the peak of one controller for all is of the same states, without integrals."""
-        return self.uncontrolled is not None
+        Parameters
+        ----------
+        proved : sequence of str
+            The sentences about the cost, the single margins and the plants nearby, which follow
+            from certificates.
+        """
+        reasons = [*self._dangers(), *self._cares()]
+        verdict = _WORDS[self.install]
+        facts = ", ".join(proved) if self.certified else ""
+        facts = f"Proved: {facts}. " if facts else ""
+        for short, text in reasons[:1]:
+            endings = (f": {text}", f": {short}", "")
+            fitting = (each for each in endings if len(facts + verdict + each) <= LONGEST)
+            verdict += next(fitting, "")
+        return facts + verdict
 
     def _strengths(self) -> str:
         digits = "1 digit suffices" if self.digits == 1 else f"{self.digits} digits suffice"
+        seen = self.performance
+        if seen is None:
+            return digits
         return (
-            f"margin {shown(self.figures.margin)}, cost {shown(self.relative_cost)} times that "
-            f"of one controller for all agents, {digits}"
+            f"disk margin {shown(seen.least_margin)} in every single loop, cost "
+            f"{shown(seen.times_the_bound)} times a bound for every controller, {digits}"
         )
 
-    def _dangers(self) -> list[str]:
-        seen = self.figures
+    def _dangers(self) -> list[tuple[str, str]]:
+        """Why nobody should install the controller: in few words, and in a sentence."""
+        seen, known = self.figures, self.performance
         if not self.certified:
-            return [f"the loop does not satisfy {self.region}"]
+            return [("the loop is outside the region", f"the loop does not satisfy {self.region}")]
         if self.within_radii == "refuted":
-            return [_REFUTED]
+            return [("a plant within the radii fails", _REFUTED)]
         if seen.margin <= 0:
-            return ["in double precision the computed loop is not even stable"]
-        if seen.margin < _NO_MARGIN:
-            return [
-                f"the margin at the plant's inputs is {shown(seen.margin)}: an error of this part "
-                "of the inputs may destabilize the loop"
-            ]
-        return []
+            text = "in double precision the computed loop is not even stable"
+            return [("not stable in double precision", text)]
+        dangers = []
+        if known is not None and known.least_margin < _NO_DISK:
+            dangers.append(self._weak(known))
+        if self.fails_within is not None and self.fails_within < _FAILS_AT_ONCE:
+            dangers.append(self._fails(self.fails_within))
+        return dangers
 
-    def _cares(self) -> list[str]:
-        seen, central, cares = self.figures, self.central, list[str]()
-        if seen.margin <= 0:
-            return []
-        unknown = [name for name in ("margin", "peak", "cost") if isnan(getattr(seen, name))]
+    def _weak(self, known: Performance) -> tuple[str, str]:
+        margin = shown(known.least_margin)
+        return f"margin {margin}", f"the disk margin of the {known.weakest} is {margin}"
+
+    def _fails(self, distance: Fraction) -> tuple[str, str]:
+        part = percent(distance, up=True)
+        return (
+            f"a plant within {part} fails",
+            f"the loop of a plant within {part} of each entry is not stable",
+        )
+
+    def _cares(self) -> list[tuple[str, str]]:
+        """Why to install the controller with care: in few words, and in a sentence."""
+        seen, cares = self.figures, list[tuple[str, str]]()
+        if not self.certified or seen.margin <= 0:
+            return cares
+        unknown = [name for name in ("peak", "cost") if isnan(getattr(seen, name))]
         if unknown:
-            cares.append(
+            text = (
                 f"the {listed(unknown)} of the loop {'is' if len(unknown) == 1 else 'are'} not "
                 "known: the loop is too sensitive for double precision"
             )
-        if self.certified and self.within_radii == "open":
-            cares.append(_OPEN)
-        if _NO_MARGIN <= seen.margin < MARGIN:
-            cares.append(f"fragile, the margin at the plant's inputs is {shown(seen.margin)}")
-        if not self.shape.met(seen.damping, seen.fastest):
-            cares.append(
-                f"the least damping ratio is {shown(seen.damping)} and the largest modulus of an "
-                f"eigenvalue {shown(seen.fastest)}, not as aimed at"
-            )
-        if self.digits is None and self.certified:
-            cares.append(
-                f"rounded to {MOST_DIGITS} digits, the programs lose {self.region} or the margin"
-            )
-        elif self.digits is not None and self.digits > _DIGITS:
-            cares.append(
-                f"the programs need {self.digits} digits to keep {self.region} and the margin"
-            )
-        beside = central.peak if central and self._compares_peaks else np.inf
-        if seen.peak > min(_PEAK, _TIMES_THE_PEAK * beside):
-            other = f", {shown(beside)} with one controller for all" if isfinite(beside) else ""
-            cares.append(f"the state can reach {shown(seen.peak)} from a start of size 1{other}")
+            cares.append(("too sensitive for double precision", text))
+        if self.within_radii == "open":
+            cares.append(("not proved within the radii", _OPEN))
+        cares += self._of_margins()
+        failing = self.fails_within
+        if failing is not None and _FAILS_AT_ONCE <= failing < _FAILS:
+            cares.append(self._fails(failing))
+        cares += self._of_eigenvalues()
+        cares += self._of_programs()
         if self.step_peak is not None and self.step_peak > _STEP_PEAK:
-            cares.append(f"an output reaches {shown(self.step_peak)} after a unit step")
-        if self.relative_cost > _TIMES_THE_COST:
-            cares.append(f"its cost is {shown(self.relative_cost)} times the one for all agents")
-        if central and seen.largest_gain > _TIMES_THE_GAIN * max(central.largest_gain, 1.0):
-            cares.append(
-                f"the largest gain is {shown(seen.largest_gain)}, "
-                f"{shown(central.largest_gain)} with one controller for all agents"
-            )
-        if self.region.bound is not None and not self._is_sensible:
-            cares.append(f"{self.region} is beyond what is sensible: {self.diagnosis}")
+            text = f"an output reaches {shown(self.step_peak)} after a unit step"
+            cares.append((f"overshoot to {shown(self.step_peak)}", text))
+        if self.relative_cost > _TIMES_THE_BOUND:
+            times = shown(self.relative_cost)
+            text = f"its cost is {times} times a bound for every controller"
+            cares.append((f"cost {times} times the bound", text))
         return cares
+
+    def _of_margins(self) -> Iterator[tuple[str, str]]:
+        known = self.performance
+        if known is None:
+            return
+        if _NO_DISK <= known.least_margin < DISK:
+            yield self._weak(known)
+        if known.joint_margin < _TOGETHER:
+            margin = shown(known.joint_margin)
+            text = f"the disk margin of all inputs, or of all outputs, together is {margin}"
+            yield f"joint margin {margin}", text
+
+    def _of_eigenvalues(self) -> Iterator[tuple[str, str]]:
+        seen, alone = self.figures, self.uncontrolled
+        damping = shown(seen.damping)
+        if seen.damping < _DAMPING:
+            yield f"damping {damping}", f"the least damping ratio is {damping}"
+        elif not self.shape.met(seen.damping, seen.fastest):
+            text = (
+                f"the least damping ratio is {damping} and the largest modulus of an eigenvalue "
+                f"{shown(seen.fastest)}, not as aimed at"
+            )
+            yield f"damping {damping}", text
+        if alone is not None and self._pace(seen) < _SLOWER * self._pace(alone):
+            text = (
+                f"the slowest eigenvalue has {self.region.measure} = {shown(seen.bound)}, and "
+                f"{shown(alone.bound)} without the controller"
+            )
+            yield "slower than the open loop", text
+
+    def _pace(self, figures: Figures) -> float:
+        """How fast the slowest eigenvalue decays; not above 0 if it does not."""
+        if self.region.discrete:
+            return -float(np.log(max(figures.bound, 1e-300)))
+        return -figures.bound
+
+    def _of_programs(self) -> Iterator[tuple[str, str]]:
+        if self.digits is None:
+            text = f"rounded to {MOST_DIGITS} digits, the programs lose {self.region} or the margin"
+            yield f"{MOST_DIGITS} digits are too few", text
+        elif self.digits > _DIGITS:
+            text = f"the programs need {self.digits} digits to keep {self.region} and the margin"
+            yield f"{self.digits} digits are needed", text
 
     def rows(self) -> list[tuple[str, str]]:
         """Return the figures as labels and texts."""
@@ -264,11 +336,12 @@ class Assessment(Shown):
             *self._alone(),
             ("fastest eigenvalue", f"|λ| = {shown(seen.fastest)}"),
             ("least damping ratio", shown(seen.damping)),
+            *self._margins(),
             ("margin at the plant's inputs", compared("margin")),
-            ("peak of the state", compared("peak") if self._compares_peaks else _finite(seen.peak)),
+            ("peak of the state", compared("peak") if self.uncontrolled else _finite(seen.peak)),
             *self._stepped(),
-            ("linear-quadratic cost", compared("cost")),
-            ("cost relative to that controller", self._relative()),
+            ("cost", _finite(seen.cost)),
+            ("cost relative to the bound", _finite(self.relative_cost)),
             *self._digits(),
             ("numbers sent" + " at each step" * self.region.discrete, network),
             (f"sensible {word}", self._sensible()),
@@ -298,11 +371,11 @@ class Assessment(Shown):
         cost = f"cost {shown(alone.cost)}" if isfinite(alone.cost) else "not stable"
         return [("without a controller", f"{self.region.measure} = {shown(alone.bound)}, {cost}")]
 
-    def _relative(self) -> str:
-        text = _finite(self.relative_cost)
-        if not self.relative_cost < 1:
-            return text
-        return f"{text} (that one is not the cheapest with this {self.region.word})"
+    def _margins(self) -> Iterator[tuple[str, str]]:
+        """The least disk margin of a single input or output."""
+        known = self.performance
+        if known is not None and isfinite(known.least_margin):
+            yield "least disk margin", f"{shown(known.least_margin)} ({known.weakest})"
 
     def _digits(self) -> list[tuple[str, str]]:
         """The number of digits that suffice, if the region is certified."""
@@ -328,6 +401,7 @@ class Assessment(Shown):
             if self.uncontrolled is None
             else _numbers(self.uncontrolled),
             "digits_that_suffice": self.digits,
+            "performance": None if self.performance is None else self.performance.to_dict(),
             "links": [vars(link) for link in self.links],
             "one_controller_for_all_agents": None
             if self.central is None
@@ -355,10 +429,18 @@ def _finite(value: float) -> str:
 # The figures of a design or of a loop, computed for its assessment.
 
 _HARDLY, _NEARLY = 1.02, 0.9
+_WORDS: Mapping[Install, str] = {
+    "yes": "Worth installing",
+    "with care": "Install with care",
+    "no": "Do not install",
+}
 
 
 def assess(
-    design: Design, aims: Aims | None = None, every_loop: EveryLoop | None = None
+    design: Design,
+    aims: Aims | None = None,
+    every_loop: EveryLoop | None = None,
+    performance: Performance | None = None,
 ) -> Assessment:
     """Compute the figures that say whether to install the controller of a design.
 
@@ -370,6 +452,8 @@ def assess(
     every_loop : EveryLoop, optional
         What is proved about all loops within the radii of the plant, if it has some.  A controller
         that fails for a plant within them should not be installed.
+    performance : Performance, optional
+        What is proved of the cost and the margins; by default they are computed.
 
     Returns
     -------
@@ -416,9 +500,11 @@ def assess(
         notes=tuple(notes),
         diagnosis=parts.get("diagnosis"),
         shape=(aims or Aims()).shape,
+        performance=performance,
     )
     if design.loop.closed.plant.uncertainty is None:
-        return assessment
+        failing = None if every_loop is None else every_loop.failing
+        return replace(assessment, fails_within=None if failing is None else failing.distance)
     return replace(
         assessment, within_radii="open" if every_loop is None else every_loop.within_radii
     )
@@ -433,6 +519,7 @@ def assessed_loop(
     notes: tuple[str, ...] = (),
     diagnosis: Diagnosis | None = None,
     shape: Shape = NO_LIMITS,
+    performance: Performance | None = None,
 ) -> Assessment:
     """Compute the figures of a closed loop.
 
@@ -449,6 +536,8 @@ def assessed_loop(
         That of the plant, with integrators if the controller has them, for the same region.
     shape : Shape
         The limits on the eigenvalues that were aimed at.
+    performance : Performance, optional
+        What is proved of the cost and the margins; by default they are computed.
     """
     plant, places = loop.plant, integrators_of(loop)
     about, weighed = as_plant(plant), Weights.of(plant, weights)
@@ -460,6 +549,8 @@ def assessed_loop(
         alone = None if places else _uncontrolled(plant, weighed)
         if certified and alone is not None and alone.cost <= _HARDLY * figures.cost:
             notes = (*notes, _hardly(alone, figures, region))
+        if performance is None and certified:
+            performance = performance_of(loop, weights=weights, proofs=False)
         return Assessment(
             {agent.name: agent.shared + agent.private for agent in loop.controller.agents},
             region,
@@ -472,6 +563,7 @@ def assessed_loop(
             notes,
             shape,
             alone,
+            performance=performance,
         )
 
 

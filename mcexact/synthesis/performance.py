@@ -17,10 +17,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import isfinite, isnan, nan
 from typing import Any
+
+import numpy as np
 
 from mcexact.analysis.performance import (
     PortResponse,
@@ -38,7 +40,7 @@ from mcexact.analysis.performance import (
 from mcexact.answer.performance import CostBound, CostWeights, DiskMargin, LoopCost
 from mcexact.answer.protocol import Answer, encode
 from mcexact.errors import InputError, LimitReached, UsageError
-from mcexact.exact.matrix import finite, to_float
+from mcexact.exact.matrix import Matrix, finite, matrix_from_float, to_float
 from mcexact.exact.rational import three_digits, written
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
@@ -76,20 +78,23 @@ class Performance(Shown):
 
     Attributes
     ----------
-    weights : CostWeights or None
-        Of the cost and of the bounds; None where those that were asked for are not diagonal.
+    weights : CostWeights
+        Of the cost and of the bounds.
     answers : mapping of str to answer
         By the names ``loop_cost``, ``cost_bound``, ``graph_cost_bound`` and those of `MARGINS`.
     computed : mapping of str to float
         The same figures in floating point, by the same names; they prove nothing.
     left_out : mapping of str to str
         Why there is no proof, by the same names.
+    weakest : str
+        The single input or output with the least margin, in words.
     """
 
-    weights: CostWeights | None
+    weights: CostWeights
     answers: Mapping[str, Answer] = field(default_factory=dict)
     computed: Mapping[str, float] = field(default_factory=dict)
     left_out: Mapping[str, str] = field(default_factory=dict)
+    weakest: str = ""
 
     @property
     def ratio(self) -> Fraction | None:
@@ -167,6 +172,7 @@ class Performance(Shown):
         return {
             "cost_over_bound": None if ratio is None else written(ratio),
             "least_single_margin": None if margin is None else written(margin),
+            "weakest": self.weakest,
             "proved": list(self.answers),
             "computed": {name: finite(value) for name, value in self.computed.items()},
             "left_out": dict(self.left_out),
@@ -226,25 +232,44 @@ def loop_performance(
 
 
 def performance_of(
-    loop: ClosedLoop, *, weights: CostWeights | None = None, prove_all: bool = False
+    loop: ClosedLoop,
+    *,
+    weights: CostWeights | Mapping[str, Any] | None = None,
+    prove_all: bool = False,
+    proofs: bool = True,
 ) -> Performance:
     """Prove the cost of a loop, a bound for every controller, and disk margins.
 
     Parameters
     ----------
     loop : ClosedLoop
-    weights : CostWeights, optional
+    weights : CostWeights, or mapping of {"Q", "R", "W", "V"} to matrix, optional
+        As for `cost_weights`; with a matrix that is not diagonal costs are left out.
     prove_all : bool
         As for `loop_performance`.
+    proofs : bool
+        Whether anything is proved; otherwise all figures are computed alone.
     """
-    weights = weights or default_weights(loop.plant)
+    left_out = dict[str, str]()
+    if not isinstance(weights, CostWeights):
+        try:
+            weights = cost_weights(loop.plant, weights)
+        except UsageError as unproved:
+            weights, left_out = default_weights(loop.plant), {"loop_cost": unproved.message}
     responses = {side: response_of(loop, side) for side in SIDES}
     if any(each.unstable for each in responses.values()):
         return Performance(weights)
-    seen = _computed(loop, weights, responses)
+    margins = {side: computed_margins(each) for side, each in responses.items()}
+    seen, weakest = _computed(loop, weights, margins), _weakest(loop.plant, margins)
+    asked = _proofs(loop, weights, responses)
+    if left_out:
+        asked = {name: each for name, each in asked.items() if name in MARGINS}
+        seen = {name: value for name, value in seen.items() if name in MARGINS}
+    if not proofs:
+        return Performance(weights, {}, seen, dict.fromkeys(seen, "not tried"), weakest)
     work = _Work(prove_all=prove_all)
-    answers, left_out = dict[str, Answer](), dict[str, str]()
-    for name, (size, count, prove) in _proofs(loop, weights, responses).items():
+    answers = dict[str, Answer]()
+    for name, (size, count, prove) in asked.items():
         if not work.allows(size, count):
             left_out[name] = f"a proof has about {work.megabytes(size, count)} MB (--prove-all)"
             continue
@@ -258,21 +283,41 @@ def performance_of(
         else:
             answers[name] = proved
             work.done(size, count, len(encode(proved)))
-    return Performance(weights, answers, seen, left_out)
+    return Performance(weights, answers, seen, left_out, weakest)
 
 
 Responses = Mapping[Side, PortResponse]
+Margins = Mapping[Side, tuple[list[float], float]]
 
 
-def _computed(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dict[str, float]:
+def _computed(loop: ClosedLoop, weights: CostWeights, margins: Margins) -> dict[str, float]:
     """The figures in floating point."""
     seen = {"cost_bound": computed_bound(loop.plant, weights)}
     with suppress(UsageError):
         seen["loop_cost"] = computed_cost(loop, weights)
-    for side, response in responses.items():
-        single, together = computed_margins(response)
-        seen |= {f"{side.removesuffix('s')}_margin": single, f"all_{side}_margin": together}
+    for side, (single, together) in margins.items():
+        seen[f"{side.removesuffix('s')}_margin"] = min(single, default=2.0)
+        seen[f"all_{side}_margin"] = together
     return seen
+
+
+def _weakest(plant: MultiChannelSystem, margins: Margins) -> str:
+    """The input or output with the least margin, in words."""
+    sizes = {"inputs": plant.p, "outputs": plant.q}
+    ports = [
+        (margin, side, name)
+        for side, (single, _) in margins.items()
+        for margin, name in zip(single, _names(plant, sizes[side]), strict=True)
+    ]
+    _, side, name = min(ports, default=(2.0, "inputs", ""))
+    return f"{side.removesuffix('s')}{name}"
+
+
+def _names(plant: MultiChannelSystem, size: Callable[[int], int]) -> Iterator[str]:
+    """The agents of all inputs, or outputs, with numbers where an agent has several."""
+    for i, name in enumerate(plant.names):
+        for k in range(size(i)):
+            yield f" {k + 1} of agent {name}" if size(i) > 1 else f" of agent {name}"
 
 
 Proof = tuple[int, int, Callable[[], Answer | None]]
@@ -304,6 +349,42 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
             lambda: bound_of(plant, weights, graph),
         )
     return proofs
+
+
+_FIELDS = {"Q": "states", "R": "inputs", "W": "disturbances", "V": "noise"}
+
+
+def cost_weights(plant: MultiChannelSystem, chosen: Mapping[str, Any] | None = None) -> CostWeights:
+    """Return the chosen weights, completed by those of `default_weights`.
+
+    Parameters
+    ----------
+    plant : MultiChannelSystem
+    chosen : mapping of {"Q", "R", "W", "V"} to matrix, optional
+        As for `Weights.of`, which says what is wrong with them.
+
+    Raises
+    ------
+    UsageError
+        If a matrix is not diagonal: certificates have diagonal weights.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> cost_weights(plant, {"R": [["1/4"]]}).inputs
+    (Fraction(1, 4),)
+    """
+    weights = default_weights(plant)
+    for name, entries in (chosen or {}).items():
+        if isinstance(entries, np.ndarray):
+            M = matrix_from_float(entries, "dyadic", where=name)
+        else:
+            M = entries if isinstance(entries, Matrix) else Matrix.from_rows(entries)
+        if any(i != j for i, j, _ in M.nonzero()):
+            raise UsageError("costs are proved for diagonal weights alone", where=f"weights.{name}")
+        diagonal: dict[str, Any] = {_FIELDS[name]: tuple(M[i, i] for i in range(M.nrows))}
+        weights = replace(weights, **diagonal)
+    return weights
 
 
 class _Work:

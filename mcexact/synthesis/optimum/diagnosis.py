@@ -282,7 +282,7 @@ def _sure_peak(loop: ClosedLoop, values: Complexes) -> float:
 
 
 def step_peak(loop: ClosedLoop) -> float:
-    """Compute the largest output of a loop while one set-point steps from 0 to 1.
+    """Compute the largest output of a loop while its own set-point steps from 0 to 1.
 
     Parameters
     ----------
@@ -314,7 +314,7 @@ def step_peak(loop: ClosedLoop) -> float:
         return np.nan
     C = matrix_to_float(loop.plant.output_matrix())
     reached = C @ matrix_to_float(rest.take(rows=range(n)))
-    peaks = (float(np.max(np.abs(reached - C @ E), initial=0.0)) for E in states)
+    peaks = (float(np.max(np.abs(np.diag(reached - C @ E)), initial=0.0)) for E in states)
     return max(peaks, default=0.0)
 
 
