@@ -262,7 +262,7 @@ SECTORS = Template(
     label="loop with nonlinear inputs",
 )
 FIRST_COST = Template(
-    "first-cost", "cost ≤ {ratio:digits_above} × a bound for every LTI controller{proper:proper}"
+    "first-cost", "cost ≤ {ratio:digits_above} × any LTI controller's{proper:proper}"
 )
 FIRST_MARGIN = Template("first-margin", "disk margin ≥ {margin:digits_below} in every loop")
 FIRST_BOX = Template("first-box", "stable within {part:percent} of each entry")

@@ -218,7 +218,7 @@ class Assessment(Shown):
         if not self.certified:
             return [("the loop is outside the region", f"the loop does not satisfy {self.region}")]
         if self.within_radii == "refuted":
-            return [("a plant within the radii fails", _REFUTED)]
+            return [("fails within the radii", _REFUTED)]
         if seen.margin <= 0:
             text = "in double precision the computed loop is not even stable"
             return [("not stable in double precision", text)]
@@ -236,7 +236,7 @@ class Assessment(Shown):
     def _fails(self, distance: Fraction) -> tuple[str, str]:
         part = percent(distance, up=True)
         return (
-            f"a plant within {part} fails",
+            f"fails within {part}",
             f"the loop of a plant within {part} of each entry is not stable",
         )
 

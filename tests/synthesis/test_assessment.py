@@ -240,10 +240,10 @@ def test_a_loop_slower_than_the_open_loop_is_heard() -> None:
 
 
 def test_the_first_line_has_what_is_proved_and_fits() -> None:
-    proved = ["cost ≤ 1.22 × a bound for every LTI controller", "disk margin ≥ 0.4 in every loop"]
+    proved = ["cost ≤ 1.22 × any LTI controller's", "disk margin ≥ 0.4 in every loop"]
     found = replace(assessed(), fails_within=Fraction(1, 500))
     line = found.first_line(proved)
-    assert line == (f"Proved: {', '.join(proved)}. Install with care: a plant within 0.2 % fails")
+    assert line == (f"Proved: {', '.join(proved)}. Install with care: fails within 0.2 %")
     assert found.first_line() == f"Install with care: {found.warnings[0]}"
     for more in range(120):
         line = found.first_line([*proved, "x" * more])
