@@ -30,6 +30,8 @@ from html import escape
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.nearby.allowances import counts_as_exact
+from mcexact.analysis.nearby.plants import Nearby
 from mcexact.analysis.questions import Question, questions_about
 from mcexact.analysis.sharing import (
     common_dimension,
@@ -70,7 +72,6 @@ from mcexact.processes import Child
 
 if TYPE_CHECKING:
     from mcexact.analysis.nearby.equalities import WhyFixed
-    from mcexact.analysis.nearby.plants import Nearby
 
 # Questions about one system, with their limits on time and work.
 
@@ -116,7 +117,9 @@ def _decide_in_child(connection: Any, analysis: Analysis) -> None:
 
 _LACKS = {"joint_controllability": "uncontrollable", "joint_observability": "unobservable"}
 """What a plant nearby lacks where the answer is yes."""
-_NEARBY = "nearby_plants"
+_NEARBY, _WHY = "nearby_plants", "why_fixed"
+_AS_LONG = 3
+"""To say why modes are fixed takes about as many times as long as to decide which are."""
 _MOST_STATES_NEARBY = 300
 """Plants nearby are searched for at most so many states by default: of more that takes seconds."""
 _MOST_STATES = 60
@@ -143,6 +146,8 @@ class Analysis(ShownByAccount):
     ----------
     plant : MultiChannelSystem or ParametricSystem
     information : str
+    nearby_seconds : float or None
+        What the search for plants nearby may take, after the questions; None for no limit.
 
     Examples
     --------
@@ -205,6 +210,7 @@ class Analysis(ShownByAccount):
         self._seconds: dict[str, float] = {}
         self._refuted: dict[str, Answer | None] = {}
         self._tells_nearby = nearby
+        self.nearby_seconds: float | None = None
         self._nearby: dict[tuple[str, ...], Nearby] = {}
         self._why_fixed: WhyFixed | None = None
         self._chosen = questions is not None
@@ -583,6 +589,10 @@ class Analysis(ShownByAccount):
             return
         if reason := self.nearby_left_out:
             yield Effort(_NEARBY, "left out", 0.0, reason)
+        elif reason := self.nearby.ended:
+            yield Effort(_NEARBY, "open", self._seconds_of_search() or 0.0, reason)
+        if not self.nearby_left_out and (reason := self.why_fixed_left_out):
+            yield Effort(_WHY, "left out", 0.0, reason)
 
     def __repr__(self) -> str:
         plant = self.plant
@@ -654,7 +664,7 @@ class Analysis(ShownByAccount):
         near: dict[str, Any] = {} if self.nearby_left_out else dict(self.nearby.answers)
         if near:
             asked["nearby"] = {each.lost: (each.part, each.within) for each in self.nearby.plants}
-        why: dict[str, Any] = {} if self.nearby_left_out else dict(self.why_fixed.answers)
+        why: dict[str, Any] = {} if self.why_fixed_left_out else dict(self.why_fixed.answers)
         given, answers = Context(self.system, asked), answers | near | why
         near |= {name: proof for name, proof in why.items() if name == "redrawn"}
         sentences = with_own(ANALYSIS, answers).sentences(answers, given, open_)
@@ -684,9 +694,7 @@ class Analysis(ShownByAccount):
         InputError
             If the plant has parameters or is a derived system.
         """
-        # It computes in floating point, and the other questions load no numpy.
-        from mcexact.analysis.nearby.plants import nearby_plants
-
+        InputError.require(self.plant, MultiChannelSystem, "system")
         answers, lost = self.answers, list[Any]()
         if "fixed_spectrum" in answers:
             spectrum = answers["fixed_spectrum"]
@@ -695,8 +703,31 @@ class Analysis(ShownByAccount):
             if name in answers and answers[name].controllable:
                 lost.append(lack)
         if tuple(lost) not in self._nearby:
-            self._nearby[tuple(lost)] = nearby_plants(self.plant, lost)
+            self._nearby[tuple(lost)] = self._search_nearby(lost)
         return self._nearby[tuple(lost)]
+
+    def _search_nearby(self, lost: list[Any]) -> Nearby:
+        """Search the plants nearby, unless all entries are too short for any to be there."""
+        if not self.plant.subject and counts_as_exact(self.plant):
+            return Nearby(self.plant, (), (), ())
+        # It computes in floating point, and the other questions load no numpy.
+        from mcexact.analysis.nearby.search import nearby_plants
+
+        return nearby_plants(self.plant, lost, seconds=self._seconds_of_search())
+
+    def _seconds_of_search(self) -> float | None:
+        """What the search may take: all that is left, and no more than was asked for."""
+        limits = [each for each in (self._left, self.nearby_seconds) if each is not None]
+        return min(limits) if limits else None
+
+    @property
+    def why_fixed_left_out(self) -> str:
+        """Why it is not said why modes are fixed: that takes as long as to decide which."""
+        if self.nearby_left_out:
+            return self.nearby_left_out
+        seconds, known = self._seconds_of_search(), self._seconds.get("fixed_spectrum", 0.0)
+        late = seconds is not None and _AS_LONG * known > seconds
+        return f"the time limit of {seconds:.2g} s would be reached" if late else ""
 
     @property
     def why_fixed(self) -> WhyFixed:
@@ -707,7 +738,7 @@ class Analysis(ShownByAccount):
         InputError
             If the plant has parameters or is a derived system.
         """
-        # Few plants have fixed modes, and this loads what decides about blocks.
+        # Few plants have fixed modes.
         from mcexact.analysis.nearby.equalities import WhyFixed, why_fixed
 
         spectrum = self.answers.get("fixed_spectrum")
@@ -749,8 +780,8 @@ class Analysis(ShownByAccount):
         known = {"failing_within_radii": failing} if failing else {}
         if not self.nearby_left_out:
             known["nearby"] = self.nearby.to_dict()
-            if self.why_fixed.known:
-                known["why_fixed"] = self.why_fixed.to_dict()
+        if not self.why_fixed_left_out and self.why_fixed.known:
+            known["why_fixed"] = self.why_fixed.to_dict()
         return account.as_json(information=self.information, questions=efforts, **known, **open_)
 
     def to_rows(self) -> list[dict[str, Any]]:

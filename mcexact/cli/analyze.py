@@ -173,6 +173,7 @@ def command(
             wanted=wanted,
             at=dict(at),
             nearby=not no_nearby,
+            seconds=run.deadline.left(),
         ),
         html is not None,
         latex,

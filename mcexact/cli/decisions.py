@@ -12,6 +12,7 @@ Pages have pictures, whose libraries are loaded for a page alone.
 from __future__ import annotations
 
 import pickle
+import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -47,6 +48,8 @@ if TYPE_CHECKING:
 
 _LINES_OF_WORDS, _WITH_LINKS = 5, 8
 """The most lines of sentences before the tables, and where sentences are about links as well."""
+_PART_OF_SEARCH = 4
+"""The search for plants nearby has this part of the time that the questions leave."""
 _LINES_NEARBY = 4
 """How many more lines there are where a sentence about a plant nearby leads."""
 _MODES = 6
@@ -89,6 +92,7 @@ def analyzed(
     UsageError
         If something is asked that does not apply to the plant.
     """
+    began = time.monotonic()
     typed = plant_in(*plant, limits, asked.at)
     if isinstance(typed, ParametricSystem):
         return _for_all_values(
@@ -106,9 +110,14 @@ def analyzed(
     if search is not None and search.proof is not None:
         analysis.know(question_about(asked.wanted), search.proof)
     known.resume(analysis, report)
+    if asked.seconds is not None:
+        # The questions come first, and showing what they are has its time as well.
+        decided, left = analysis.answers, asked.seconds - (time.monotonic() - began)
+        analysis.nearby_seconds = max(0.0, left) / _PART_OF_SEARCH if decided else 0.0
     account, taken = analysis.account, effort_tables(analysis.effort())
     near = None if analysis.nearby_left_out else analysis.nearby
-    suspected = () if near is None else (*suspicions(near), *computed_reasons(analysis.why_fixed))
+    suspected = () if near is None else suspicions(near)
+    suspected += () if analysis.why_fixed_left_out else computed_reasons(analysis.why_fixed)
     lines = _WITH_LINKS if "linked_fixed_spectrum" in account.answers else _LINES_OF_WORDS
     lines += _LINES_NEARBY * (near is not None and bool(near.leading))
     page = None

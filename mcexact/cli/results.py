@@ -130,6 +130,8 @@ class Asked:
         Values of parameters.
     nearby : bool
         Whether plants nearby are looked for.
+    seconds : float or None
+        What is left of the time limit at the beginning; None without a limit.
     """
 
     options: Sequence[str]
@@ -142,6 +144,7 @@ class Asked:
     wanted: Property
     at: Mapping[str, Fraction]
     nearby: bool = True
+    seconds: float | None = None
 
     @property
     def questions(self) -> list[str]:

@@ -28,7 +28,8 @@ from mcexact.analysis.controllability import (
     observability_indices,
 )
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
-from mcexact.analysis.nearby.plants import Lost, Nearby, nearby_plants
+from mcexact.analysis.nearby.plants import Lost, Nearby
+from mcexact.analysis.nearby.search import nearby_plants
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.errors import InputError, LimitReached

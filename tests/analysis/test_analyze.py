@@ -421,6 +421,24 @@ def test_plants_nearby_are_left_out_where_that_is_asked_and_it_is_said() -> None
     assert found.nearby.plants  # it can still be asked for
 
 
+def test_the_search_has_a_time_limit_of_its_own_and_says_when_it_ended() -> None:
+    found = analyze(MultiChannelSystem(FLOATS, [[["0.1"], ["-0.1"]]], [[[1, 0]]]))
+    found.nearby_seconds = 0.0
+    assert not found.nearby.plants and "time limit of its search" in found.nearby.ended
+    *_, last = found.effort()
+    assert (last.question, last.outcome) == ("nearby_plants", "open") and last.reason
+    fixed = analyze(MultiChannelSystem([[1, 2], [4, -1]], [[[1], [0]]], [[[1, -1]]]))
+    fixed.nearby_seconds = 0.0
+    assert fixed.fixed_spectrum.factors and fixed.why_fixed_left_out
+    assert "why_fixed" not in fixed.to_dict()
+    assert [each.question for each in fixed.effort()][-1] == "why_fixed"
+
+
+def test_beside_a_plant_of_short_exact_entries_nothing_is_looked_for() -> None:
+    found = analyze(MultiChannelSystem([["1/3", 2], ["0.5", 1]], [[[1], [0]]], [[[1, 1]]]))
+    assert found.nearby.searched == () and not found.nearby_left_out
+
+
 def test_a_derived_system_and_agents_that_hear_others_have_no_plants_nearby() -> None:
     plant = MultiChannelSystem(
         FLOATS, [[["0.1"], ["-0.1"]]] * 2, [[[1, 0]]] * 2, neighbors={"1": ["2"], "2": ["1"]}

@@ -11,7 +11,7 @@ import pytest
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_modes import fixed_spectrum, pencil_rank
-from mcexact.analysis.nearby.corrections import rounding, typed
+from mcexact.analysis.nearby.allowances import rounding, typed
 from mcexact.answer.protocol import document
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.command import verdicts as command_verdicts

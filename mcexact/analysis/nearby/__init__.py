@@ -2,8 +2,10 @@
 
 =============  ====================================================================================
 `suspects`     modes that hardly move, and widest paths from what shows them to what acts on them
-`corrections`  exact plants near a suspected one, and what the data of a plant allow
-`plants`       the search, its certificates, and what it says
+`allowances`   what the data of a plant allow its entries to differ by
+`corrections`  exact plants near a suspected one
+`plants`       what was found, and its words
+`search`       the search, and its certificates
 `equalities`   why modes of the given plant are fixed: plants with other numbers at the same places
 =============  ====================================================================================
 """

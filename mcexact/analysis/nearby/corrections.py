@@ -1,7 +1,7 @@
 """Exact plants near a suspected one, with the same zeros, at which a pencil loses rank.
 
 `Target` is a pencil λE − Z, Z = [A, B_T; C_s, 0], that is to have rank n − 1.  The smallest change
-of its entries, in units that the data allow (`Units of entries` below), is looked for in floating
+of its entries, in units that the data allow, is looked for in floating
 point, and is then made exact.
 
 1. `approached` (Gauss and Newton).  With L and R about the left and right null spaces,
@@ -17,17 +17,13 @@ point, and is then made exact.
 What comes out is exact, and `pencil_rank` decides that the rank is below n.  That no plant is found
 proves nothing.
 
-Units of entries.  `rounding` is what may have been lost when an entry was computed: 16 units in the
-last place of a float, or 10⁻¹² of an entry with fewer digits.  `typed` is half a unit of the last
-digit of an entry with 3 to 12 digits, and `rounding` of others: integers, fractions, and numbers of
-one or two digits count as exact.  Both depend on values alone, as digests do: 19/40 is 0.475.
-Zeros do not change, and integers change only where nothing is found otherwise.
+The units of entries are those of `allowances`.  Zeros do not change, and integers change only where
+nothing is found otherwise.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -35,89 +31,13 @@ from typing import Any
 
 import numpy as np
 
+from mcexact.analysis.nearby.allowances import in_floats
 from mcexact.exact.linear_algebra import inverse
 from mcexact.exact.matrix import Matrix, block, hstack, matrix_to_float, vstack
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
 
 Floats = Any
-Unit = Callable[[Fraction], Fraction]
-
-# What the data allow.
-
-_ULPS = 16
-_EXACT_PART = Fraction(1, 10**12)
-CERTAIN = Fraction(_ULPS, 2**53)
-"""Rounding errors may have changed every entry by this part."""
-FEWEST, MOST = 3, 12
-"""Decimals of so many significant digits were typed; those with fewer count as exact."""
-_FLOATS = 16
-"""A decimal with so many digits or more was a float."""
-
-
-def digits(x: Fraction) -> int:
-    """The number of significant digits of a decimal; 0 of another fraction.
-
-    Examples
-    --------
-    >>> digits(Fraction("0.0475")), digits(Fraction(1200)), digits(Fraction(1, 3))
-    (3, 2, 0)
-    """
-    if x.denominator == 1:
-        return len(str(abs(x.numerator)).rstrip("0"))
-    twos = (x.denominator & -x.denominator).bit_length() - 1
-    odd = x.denominator >> twos
-    fives = round(math.log(odd, 5))
-    places = max(twos, fives)
-    if 5**fives != odd or places - twos > 300:
-        return 0
-    # No factor 10 is left: the fraction is in lowest terms.
-    return len(str(abs(x.numerator) * 2 ** (places - twos) * 5 ** (places - fives)))
-
-
-def rounding(x: Fraction) -> Fraction:
-    """What rounding errors may have changed an entry by.
-
-    Examples
-    --------
-    >>> rounding(Fraction("0.30000000000000004")) == 16 * Fraction(math.ulp(0.3))
-    True
-    >>> rounding(Fraction(1, 3)), rounding(Fraction(0))
-    (Fraction(1, 3000000000000), Fraction(0, 1))
-    """
-    value = _float(x)
-    if digits(x) >= _FLOATS and value and x in (Fraction(value), Fraction(repr(value))):
-        return _ULPS * Fraction(math.ulp(value))
-    return abs(x) * _EXACT_PART
-
-
-def typed(x: Fraction) -> Fraction:
-    """What an entry may differ by that has the same digits.
-
-    Examples
-    --------
-    >>> typed(Fraction("0.475")), typed(Fraction("0.5")) == rounding(Fraction("0.5"))
-    (Fraction(1, 2000), True)
-    """
-    if not is_typed(x):
-        return rounding(x)
-    unit, k = x.denominator, 0
-    while 10**k % unit:
-        k += 1
-    return Fraction(1, 2 * 10**k)
-
-
-def is_typed(x: Fraction) -> bool:
-    """Whether an entry counts as a decimal whose further digits are unknown."""
-    return x.denominator != 1 and FEWEST <= digits(x) <= MOST
-
-
-def _float(x: Fraction) -> float:
-    try:
-        return float(x)
-    except OverflowError:
-        return 0.0
-
 
 # Pencils, and plants with a change of the matrix of a pencil.
 
@@ -192,8 +112,8 @@ class Target:
         Z, D = np.zeros(self.Z.shape), np.zeros(self.Z.shape)
         for (i, j), x in self.entries.items():
             shift = int(self.rows[i] + self.columns[j])
-            Z[i, j] = math.ldexp(_float(x), shift)
-            D[i, j] = math.ldexp(_float(self.allowed[i, j]), shift)
+            Z[i, j] = math.ldexp(in_floats(x), shift)
+            D[i, j] = math.ldexp(in_floats(self.allowed[i, j]), shift)
         return Z, D
 
 
@@ -405,7 +325,7 @@ class _State:
         moved = vstack([moved, Matrix.zeros(target.Z.nrows - target.n, moved.ncols)])
         scales = [_power(int(e)) for e in target.rows]
         rest = zip((moved - target.Z @ K).rows(), scales, strict=True)
-        G = np.array([[_float(x * scale) for x in row] for row, scale in rest])
+        G = np.array([[in_floats(x * scale) for x in row] for row, scale in rest])
         G = G.reshape(target.Z.nrows, K.ncols)
         return G[:, : self.width] + 1j * G[:, self.width :] if self.b else G
 
@@ -701,7 +621,7 @@ class _Rows:
         """The change of all rows, and the rows that have no solution."""
         rest = self._rest()
         change, failed = dict(self.fixed), set()
-        floats = np.array([[_float(x) for x in row] for row in self.basis.K])
+        floats = np.array([[in_floats(x) for x in row] for row in self.basis.K])
         rough, rows = {}, {}
         for i, right in enumerate(rest):
             if any(right):
@@ -753,14 +673,14 @@ class _Rows:
         self, i: int, free: list[int], right: list[Fraction], floats: Floats
     ) -> dict[int, Fraction] | None:
         """The least change of a row in floating point, rounded to some bits."""
-        units = np.array([_float(self.target.allowed[i, j]) for j in free])
+        units = np.array([in_floats(self.target.allowed[i, j]) for j in free])
         system = (floats[free] * units[:, None]).T
         active = np.abs(system).max(axis=1) > 0
         if any(right[c] for c in np.nonzero(~active)[0]):
             return None
         if not active.any():
             return None
-        goal = np.array([_float(x) for x in right])[active]
+        goal = np.array([in_floats(x) for x in right])[active]
         system = system[active]
         if len(goal) == 1:
             total = np.abs(system[0]).sum()

@@ -12,8 +12,9 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.analyze import analyze
-from mcexact.analysis.nearby.corrections import digits, rounding, typed
-from mcexact.analysis.nearby.plants import LOST, Nearby, NearPlant, nearby_plants
+from mcexact.analysis.nearby.allowances import digits, rounding, typed
+from mcexact.analysis.nearby.plants import LOST, Nearby, NearPlant
+from mcexact.analysis.nearby.search import nearby_plants
 from mcexact.answer.check import check
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError
