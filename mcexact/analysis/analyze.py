@@ -725,7 +725,10 @@ class Analysis(ShownByAccount):
         """Why it is not said why modes are fixed: that takes as long as to decide which."""
         if self.nearby_left_out:
             return self.nearby_left_out
-        seconds, known = self._seconds_of_search(), self._seconds.get("fixed_spectrum", 0.0)
+        spectrum = self.answers.get("fixed_spectrum")
+        if spectrum is None or spectrum.empty:
+            return ""
+        seconds, known = self._seconds_of_search(), self._seconds["fixed_spectrum"]
         late = seconds is not None and _AS_LONG * known > seconds
         return f"the time limit of {seconds:.2g} s would be reached" if late else ""
 

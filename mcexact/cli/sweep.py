@@ -51,6 +51,7 @@ from mcexact.model.arrays import MARK
 from mcexact.model.files import load_parametric_system, load_system, read_input
 from mcexact.model.text import write_text
 from mcexact.report.sweep import (
+    nearby_tables,
     skipped_table,
     sweep_page,
     sweep_tables,
@@ -68,6 +69,8 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 _MOST_VALUES = 10**6
+_PART_OF_SEARCH = 4
+"""The search for plants nearby has this part of the time of one system."""
 
 
 def values(text: str) -> tuple[str, tuple[Fraction, ...]]:
@@ -384,7 +387,8 @@ def command(
     if as_json:
         emit_json({"format": "mcexact-sweep-summary/1", **sweep_view(documents, asked, skipped)})
     else:
-        tables = [*sweep_tables(documents, asked), *tolerance_tables(documents, asked)]
+        tables = [*sweep_tables(documents, asked), *nearby_tables(documents)]
+        tables += tolerance_tables(documents, asked)
         tables += [skipped_table(skipped)] if skipped else []
         emit_tables(tables, width=WIDE)
     ended = {document["error"]["status"] for document in documents if "error" in document}
@@ -461,7 +465,7 @@ def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[st
     """Decide a job in a child process, which is ended at a limit."""
     try:
         return supervised(
-            decide,
+            partial(decide, seconds=timeout / _PART_OF_SEARCH) if timeout is not None else decide,
             job,
             doing=f"deciding {job.name}",
             timeout=timeout,

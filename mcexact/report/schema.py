@@ -257,6 +257,16 @@ def sweep_record() -> Schema:
     answer = record(
         {"claim": {"anyOf": claims}, "statement": TEXT}, {"member": {"type": "object"}}, closed=True
     )
+    beside = record(
+        {
+            "lost": {"enum": [*LOST]},
+            "part": NUMBER,
+            "within": {"enum": ["rounding", "digits"]},
+            "text": TEXT,
+            "statement": TEXT,
+        },
+        closed=True,
+    )
     decided = {
         "system": record({"n": WHOLE, "m": WHOLE, "time": TIME}),
         "digest": DIGEST,
@@ -268,7 +278,7 @@ def sweep_record() -> Schema:
     }
     return record(
         named("mcexact-sweep/1") | {"number": WHOLE, "name": TEXT, "key": TEXT},
-        decided | failed,
+        decided | failed | {"nearby": rows(beside)},
         closed=True,
         says="a line of the file of a sweep: the answers about one system, or its error",
     ) | {

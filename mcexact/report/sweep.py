@@ -145,6 +145,20 @@ def sweep_view(
     }
 
 
+def nearby_tables(documents: Sequence[Document], most: int = _MOST_ROWS) -> tuple[Table, ...]:
+    """The table of systems of which the data allow another answer; empty if there is none."""
+    short = _short_names(documents)
+    told = [
+        (f"{short[document['name']]} *", each["text"])
+        for document in documents
+        for each in document.get("nearby", ())
+    ]
+    more = len(told) - most
+    note = f"and {more} more, which the JSON document lists" if more > 0 else ""
+    title = "* the data allow another answer as well"
+    return (Table(title, ("system", "what"), tuple(told[:most]), note),) if told else ()
+
+
 def skipped_table(skipped: Sequence[tuple[str, str]]) -> Table:
     """Return the table of files in folders that are not system files, with reasons."""
     shown = [(shorten(name, 60), shorten(reason, 70)) for name, reason in skipped[:_MOST_SKIPPED]]
@@ -198,6 +212,10 @@ def sweep_page(
     if failed:
         words.append(f"warning: {count(failed, 'system')} without an answer, for reasons below")
     tables = [*tolerance_tables(documents, questions), each]
+    tables += nearby_tables(documents, _MOST_ON_A_PAGE)
+    uncertain = sum(bool(document.get("nearby")) for document in documents)
+    if uncertain:
+        words.append(f"warning: of {count(uncertain, 'system')} the data allow another answer")
     tables += [skipped_table(skipped)] if skipped else []
     return AnswerPage(
         title=f"A sweep over {count(len(documents), 'system')}",
@@ -259,6 +277,8 @@ def _row(name: str, document: Document, questions: Sequence[str]) -> tuple[str, 
         return (name, "", "", shorten(document["error"]["message"], 70), *[""] * len(questions))
     system, answers = document["system"], document["answers"]
     claims = [_said(each, answers[each]) if each in answers else "open" for each in questions]
+    if document.get("nearby"):
+        name = f"{name} *"
     seconds = f"{document['seconds']:.3g}"
     return (name, str(system["n"]), str(system["m"]), *claims, seconds)
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from mcexact.analysis.analyze import Analysis
 from mcexact.analysis.boxes.largest import failing_member
 from mcexact.answer import protocol
+from mcexact.answer.protocol import Answer
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.derived.variants import Variant
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
@@ -20,10 +22,12 @@ from mcexact.model.properties import PROPERTIES
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
 from mcexact.model.text import canonical, sha256
-from mcexact.sweeps.questions import KNOWN
+from mcexact.sweeps.questions import KNOWN, NEAR_QUESTIONS
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw | Variant
 Reader = Callable[[str | os.PathLike[str], Limits], bytes]
+_SECONDS = 10.0
+"""What the search for plants nearby of one system may take."""
 Outcome = dict[str, Any]
 """The plain data that `decide` returns: the answers, or the error that prevented them."""
 
@@ -92,8 +96,14 @@ def job(
     )
 
 
-def decide(job: Job) -> Outcome:
+def decide(job: Job, seconds: float = _SECONDS) -> Outcome:
     """Decide all questions about one system.
+
+    Parameters
+    ----------
+    job : Job
+    seconds : float
+        What the search for plants nearby may take.
 
     Returns
     -------
@@ -101,15 +111,20 @@ def decide(job: Job) -> Outcome:
         ``system`` {n, m, time}, ``digest``, ``seconds`` and ``certificates``, one text for each
         question; or the ``error`` that ended the work, or that left a question open.  Where no
         proof about every plant within the radii is found, the certificate may be about one of them
-        that fails.
+        that fails.  ``nearby`` has certificates about plants of which the data of this one allow
+        another answer, by what these plants lack.
     """
     start = time.perf_counter()
     try:
         system = job.system()
-        certificates, left = _decided(job.questions, system)
+        answers, left = _decided(job.questions, system)
+        # The numbers of a draw are exact.
+        beside = {} if isinstance(job.source, Draw) else _nearby(system, answers, seconds)
     except Exception as error:
         return failure(error)
+    certificates = {name: protocol.encode(answer) for name, answer in answers.items()}
     return left | {
+        "nearby": beside,
         "system": {"n": system.n, "m": system.m, "time": system.time},
         "digest": system.digest(),
         "seconds": round(time.perf_counter() - start, 6),
@@ -119,9 +134,9 @@ def decide(job: Job) -> Outcome:
 
 def _decided(
     questions: Iterable[str], system: MultiChannelSystem
-) -> tuple[dict[str, str], Outcome]:
-    """Certificates of the answers, and the error if a question about a box is left open."""
-    certificates, left = dict[str, str](), list[str]()
+) -> tuple[dict[str, Answer], Outcome]:
+    """The answers, and the error if a question about a box is left open."""
+    answers, left = dict[str, Answer](), list[str]()
     for name in questions:
         try:
             answer = KNOWN[name].decide(system)
@@ -131,8 +146,21 @@ def _decided(
             answer = failing_member(system, PROPERTIES[name])
             left += [] if answer is not None else [str(error)]
         if answer is not None:
-            certificates[name] = protocol.encode(answer)
-    return certificates, failure(LimitReached("; ".join(left))) if left else {}
+            answers[name] = answer
+    return answers, failure(LimitReached("; ".join(left))) if left else {}
+
+
+def _nearby(
+    system: MultiChannelSystem, answers: Mapping[str, Answer], seconds: float
+) -> dict[str, str]:
+    """Certificates about plants nearby that the data allow as well, by what they lack."""
+    analysis = Analysis(system, NEAR_QUESTIONS & answers.keys())
+    if not analysis.asked or analysis.nearby_left_out:
+        return {}
+    for name in analysis.asked:
+        analysis.know(name, answers[name])
+    analysis.nearby_seconds = seconds
+    return {each.lost: protocol.encode(each.proof) for each in analysis.nearby.leading}
 
 
 def failure(error: BaseException) -> Outcome:

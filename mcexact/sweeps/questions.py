@@ -16,6 +16,8 @@ QUESTIONS = {
 WITHIN_RADII = {name: ALL[name] for name in PROPERTIES}
 """The questions about every plant within the radii, which may be left open."""
 KNOWN = QUESTIONS | WITHIN_RADII
+NEAR_QUESTIONS = {"fixed_spectrum", "joint_controllability", "joint_observability"}
+"""The questions whose answer may be another one for a plant that the data allow as well."""
 
 
 def chosen(names: Iterable[str]) -> tuple[str, ...]:

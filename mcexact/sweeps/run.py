@@ -17,16 +17,18 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass, field, replace
 from io import FileIO
 from typing import Any
 
+from mcexact.analysis.nearby.plants import Lost, NearPlant
 from mcexact.answer.check import answer_of, checked
+from mcexact.answer.modes import PencilRank
 from mcexact.errors import InputError, InternalError, McexactError, NotWritten, UsageError, place_of
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits, written
 from mcexact.model.box import Box
 from mcexact.model.files import read_input
 from mcexact.model.system import FORMAT as system_FORMAT
@@ -60,6 +62,11 @@ class Record(Shown):
     answers : mapping from questions to mappings
         ``claim``, as in the certificate, and ``statement``, which the checker verified; if the
         property fails, both are about ``member``, a plant within the radii that lacks it.
+    nearby : sequence of mappings
+        Plants that the data allow as well as this one, of which an answer is another one: what each
+        has ``lost``, the largest ``part`` of an entry by which it differs, whether ``rounding``
+        errors or ``digits`` that were not typed explain that (``within``), the ``text`` that says
+        so, and the ``statement`` that the checker verified.
     seconds : float or None
         The time for deciding and for making certificates.
     error : mapping or None
@@ -75,6 +82,7 @@ class Record(Shown):
     system: Mapping[str, Any] | None = None
     digest: str = ""
     answers: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    nearby: Sequence[Mapping[str, Any]] = ()
     seconds: float | None = None
     error: Mapping[str, Any] | None = None
     certificates: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
@@ -93,7 +101,8 @@ class Record(Shown):
 
     def explain(self) -> str:
         """Say the answers in the statements that the checker verified, one a line."""
-        sentences = [str(answer["statement"]) for answer in self.answers.values()]
+        sentences = [str(each["text"]) for each in self.nearby]
+        sentences += [str(answer["statement"]) for answer in self.answers.values()]
         if self.error is not None:
             sentences.append(f"{self.name}: {self.error['message']}")
         return "\n".join(sentences)
@@ -127,6 +136,7 @@ class Record(Shown):
                 if key.endswith("polynomial"):
                     value = str(Polynomial.from_coefficients(value))
                 row[f"{question}.{key}"] = len(value) if isinstance(value, list) else value
+        row["nearby"] = "; ".join(str(each["text"]) for each in self.nearby) or None
         row["seconds"] = self.seconds
         row["error"] = None if self.error is None else self.error["message"]
         return row
@@ -142,6 +152,7 @@ class Record(Shown):
             "system": self.system,
             "digest": self.digest,
             "answers": self.answers,
+            **({"nearby": [*self.nearby]} if self.nearby else {}),
             "seconds": self.seconds,
         }
 
@@ -423,6 +434,8 @@ def _believed(number: int, job: Job, outcome: Outcome) -> Record:
         }
         if tuple(answers) != job.questions and left is None:
             raise InternalError("the answers do not belong to the questions")
+        beside = outcome.get("nearby", {}).items()
+        nearby = [_beside(lost, text, answers, job) for lost, text in beside]
     except McexactError as error:
         return Record(number, job.name, key, error=failure(error)["error"])
     return Record(
@@ -432,6 +445,7 @@ def _believed(number: int, job: Job, outcome: Outcome) -> Record:
         system=outcome["system"],
         digest=expected,
         answers=answers,
+        nearby=nearby,
         seconds=outcome["seconds"],
         error=left,
         certificates=outcome["certificates"],
@@ -460,3 +474,42 @@ def _checked(name: str, text: str, expected: str, job: Job) -> dict[str, Any]:
     if fails or not answered(name, document):
         raise InternalError(f"the certificate for {name} is about something else")
     return verified
+
+
+_WITHIN = {"rounding": "rounding errors", "digits": "digits that were not typed"}
+_ASKED: Mapping[str, tuple[str, str]] = {
+    "unstable": ("fixed_spectrum", "stabilizable"),
+    "fixed": ("fixed_spectrum", "factors"),
+    "uncontrollable": ("joint_controllability", "controllable"),
+    "unobservable": ("joint_observability", "controllable"),
+}
+"""The question that is about what a plant lacks, and the claim that the given plant has it."""
+
+
+def _beside(
+    lost: Lost, text: str, answers: Mapping[str, Mapping[str, Any]], job: Job
+) -> dict[str, Any]:
+    """Return what a certificate proves of a plant nearby, as plain data.
+
+    Raises
+    ------
+    InternalError
+        If it is not VALID, or not about a plant that the data of the job's system allow, or the
+        answer about the latter is the same.
+    """
+    verdict = checked(text.encode("ascii"))
+    if verdict.verdict != "VALID":
+        raise InternalError(f"the certificate for {lost} is not accepted: {verdict.line()}")
+    proof, (question, key) = answer_of(json.loads(text)), _ASKED.get(lost, ("", ""))
+    near = NearPlant.of(job.system(), lost, proof) if isinstance(proof, PencilRank) else None
+    known = answers.get(question, {}).get("claim", {}).get(key)
+    differs = known == [] if lost == "fixed" else known is True
+    if near is None or near.within is None or not differs:
+        raise InternalError(f"the certificate for {lost} is about something else")
+    return {
+        "lost": lost,
+        "part": written(near.part),
+        "within": near.within,
+        "text": f"this depends on {_WITHIN[near.within]}: {near.explain()}",
+        "statement": verdict.statement,
+    }

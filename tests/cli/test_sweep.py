@@ -19,6 +19,7 @@ from mcexact.model import gallery
 from mcexact.model.controller import save_controller
 from mcexact.model.files import save_system
 from mcexact.model.statespace import local_controllers
+from mcexact.model.system import MultiChannelSystem
 from mcexact.report.sweep import sweep_tables
 from mcexact.sweeps.questions import QUESTIONS
 from tests.effort import PATIENCE
@@ -218,3 +219,17 @@ def test_a_folder_without_any_system_file_is_bad_input(call: Call, tmp_path: Pat
     status, _, err = call(str(tmp_path))
     assert status == 3
     assert f"{tmp_path}: found no system file" in err
+
+
+def test_a_system_of_which_the_data_allow_another_answer_is_marked(
+    call: Call, tmp_path: Path
+) -> None:
+    A = [["-0.30000000000000004", "0.7"], ["0.3", "-0.7"]]
+    plant = MultiChannelSystem(A, [[["0.1"], ["-0.1"]]], [[[1, 0]]])
+    save_system(plant, tmp_path / "rounded.json")
+    page = tmp_path / "page.html"
+    status, out, _ = call(str(tmp_path / "rounded.json"), "--html", str(page))
+    assert status == 0 and "rounded.json *" in out and "this depends on rounding errors" in out
+    assert "the data allow another answer" in page.read_text("utf-8")
+    [record] = json.loads(call(str(tmp_path / "rounded.json"), "--json")[1])["records"]
+    assert record["nearby"][0]["within"] == "rounding"

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.fixed_modes import pencil_rank
 from mcexact.answer import protocol
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import InputError, NotWritten, UsageError
@@ -367,3 +368,68 @@ def test_a_stream_keeps_no_records_and_is_not_read() -> None:
     assert len(list(sweep(DRAWS[:1], results="/dev/null"))) == 1
     with pytest.raises(NotWritten, match="/dev/full: cannot be written"):
         list(sweep(DRAWS[:1], results="/dev/full"))
+
+
+ROUNDED = MultiChannelSystem(
+    [["-0.30000000000000004", "0.7"], ["0.3", "-0.7"]], [[["0.1"], ["-0.1"]]], [[[1, 0]]]
+)
+"""No input moves the sum of both states, but for a rounding error."""
+JOINT = ["fixed_spectrum", "joint_controllability", "joint_observability"]
+
+
+def test_a_record_says_where_rounding_errors_decide_and_is_read_again(tmp_path: Path) -> None:
+    results = tmp_path / "results.jsonl"
+    exact = MultiChannelSystem([[-1, 1], [1, -1]], [[[1], [-1]]], [[[1, 0]]])
+    first, second = by_number(sweep([ROUNDED, exact], JOINT, results=results))
+    assert {each["lost"] for each in first.nearby} == {"unstable", "uncontrollable"}
+    assert all(each["within"] == "rounding" and each["statement"] for each in first.nearby)
+    assert "rounding errors" in first.to_row()["nearby"] and "rounding errors" in first.explain()
+    assert not second.nearby and second.to_row()["nearby"] is None
+    [again] = sweep([ROUNDED], JOINT, results=results, work=refuse)
+    assert again.to_dict() == first.to_dict()
+
+
+def forged(change: Callable[[dict[str, str]], dict[str, str]], job: Job) -> Outcome:
+    """The right answers with other certificates about plants nearby."""
+    outcome = decide(job)
+    return outcome | {"nearby": change(outcome["nearby"])}
+
+
+def rank_of(system: MultiChannelSystem, mode: Any) -> str:
+    return protocol.encode(pencil_rank(system, [], mode))
+
+
+FAR = MultiChannelSystem([["-0.3", "0.6"], ["0.3", "-0.6"]], [[["0.1"], ["-0.1"]]], [[[1, 0]]])
+FORGERIES: dict[str, Callable[[dict[str, str]], dict[str, str]]] = {
+    "a plant farther away": lambda made: {"unstable": rank_of(FAR, 0)},
+    "the given plant": lambda made: {"unstable": rank_of(ROUNDED, 0)},
+    "a mode that is not fixed": lambda made: {"fixed": rank_of(FAR, 7)},
+    "another lack": lambda made: {"unobservable": made["unstable"]},
+    "no lack": lambda made: {"anything": made["unstable"]},
+    "another kind": lambda made: {"unstable": protocol.encode(joint_controllability(ROUNDED))},
+    "a false claim": lambda made: {"unstable": made["unstable"].replace('"rank":1', '"rank":0')},
+}
+
+
+@pytest.mark.parametrize("change", FORGERIES.values(), ids=FORGERIES)
+def test_nothing_is_believed_about_a_plant_nearby(
+    change: Callable[[dict[str, str]], dict[str, str]],
+) -> None:
+    with ThreadPoolExecutor(1) as executor:
+        work = functools.partial(forged, change)
+        [record] = sweep([ROUNDED], JOINT, executor=executor, work=work)
+    assert record.error is not None and record.error["status"] == 70 and not record.nearby
+    assert change(decide(Job("x", system_text(ROUNDED).encode(), tuple(JOINT)))["nearby"])
+
+
+def test_what_the_plant_itself_lacks_is_not_said_of_one_nearby() -> None:
+    def lie(job: Job) -> Outcome:
+        other = Job("other", system_text(ROUNDED).encode(), job.questions)
+        return decide(job) | {"nearby": decide(other)["nearby"]}
+
+    lacking = MultiChannelSystem(
+        [["-0.3", "0.7"], ["0.3", "-0.7"]], [[["0.1"], ["-0.1"]]], [[[1, 0]]]
+    )
+    with ThreadPoolExecutor(1) as executor:
+        [record] = sweep([lacking], JOINT, executor=executor, work=lie)
+    assert record.error is not None and record.error["status"] == 70

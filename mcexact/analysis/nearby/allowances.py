@@ -133,11 +133,8 @@ def distance(
     system, near : MultiChannelSystem
         Plants; None as well if their time, channels or sizes differ.
     """
-    alike = all(
-        getattr(system, part) == getattr(near, part)
-        for part in ("time", "names", "neighbors", "n", "sizes")
-    )
-    if not alike:
+    parts = ("time", "names", "neighbors", "n", "sizes")
+    if any(getattr(system, part) != getattr(near, part) for part in parts):
         return None
     own, other = ({(k, i, j): x for k, i, j, x in _entries(each)} for each in (system, near))
     if own.keys() != other.keys():

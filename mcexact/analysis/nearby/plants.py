@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
-from mcexact.analysis.nearby.allowances import Allowance
+from mcexact.analysis.nearby.allowances import FARTHEST, Allowance, distance
 from mcexact.answer.modes import PencilRank
 from mcexact.answer.templates import about_mode
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import digits_outward, written
+from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import Shown
 
@@ -58,6 +59,38 @@ class NearPlant:
     mode: Polynomial
     channels: tuple[str, ...]
     proof: PencilRank
+
+    @classmethod
+    def of(cls, system: MultiChannelSystem, lost: Lost, proof: PencilRank) -> NearPlant | None:
+        """The plant of a proof that was verified; None if it is too far or does not lack that.
+
+        Parameters
+        ----------
+        system : MultiChannelSystem
+            The given plant.
+        lost : {"unstable", "fixed", "uncontrollable", "unobservable"}
+        proof : PencilRank
+            About another plant, or about its dual.
+        """
+        plant, dual = proof.about.plant, bool(proof.subject)
+        apart = distance(system, plant)
+        if apart is None or not apart[0] or proof.rank >= plant.n:
+            return None
+        inside = {*proof.subset}
+        channels = tuple(name for name in plant.names if (name in inside) is not dual)
+        unstable = not StabilityRegion(plant.time).contains_roots_of(proof.polynomial)
+        lacks = {
+            "fixed": True,
+            "unstable": unstable,
+            "uncontrollable": not channels,
+            "unobservable": channels == plant.names,
+        }
+        near = apart[1] is not None or apart[0] <= FARTHEST
+        return (
+            cls(lost, plant, *apart, proof.polynomial, channels, proof)
+            if near and lacks[lost]
+            else None
+        )
 
     @property
     def about(self) -> str:
