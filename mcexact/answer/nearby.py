@@ -60,7 +60,7 @@ PART = {
 }
 EQUALITIES = Template(
     "nearby-equalities",
-    "equalities between entries: other numbers with the same zeros free {p:modes}",
+    "equalities in the data; other data free {p:modes}",
     "blocks.block_bounded",
     "why fixed",
 )

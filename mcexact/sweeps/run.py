@@ -82,7 +82,7 @@ class Record(Shown):
     system: Mapping[str, Any] | None = None
     digest: str = ""
     answers: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    nearby: Sequence[Mapping[str, Any]] = ()
+    nearby: Sequence[Mapping[str, Any]] = field(default_factory=list)
     seconds: float | None = None
     error: Mapping[str, Any] | None = None
     certificates: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)

@@ -37,7 +37,7 @@ def hostile() -> MultiChannelSystem:
 def page_of(plant: MultiChannelSystem, **question: bool) -> str:
     """The page with all its evidence, checked, and the results as LaTeX."""
     account = account_of(plant, **question)
-    verdicts = recheck(account.certificates, plant.canonical_text())
+    verdicts = recheck(account.files(), plant.canonical_text())
     return account_page(account).rendered(account.certificates, verdicts, latex(account))
 
 

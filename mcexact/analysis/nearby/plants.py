@@ -88,7 +88,7 @@ class NearPlant:
         near = apart[1] is not None or apart[0] <= FARTHEST
         return (
             cls(lost, plant, *apart, proof.polynomial, channels, proof)
-            if near and lacks[lost]
+            if near and lacks.get(lost)
             else None
         )
 
