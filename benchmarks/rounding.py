@@ -220,6 +220,7 @@ def large() -> Iterator[str]:
         "quotients of 2 digits": lambda: quotient(dice, 2)[0],
         "quotients of 3 digits": lambda: quotient(dice, 3)[0],
         "quotients of 4 digits": lambda: quotient(dice, 4)[0],
+        "quotients of 5 digits": lambda: quotient(dice, 5)[0],
         "irrational": lambda: normal(dice),
     }
     for name, draw in kinds.items():

@@ -500,12 +500,8 @@ class Matrix(MatrixDisplay):
             [as_fraction(entry, where=f"{where or ''}[{i}][{j}]") for j, entry in enumerate(row)]
             for i, row in enumerate(table)
         ]
-        denominator = math.lcm(*{entry.denominator for row in fractions for entry in row})
-        numerators = [
-            [entry.numerator * (denominator // entry.denominator) for entry in row]
-            for row in fractions
-        ]
-        return from_numerators(numerators, denominator, width)
+        # In lowest terms: what divides the denominator does not divide all numerators.
+        return cls(*tables.over_one_denominator(fractions, width))
 
     @classmethod
     def from_entries(

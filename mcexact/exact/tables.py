@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from fractions import Fraction
 from functools import cached_property
 from itertools import chain
-from math import gcd
+from math import gcd, lcm
 
 import flint
 
@@ -26,6 +27,9 @@ Cells = Sequence[int]
 LEAST_SPARSE = 2**11
 """The cells from which on a table is sparse if most of its entries are 0."""
 _SHARE = 8
+# From so many bits on, integers are not moved between Python and flint; of more numbers than this
+# the least common multiple is longer than each by far.
+_LONG, _MANY = 2048, 256
 
 # No text of 64 MiB, the limit of files, lists more entries.
 LARGEST_WRITTEN_OUT = 2**25
@@ -254,6 +258,33 @@ def table_of_rows(rows: Sequence[Sequence[int]], ncols: int) -> Table:
     table = DenseTable(flint.fmpz_mat(len(rows), ncols, entries))
     table.__dict__["words"] = _words(entries)
     return table
+
+
+def over_one_denominator(rows: Sequence[Sequence[Fraction]], ncols: int) -> tuple[Table, int]:
+    """The table of the numerators over the least common denominator, and that.
+
+    A long denominator, as of very many quotients, stays in flint's numbers all along.
+    """
+    denominator = _least_common({x.denominator for row in rows for x in row})
+    nonzero = sum(map(bool, chain.from_iterable(rows)))
+    if denominator.bit_length() <= _LONG or is_mostly_zero(len(rows) * ncols, nonzero):
+        numerators = [[x.numerator * (denominator // x.denominator) for x in row] for row in rows]
+        return table_of_rows(numerators, ncols), denominator
+    common = flint.fmpz(denominator)
+    entries = [common // x.denominator * x.numerator for row in rows for x in row]
+    return DenseTable(flint.fmpz_mat(len(rows), ncols, entries)), denominator
+
+
+def _least_common(numbers: Collection[int]) -> int:
+    """The least common multiple; of very many numbers by a tree of pairs."""
+    if len(numbers) <= _MANY:
+        return lcm(*numbers)
+    multiples = [*map(flint.fmpz, numbers)]
+    while len(multiples) > 1:
+        pairs = zip(multiples[::2], multiples[1::2], strict=False)
+        odd = multiples[-1:] if len(multiples) % 2 else []
+        multiples = [x.lcm(y) for x, y in pairs] + odd
+    return int(multiples[0])
 
 
 def table_of_cells(nrows: int, ncols: int, cells: Cells, values: Iterable[int]) -> Table:

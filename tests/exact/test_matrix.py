@@ -1,6 +1,8 @@
 """Rational matrices: what they are, and arithmetic against sympy."""
 
+import math
 import pickle
+import random
 from fractions import Fraction
 from math import gcd
 from typing import Any
@@ -229,3 +231,23 @@ def test_rows_are_examined_and_the_place_is_named():
 def test_integers_over_a_denominator():
     assert Matrix.from_integers([[2, 4]], -6) == Matrix.from_rows([["-1/3", "-2/3"]])
     assert Matrix.from_integers([], 5, ncols=2).denominator == 1
+
+
+def test_of_very_many_quotients_the_common_denominator_is_the_least() -> None:
+    rng = random.Random(3)
+    rows = [
+        [Fraction(rng.randint(-999, 999), rng.randint(1, 99_999)) for _ in range(30)]
+        for _ in range(30)
+    ]
+    M = Matrix.from_rows(rows)
+    assert M.rows() == tuple(map(tuple, rows))
+    assert M.denominator.bit_length() > 4096
+    assert M.denominator == math.lcm(*(x.denominator for row in rows for x in row))
+    assert M == Matrix.from_entries(
+        (30, 30), ((i, j, x) for i, row in enumerate(rows) for j, x in enumerate(row) if x)
+    )
+    thin = [[x if i == j else Fraction(0) for j, x in enumerate(row)] for i, row in enumerate(rows)]
+    wide = [[*row, *[Fraction(0)] * 270] for row in thin]
+    assert Matrix.from_rows(wide).is_sparse and Matrix.from_rows(wide).rows() == tuple(
+        map(tuple, wide)
+    )
