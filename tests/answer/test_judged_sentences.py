@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from mcexact.analysis.analyze import analyze
 from mcexact.analysis.sharing import minimal_shared_dimensions
 from mcexact.answer.rulebook import ALLOCATION, everything
 from mcexact.answer.sentence import Context
@@ -116,6 +117,41 @@ def test_both_bounds_on_what_agents_share_are_judged(share: Share) -> None:
         changes += [{"cost": 3}] if "cost" in told.values else []
         for change in changes:
             assert verdict(replace(told, values={**told.values, **change}), case) is False
+
+
+UNSEEN = MultiChannelSystem([[1, 2], [4, -1]], [[[1], [0]]], [[[1, -1]]])
+"""The rows of A sum to 3, and the output is a difference."""
+UNMOVED = MultiChannelSystem([[1, 4], [2, -1]], [[[1], [-1]]], [[[1, 0]]])
+BESIDE = MultiChannelSystem([[1, 2, 0], [4, -1, 0], [0, 0, 5]], [[[1], [0], [0]]], [[[1, -1, 0]]])
+ROUNDED = MultiChannelSystem(
+    [["0.30000000000000004", "0.7"], ["0.7", "0.3"]], [[[1], [0]]], [[["0.1", "-0.1"]]]
+)
+TURNED = MultiChannelSystem(
+    [["0.30000000000000004", "0.7"], ["0.7", "0.3"]], [[[1], [-1]]], [[["0.1", 0]]]
+)
+OF_DATA = ("nearby-equalities", "law-", "nearby-law-")
+
+
+@pytest.mark.parametrize("plant", [UNSEEN, UNMOVED, BESIDE, ROUNDED, TURNED])
+def test_why_modes_are_fixed_is_judged_and_denied(plant: MultiChannelSystem) -> None:
+    found = analyze(plant)
+    asked: dict[str, Any] = {
+        "nearby": {each.lost: plant_of(each.plant) for each in found.nearby.plants}
+    }
+    if found.why_fixed.proof is not None:
+        asked["redrawn"] = plant_of(found.why_fixed.proof.about.plant)
+    case = Case(plant_of(plant), asked)
+    rows = [said(each) for each in found.sentences if each.template.key.startswith(OF_DATA)]
+    assert rows and all(verdict(row, case) for row in rows)
+    for row in rows:
+        changes = [{"p": Polynomial.from_roots([7])}]
+        changes += [{"vectors": [[1, 2, 0][: plant.n]]}] if "vectors" in row.values else []
+        for change in changes:
+            changed = {name: plain(value) for name, value in change.items()}
+            assert verdict(replace(row, values={**row.values, **changed}), case) is False
+        if row.rule == "nearby-equalities":
+            same = replace(case, asked={**asked, "redrawn": case.plant})
+            assert verdict(row, same) is False
 
 
 @pytest.mark.slow

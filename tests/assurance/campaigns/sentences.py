@@ -207,7 +207,8 @@ def analysis(rng: random.Random) -> Iterator[Judged]:
     if rng.random() < 0.5:
         options.append("every-channel")
     if plant.n and rng.random() < 0.3:
-        plant = disturbed(rng, mixed(rng, plant))
+        plant = mixed(rng, plant)
+        plant = plant if rng.random() < 0.3 else disturbed(rng, plant)
     found = analyze(plant, also=asked_by(*options), **asked)
     rows = rows_of(found.account.sentences)
     if not found.nearby_left_out:
