@@ -294,7 +294,7 @@ class Evidence:
             require(named, "theorem", "theorem", f"expected {theorem or 'none'}")
             spend(1000 + 10 * len(because))
             cited = list(dict.fromkeys(name for name, *_ in because))
-            for name in cited if self.premises else self.verdicts:
+            for name in cited if self.own() else self.verdicts:
                 open_ = "INCOMPLETE" if self.verdicts[name].status == 5 else "INVALID"
                 if name not in self.premises:
                     raise Refused(open_, "premise", name, "this certificate is not VALID")
