@@ -144,7 +144,7 @@ def test_why_modes_are_fixed_is_judged_and_denied(plant: MultiChannelSystem) -> 
     rows = [said(each) for each in found.sentences if each.template.key.startswith(OF_DATA)]
     assert rows and all(verdict(row, case) for row in rows)
     for row in rows:
-        changes = [{"p": Polynomial.from_roots([7])}]
+        changes: list[dict[str, Any]] = [{"p": Polynomial.from_roots([7])}]
         changes += [{"vectors": [[1, 2, 0][: plant.n]]}] if "vectors" in row.values else []
         for change in changes:
             changed = {name: plain(value) for name, value in change.items()}
