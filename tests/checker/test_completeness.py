@@ -45,6 +45,8 @@ ALONG = certificate(
     {"from": ["2", "3"]},
 )
 """Channel 1 drives the others along a chain of states, and nothing leads back to it."""
+FAR = changed(ALONG, ("system.channels.2.C", [[0, 0, 1]]))
+"""The others see the end of the chain alone."""
 
 ACCEPTED = [
     ("one integrator", COMPLETE),
@@ -81,6 +83,7 @@ REJECTED = [
     ("a cut that is not invariant", CUT, ("system.A.0.1", 1)),
     ("a cut that a path crosses, one way", ALONG, ("witness.from", ["1"])),
     ("a path over a state between", ALONG, ("witness.from", ["1", "3"])),
+    ("a path of several entries", FAR, ("witness.from", ["1"])),
     ("an entry that leads back", ALONG, ("system.A.0.2", 1)),
     ("an output that sees the last state", ALONG, ("system.channels.0.C", [[1, 0, 1]])),
     ("an input on the first state", ALONG, ("system.channels.2.B", [[1], [0], [1]])),
