@@ -151,22 +151,6 @@ class ByGrowth(Part):
     inputs: tuple[int, ...]
 
 
-@dataclass(frozen=True)
-class ByRows(Part):
-    """Evidence of certificates written by earlier versions, which is read only.
-
-    Attributes
-    ----------
-    modulus : int
-        ℓ ≥ 2, modulo which the ranks are reached.
-    annihilator : Matrix
-        W, (n − r_1) × n, of full row rank: its first n − r_k rows annihilate the first k blocks.
-    """
-
-    modulus: int
-    annihilator: Matrix
-
-
 @answer("controllability_indices")
 class ControllabilityIndices(Answer):
     """The ranks r_k of [B_T … A^{k−1}B_T], and the resulting indices.
@@ -182,14 +166,14 @@ class ControllabilityIndices(Answer):
     indices : tuple of int
         The controllability (Brunovsky) indices κ_1 ≥ κ_2 ≥ …, the conjugate partition of
         r_1, r_2 − r_1, …; they sum to r_ν.
-    evidence : ByGrowth or ByRows
+    evidence : ByGrowth
     """
 
     channels: tuple[str, ...] = claim()
     ranks: tuple[int, ...] = claim()
     index: int | None = claim()
     indices: tuple[int, ...] = claim()
-    evidence: ByGrowth | ByRows = witness(whole=True)
+    evidence: ByGrowth = witness(whole=True)
 
 
 # Answer: the edges and the strong components of the transfer graph.

@@ -171,23 +171,19 @@ def require_reached(system: System, channel: int, ell: int, blocks: int) -> None
 
 
 def check_controllability_indices(claim: Json, witness: Json, system: System) -> None:
-    """Check ranks of [B … A^{k−1}B] from above by relations, or by rows; from below modulo ℓ.
+    """Check ranks of [B … A^{k−1}B] from above by rows and relations, from below modulo ℓ.
 
     Theorems ``controllability.indices_stationary``, ``controllability.rank_from_above``.
     """
     listed, claimed, top, parts = fields(claim, "claim", "channels", "ranks", "index", "indices")
-    growing = isinstance(witness, dict) and "relations" in witness
-    keys = ("annihilator", "pivots", "relations", "inputs") if growing else ("annihilator",)
-    number, *shown = fields(witness, "witness", "modulus", *keys)
+    keys = ("modulus", "annihilator", "pivots", "relations", "inputs")
+    number, *shown = fields(witness, "witness", *keys)
     T, n = names(listed, "claim.channels", system.names), system.n
     ranks = [0, *(integer(r, "claim.ranks", 1) for r in items(claimed, "claim.ranks"))]
     increasing = ranks == sorted(set(ranks)) and ranks[-1] <= n
     require(increasing, "claim", "claim.ranks", f"expected strictly increasing ranks up to {n}")
     ell, nu, B = modulus(number, "witness.modulus"), len(ranks) - 1, inputs(system, T)
-    if growing:
-        _require_growth(shown, ranks, system.A, B)
-    else:
-        _require_rows(shown[0], ranks, system.A, B, ell)
+    _require_growth(shown, ranks, system.A, B)
     reached = krylov_ranks(system, T, ell, nu)
     # Where the blocks stop growing modulo ℓ, the last rank stands for all that follow.
     reached += [reached[-1]] * (nu + 1 - len(reached))
@@ -247,25 +243,6 @@ def relation_degrees(polynomials: Json, chosen: Json, A: Matrix, B: Matrix) -> l
         total = A @ total + B @ layer
     require(total.is_zero(), "identity", place, "the sum of A^i B v_i is not zero")
     return degrees
-
-
-def _require_rows(rows: Json, ranks: list[int], A: Matrix, B: Matrix, ell: int) -> None:
-    """Stop unless independent rows W annihilate the first blocks, n − r_k of them the first k.
-
-    Certificates of earlier versions have these.
-
-    Theorem ``controllability.indices_rule``.
-    """
-    n, nu = A.nrows, len(ranks) - 1
-    W = matrix(rows, "witness.annihilator", n - ranks[min(nu, 1)], n)
-    independent = rank_modulo(W, ell) == W.nrows
-    require(independent, "rank", "witness.annihilator", "its rows are dependent modulo l")
-    power = B
-    for k in range(1, nu + 2):
-        first = W.take(range(n - ranks[min(k, nu)]))
-        message = f"its first {first.nrows} rows do not annihilate block {k}"
-        require((first @ power).is_zero(), "identity", "witness.annihilator", message)
-        power = A @ power
 
 
 def controllability_indices_statement(claim: Json, system: System) -> str:

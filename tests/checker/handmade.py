@@ -217,12 +217,6 @@ NO_INDEX = certificate(
     {"channels": ["1"], "ranks": [1], "index": None, "indices": [1]},
     {**GENERIC, "annihilator": matrix([0, 1]), "pivots": [1]},
 )
-INDICES_BY_ROWS = certificate(
-    "controllability_indices",
-    CHAIN,
-    INDICES["claim"],
-    {"modulus": 7, "annihilator": matrix([0, 1])},
-)
 GRAPH = certificate(
     "transfer_graph",
     CHAIN,
@@ -306,7 +300,6 @@ VALID = {
     "a controllable chain": CONTROLLABLE,
     "indices of a chain": INDICES,
     "no index": NO_INDEX,
-    "indices by rows": INDICES_BY_ROWS,
     "a transfer graph": GRAPH,
     "a complete system": COMPLETE,
     "a cut": CUT,

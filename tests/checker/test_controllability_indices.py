@@ -5,7 +5,6 @@ from __future__ import annotations
 from tests.checker.handmade import (
     GENERIC,
     INDICES,
-    INDICES_BY_ROWS,
     NO_INDEX,
     PAIR,
     certificate,
@@ -72,21 +71,6 @@ HALVES = certificate(
     {**GENERIC, "relations": layers([[-1]], [[2]]), "inputs": [0]},
 )
 
-# by rows, as earlier versions wrote them
-TWO_BY_ROWS = certificate(
-    KIND, TWO_PLANT, TWO_CLAIM, {"modulus": 7, "annihilator": matrix([0, 0, 1])}
-)
-UNMOVED_BY_ROWS = certificate(
-    KIND, UNMOVED_PLANT, UNMOVED_CLAIM, {"modulus": 7, "annihilator": matrix([1, 0], [0, 1])}
-)
-NO_STATES_BY_ROWS = certificate(KIND, NO_PLANT, NO_CLAIM, {"modulus": 7, "annihilator": matrix()})
-THREE_BY_ROWS = certificate(
-    KIND, THREE_PLANT, THREE_CLAIM, {"modulus": 7, "annihilator": matrix([0, 0, 1], [0, 1, 0])}
-)
-NO_INDEX_BY_ROWS = certificate(
-    KIND, PAIR, NO_INDEX["claim"], {"modulus": 7, "annihilator": matrix([0, 1])}
-)
-
 ACCEPTED = [
     ("a chain of three needs a modulus alone", THREE),
     ("a chain of two", INDICES),
@@ -109,14 +93,6 @@ ACCEPTED = [
         "a relation that is not needed",
         changed(RELATED, ("witness.annihilator", matrix([0, 1])), ("witness.pivots", [1])),
     ),
-    ("by rows, a chain of two", INDICES_BY_ROWS),
-    ("by rows, a chain of three", THREE_BY_ROWS),
-    ("by rows, a mode that stays out of reach", NO_INDEX_BY_ROWS),
-    ("by rows, two inputs", TWO_BY_ROWS),
-    ("by rows, an input of zeros", UNMOVED_BY_ROWS),
-    ("by rows, no states", NO_STATES_BY_ROWS),
-    ("another annihilator", changed(INDICES_BY_ROWS, ("witness.annihilator", matrix([0, -3])))),
-    ("by rows, another modulus", changed(INDICES_BY_ROWS, ("witness.modulus", 6))),
 ]
 
 REJECTED = [
@@ -205,14 +181,7 @@ REJECTED = [
         "MALFORMED",
     ),
     ("relations left out", RELATED, ("witness.relations", None), "MALFORMED"),
-    ("by rows, a rank too low", INDICES_BY_ROWS, ("claim.ranks", [1])),
-    ("by rows, a rank too high", NO_INDEX_BY_ROWS, ("claim.ranks", [2])),
-    ("by rows, a plant that goes on growing", NO_INDEX_BY_ROWS, ("system.A.1.0", 1)),
-    ("dependent rows", UNMOVED_BY_ROWS, ("witness.annihilator", matrix([1, 0], [2, 0]))),
-    ("rows that do not annihilate B", INDICES_BY_ROWS, ("witness.annihilator", matrix([1, 0]))),
-    ("no rows", INDICES_BY_ROWS, ("witness.annihilator", matrix())),
-    ("rows of zeros", NO_INDEX_BY_ROWS, ("witness.annihilator", matrix([0, 0]))),
-    ("rows that vanish modulo ℓ", NO_INDEX_BY_ROWS, ("witness.annihilator", matrix([0, 7]))),
+    ("rows alone", NO_INDEX, ("witness", {"modulus": 7, "annihilator": matrix([0, 1])})),
 ]
 
 

@@ -172,29 +172,14 @@ def _implied(most: int, p: int, degrees: list[int]) -> list[int]:
 
 
 def ranks_cut_short(rng: random.Random, document: Document) -> Forged:
-    """Ranks that grow further, with rows of zeros as annihilators of an earlier version."""
+    """Ranks that grow further, with rows of zeros as annihilators."""
     claim, n = document["claim"], subject_of(document).n
     ranks = claim["ranks"][: rng.randint(0, len(claim["ranks"]))]
     if ranks and rng.random() < 0.5:
         ranks[-1] = max(ranks[-1] - 1, 1)
     _restated(claim, ranks, n)
     rows = n - (ranks[0] if ranks else 0)
-    modulus = document["witness"]["modulus"]
-    document["witness"] = {"modulus": modulus, "annihilator": zeros(rows, n)}
-    return document
-
-
-def ranks_by_rows(rng: random.Random, document: Document) -> Forged:
-    """The rows of an earlier version that annihilate the first block alone."""
-    system, claim = subject_of(document), document["claim"]
-    W, _ = left_kernel(system.inputs(positions(claim["channels"], system.names)))
-    r = system.n - W.nrows()
-    ranks = [r] if r else []
-    if rng.random() < 0.3 and 0 < r < system.n:
-        ranks.append(rng.randint(r + 1, system.n))
-    _restated(claim, ranks, system.n)
-    modulus = document["witness"]["modulus"]
-    document["witness"] = {"modulus": modulus, "annihilator": written(W)}
+    document["witness"] |= {"annihilator": zeros(rows, n), "pivots": list(range(rows))}
     return document
 
 
@@ -610,7 +595,6 @@ INDICES = (
     ranks_by_false_relations,
     ranks_by_false_relations,
     ranks_cut_short,
-    ranks_by_rows,
     ranks_too_large,
 )
 GRAPH = (missing_edge, extra_edge, all_edges, unsorted_edges)
