@@ -9,7 +9,9 @@ outputs that are shared over them leave no fixed mode, or else a search of links
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from math import log10
 from typing import Any
 
@@ -42,6 +44,7 @@ from mcexact.synthesis.robustness import EveryLoop
 from mcexact.synthesis.setpoint import design_setpoint
 from mcexact.synthesis.state_feedback import require_numbers
 
+_ENDED = "half of the time limit was over after the search, so that no box of plants was sought"
 _DESIGNERS: dict[str, Callable[..., Design]] = {
     "decentralized": design_decentralized,
     "extended": design_extended,
@@ -100,7 +103,7 @@ def designed(
         if isinstance(step, Warned):
             tell(step)
 
-    spectrum = None
+    spectrum, began = None, time.monotonic()
     system = system_in(*plant, limits)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
@@ -127,6 +130,9 @@ def designed(
         )
     _require_readable(design, Limits(**limits))
     every_loop = None
+    if with_box and aims.seconds is not None and time.monotonic() - began > aims.seconds:
+        with_box = False
+        design = replace(design, notes=(*design.notes, _ENDED))
     if with_box and design.stable:
         every_loop = design.every_loop(**({"effort": aims.effort} if aims.effort else {}))
     proved = None

@@ -1,11 +1,16 @@
 """What the design commands and `certify` show besides what is certified."""
 
+import itertools
 import json
 import re
+import time
 from pathlib import Path
 
 import pytest
 
+from mcexact.cli import designs
+from mcexact.cli.options import AIMS
+from mcexact.cli.results import Loop
 from mcexact.model import gallery
 from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
@@ -216,3 +221,20 @@ def test_a_box_and_disk_margins_are_aims_of_a_search(plant: str) -> None:
     assert told["every_loop"]["certified"]
     refused = run("design", "decentralized", plant, "--disk", "3")
     assert refused.status == 2 and "disk: expected a number above 0 and below 2" in refused.stderr
+
+
+def test_a_design_whose_search_takes_half_of_the_time_is_certified_without_a_box(
+    plant: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ticks = itertools.count()
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(ticks)))
+    content = Path(plant).read_bytes()
+    options: dict[str, object] = dict.fromkeys(AIMS)
+    options |= {"margin": 0.3, "disk": 0.4, "seeds": 4, "seconds": 50.0}
+    made = designs.designed(
+        "decentralized", ("plant.json", content), None, None, {},
+        {"rate": None, "radius": None, "arithmetic": "exact", "agent": None}, options,
+        with_box=True, with_page=False, prove_all=False, system_by_digest=False, tell=print,
+    )  # fmt: skip
+    assert isinstance(made, Loop)
+    assert any("no box of plants was sought" in line for line in made.verdict)

@@ -42,6 +42,7 @@ _FASTER, _NARROW, _WALK = 1.5, 1.05, 6
 _MOST_SIGNALS = 120
 _SHARE = 0.3
 _INSISTING, _HEAVY = 3, 10.0
+_FURTHER = (1.0, 1.1, 1.2, 1.35, 1.6, 2.2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,15 +115,19 @@ def more_damped(ladder: Ladder, best: Candidate, damping: float = DAMPING) -> Im
     shape = ladder.target.shape
     if best.figures.damping >= damping or shape.damping is not None:
         return Improved(best)
-    target = replace(ladder.target, shape=Shape(damping, shape.largest))
-    other = followed(ladder, best, target, ladder.effort.part(_SHARE))
-    told = f"the least damping ratio is {best.figures.damping:.2g}"
+    other: Candidate | None = best
+    for factor in _FURTHER:
+        # The penalty is a soft one.
+        target = replace(ladder.target, shape=Shape(factor * damping, shape.largest))
+        if other is not None and other.figures.damping < damping:
+            other = followed(ladder, other, target, ladder.effort.part(_SHARE))
+    aimed = f"a damping ratio of at least {damping:g}"
     if other is None or other.figures.damping < damping or _loses_margins(ladder, best, other):
-        return Improved(best, (f"{told}: none of at least {damping:g} was found (computed)",))
+        return Improved(best, (f"no loop with {aimed} was found (computed)",))
     if other.figures.cost <= AFFORDABLE * best.figures.cost:
         return Improved(other)
     dearer = _dearer(other.figures, best.figures)
-    return Improved(best, (f"{told}: at least {damping:g} would cost {dearer} more (computed)",))
+    return Improved(best, (f"{aimed} would cost {dearer} more (computed)",))
 
 
 def with_larger_box(
