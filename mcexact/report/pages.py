@@ -127,8 +127,8 @@ def loop_page(
     pictures = [*([] if curves is None else loop_pictures(curves)), *gains_pictures(controller)]
     return AnswerPage(
         title=system.name or "A closed loop",
-        heading="A controller and its closed loop. Certificates prove where the eigenvalues lie, what "
-        "the first line says, and the rows of the first table; other figures are computed.",
+        heading="A controller and its closed loop. Certificates prove where the eigenvalues lie, "
+        "what the first line says, and the rows of the first table; other figures are computed.",
         good=install == "yes",
         answer=tuple(words),
         pictures=tuple(each.embedded() for each in pictures),
