@@ -84,6 +84,10 @@ def require_positive(S: Matrix, place: str, message: str) -> None:
     spend(budget.table(3 * n, n, longest) + 6 * n**3)
     even = all(S.rows[i][j] == S.rows[j][i] for i in range(n) for j in range(i))
     require(even and all(S.rows[i][i] > 0 for i in range(n)), "definite", place, message)
+    # |s_ij|^2 < s_ii s_jj in every definite matrix; the scaled entries are below 4 then
+    bits = [[entry.bit_length() for entry in row] for row in S.rows]
+    small = all(2 * bits[i][j] <= bits[i][i] + bits[j][j] + 1 for i in range(n) for j in range(i))
+    require(small, "definite", place, message)
     halves = [S.rows[i][i].bit_length() // 2 for i in range(n)]
     scaled = [[_scaled(S.rows[i][j], halves[i] + halves[j]) for j in range(n)] for i in range(n)]
     proved = any(_dominates(S, halves, _congruence(scaled, shift)) for shift in SHIFTS)

@@ -102,7 +102,14 @@ def test_a_matrix_is_read_with_its_exponents() -> None:
 
 
 @pytest.mark.parametrize(
-    "rows", [[[1, 2], [2, 4]], [[1, 2], [3, 9]], [[0]], [[2, 1, 1], [1, 2, -2], [1, -2, 2]]]
+    "rows",
+    [
+        [[1, 2], [2, 4]],
+        [[1, 2], [3, 9]],
+        [[0]],
+        [[2, 1, 1], [1, 2, -2], [1, -2, 2]],
+        [[1, 2**3000], [2**3000, 1]],  # beyond floats, also when scaled by the diagonal
+    ],
 )
 def test_what_is_singular_or_indefinite_is_not_shown_to_be_positive(rows: list[list[int]]) -> None:
     with pytest.raises(Refused):

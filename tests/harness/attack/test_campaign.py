@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker import arithmetic
-from mcexact.checker.kinds import KINDS
+from mcexact.checker.kinds import KINDS, check_document
 from mcexact.exact import tables
 from tests.assurance.attack.campaign import run, run_batch
 from tests.assurance.attack.report import Report
@@ -88,4 +88,23 @@ def test_a_batch_is_the_same_every_time() -> None:
 
 @pytest.mark.parametrize("document", VALID.values(), ids=list(VALID))
 def test_the_oracle_confirms_certificates_made_by_hand(document: dict[str, Any]) -> None:
+    assert judge(document) == (TRUE, "")
+
+
+def test_every_bound_holds_for_a_plant_that_no_controller_stabilizes() -> None:
+    group = {
+        "agents": ["b"], "disturbances": [1, 1], "noise": [7], "share": "524183/524288",
+        "P": {"exponents": [-7, -7], "entries": [760489, 616700, 626218]},
+        "S": {"exponents": [-8, -8], "entries": [1586097, 1787828, 2087100]},
+        "F": {"denominator": 262144, "entries": [[-325369, -228038]]},
+    }  # fmt: skip
+    weights = {"states": [1, 7], "inputs": [1], "disturbances": [1, 1], "noise": [7]}
+    unseen = {"name": "b", "B": [[-2], [1]], "C": [[0, 0]]}
+    system = {"time": "discrete", "A": [[-1, "-1/2"], [-1, -1]], "channels": [unseen]}
+    document = {
+        "format": "mcexact-certificate/1", "kind": "cost_bound", "subject": [],
+        "system": {**system, "neighbors": {"b": []}},
+        "claim": {"weights": weights, "cost": "22559119/2500"}, "witness": {"groups": [group]},
+    }  # fmt: skip
+    assert check_document(document).verdict == "VALID"
     assert judge(document) == (TRUE, "")

@@ -9,6 +9,7 @@ part in 10⁷ are taken for true.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -250,7 +251,13 @@ def least_cost(
     omega: fmpq | None,
     time: str,
 ) -> float:
-    """The least cost, with slightly larger weights where the equations have no solution."""
+    """The least cost, with slightly larger weights where the equations have no solution.
+
+    It is infinite where no controller makes the loop stable: every bound holds then.
+    """
+    A, B, C = map(_floats, matrices)
+    if _stays(A, B, time) or _stays(A.T, C.T, time):
+        return math.inf
     for more in (fmpq(0), fmpq(1, 10**9), fmpq(1, 10**7)):
         try:
             larger = [[x + more for x in each] for each in lists]
@@ -258,6 +265,20 @@ def least_cost(
         except (np.linalg.LinAlgError, ValueError):
             continue
     raise Undecided("the Riccati equations have no solution that is found")
+
+
+def _stays(A: Any, B: Any, time: str) -> bool:
+    """Whether an eigenvalue of A that does not decay is out of the reach of B."""
+    values = np.linalg.eigvals(A)
+    sizes = np.abs(values) - 1 if time == "discrete" else values.real
+    reach = [
+        np.linalg.svd(np.hstack([value * np.eye(len(A)) - A, B]), compute_uv=False)[-1]
+        for value in values[sizes > -1e-12]
+    ]
+    scale = max(1.0, np.abs(A).max(initial=0.0))
+    if any(1e-12 * scale < each < 1e-8 * scale for each in reach):
+        raise Undecided("an eigenvalue is nearly out of reach")
+    return any(each <= 1e-12 * scale for each in reach)
 
 
 def best_cost(
