@@ -7,9 +7,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.answer import check
-from mcexact.checker import command as manifest
-from mcexact.checker.kinds import Verdict
+from mcexact.checker.kinds import Check, Verdict
 from mcexact.checker.sentences import RULES
 from mcexact.cli import files, main
 from mcexact.cli.files import Deadline
@@ -56,8 +54,7 @@ def test_a_certificate_that_is_not_accepted_is_an_internal_error(
     command: tuple[str, ...], call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     refused = Verdict("INVALID", code="claim", place="claim", message="not so")
-    for module in (check, manifest):
-        monkeypatch.setattr(module, "check_document", lambda *_: refused)
+    monkeypatch.setattr(Check, "of", lambda *_: refused)
     status, out, err = call(*command, "--certificates", str(tmp_path / "evidence"))
     assert status == 70 and json.loads(out).keys() == {"format", "status", "message"}
     assert "cannot be trusted" in err
@@ -85,7 +82,7 @@ def test_what_a_limit_of_the_checker_leaves_open_is_status_4_and_keeps_the_answe
     form: tuple[str, ...], call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     large = Verdict("INCOMPLETE", code="size", place="subject", message="too large to build")
-    monkeypatch.setattr(manifest, "check_document", lambda *_: large)
+    monkeypatch.setattr(Check, "of", lambda *_: large)
     page = tmp_path / "page.html"
     status, out, err = call("analyze", PLANT, *form, "--html", str(page))
     assert status == 4
