@@ -245,7 +245,9 @@ class Assessment(Shown):
         seen, cares = self.figures, list[tuple[str, str]]()
         if not self.certified or seen.margin <= 0:
             return cares
-        unknown = [name for name in ("peak", "cost") if isnan(getattr(seen, name))]
+        margin = seen.margin if self.performance is None else self.performance.least_margin
+        figures = {"margin": margin, "peak": seen.peak, "cost": seen.cost}
+        unknown = [name for name, value in figures.items() if isnan(value)]
         if unknown:
             text = (
                 f"the {listed(unknown)} of the loop {'is' if len(unknown) == 1 else 'are'} not "

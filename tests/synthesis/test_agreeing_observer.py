@@ -40,7 +40,7 @@ def test_half_the_states_and_a_margin_suffice(name, rate):
     assert check_document(encode(design.loop.proof).encode()).verdict == "VALID"
     assert design.order == plant.n * plant.m
     found = assess(design)
-    assert found.figures.margin >= 0.3 and found.relative_cost < 2
+    assert found.figures.margin >= 0.3 and found.relative_cost < 4
 
 
 def test_what_is_fragile_is_compared_with_observers_of_a_channel_controller():

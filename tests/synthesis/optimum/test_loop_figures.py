@@ -79,7 +79,8 @@ def test_the_curves_of_a_defective_loop_are_those_of_the_closed_form() -> None:
 def test_what_is_not_known_is_said_and_is_no_danger() -> None:
     loop = defective(2, "-1")
     found = assessed_loop(loop, StabilityRegion("continuous"), certified=True)
-    unknown = replace(found, figures=replace(found.figures, margin=math.nan, cost=math.nan))
+    figures = replace(found.figures, margin=math.nan, cost=math.nan)
+    unknown = replace(found, figures=figures, performance=None)
     assert unknown.install == "with care"
     assert any("margin and cost of the loop are not known" in each for each in unknown.warnings)
     assert dict(unknown.rows())["margin at the plant's inputs"].startswith("not known")
