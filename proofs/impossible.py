@@ -64,8 +64,11 @@ def main(flags: list[str]) -> int:
                 bad += 1
                 continue
             stops = compiled(folder, APPLIED, flags)
-            careless = f"{applied}\nExample careless := @paper.{name}.\n"
+            # not in the imports above the section, where a file can have the name of a theorem
+            imports, section, body = applied.partition("Section ")
+            careless = f"{section}{body}\nExample careless := @paper.{name}.\n"
             kept = re.sub(rf"(?<![\w.]){name}\b(?=[ ;)(]| *\n)", f"paper.{name}_", careless)
+            kept = imports + kept
             kept = kept.replace(f"@paper.paper.{name}_", f"@paper.{name}")
             (folder / f"{APPLIED}.v").write_text(kept, encoding="utf-8")
             if error := compiled(folder, APPLIED, flags):
