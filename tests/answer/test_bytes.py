@@ -60,7 +60,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Written:
 
 def found_in_floating_point(document: dict[str, Any]) -> bool:
     """Whether FORMAT.md says that this evidence was found in floating point."""
-    if document["kind"] in ABOUT_BOXES:
+    if document["kind"] in ABOUT_BOXES | ABOUT_PERFORMANCE:
         return True
     return document["kind"] == "stability" and document["witness"]["method"] != "polynomial"
 

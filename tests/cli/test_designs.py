@@ -4,6 +4,7 @@ import itertools
 import json
 import re
 import time
+from html import unescape
 from pathlib import Path
 
 import pytest
@@ -42,7 +43,7 @@ def test_a_file_is_enough_and_the_first_line_says_whether_to_install(
     shown = page.read_text(encoding="utf-8")
     Page(shown)
     assert not external_addresses(shown)
-    assert first in shown and shown.count("<figure") == 5
+    assert first in unescape(shown) and shown.count("<figure") == 5
     told = run("certify", plant, str(controller), "--rate", "1/100")
     assert told.status == 0
     assert told.stdout.splitlines()[0].startswith("Proved: cost ≤ ")
