@@ -95,11 +95,14 @@ def test_what_is_found_in_floating_point_is_valid_under_every_kernel(written: Wr
             assert verdict.verdict == "VALID", f"{place}: {verdict.line()}"
         kinds = {place: json.loads(data)["kind"] for place, data in proposed.items()}
         assert ABOUT_BOXES <= {*kinds.values()}
-        # Exact designs have a box around their loop, too, and a plant near theirs whose loop fails.
+        assert {"cost_bound", "disk_margin", "loop_cost"} <= {*kinds.values()}
+        # Exact designs have a box around their loop, too, a plant near theirs whose loop fails, and
+        # proofs of cost and margins.
+        proposed_for_all = ABOUT_BOXES | ABOUT_PERFORMANCE
         rest = [
             place
             for place, kind in kinds.items()
-            if kind not in ABOUT_BOXES and place.stem != "failing_loop"
+            if kind not in proposed_for_all and place.stem != "failing_loop"
         ]
         asked = {(place.parts[0], place.parts[1]) for place in rest}
         assert {name for _, name in asked} == IN_FLOATING_POINT

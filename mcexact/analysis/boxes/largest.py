@@ -631,7 +631,10 @@ def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> Stabilit
 
 
 def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
-    """A plant near the nominal one whose loop has an eigenvalue on the border.
+    """A plant near the nominal one whose loop has an eigenvalue on the border, or just beyond.
+
+    A plant that is 1e-5 farther differs in numbers of six digits; one exactly on the border can
+    have thousands.
 
     Parameters
     ----------
@@ -646,16 +649,40 @@ def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
     D = signals.with_entries(plant, gain_radii(loop.controller, 0), 0)
     pencil = Uncertain(signals.matrix, D, signals.states, signals.dimension - 1)
     freedom: Freedom = "circle" if search.region.discrete else "line"
-    best: FailingPlant | None = None
+    best: tuple[Fraction, Matrix, complex] | None = None
     for _, point in search.margins()[:tries]:
         near = pencil.drop(point, freedom)
-        if near is None or (best is not None and near.size >= best.distance):
+        if near is None or (best is not None and near.size >= best[0]):
             continue
-        change = pencil.exact(near, freedom)
-        if change is not None and (best is None or change[1] < best.distance):
-            member = _changed(nominal, signals, change[0])
-            best = FailingPlant(member, change[1], near.point, ())
-    return best
+        found = pencil.exact(near, freedom)
+        if found is not None and (best is None or found[1] < best[0]):
+            best = found[1], found[0], near.point
+    if best is None:
+        return None
+    distance, change, point = best
+    beyond = _farther(change)
+    member = _changed(nominal, signals, beyond)
+    if _is_outside(replace(loop, plant=member).system.A, search.region):
+        distance = max(abs(beyond[i, j]) / D[i, j] for i, j, _ in beyond.nonzero())
+        return FailingPlant(member, distance, point, ())
+    return FailingPlant(_changed(nominal, signals, change), distance, point, ())
+
+
+_BEYOND = 1 + 1e-5
+"""How much farther a change goes, so that six digits do."""
+
+
+def _farther(change: Matrix) -> Matrix:
+    """A change that is at least as large everywhere, in numbers of six digits."""
+    entries = ((i, j, to_float(change[i, j]) * _BEYOND) for i, j, _ in change.nonzero())
+    return Matrix.from_entries(change.shape, ((i, j, Fraction(f"{x:.5e}")) for i, j, x in entries))
+
+
+def _is_outside(M: Matrix, region: StabilityRegion) -> bool:
+    """Whether the computed eigenvalues are beyond the border, which proves nothing."""
+    values = np.linalg.eigvals(matrix_to_float(M))
+    sizes = np.abs(values) if region.discrete else values.real
+    return bool(max(sizes, default=-np.inf) > to_float(region.limit))
 
 
 def _changed(plant: MultiChannelSystem, signals: LoopPencil, change: Matrix) -> MultiChannelSystem:
