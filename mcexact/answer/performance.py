@@ -17,6 +17,7 @@ weights, the least disk margin of a single input or output, and the plants with 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Literal
@@ -284,12 +285,17 @@ def _only_proper(weights: tuple[Any, ...], context: Context) -> bool:
     return not is_discrete(context.time) and weights[-1] is None
 
 
+def _ratio_of(cost: Claim, bound: Claim, context: Context) -> Iterator[dict[str, Any]]:
+    """The cost over the bound, and for which controllers, where both have the same weights."""
+    weights = _weighed(cost.weights)
+    if weights == _weighed(bound.weights) and bound.cost:
+        yield {"ratio": cost.cost / bound.cost, "proper": _only_proper(weights, context)}
+
+
 @RULES.rule("first", FIRST_COST, premises=("loop_cost", "cost_bound"))
 def _first_cost(loop_cost: Claim, cost_bound: Claim, context: Context) -> Said:
-    weights = _weighed(loop_cost.weights)
-    if weights == _weighed(cost_bound.weights) and cost_bound.cost:
-        ratio = loop_cost.cost / cost_bound.cost
-        yield FIRST_COST(ratio=ratio, proper=_only_proper(weights, context))
+    for values in _ratio_of(loop_cost, cost_bound, context):
+        yield FIRST_COST(**values)
 
 
 @RULES.rule("first", FIRST_MARGIN, premises=("input_margin", "output_margin"))
@@ -321,10 +327,8 @@ def _bound(cost_bound: Claim, context: Context) -> Said:
 
 @RULES.rule("table", RATIO, premises=("loop_cost", "cost_bound"))
 def _ratio(loop_cost: Claim, cost_bound: Claim, context: Context) -> Said:
-    weights = _weighed(loop_cost.weights)
-    if weights == _weighed(cost_bound.weights) and cost_bound.cost:
-        ratio = loop_cost.cost / cost_bound.cost
-        yield RATIO(ratio=ratio, proper=_only_proper(weights, context))
+    for values in _ratio_of(loop_cost, cost_bound, context):
+        yield RATIO(**values)
 
 
 @RULES.rule("table", GROUP_BOUND, premises=("graph_cost_bound",))
@@ -338,11 +342,9 @@ def _group_bound(graph_cost_bound: Claim, context: Context) -> Said:
 
 @RULES.rule("table", GROUP_RATIO, premises=("loop_cost", "graph_cost_bound"))
 def _group_ratio(loop_cost: Claim, graph_cost_bound: Claim, context: Context) -> Said:
-    weights = _weighed(loop_cost.weights)
-    same = weights == _weighed(graph_cost_bound.weights)
-    if same and graph_cost_bound.cost and graph_cost_bound.has("graph"):
-        ratio, edges = loop_cost.cost / graph_cost_bound.cost, graph_cost_bound.graph.edges
-        yield GROUP_RATIO(ratio=ratio, proper=_only_proper(weights, context), edges=edges)
+    if graph_cost_bound.has("graph"):
+        for values in _ratio_of(loop_cost, graph_cost_bound, context):
+            yield GROUP_RATIO(**values, edges=graph_cost_bound.graph.edges)
 
 
 def _margin_rule(name: str) -> None:
