@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact import Box, MultiChannelSystem, certify_controller, check, local_controllers
+from mcexact.analysis.boxes import largest
 from mcexact.errors import UsageError
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.loop import ClosedLoop, closed_loop
@@ -104,3 +105,22 @@ def test_a_loop_with_numbers_that_are_no_floats_is_left_out() -> None:
     plant = MultiChannelSystem([["-1e400"]], [[[1]]], [[[1]]])
     found = every_loop(closed_loop(plant, local_controllers(plant, [[[0]]])), WHOLE)
     assert found.proof is None and found.reason.startswith("not tried: ")
+
+
+def test_a_plant_that_fails_differs_in_short_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    plant = MultiChannelSystem(
+        [["1/3", "2/7", 1], [0, "-5/11", "1/13"], ["1/17", 1, "-3/19"]],
+        [[[1], [0], [0]], [[0], ["1/23"], [1]]],
+        [[[1, "1/9", 0]], [[0, 0, 1]]],
+    )
+    about = closed_loop(plant, local_controllers(plant, [[["-10/7"]], [["-12/11"]]]))
+    short = every_loop(about, WHOLE).failing
+    monkeypatch.setattr(largest, "_LONG", 10**6)
+    border = every_loop(about, WHOLE).failing
+    assert short is not None and border is not None
+    assert border.distance < short.distance < border.distance * Fraction(10001, 10000)
+    lengths = [
+        max(len(str(x)) for row in each.plant.A.rows() for x in row) for each in (short, border)
+    ]
+    assert lengths[0] < 25 < 100 < lengths[1]
+    assert short.refutation is not None and check(short.refutation, short.plant).valid

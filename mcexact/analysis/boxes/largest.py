@@ -633,8 +633,8 @@ def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> Stabilit
 def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
     """A plant near the nominal one whose loop has an eigenvalue on the border, or just beyond.
 
-    A plant that is 1e-5 farther differs in numbers of six digits; one exactly on the border can
-    have thousands.
+    A plant exactly on the border can differ in numbers of thousands of digits; then one that is
+    1e-5 farther is given, which differs in numbers of six digits.
 
     Parameters
     ----------
@@ -660,12 +660,22 @@ def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
     if best is None:
         return None
     distance, change, point = best
-    beyond = _farther(change)
-    member = _changed(nominal, signals, beyond)
-    if _is_outside(replace(loop, plant=member).system.A, search.region):
-        distance = max(abs(beyond[i, j]) / D[i, j] for i, j, _ in beyond.nonzero())
-        return FailingPlant(member, distance, point, ())
+    if _has_long_numbers(change):
+        beyond = _farther(change)
+        member = _changed(nominal, signals, beyond)
+        if _is_outside(replace(loop, plant=member).system.A, search.region):
+            distance = max(abs(beyond[i, j]) / D[i, j] for i, j, _ in beyond.nonzero())
+            return FailingPlant(member, distance, point, ())
     return FailingPlant(_changed(nominal, signals, change), distance, point, ())
+
+
+_LONG = 64
+"""The bits, of numerator and denominator together, beyond which a number is long."""
+
+
+def _has_long_numbers(M: Matrix) -> bool:
+    entries = (M[i, j] for i, j, _ in M.nonzero())
+    return any(x.numerator.bit_length() + x.denominator.bit_length() > _LONG for x in entries)
 
 
 _BEYOND = 1 + 1e-5
