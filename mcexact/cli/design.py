@@ -294,11 +294,12 @@ def spectrum_examples(*keys: str, parts: bool = False) -> str:
 def design_decentralized_command(file: str, **values: Any) -> None:
     """Design a decentralized controller for the system in FILE (- for standard input).
 
-    Agent i computes u_i from y_i alone. Without --rate or --radius, the cost is least with disk
-    margins of 0.4 in every single loop and a margin of 0.3 at all inputs together. The first line
-    of the answer says whether to install the controller. No linear time-invariant controller of
-    this form moves the fixed modes, which remain if they are fast enough; if one is too slow, the
-    status is 1 and a certificate proves that no such controller exists.
+    Agent i computes u_i from y_i alone. Without --rate or --radius, a search minimizes the cost
+    with disk margins of 0.4 in every single loop and a margin of 0.3 at all inputs together. The
+    first line of the answer says whether to install the controller. A rate that no loop with these
+    margins has is answered with the fastest one that was found. No linear time-invariant controller
+    of this form moves the fixed modes, which remain if they are fast enough; if one is too slow,
+    the status is 1 and a certificate proves that no such controller exists.
     """
     answer("decentralized", file, values, {})
 
@@ -423,8 +424,8 @@ def design_setpoint_command(file: str, method: str | None, **values: Any) -> Non
     """Design a distributed controller that holds every output of FILE at its agent's set-point.
 
     Without a neighbor graph in FILE agents receive nothing. Without a rate, a radius or a spectrum,
-    the cost is least, with margins. `mcexact simulate --reference` runs the controller with given
-    set-points. If some set-points have no equilibrium, the status is 1 and a certificate gives
-    their linear combinations.
+    a search minimizes the cost, with margins. `mcexact simulate --reference` runs the controller
+    with given set-points. If some set-points have no equilibrium, the status is 1 and a certificate
+    gives their linear combinations.
     """
     answer("setpoint", file, values, {"method": method})

@@ -385,7 +385,8 @@ def aims(function: F) -> F:
             type=number,
             metavar="SECONDS",
             help="About how long a processor of 2024 may search for each rate that is tried, by "
-            "counted work; 0 gives the controller of the theorem without a search.",
+            "counted work, and half as long again for margins that were missed; 0 gives the "
+            "controller of the theorem without a search.",
         ),
         click.option(
             "--digits",

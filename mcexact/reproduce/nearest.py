@@ -36,6 +36,7 @@ from mcexact.reproduce.instances import (
     Numbers,
     deficient_plants,
     graph_of,
+    is_late,
     late_example,
     messages_agree,
     three_channels,
@@ -66,13 +67,13 @@ def bound_by_ranks(note: Notebook) -> None:
             note.refute("own-outputs", bound.deficiency != own)
         note.certify(bound, alone)
     plant = note.at(("the example over its ring", three_channels()))
-    note.counts(True)
     own, heard = printed_bound(plant, STATES), printed_bound(plant)
+    note.counts(heard > 0)
     note.check("the example has the bounds 1 and 1", (heard, own) == (1, 1))
     ring = extremal_plant(sharing_gap(NeighborGraph.ring(4)), STATES, dimension=2)
     plant = note.at(("four agents around a ring, who need more without outputs", ring))
-    note.counts(True)
     bound, alone = shared_dimension_bound(plant), shared_dimension_bound(plant, share=STATES)
+    note.counts(alone.deficiency > 0)
     note.check("with outputs 0, and 4 without", (bound.deficiency, alone.deficiency) == (0, 4))
     note.refute("own-outputs", bound.deficiency != printed_bound(plant, STATES))
     note.refute("the-same", alone.deficiency != printed_bound(plant))
@@ -84,7 +85,6 @@ def ranks_elsewhere(note: Notebook) -> None:
     places = {"1": 1, "0": 0, "2": 2, "a root of x^2 + 1": Polynomial.of(1, 0, 1)}
     for name, plant in _over_two_graphs():
         note.on(name, plant)
-        note.counts(True)
         n_i = [1, 2, 1]
         extended, before = extended_system(plant, n_i), augmented_outputs(plant)
         for s in SUBSETS_OF_THREE:
@@ -93,6 +93,7 @@ def ranks_elsewhere(note: Notebook) -> None:
             heard = sum(n_i[j] for j in graph_of(plant).union(inside))
             for where, root in places.items():
                 after, own = pencil_rank(extended, s, root), pencil_rank(before, s, root)
+                note.counts(own.rank < plant.n)
                 note.check(
                     f"s = {{{', '.join(s)}}}, λ = {where}: rank M̄ is rank M + {outside} + {heard}",
                     after.rank == own.rank + outside + heard,
@@ -149,9 +150,9 @@ def factors_of_graphs(note: Notebook) -> None:
             for time, c in (("continuous", 1), ("discrete", 2)):
                 plant = extremal_plant(gap, share, dimension=c, eigenvalue="1/2", time=time)
                 note.on(f"the plant for {share} over {name}, c = {c}", plant)
-                note.counts(True)
                 bound = shared_dimension_bound(plant, share=share)
                 common = common_dimension(plant, share=share)
+                note.counts(bound.deficiency == factor * c)
                 note.check("the least common dimension is c", common.dimension == c)
                 note.check("the bound is the factor times c", bound.deficiency == factor * c)
                 note.joint(plant)
@@ -196,7 +197,7 @@ def almost_any_exchanged(note: Notebook) -> None:
     numbers = Numbers(41, largest=9)
     for name, plant, controls, observes in _one_sided():
         note.on(name, plant)
-        note.counts(True)
+        note.counts(controls != observes)
         for _ in range(4):
             F = numbers.gains(plant)
             closed = closed_by(plant, F)
@@ -217,7 +218,7 @@ def delays_left_out(note: Notebook) -> None:
     numbers = Numbers(42)
     for delay in (1, 2):
         plant = note.at(late_example(delay))
-        note.counts(True)
+        note.counts(is_late(plant))
         sizes = [1, 2, 1]
         lifted, held = lifted_system(plant, sizes), held_system(plant, sizes)
         graph = graph_of(plant)
@@ -239,7 +240,7 @@ def delays_left_out(note: Notebook) -> None:
 def spectra_without_zero(note: Notebook) -> None:
     """A spectrum none of which is 0 is assigned with holding, and impossible without it."""
     plant = note.at(late_example(1))
-    note.counts(True)
+    note.counts(is_late(plant))
     sizes = (1, 1, 1)
     least = design_extended(
         plant, plant.neighbors, "1", network="held", dimensions=sizes, radius="1/2"

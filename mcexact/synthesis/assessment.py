@@ -4,13 +4,14 @@ A controller that is certified can still be useless: fragile, costly, or with ga
 has.  `assess` computes the figures that say so for a design, `assessed_loop` those of any loop, and
 the verdict of an `Assessment` follows from them:
 
-- "Do not install": the region is not certified, a plant or gains within the radii are refuted, a
-  plant within 0.1 % of each entry has a loop that fails, or a single input or output has next to no
-  disk margin;
+- "Do not install": the region is not certified, a plant or gains within the radii are refuted, the
+  loop is not stable in double precision, a plant within 0.1 % of each entry has a loop that fails,
+  or a single input or output has next to no disk margin;
 - "Install with care": a single input or output has a disk margin below 0.4, or all of them together
   one below 0.2; a plant within 1 % fails; the damping is below 0.05, or below the aim; the loop is
-  slower than the plant without it; it costs more than three times a bound for every linear
-  time-invariant controller, or needs more than four digits;
+  slower than the plant without it, or than was asked; it costs more than three times a bound for
+  every linear time-invariant controller, or needs more than four digits; an output reaches twice
+  its set-point; radii that were given are not proved, or a figure is not known;
 - "Worth installing": none of these.
 
 Only ratios decide, which no change of units changes: costs beside a bound, margins, damping ratios,
@@ -125,6 +126,8 @@ class Assessment(Shown):
         The cost beside a bound, and disk margins, of a loop that is certified.
     fails_within : Fraction or None
         The part of each entry within which a plant is known whose loop is not stable.
+    asked : StabilityRegion or None
+        The region that was asked for, where no loop in it was found to have the margins.
     """
 
     orders: Mapping[str, int]
@@ -141,6 +144,7 @@ class Assessment(Shown):
     within_radii: WithinRadii | None = None
     performance: Performance | None = None
     fails_within: Fraction | None = None
+    asked: StabilityRegion | None = None
 
     def __repr__(self) -> str:
         return fitting(f"Assessment({self.verdict})")
@@ -180,11 +184,12 @@ class Assessment(Shown):
     def verdict(self) -> str:
         """One line that says whether to install the controller, and why."""
         words, reason = _WORDS[self.install], (self.warnings or (self._strengths(),))[0]
-        exact = not self.certified or reason in (_REFUTED, _OPEN)
+        failing = () if self.fails_within is None else (self._fails(self.fails_within)[1],)
+        exact = not self.certified or reason in (_REFUTED, _OPEN, self._slower(), *failing)
         return f"{words}: {reason}{'' if exact or reason.endswith(_COMPUTED) else _COMPUTED}"
 
     def first_line(self, proved: Sequence[str] = ()) -> str:
-        """What is proved of the loop, and the verdict, in at most 160 characters.
+        """What is proved of the loop, and the verdict with its reason, if 160 characters hold it.
 
         Parameters
         ----------
@@ -198,8 +203,8 @@ class Assessment(Shown):
         facts = f"Proved: {facts}. " if facts else ""
         for short, text in reasons[:1]:
             endings = (f": {text}", f": {short}", "")
-            fitting = (each for each in endings if len(facts + verdict + each) <= LONGEST)
-            verdict += next(fitting, "")
+            able = (each for each in endings if len(facts + verdict + each) <= LONGEST)
+            verdict += next(able, "")
         return facts + verdict
 
     def _strengths(self) -> str:
@@ -207,10 +212,10 @@ class Assessment(Shown):
         seen = self.performance
         if seen is None:
             return digits
-        return (
-            f"disk margin {shown(seen.least_margin)} in every single loop, cost "
-            f"{shown(seen.times_the_bound)} times a bound for every controller, {digits}"
-        )
+        parts = [f"disk margin {shown(seen.least_margin)} in every single loop"]
+        if isfinite(seen.times_the_bound):
+            parts.append(f"cost {shown(seen.times_the_bound)} times a bound for every controller")
+        return ", ".join([*parts, digits])
 
     def _dangers(self) -> list[tuple[str, str]]:
         """Why nobody should install the controller: in few words, and in a sentence."""
@@ -228,6 +233,9 @@ class Assessment(Shown):
         if self.fails_within is not None and self.fails_within < _FAILS_AT_ONCE:
             dangers.append(self._fails(self.fails_within))
         return dangers
+
+    def _slower(self) -> str:
+        return f"it has {self.region} in place of {self.asked}, for its margins"
 
     def _weak(self, known: Performance) -> tuple[str, str]:
         margin = shown(known.least_margin)
@@ -256,6 +264,8 @@ class Assessment(Shown):
             cares.append(("too sensitive for double precision", text))
         if self.within_radii == "open":
             cares.append(("not proved within the radii", _OPEN))
+        if self.asked is not None:
+            cares.append(("slower than asked", self._slower()))
         cares += self._of_margins()
         failing = self.fails_within
         if failing is not None and _FAILS_AT_ONCE <= failing < _FAILS:
@@ -342,7 +352,7 @@ class Assessment(Shown):
             ("margin at the plant's inputs", compared("margin")),
             ("peak of the state", compared("peak") if self.uncontrolled else _finite(seen.peak)),
             *self._stepped(),
-            ("cost", _finite(seen.cost)),
+            ("cost" if self.step_peak is None else "cost with integrators", _finite(seen.cost)),
             ("cost relative to the bound", _finite(self.relative_cost)),
             *self._digits(),
             ("numbers sent" + " at each step" * self.region.discrete, network),
@@ -501,9 +511,12 @@ def assess(
         weights=aims.weights,
         notes=tuple(notes),
         diagnosis=parts.get("diagnosis"),
-        shape=(aims or Aims()).shape,
+        shape=aims.shape,
         performance=performance,
     )
+    optimum = parts.get("optimum")
+    if optimum is not None:
+        assessment = replace(assessment, asked=optimum.asked)
     if design.loop.closed.plant.uncertainty is None:
         failing = None if every_loop is None else every_loop.failing
         return replace(assessment, fails_within=None if failing is None else failing.distance)

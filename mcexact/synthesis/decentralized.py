@@ -58,8 +58,10 @@ def design_decentralized(
         A spectrum to be placed exactly by the controller of the theorem; see `network_proposals`.
     rate, radius : rational, optional
         Every eigenvalue gets real part below −rate (continuous time) or modulus below radius
-        (discrete time).  Without a spectrum, the default is the least cost with margins of 0.4 in
-        every single loop and 0.3 at all inputs together, at a slow rate.
+        (discrete time).  Where no loop of a search has this and margins of 0.4 in every single
+        loop and 0.3 at all inputs together, the fastest rate that has them takes its place, which
+        `Design.notes` and the assessment say.  Without a spectrum, the default is a search for the
+        least cost with these margins, at a slow rate.
     arithmetic : {"exact", "float"}
         The arithmetic of the theorem's controller.  Floating point takes no spectrum.
     aims : Aims, optional

@@ -75,11 +75,11 @@ def request_for(
     >>> request_for(plant, spectrum=[-1]).notes
     ()
     >>> print(*request_for(plant).notes)
-    no rate was given: the cost is least, at a rate of at least 7/10, half that of the optimal \
-state feedback
+    no rate was given: a search minimized the cost, at a rate of at least 7/10, half that of the \
+optimal state feedback
     >>> print(*request_for(MultiChannelSystem([[1]], [[[0]]], [[[1]]])).notes)
-    no rate was given: the cost is least, at a rate of at least 1/1000, a small one, since all \
-agents together have no optimal controller
+    no rate was given: a search minimized the cost, at a rate of at least 1/1000, a small one, \
+since all agents together have no optimal controller
     """
     aims = Aims() if aims is None else aims
     InputError.require(aims, Aims, "aims")
@@ -106,7 +106,8 @@ agents together have no optimal controller
     note = f"no {region.word} was given: {region.edge} is {reason}"
     if searches:
         limit = "a radius of at most" if region.discrete else "a rate of at least"
-        note = f"no {region.word} was given: the cost is least, at {limit} {region.edge}, {reason}"
+        sought = f"a search minimized the cost, at {limit} {region.edge}"
+        note = f"no {region.word} was given: {sought}, {reason}"
     asked: dict[str, Any] = {region.word: region.edge}
     request = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **asked)
     return _limited(replace(request, notes=(note,), brisk=brisk), aims)

@@ -279,6 +279,7 @@ def test_costs_with_weights_that_are_not_diagonal_are_not_compared() -> None:
     weights = {"Q": [[2, 1], [1, 2]]}
     found = assessed_loop(loop, StabilityRegion("continuous"), certified=True, weights=weights)
     assert np.isnan(found.relative_cost) and found.install == "yes"
+    assert "not known" not in found.verdict and "disk margin" in found.verdict
     assert found.performance is not None and found.performance.least_margin > 0.4
 
 

@@ -62,7 +62,7 @@ def test_without_a_rate_the_loop_is_as_fast_as_a_tenth_of_what_is_sensible_or_of
         rate = -np.max(np.linalg.eigvals(A - B @ B.T @ P).real)
     smaller = min(sensible / 10, rate / 2, key=abs)
     assert slowest == pytest.approx(smaller, rel=0.15)
-    assert f"{request.region.edge}, " in note and "the cost is least" in note
+    assert f"{request.region.edge}, " in note and "a search minimized the cost" in note
 
 
 def test_a_chosen_radius_is_not_nearly_zero() -> None:

@@ -48,8 +48,8 @@ _LARGEST = 99
 _MOST_LAWS = 4
 _X = Polynomial.from_roots([0])
 _SAID = {
-    "equalities": "equalities between entries fix {}: other numbers elsewhere leave fewer fixed",
-    "zeros": "the zeros alone fix {}: other numbers elsewhere leave as many fixed",
+    "equalities": "equalities between entries fix {}: other nonzero entries leave fewer fixed",
+    "zeros": "the zeros alone fix {}: other nonzero entries leave as many fixed",
 }
 
 
@@ -153,7 +153,8 @@ def why_fixed(system: MultiChannelSystem, spectrum: FixedSpectrum | None = None)
 
     Notes
     -----
-    Exact.  It costs a second fixed spectrum, and what the ranks of at most 4 pencils cost.
+    What is freed is exact.  It costs three fixed spectra at most, since what is computed of the
+    rest compares those of the blocks, and what the ranks of at most 4 pencils cost.
 
     Examples
     --------
@@ -265,14 +266,17 @@ def _causes(A: Matrix, own: StateBlock, drawn: StateBlock) -> dict[Polynomial, C
     factors = fixed_spectrum(own.system).factors
     others = fixed_spectrum(drawn.system).factors if factors else ()
     same = _count(factors) == _count(others)
-    # Modes at 0 do not depend on the numbers.
+    # Modes at 0 do not depend on the numbers: the zeros fix as many as the drawn plant keeps.
     at_zero = all(factor.polynomial == _X for factor in others)
+    kept = sum(factor.multiplicity_at_most for factor in others if factor.polynomial == _X)
     causes: dict[Polynomial, Cause | None] = {}
     for factor in factors:
         p = factor.polynomial
         causes[p] = "equalities" if at_zero else None
-        if same or (others and at_zero and p == _X):
+        if same or (at_zero and p == _X and kept >= factor.multiplicity_at_most):
             causes[p] = "zeros"
+        elif at_zero and p == _X and kept:
+            causes[p] = None
     return causes
 
 

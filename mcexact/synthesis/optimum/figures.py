@@ -5,8 +5,10 @@ gradient in K:
 
 - `quadratic_costs`: the linear-quadratic cost, from two Lyapunov equations; one Schur form of the
   loop serves several shifts.
-- `Sensitivity`: the complementary sensitivity at the inputs of the plant, on a grid of frequencies;
-  with a complex Schur form each frequency costs O(N²) for N states.
+- `Margins`: the disk margins of single loops and the margin of all inputs together, on a grid of
+  frequencies; one eigendecomposition serves all frequencies and loops.
+- `Sensitivity`: the complementary sensitivity at the inputs of the plant, for the figures of a
+  loop; with a complex Schur form each frequency costs O(N²) for N states.
 - `Eigenvalues` and `Shape`: eigenvalues with their slopes, and the limits on damping and modulus.
 
 `Aims` is what a user may ask of a search besides a region.  `Figures` are the numbers by which
@@ -152,12 +154,11 @@ def _finite(cost: float, G: Floats) -> Valued:
 
 Complexes = npt.NDArray[np.complex128]
 
-GRID = 80
 _BEYOND_SENSE = 1e30
 
 
 def frequencies(
-    eigenvalues: Complexes, *, discrete: bool, count: int = GRID, widen: float = 3.0
+    eigenvalues: Complexes, *, discrete: bool, count: int, widen: float = 3.0
 ) -> Complexes:
     """Choose points of the boundary of stability, which cover the eigenvalues of a loop.
 
@@ -651,9 +652,9 @@ class Aims:
     digits : int, optional
         The largest number of significant decimal digits of an entry.
     effort : float, optional
-        About how many seconds a processor of 2024 may search for each rate that is tried, one if
-        a rate is prescribed and else up to three.  Work is counted, not timed, so that the
-        result does not depend on the machine's load.  With 0 there is no search, but the
+        About how many seconds a processor of 2024 may search for each rate that is tried, and half
+        as many more for margins, damping or a box that were missed.  Work is counted, not timed, so
+        that the result does not depend on the machine's load.  With 0 there is no search, but the
         controller of the theorem at once.
     seeds : int
         The number of drawn starts of each order.

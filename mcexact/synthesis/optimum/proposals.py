@@ -143,6 +143,8 @@ class Optimum:
         The margins of the rounded controller.
     region : StabilityRegion or None
         Where its eigenvalues are, if it is not the region that was asked for.
+    asked : StabilityRegion or None
+        The region that was asked for, if the search took a slower one for the margins.
     notes : tuple of str
         What is to be told of aims that were missed.
     """
@@ -155,6 +157,7 @@ class Optimum:
     central: Figures | None
     peaks: Peaks
     region: StabilityRegion | None = None
+    asked: StabilityRegion | None = None
     notes: tuple[str, ...] = ()
 
     @property
@@ -271,7 +274,9 @@ def optimum(
         except LimitReached as reached:
             limit = reached
         else:
-            return replace(found, region=result.target.region, notes=result.notes)
+            slower = request.brisk is None and result.target.region != request.region
+            asked = request.region if slower else None
+            return replace(found, region=result.target.region, notes=result.notes, asked=asked)
     raise LimitReached(f"{limit}: {known}")
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.analyze import analyze
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.nearby.equalities import why_fixed
 from mcexact.answer.check import check
 from mcexact.checker.command import manifest_verdicts
@@ -89,6 +90,17 @@ def test_a_mode_of_two_blocks_is_freed_only_if_both_are() -> None:
 def test_a_mode_at_0_that_the_zeros_fix_is_not_freed_by_other_numbers() -> None:
     why = why_fixed(STUCK)
     assert not why.freed and [cause for _, cause in why.computed] == ["zeros"]
+
+
+def test_a_mode_at_0_that_the_zeros_and_an_equality_fix_is_ascribed_to_neither() -> None:
+    # Of twice 0, other nonzero entries leave one: the rows (1, 1) and (2, 2) are proportional.
+    A = [[0, 2, 3, 1, 5], [1, 0, 0, 0, 0], [4, 0, 0, 0, 0], [1, 0, 0, 1, 1], [2, 0, 0, 2, 2]]
+    first = [1, 0, 0, 0, 0]
+    plant = MultiChannelSystem(A, [[[x] for x in first]], [[first]])
+    [factor] = fixed_spectrum(plant).factors
+    assert factor.multiplicity_at_most == 2
+    found = why_fixed(plant)
+    assert (found.freed, found.computed) == ((), ())
 
 
 @pytest.mark.parametrize("seed", range(60))

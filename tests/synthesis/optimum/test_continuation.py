@@ -12,6 +12,7 @@ from mcexact.exact.matrix import matrix_to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum.continuation import (
     box_part,
@@ -144,6 +145,8 @@ def test_a_rate_that_no_loop_with_margins_has_is_answered_with_the_fastest_that_
     [note] = design.notes
     assert "a search, not a proof" in note and f"Re λ < -{asked}" in note
     assert design.region.edge < asked
+    said = assess(design)
+    assert said.install == "with care" and f"in place of Re λ < -{asked}" in said.verdict
     assert any(each.startswith("a slower rate, for the margins") for each in told)
     values = np.linalg.eigvals(matrix_to_float(design.loop.matrix))
     assert np.max(values.real) < -float(design.region.edge)
