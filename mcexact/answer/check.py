@@ -42,7 +42,9 @@ from mcexact.derived.constructions import (
     looped,
     merged,
     rearranged,
+    regulated_outputs,
     restricted,
+    servo_system,
     setpoint_system,
     slow_system,
 )
@@ -523,7 +525,13 @@ _CONSTRUCTIONS: Mapping[
     "held": lambda system, data: held_system(system, data["dimensions"]),
     "integrators": lambda system, _: setpoint_system(system),
     "merged": lambda system, data: merged(system, data["parts"]),
+    "regulated": lambda system, data: regulated_outputs(
+        system, _gains(data, [system.q(i) for i in range(system.m)])
+    ),
     "restricted": lambda system, data: restricted(system, data["channels"]),
+    "servo": lambda system, data: servo_system(
+        system, _gains(data, [system.q(i) for i in range(system.m)])
+    ),
     "slow": lambda system, data: slow_system(system, data["window"]),
     "error": lambda system, data: error_system(system, _gains(data, [system.n] * system.m)),
     "closed_loop": _closed_loop,

@@ -22,6 +22,7 @@ from .reading import (
     items,
     malformed,
     matrices,
+    matrix,
     names,
     require,
     shown,
@@ -460,6 +461,52 @@ def integrators(system: System, step: dict[str, Json], place: str) -> System:
     return suffixed(system, "with integrators of its outputs", A=A, B=B, C=C)
 
 
+def read_selection(value: Json, place: str, system: System) -> list[Matrix]:
+    """S_i, of any number of rows and of q_i columns, for each channel.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    read = []
+    for S_i, C_i in zip(items(value, place, system.m), system.C, strict=True):
+        _, rows = fields(S_i, place, "denominator", "entries")
+        read.append(matrix(S_i, place, len(items(rows, place)), C_i.nrows))
+    return read
+
+
+def regulated(system: System, step: dict[str, Json], place: str) -> System:
+    """S_i y_i in place of y_i.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "gains")
+    S = read_selection(listed, place, system)
+    digest = with_digest(canonical_json(by_channel(system, S)))
+    words = f"with the combinations S of its outputs with {digest}"
+    C = [S_i @ C_i for S_i, C_i in zip(S, system.C, strict=True)]
+    return suffixed(system, words, C=C)
+
+
+def servo(system: System, step: dict[str, Json], place: str) -> System:
+    """z' = S y or z(t+1) = z + S y, and agent i measures its z_i and y_i.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "gains")
+    S = read_selection(listed, place, system)
+    n, k = system.n, [S_i.nrows for S_i in S]
+    N = n + sum(k)
+    x, z = Matrix.unit_rows(N, 0, n), Matrix.unit_rows(N, n, sum(k))
+    change = stack([S_i @ C_i for S_i, C_i in zip(S, system.C, strict=True)], n) @ x
+    A = stack([system.A @ x, change + z if system.time == "discrete" else change], N)
+    B = [stack([B_i, Matrix.zeros(sum(k), B_i.ncols)], B_i.ncols) for B_i in system.B]
+    C = []
+    for i, C_i in enumerate(system.C):
+        C.append(stack([Matrix.unit_rows(N, n + sum(k[:i]), k[i]), C_i @ x], N))
+    digest = with_digest(canonical_json(by_channel(system, S)))
+    words = f"with integrators of the combinations S of its outputs with {digest}"
+    return suffixed(system, words, A=A, B=B, C=C)
+
+
 def error(system: System, step: dict[str, Json], place: str) -> System:
     """Paper, section II: the errors e_i of m estimates, I⊗(A + ΣB_jF_j) − Q with Q_ij = B_jF_j.
 
@@ -486,8 +533,9 @@ def error(system: System, step: dict[str, Json], place: str) -> System:
 LINE = "line"
 """The construction that only plants with parameters have, and before all others."""
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
+LAST = (regulated, restricted, servo, slow)
 CONSTRUCTIONS = {
-    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, restricted, slow)
+    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, *LAST)
 }
 
 

@@ -13,6 +13,7 @@ docstrings.
 - `lifted_system`: the same with delays, in discrete time; every message under way is a state.
 - `held_system`: all agents, also the owner, use a sub-state equally late.
 - `setpoint_system`: an integrator for every output.
+- `regulated_outputs`, `servo_system`: combinations of the outputs, and an integrator for each.
 - `error_system`: the estimation errors of the distributed observer.
 
 For a system with parameters, `rearranged` applies those constructions whose entries are entries of
@@ -956,6 +957,128 @@ def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
         [vstack([system.B(i), Matrix.zeros(total, system.p(i))]) for i in range(m)],
         [selector(n + starts[i], counts[i], n + total).T for i in range(m)],
         {"construction": "integrators"},
+        neighbors=system.neighbors,
+    )
+
+
+# Regulated outputs: what is to be held at set-points, apart from what is measured.
+
+
+def checked_selection(system: MultiChannelSystem, selection: Sequence[Any]) -> list[Matrix]:
+    """Check and return S_i of any number of rows and q_i columns, one for each channel.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    selection : sequence of m matrices
+
+    Raises
+    ------
+    InputError
+        If the number of matrices is not m, or one has a wrong number of columns.
+    """
+    selection = several(selection, "selection", "matrices")
+    if len(selection) != system.m:
+        raise InputError(f"expected {system.m} matrices, found {len(selection)}", where="selection")
+    exact = [as_matrix(S, f"selection[{i}]", ncols=system.q(i)) for i, S in enumerate(selection)]
+    return [require_shape(S, f"selection[{i}]", S.nrows, system.q(i)) for i, S in enumerate(exact)]
+
+
+def regulated_outputs(system: MultiChannelSystem, selection: Sequence[Any]) -> MultiChannelSystem:
+    """Replace the outputs y_i by S_i y_i: the system (A, B_i, S_i C_i).
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    selection : sequence of m matrices
+        S_i, any number of rows and q_i columns.
+
+    Returns
+    -------
+    MultiChannelSystem
+        Its set-points are those of S_i y_i alone: `setpoint_solvability` decides whether all of
+        them have an equilibrium.
+
+    Raises
+    ------
+    InputError
+        As for `checked_selection`.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0], [0, 1]]])
+    >>> regulated_outputs(plant, [[[1, 0]]]).C(0).numerators
+    ((1, 0),)
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    exact = checked_selection(system, selection)
+    return system.derived(
+        system.A,
+        [channel.B for channel in system.channels],
+        [S @ channel.C for S, channel in zip(exact, system.channels, strict=True)],
+        {"construction": "regulated", "gains": tuple(exact)},
+        neighbors=system.neighbors,
+    )
+
+
+def servo_system(system: MultiChannelSystem, selection: Sequence[Any]) -> MultiChannelSystem:
+    """Append σ with σ̇_i = S_i (y_i − r_i), in discrete time σ_i(t+1) = σ_i + S_i (y_i − r_i).
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    selection : sequence of m matrices
+        S_i, k_i rows and q_i columns.
+
+    Returns
+    -------
+    MultiChannelSystem
+        n + Σ k_i states.  Agent i measures (σ_i, y_i).  A linear time-invariant controller that
+        stabilizes it holds every S_i y_i at S_i r_i.
+
+    Raises
+    ------
+    InputError
+        As for `checked_selection`.
+
+    Notes
+    -----
+    In block form, with S = diag(S_i) and all C_i below each other in C::
+
+            ⎡ A   0 ⎤            ⎡ B_i ⎤           ⎡  0   e_i' ⎤
+        Ã = ⎣ SC  W ⎦ ,    B̃_i = ⎣  0  ⎦ ,    C̃_i = ⎣ C_i   0  ⎦
+
+    W = 0 in continuous and W = I in discrete time, and e_i' are the rows of the identity that
+    belong to σ_i. The references enter as −S r in the lower rows.
+
+    With all S_i = I it has the fixed modes of `setpoint_system`: the rows of the integrators in the
+    pencils of complementary subsystems are C_i, beside −λ σ_i.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0], [0, 1]]])
+    >>> servo_system(plant, [[[1, 0]]]).C(0).numerators
+    ((0, 0, 1), (1, 0, 0), (0, 1, 0))
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    exact = checked_selection(system, selection)
+    n, counts = system.n, [S.nrows for S in exact]
+    total, starts = sum(counts), [0, *accumulate(counts)]
+    held = [S @ channel.C for S, channel in zip(exact, system.channels, strict=True)]
+    W = Matrix.identity(total) * steady_point(system.time)
+    return system.derived(
+        block([[system.A, Matrix.zeros(n, total)], [vstack(held, ncols=n), W]]),
+        [vstack([system.B(i), Matrix.zeros(total, system.p(i))]) for i in range(system.m)],
+        [
+            vstack(
+                [
+                    selector(n + starts[i], counts[i], n + total).T,
+                    hstack([system.C(i), Matrix.zeros(system.q(i), total)]),
+                ]
+            )
+            for i in range(system.m)
+        ],
+        {"construction": "servo", "gains": tuple(exact)},
         neighbors=system.neighbors,
     )
 

@@ -9,7 +9,13 @@ import pytest
 
 import mcexact
 from mcexact.analysis.stability import open_loop_spectrum
-from mcexact.derived.constructions import add_links, feedback, full_output
+from mcexact.derived.constructions import (
+    add_links,
+    feedback,
+    full_output,
+    regulated_outputs,
+    servo_system,
+)
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
@@ -40,6 +46,8 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "held": lambda: mcexact.held_system(PLANT, [0, 2]),
     "slow": lambda: mcexact.slow_system(PLANT, 2 * PLANT.n),
     "integrators": lambda: mcexact.setpoint_system(PLANT),
+    "regulated": lambda: regulated_outputs(PLANT, [[[2]], [["1/2", 1]]]),
+    "servo": lambda: servo_system(PLANT, [[], [[0, 1]]]),
     "merged": lambda: mcexact.merged(PLANT, [["a", "b"]]),
     "restricted": lambda: mcexact.restricted(PLANT, ["b"]),
     "error": lambda: mcexact.error_system(PLANT, FEEDBACK),

@@ -31,7 +31,9 @@ STEPS: dict[str, Any] = {
     "integrators": {},
     "lifted": {"share": "outputs+states", "dimensions": [1, 1]},
     "merged": {"parts": [["1", "2"]]},
+    "regulated": {"gains": [matrix([-2], [1], denominator=3), matrix([1])]},
     "restricted": {"channels": ["2"]},
+    "servo": {"gains": [matrix([-3], denominator=2), {"denominator": 1, "entries": []}]},
     "slow": {"window": 4},
 }
 DISCRETE = {"held", "lifted", "slow"}
@@ -43,7 +45,9 @@ def nonzero(M: Any) -> list[tuple[int, int, Any]]:
     return [(i, j, x) for i, row in enumerate(fractions(M)) for j, x in enumerate(row) if x]
 
 
-@pytest.mark.parametrize("name", sorted({*STEPS} - {"error", "feedback", "slow"}))
+@pytest.mark.parametrize(
+    "name", sorted({*STEPS} - {"error", "feedback", "regulated", "servo", "slow"})
+)
 def test_a_copy_of_an_entry_has_its_radius_and_all_else_is_certain(name: str) -> None:
     start = DAMPED if name in DISCRETE else CALM
     box = subject_of(start, "box_fixed", (step_of(name),))

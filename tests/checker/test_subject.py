@@ -24,7 +24,9 @@ from mcexact.derived.constructions import (
     held_system,
     lifted_system,
     merged,
+    regulated_outputs,
     restricted,
+    servo_system,
     setpoint_system,
     slow_system,
 )
@@ -98,6 +100,11 @@ def controller(rng: random.Random, system: MultiChannelSystem) -> Controller:
     return Controller(system.time, "", tuple(agents))
 
 
+def selection(rng: random.Random, s: MultiChannelSystem) -> list[Matrix]:
+    """Combinations of the outputs of each channel, perhaps none."""
+    return [drawn(rng, rng.randint(0, 2), s.q(i)) for i in range(s.m)]
+
+
 Build = Callable[[random.Random, MultiChannelSystem], MultiChannelSystem]
 
 BUILDS: dict[str, list[Build]] = {
@@ -118,6 +125,8 @@ BUILDS: dict[str, list[Build]] = {
         lambda rng, s: lifted_system(s, sizes(rng, s)),
         lambda rng, s: lifted_system(s, sizes(rng, s), share="states"),
     ],
+    "regulated": [lambda rng, s: regulated_outputs(s, selection(rng, s))],
+    "servo": [lambda rng, s: servo_system(s, selection(rng, s))],
     "merged": [lambda rng, s: merged(s, drawn_parts(rng, s))],
     "slow": [lambda rng, s: slow_system(s, max(2 * s.n, 1) + rng.randint(0, 2))],
     "restricted": [lambda rng, s: restricted(s, rng.sample(s.names, rng.randint(1, s.m)))],

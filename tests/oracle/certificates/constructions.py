@@ -159,6 +159,28 @@ def integrators(system: System, _: Mapping[str, Any]) -> System:
     return replace(system, A=A, B=tuple(B), C=tuple(outputs))
 
 
+def chosen(system: System, given: Mapping[str, Any]) -> list[fmpq_mat]:
+    """S_i for each channel, of as many columns as the channel has outputs."""
+    return [
+        matrix(S, len(S["entries"]), C.nrows())
+        for S, C in zip(listed(given["gains"], system.m), system.C, strict=True)
+    ]
+
+
+def regulated(system: System, given: Mapping[str, Any]) -> System:
+    """The outputs S_i y_i in place of y_i."""
+    outputs = [S * C for S, C in zip(chosen(system, given), system.C, strict=True)]
+    return replace(system, C=tuple(outputs))
+
+
+def servo(system: System, given: Mapping[str, Any]) -> System:
+    """The integrators of the system with outputs S_i y_i; y_i is measured, too."""
+    made = integrators(regulated(system, given), {})
+    k = made.n - system.n
+    kept = [stacked([[C, fmpq_mat(C.nrows(), k)]], C.nrows(), made.n) for C in system.C]
+    return replace(made, C=tuple(below([w, C], made.n) for w, C in zip(made.C, kept, strict=True)))
+
+
 def error(system: System, given: Mapping[str, Any]) -> System:
     """The open-loop error system of gains F_i of n columns."""
     graph, n, m = system.graph(), system.n, system.m
@@ -269,6 +291,8 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     LINE: (("parameter", "point", "direction"), line),
     "error": (("gains",), error),
     "merged": (("parts",), merged),
+    "regulated": (("gains",), regulated),
     "restricted": (("channels",), restricted),
+    "servo": (("gains",), servo),
     "closed_loop": (("controller",), lambda system, g: closed_loop(system, g["controller"])),
 }

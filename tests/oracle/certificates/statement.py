@@ -7,7 +7,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_poly
 
-from .constructions import is_ranged, output_gains, subject_of
+from .constructions import chosen, is_ranged, output_gains, subject_of
 from .controllers import MAPS, read_agents
 from .reading import is_sparse, matrix, rational
 from .sentences import SENTENCES, SHARING
@@ -184,6 +184,10 @@ def _words(step: Mapping[str, Any], system: System) -> str:
         shapes = zip(names, step["gains"], system.B, strict=True)
         gains = {label: matrix(F, B.ncols(), system.n) for label, F, B in shapes}
         return f"the open-loop error system under the state feedback F with {digested(gains)} of: "
+    if kind in ("regulated", "servo"):
+        picked = dict(zip(names, chosen(system, step), strict=True))
+        which = f"the combinations S of its outputs with {digested(picked)}"
+        return f"with {which}" if kind == "regulated" else f"with integrators of {which}"
     if kind == "full_output":
         return f"with the whole state measured by channel {name(step['channel'])}"
     if kind == "arcs":

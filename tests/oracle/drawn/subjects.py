@@ -13,7 +13,7 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "slow", "integrators", "error", "merged", "restricted", "closed_loop", "line",
+    "slow", "integrators", "error", "merged", "regulated", "restricted", "servo", "closed_loop", "line",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "slow", "error")
 LARGEST = 12
@@ -41,6 +41,8 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
         step["gains"] = [
             drawn_matrix(rng, B.ncols(), w) for B, w in zip(system.B, widths, strict=True)
         ]
+    elif name in ("regulated", "servo"):
+        step["gains"] = [drawn_matrix(rng, rng.randint(0, 2), C.nrows()) for C in system.C]
     elif name == "full_output":
         if not m:
             return None
