@@ -252,6 +252,13 @@ STEADY = Template(
     "B. A. Francis and W. M. Wonham 1976",
     "outputs",
 )
+STEADY_REGULATED = Template(
+    "design-steady-regulated",
+    "{held:regulated}: each tends to its set-point if every set-point, and every disturbance of "
+    "the plant, is constant",
+    "B. A. Francis and W. M. Wonham 1976",
+    "regulated outputs",
+)
 MEASURED = Template("design-measured", "computed in floating point, not certified", claims=False)
 
 LOOP = Template("certify-loop", "closed loop", claims=False)
@@ -430,10 +437,13 @@ def _unstable(stability: Claim, context: Context) -> Said:
         yield OUTSIDE(region=context.region)
 
 
-@design_rule("table", STEADY, premises=("loop",))
+@design_rule("table", STEADY, STEADY_REGULATED, premises=("loop",))
 def _steady(loop: Claim, context: Context) -> Said:
     if context.has("solvability") and inside(loop, context.region):
-        yield STEADY()
+        if context.held is None:
+            yield STEADY()
+        else:
+            yield STEADY_REGULATED(held=context.held)
 
 
 @design_rule("table", LONGEST)

@@ -15,6 +15,7 @@ from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
 from fractions import Fraction
 from typing import Any
 
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import (
     decimal_number,
@@ -26,6 +27,7 @@ from mcexact.exact.rational import (
     three_digits,
 )
 from mcexact.exact.roots import TIMES, StabilityRegion, exact_decimal, is_discrete
+from mcexact.model.regulated import selection_in_words
 from mcexact.shown import escaped
 
 # Modes, channels and names as text, shortened where they are many.
@@ -298,6 +300,12 @@ def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:
     return " or ".join(inequalities)
 
 
+def _regulated(held: Sequence[tuple[str, Sequence[Sequence[Fraction]]]]) -> str:
+    """Write which outputs of which agents are held at set-points."""
+    selection = tuple(Matrix.from_rows([list(row) for row in rows]) for _, rows in held)
+    return selection_in_words(selection, [name for name, _ in held])
+
+
 def _gains(part: Fraction | None) -> str:
     """Write by how much gains may differ, and to how many digits they may be rounded then."""
     if part is None:
@@ -440,6 +448,7 @@ FORMS: dict[str, Write] = {
     "dimensions": _dimensions,
     "region": _region,
     "combinations": _combinations,
+    "regulated": _regulated,
     "network": choice(
         decentralized="decentralized controller",
         extended="distributed controller with shared states",

@@ -23,7 +23,6 @@ from .sentences import (
     DUAL,
     FIXED_DYNAMIC,
     HAUTUS,
-    SETPOINT,
     WANG_DAVISON,
     Holds,
     Path,
@@ -38,7 +37,7 @@ from .sentences import (
     rule,
 )
 from .sentences_nearby import differences, farthest
-from .system import MAPS, Pair, System, counted, pairs_of, read_matrix, read_radii
+from .system import MAPS, Pair, System, counted, pairs_of, quoted, read_matrix, read_radii
 
 # What the certificates of a design, of a verdict on a controller and of a refusal imply.
 
@@ -48,7 +47,7 @@ NO_FIXED = "extended_bound.extended_no_fixed, extended_bound.extended_states_no_
 
 def behind(*paths: Path) -> tuple[Path, ...]:
     """These ways to make a subject, from the plant or from the plant with integrators."""
-    return (*paths, *(("integrators", *path) for path in paths))
+    return (*paths, *((first, *path) for first in ("integrators", "servo") for path in paths))
 
 
 CLOSED: tuple[Path, ...] = (("closed_loop",),)
@@ -57,6 +56,7 @@ STABLE, OBSERVER = Role(("stability",), CLOSED), Role(("distributed_observer",),
 NETWORKS: tuple[Path, ...] = (("extended",), ("lifted",), ("held",))
 KEPT = Role(("fixed_spectrum",), behind((), *NETWORKS))
 DIMENSIONS = Role(("shared_dimensions",), behind(()))
+EQUILIBRIUM = Role(("setpoint",), ((), ("regulated",)))
 
 
 # The controller of a loop, which is a part of the subject.
@@ -190,29 +190,50 @@ def _steady_state(loop: Premise) -> str:
     _, agents = controller([loop])
     system = controlled(loop)
     for i, agent in enumerate(agents):
-        good = integrates(system, i, agent)
+        rows, q = integrated(system, i, agent), system.C[i].nrows
+        units = {row.index(Fraction(1)) for row in rows if sorted(row) == [0] * (q - 1) + [1]}
+        good = units == set(range(q))
         loop.expect(good, f"agent number {i + 1} does not integrate its outputs less set-points")
-    constant = "every set-point, and every disturbance of the plant, is constant"
-    return f"{loop.about}: every output tends to its set-point if {constant}"
+    return f"{loop.about}: every output tends to its set-point if {CONSTANT}"
 
 
-def integrates(system: System, i: int, agent: Json) -> bool:
-    """Whether for every output y of agent i some z of it follows z' = y − r or z(t+1) = z + y − r.
+@rule("design-steady-regulated", LOOP, theorem="B. A. Francis and W. M. Wonham 1976")
+def _steady_regulated(loop: Premise) -> str:
+    """The loop is stable, and agents integrate combinations of output less set-point.
 
-    r is the set-point of y: where z is constant, y = r.
+    As for all outputs, these then tend to those of the set-points.
+    """
+    loop.expect(_is_stable(loop), "the loop is not stable")
+    _, agents = controller([loop])
+    system, held = controlled(loop), []
+    for i, agent in enumerate(agents):
+        rows = [f"({', '.join(map(str, row))})" for row in integrated(system, i, agent)]
+        held += [f"{quoted(agent['name'])}: {', '.join(rows)}"] if rows else []
+    loop.expect(bool(held), "no agent integrates outputs less set-points")
+    which = f"these combinations of the outputs of agents, {'; '.join(held)}"
+    return f"{loop.about}: {which}, tend to those of the set-points if {CONSTANT}"
+
+
+CONSTANT = "every set-point, and every disturbance of the plant, is constant"
+
+
+def integrated(system: System, i: int, agent: Json) -> list[list[Fraction]]:
+    """The s such that some z of agent i follows z' = s (y − r), or z(t+1) = z + s (y − r).
+
+    r are the set-points of its outputs y: where z is constant, s y = s r.
     """
     update, k, q = signals(agent["private_update"]), agent["private"], system.C[i].nrows
     own = update.pop(("outputs", system.names[i]), [[Fraction(0)] * q] * k)
     reference = update.pop(("reference", ""), [[Fraction(0)] * q] * k)
     stay = update.pop(("private", ""), [[Fraction(0)] * k] * k)
-    integrated = set()
+    found = []
     for z in range(k):
         kept = [int(system.time == "discrete" and j == z) for j in range(k)]
         alone = stay[z] == kept and not any(any(M[z]) for M in update.values())
         difference = own[z] == [-entry for entry in reference[z]]
-        if alone and difference and sorted(own[z]) == [0] * (q - 1) + [1]:
-            integrated.add(own[z].index(Fraction(1)))
-    return integrated == set(range(q))
+        if alone and difference and any(own[z]):
+            found.append(own[z])
+    return found
 
 
 # A plant nearby whose loop fails.
@@ -254,8 +275,8 @@ def lost(keys: str, *paths: Path) -> None:
 
 lost("refused-not-controllable refused-not-controllable-in refused-uncontrollable", *behind(()))
 lost("refused-unobservable refused-not-observable", *behind(("dual",)))
-lost("refused-integrators-control", ("integrators",))
-lost("refused-integrators-observe", ("integrators", "dual"))
+lost("refused-integrators-control", ("integrators",), ("servo",))
+lost("refused-integrators-observe", ("integrators", "dual"), ("servo", "dual"))
 ERRORS, CONVERSE = behind(("error",)), "free_assignment.corfmat_morse_converse"
 INCOMPLETE = Role(("completeness",), ERRORS)
 restate("refused-errors-not-complete", INCOMPLETE, lambda c: not c["complete"], CONVERSE)
@@ -276,7 +297,8 @@ def _shares_all(spectrum: Premise) -> bool:
 stuck("refused-fixed", *behind(()))
 stuck("refused-fixed-shared", *behind(*NETWORKS))
 stuck("refused-errors-fixed", *ERRORS)
-stuck("refused-integrators-fixed", ("integrators", "extended"), holds=_shares_all)
+SHARED_INTEGRATORS = (("integrators", "extended"), ("servo", "extended"))
+stuck("refused-integrators-fixed", *SHARED_INTEGRATORS, holds=_shares_all)
 
 
 def refuse(key: str, theorem: str, agents: str) -> None:
@@ -301,7 +323,7 @@ def conditions(premise: Premise) -> list[str]:
     return [f"({', '.join(map(str, row))}) r != 0" for row in rows if any(row)]
 
 
-@rule("refused-no-equilibrium", SETPOINT, theorem="setpoint.setpoint_unreachable")
+@rule("refused-no-equilibrium", EQUILIBRIUM, theorem="setpoint.setpoint_unreachable")
 def no_equilibrium(premise: Premise) -> str:
     """Some set-points have no equilibrium."""
     lost = conditions(premise)
@@ -309,7 +331,7 @@ def no_equilibrium(premise: Premise) -> str:
     return f"{premise.about}: no equilibrium holds outputs r with {' or '.join(lost)}"
 
 
-@rule("refused-no-equilibrium-zero", SETPOINT, theorem="setpoint.setpoint_unreachable")
+@rule("refused-no-equilibrium-zero", EQUILIBRIUM, theorem="setpoint.setpoint_unreachable")
 def _no_equilibrium_zero(premise: Premise) -> str:
     """Some set-points have no equilibrium, because of an invariant zero."""
     premise.expect(premise["invariant_zero"] is True, "the defect is no invariant zero")
@@ -318,7 +340,7 @@ def _no_equilibrium_zero(premise: Premise) -> str:
     )
 
 
-@rule("refused-mode-of-the-integrators", SETPOINT, theorem="setpoint.setpoint_output_part")
+@rule("refused-mode-of-the-integrators", EQUILIBRIUM, theorem="setpoint.setpoint_output_part")
 def _mode_of_the_integrators(premise: Premise) -> str:
     """A mode of the plant at the place of the integrators is not controlled."""
     lost = not premise["solvable"] and not conditions(premise)

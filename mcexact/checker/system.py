@@ -376,7 +376,7 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
 
     ``typed`` is the same document with its numbers as texts, if there is one.
     """
-    extra = () if limits is None else ("format", "name", "source", "sample_time", "D")
+    extra = () if limits is None else ("format", "name", "source", "sample_time", "D", "regulated")
     keys = ("time", "A", "channels")
     optional = ("neighbors", "delays", "uncertainty", *extra)
     time, A_rows, listed, heard, waits, doubt, *more = fields(
@@ -405,13 +405,20 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
 
 def _check_unused(plant: System, unused: list[Json], limits: Limits) -> None:
     """Read the parts of a system file on which no claim depends: they are not in the digest."""
-    name, source, sample_time, D = unused
+    name, source, sample_time, D, regulated = unused
     for key, text in (("name", name), ("source", source)):
         printable("" if text is None else text, key, 10_000, allowed="\n\t")
     period = None if sample_time is None else number(sample_time, "sample_time", limits)
     if period is not None and (period <= 0 or plant.time != "discrete"):
         malformed("sample_time", "expected a number above 0, in discrete time only")
     _require_no_feedthrough(D, "D", limits)
+    for _, i, held in reading.by_name(regulated, "regulated", plant.names):
+        listed, q = items(held, "regulated"), plant.C[i].nrows
+        if all(type(number) is int for number in listed):
+            if not all(1 <= number <= q for number in listed):
+                malformed("regulated", f"expected outputs from 1 to {q}")
+        else:
+            read_matrix(held, "regulated", None, q, limits)
 
 
 def _require_no_feedthrough(D: Json, place: str, limits: Limits | None) -> None:

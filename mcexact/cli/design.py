@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
 import click
@@ -420,12 +420,41 @@ def design_observer_command(file: str, order: str | None, **values: Any) -> None
     help="Use a distributed observer, or shared sub-states; by default a controller of low order "
     "without communication if one exists, else with shared sub-states.",
 )
-def design_setpoint_command(file: str, method: str | None, **values: Any) -> None:
-    """Design a distributed controller that holds every output of FILE at its agent's set-point.
+@click.option(
+    "--regulate",
+    multiple=True,
+    metavar="AGENT[:OUTPUTS]",
+    help="Hold these outputs of an agent alone, counted from 1, such as left:1,3; all of them if "
+    "none is named. With one option for each agent that holds something. It replaces what the key "
+    "regulated of FILE says.",
+)
+def design_setpoint_command(
+    file: str, method: str | None, regulate: tuple[str, ...], **values: Any
+) -> None:
+    """Design a distributed controller that holds outputs of FILE at their agents' set-points.
+
+    By default every output is held, or what the key regulated of FILE names.
 
     Without a neighbor graph in FILE agents receive nothing. Without a rate, a radius or a spectrum,
     a search minimizes the cost, with margins. `mcexact simulate --reference` runs the controller
     with given set-points. If some set-points have no equilibrium, the status is 1 and a certificate
     gives their linear combinations.
     """
-    answer("setpoint", file, values, {"method": method})
+    answer("setpoint", file, values, {"method": method, "regulate": _regulated(regulate)})
+
+
+def _regulated(texts: Sequence[str]) -> dict[str, Sequence[int] | None] | None:
+    """Read which outputs of which agents are held; None for all outputs of an agent."""
+    chosen: dict[str, Sequence[int] | None] = {}
+    for text in texts:
+        name, colon, listed = text.rpartition(":")
+        if not colon:
+            name, listed = text, ""
+        try:
+            chosen[name] = [options.count(part) for part in listed.split(",")] if colon else None
+        except ValueError:
+            raise click.BadParameter(
+                f"expected an agent, or an agent with outputs such as left:1,3, found '{text}'",
+                param_hint="--regulate",
+            ) from None
+    return chosen or None

@@ -20,6 +20,7 @@ from mcexact.answer.account import Account
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.protocol import Answer
 from mcexact.answer.sentence import Context, Sentences
+from mcexact.answer.structure import SetpointSolvability
 from mcexact.answer.templates import Sentence
 from mcexact.cli.files import system_in
 from mcexact.cli.loops import assessed, read_weights, unproved
@@ -30,6 +31,7 @@ from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.exact.rational import Limits, written
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import controller_text
+from mcexact.model.regulated import positions_of, selection_in_words
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import parse
 from mcexact.report.text import Table, measured, tables
@@ -41,7 +43,7 @@ from mcexact.synthesis.gate import Warned
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.robustness import EveryLoop
-from mcexact.synthesis.setpoint import design_setpoint
+from mcexact.synthesis.setpoint import design_setpoint, held_together, selected
 from mcexact.synthesis.state_feedback import require_numbers
 
 _ENDED = "half of the time limit was over after the search, so that no box of plants was sought"
@@ -126,7 +128,8 @@ def designed(
             evidence=Evidence.of(account, system_by_digest),
             document=account.as_json(design=name, possible=False, reason=reason),
             reason=str(refused),
-            advice=_advice(name, plant[0], proof, system, region),
+            advice=_advice(name, plant[0], proof, system, region)
+            + _held(plant[0], proof, system, wanted.get("regulate")),
         )
     _require_readable(design, Limits(**limits))
     every_loop = None
@@ -189,6 +192,21 @@ def _advice(
             return f"; over the links of this plant, `{command}` designs one"
         links = "more links between agents change"
     return f"; `mcexact allocate {file} --links` says whether {links} this"
+
+
+def _held(file: str, proof: Answer, system: MultiChannelSystem, regulate: Any) -> str:
+    """Return which outputs can be held together where not all that were asked for can be."""
+    if not isinstance(proof, SetpointSolvability):
+        return ""
+    kept = held_together(system, selected(system, regulate))
+    if not any(S.nrows for S in kept) or not any(S.nrows < S.ncols for S in kept):
+        return ""
+    chosen = zip(system.names, map(positions_of, kept), strict=True)
+    options = [f"--regulate {name}:{','.join(map(str, k))}" for name, k in chosen if k]
+    return (
+        f"; set-points of {selection_in_words(kept, system.names)} have equilibria: "
+        f"`mcexact design setpoint {file} {' '.join(options)}` asks for these"
+    )
 
 
 def _box(every_loop: EveryLoop | None) -> tuple[Table, ...]:

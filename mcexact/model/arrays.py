@@ -480,6 +480,8 @@ def parts_of(system: MultiChannelSystem) -> Parts:
     """
     if system.uncertainty is not None:
         raise InputError("only .json and .yaml files keep the radii of uncertain entries")
+    if system.regulated is not None:
+        raise InputError("only .json and .yaml files keep which outputs are regulated")
     tables: dict[str, Matrix] = {"A": system.A}
     for k, channel in enumerate(system.channels, start=1):
         tables[f"B_{k}"], tables[f"C_{k}"] = channel.B, channel.C

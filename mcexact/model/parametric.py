@@ -113,6 +113,7 @@ class ParametricSystem(ByChannel[FunctionMatrix]):
     """Advice in an error for a caller who passes such a system in place of something else."""
     neighbors: ClassVar[None] = None
     sample_time: ClassVar[None] = None
+    regulated: ClassVar[None] = None
     uncertainty: ClassVar[None] = None
     rounding: ClassVar[None] = None
 

@@ -7,7 +7,7 @@ constructions that lead to it.
 
 `ByChannel` is what it has in common with `ParametricSystem`: sizes, channels by position or name,
 display, canonical JSON and its digest.  The digest identifies a plant in certificates; it does not
-depend on the form in which numbers are written, nor on ``name`` and ``source``.
+depend on the form in which numbers are written, nor on ``name``, ``source`` and ``regulated``.
 
 `with_graph` and `with_links` combine a system with the graph of an argument: the first requires a
 graph, the second takes the graph without edges if there is none.  `from_stacked` makes a system
@@ -54,6 +54,12 @@ from mcexact.model.entries import (
 )
 from mcexact.model.graph import NeighborGraph, graph_for
 from mcexact.model.radii import Radii
+from mcexact.model.regulated import (
+    Selection,
+    read_selection,
+    selection_document,
+    selection_in_words,
+)
 from mcexact.model.text import (
     LONGEST_TEXT,
     canonical,
@@ -268,6 +274,8 @@ class ByChannel(Shown, Generic[M]):
             yield "sample time", rational_text(self.sample_time)
         if self.uncertainty is not None:
             yield "uncertainty", self.uncertainty
+        if self.regulated is not None:
+            yield "regulated", selection_in_words(self.regulated, self.names)
         if self.source is not None:
             yield "source", self.source
 
@@ -390,6 +398,9 @@ def _sentences(system: Any) -> Iterator[str]:
         yield system.neighbors.explain()
     if system.uncertainty is not None:
         yield f"Of the data, {system.uncertainty.explain()}."
+    if system.regulated is not None:
+        held = selection_in_words(system.regulated, system.names)
+        yield fitting(f"A controller is to hold at set-points: {held}.")
     if system.rounding is not None:
         yield f"{reading_in_words(system.rounding).capitalize()}."
 
@@ -521,6 +532,10 @@ class MultiChannelSystem(ByChannel[Matrix]):
         How far each entry may be from its value; `Box` makes them.  Without a radius above 0 there
         are none.  Decisions are about the values unless they say that they are about every plant in
         the box.
+    regulated : mapping, optional
+        What a controller is to hold at set-points, for each agent that holds something: positions
+        of its outputs from 1 on, or a matrix S_i of q_i columns.  No decision uses it, nor does the
+        digest depend on it; `design_setpoint` takes it where nothing else is asked for.
     name, source : str, optional
         A name and a source, which no decision uses.
 
@@ -571,6 +586,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
     uncertainty: Radii | None
     name: str | None = field(compare=False)
     source: str | None = field(compare=False)
+    regulated: Selection | None = field(compare=False)
     subject: tuple[Construction, ...] = field(hash=False)
     rounding: Rounding | None = field(compare=False)
     _plant: MultiChannelSystem | None
@@ -586,6 +602,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
         neighbors: NeighborGraph | Mapping[str, Iterable[str]] | None = None,
         sample_time: Any = None,
         uncertainty: Radii | None = None,
+        regulated: Mapping[str, Any] | None = None,
         name: str | None = None,
         source: str | None = None,
     ) -> None:
@@ -603,10 +620,14 @@ class MultiChannelSystem(ByChannel[Matrix]):
             uncertainty=None,
             name=None if name is None else checked_text(name, "name"),
             source=None if source is None else checked_text(source, "source"),
+            regulated=None,
             subject=(),
             rounding=None,
             _plant=None,
         )
+        if regulated is not None:
+            counts = [channel.C.nrows for channel in channels]
+            self._fill(regulated=read_selection(regulated, labels, counts, "regulated"))
         if uncertainty is not None:
             self._fill(uncertainty=self._fitting(uncertainty))
 
@@ -766,6 +787,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             uncertainty=None,
             name=self.name,
             source=self.source,
+            regulated=None,
             subject=(*self.subject, dict(construction)),
             rounding=self.rounding,
             _plant=self.plant,
@@ -831,6 +853,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
         document = (as_plant(self) if self.subject else self).canonical_document()
         if self.sample_time is not None:
             document = {"sample_time": number_json(self.sample_time)} | document
+        if self.regulated is not None:
+            document["regulated"] = selection_document(self.regulated, self.names)
         return document
 
     def __repr__(self) -> str:

@@ -37,6 +37,7 @@ from mcexact.model.entries import (
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem, require_ascending
 from mcexact.model.radii import read_radii
+from mcexact.model.regulated import read_selection, selection_document
 from mcexact.model.system import FORMAT, MultiChannelSystem
 from mcexact.model.text import (
     NumberText,
@@ -61,7 +62,8 @@ M = TypeVar("M")
 
 _REQUIRED = ("format", "time", "A", "channels")
 _OPTIONAL = (
-    *("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty", "parameters"),
+    *("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty", "regulated"),
+    "parameters",
 )
 
 
@@ -129,6 +131,7 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
         neighbors=_read_graph(document, names),
         sample_time=sample_time,
         uncertainty=radii,
+        regulated=_read_regulated(document, names, [C_i.shape[0] for C_i in C], limits),
         **texts_of(document),
     )
 
@@ -217,6 +220,16 @@ def _read_graph(document: dict[str, Any], names: tuple[str, ...]) -> NeighborGra
     return NeighborGraph.from_names(names, neighbors, delays)
 
 
+def _read_regulated(
+    document: dict[str, Any], names: tuple[str, ...], counts: list[int], limits: Limits
+) -> dict[str, Matrix] | None:
+    """Read which combinations of outputs are regulated, by agent; None if nothing is said."""
+    if "regulated" not in document:
+        return None
+    chosen = _mapping(document["regulated"], "regulated")
+    return dict(zip(names, read_selection(chosen, names, counts, "regulated", limits), strict=True))
+
+
 def _mapping(value: Any, where: str) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise InputError(f"expected an object keyed by agents, found {kind_of(value)}", where=where)
@@ -238,6 +251,10 @@ def system_text(system: MultiChannelSystem | ParametricSystem) -> str:
     head.append(("channels", _channels_text(system)))
     if system.neighbors is not None:
         head.extend((key, json.dumps(value)) for key, value in system.neighbors.to_dict().items())
+    if system.regulated is not None:
+        selection = selection_document(system.regulated, system.names)
+        with numbers_of_any_length():
+            head.append(("regulated", json.dumps(selection)))
     if system.uncertainty is not None:
         document = system.uncertainty.document(system.names)
         with numbers_of_any_length():
@@ -393,6 +410,7 @@ _EXPLAINED = (
     'In discrete time, sample_time is a number, and delays {"valve": {"pump": 2}} says that '
     "messages from pump reach valve after 2 steps. A large matrix can be an object: "
     '{"shape": [n, n], "entries": [[row, column, value]]}, rows and columns from 0. '
+    'regulated {"pump": [1]} says which outputs a set-point controller holds, counted from 1. '
     "name and source are free texts."
 )
 _YAML = """\
@@ -416,6 +434,8 @@ channels:                      # one for each agent, which sets u_i and measures
 neighbors:                     # for each agent, whose messages it receives; may be left out
   pump: [valve]
   valve: [pump]
+# regulated:                   # what a set-point controller holds, counted from 1; else all
+#   pump: [1]
 # delays:                      # in discrete time: messages from valve reach pump after 2 steps
 #   pump: {valve: 2}
 """

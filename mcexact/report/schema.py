@@ -152,6 +152,9 @@ def system() -> Schema:
             "delays": DELAYS,
             "D": MATRIX,
             "uncertainty": _uncertainty(),
+            "regulated": table(
+                {"anyOf": [rows({"type": "integer", "minimum": 1}, minItems=1), MATRIX]}
+            ),
         },
         closed=True,
         says="a plant x' = A x + B_1 u_1 + …, y_i = C_i x (discrete time: x(t+1))",

@@ -554,14 +554,15 @@ def assessed_loop(
     performance : Performance, optional
         What is proved of the cost and the margins; by default they are computed.
     """
-    plant, places = loop.plant, integrators_of(loop)
+    plant, held = loop.plant, integrators_of(loop)
     about, weighed = as_plant(plant), Weights.of(plant, weights)
-    if places:
-        about, weighed = integrated_plant(plant), weighed.with_integrators(plant)
+    if held is not None:
+        about = integrated_plant(plant, held.selection)
+        weighed = weighed.with_integrators(held.selection)
     known = diagnosis or diagnosed(about, region, weighed)
     with quiet_floats():
-        figures = sure_figures(loop, weighed, places)
-        alone = None if places else _uncontrolled(plant, weighed)
+        figures = sure_figures(loop, weighed, held)
+        alone = None if held is not None else _uncontrolled(plant, weighed)
         if certified and alone is not None and alone.cost <= _HARDLY * figures.cost:
             notes = (*notes, _hardly(alone, figures, region))
         if performance is None and certified:
@@ -574,7 +575,7 @@ def assessed_loop(
             known,
             digits_that_suffice(loop, region, _kept(figures.margin)) if certified else None,
             _links(loop.controller, plant),
-            step_peak(loop) if places and certified else None,
+            step_peak(loop, held) if held is not None and certified else None,
             notes,
             shape,
             alone,

@@ -26,11 +26,11 @@ from mcexact.derived.constructions import (
     extended_system,
     held_system,
     lifted_system,
-    setpoint_system,
+    servo_system,
 )
 from mcexact.errors import InputError, UsageError, one_of
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
@@ -298,27 +298,27 @@ def _region_of_stable_modes(system: MultiChannelSystem) -> StabilityRegion:
     return region
 
 
-def integrated_plant(system: MultiChannelSystem) -> MultiChannelSystem:
-    """Return the plant with its integrators, of which agent i measures w_i, and y_i, too.
+def integrated_plant(
+    system: MultiChannelSystem, selection: Sequence[Matrix] | None = None
+) -> MultiChannelSystem:
+    """Return the plant with its integrators, of which agent i measures σ_i, and y_i, too.
 
     Parameters
     ----------
     system : MultiChannelSystem
         n states and the outputs y_i = C_i x.
+    selection : sequence of m Matrix, optional
+        S_i, of which S_i y_i is integrated; by default every y_i is.
 
     Returns
     -------
     MultiChannelSystem
-        A plant with the matrices of `setpoint_system`, except for its outputs::
-
-                ⎡  0   e_i' ⎤
-            C̃_i = ⎣ C_i   0  ⎦
+        A plant with the matrices of `servo_system`.
 
     Notes
     -----
-    Agents measure y_i as well, since with w_i alone an agent would have to differentiate to act on
-    y_i in proportion.  This changes no fixed mode: the rows of the integrators in the pencils of
-    complementary subsystems are C_i, beside −λ w_i.
+    Agents measure y_i as well, since with σ_i alone an agent would have to differentiate to act on
+    y_i in proportion.
 
     Examples
     --------
@@ -326,13 +326,9 @@ def integrated_plant(system: MultiChannelSystem) -> MultiChannelSystem:
     >>> integrated_plant(plant).C(0).numerators
     ((0, 1), (3, 0))
     """
-    whole = setpoint_system(system)
-    none = [Matrix.zeros(system.q(i), whole.n - system.n) for i in range(system.m)]
-    return MultiChannelSystem(
-        whole.A,
-        [whole.B(i) for i in range(system.m)],
-        [vstack([whole.C(i), hstack([system.C(i), none[i]])]) for i in range(system.m)],
-        time=system.time,
-        names=list(system.names),
-        neighbors=system.neighbors,
-    )
+    return as_plant(servo_system(system, selection or every_output(system)))
+
+
+def every_output(system: MultiChannelSystem) -> tuple[Matrix, ...]:
+    """Return the identities S_i, by which every output is regulated."""
+    return tuple(Matrix.identity(system.q(i)) for i in range(system.m))

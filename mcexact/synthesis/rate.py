@@ -11,7 +11,7 @@ found.  A prescribed rate is never changed here.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -20,10 +20,12 @@ from typing import Any
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.errors import InputError, LimitReached, UsageError, telling
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.gate import Arithmetic, Progress, Request, Warned
+from mcexact.synthesis.networks import integrated_plant
 from mcexact.synthesis.optimum.diagnosis import chosen_regions
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.optimum.problem import Weights
@@ -45,7 +47,7 @@ def request_for(
     progress: Progress | None = None,
     *,
     aims: Aims | None = None,
-    controlled: MultiChannelSystem | None = None,
+    selection: Sequence[Matrix] | None = None,
     avoids_fixed_modes: bool = False,
     least_cost: bool = True,
 ) -> Request:
@@ -56,8 +58,9 @@ def request_for(
     system, agent, spectrum, rate, radius, arithmetic, progress
         As in `Request.of`.
     aims : Aims, optional
-    controlled : MultiChannelSystem, optional
-        The plant with integrators, if its sensible rate counts and not that of the system.
+    selection : sequence of m Matrix, optional
+        S_i, for a controller with integrators of S_i y_i: the sensible rate is that of the plant
+        with these integrators.
     avoids_fixed_modes : bool
         Whether a chosen rate is slow enough for the stable fixed modes of the system.
     least_cost : bool
@@ -87,10 +90,9 @@ since all agents together have no optimal controller
         request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
         return _limited(request, aims)
     telling(progress)("the sensible rate")
-    about = controlled or system
-    weights = Weights.of(system, aims.weights)
-    if controlled is not None:
-        weights = weights.with_integrators(system)
+    about, weights = system, Weights.of(system, aims.weights)
+    if selection is not None:
+        about, weights = integrated_plant(system, selection), weights.with_integrators(selection)
     chosen = chosen_regions(about, weights)
     searches = least_cost and agent is None and aims.effort != 0
     brisk = None
@@ -101,7 +103,7 @@ since all agents together have no optimal controller
         region, reason, brisk = chosen.slowest, chosen.reason, chosen.brisk
     else:
         region, reason = chosen.brisk, chosen.brisk_reason
-    if controlled is None and avoids_fixed_modes:
+    if selection is None and avoids_fixed_modes:
         region, reason = _beyond(fixed_spectrum(system), region, reason)
     note = f"no {region.word} was given: {region.edge} is {reason}"
     if searches:

@@ -12,7 +12,7 @@ a controller of a theorem comes next.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal
@@ -22,13 +22,15 @@ from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer import loops as say
 from mcexact.answer.loops import refusal
 from mcexact.answer.structure import SetpointSolvability
-from mcexact.derived.constructions import setpoint_system
+from mcexact.derived.constructions import regulated_outputs, servo_system, setpoint_system
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached, OutOfReach, one_of
-from mcexact.exact.matrix import Matrix, block, hstack, vstack
+from mcexact.exact.linear_algebra import row_echelon
+from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, vstack
 from mcexact.exact.polynomial import product
 from mcexact.exact.roots import StabilityRegion, steady_point
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.regulated import read_selection
 from mcexact.model.system import MultiChannelSystem, as_plant, with_links
 from mcexact.synthesis.design import Design, Method, designed
 from mcexact.synthesis.distributed_observer import observers
@@ -38,6 +40,7 @@ from mcexact.synthesis.networks import (
     DerivedNetwork,
     Dimensions,
     decentralized_network,
+    every_output,
     integrated_plant,
     sharing_network,
 )
@@ -61,10 +64,11 @@ def design_setpoint(
     method: SetpointMethod | None = None,
     dimensions: Dimensions = "minimal",
     arithmetic: Arithmetic = "exact",
+    regulate: Any = None,
     aims: Aims | None = None,
     progress: Progress | None = None,
 ) -> Design:
-    """Design a distributed controller that holds every output at its agent's set-point.
+    """Design a distributed controller that holds outputs at their agents' set-points.
 
     Parameters
     ----------
@@ -92,6 +96,10 @@ def design_setpoint(
         Dimensions of shared sub-states.
     arithmetic : {"exact", "float"}
         The arithmetic of controllers of a theorem.  Floating point takes no spectrum.
+    regulate : mapping, optional
+        What is held, for each agent that holds something: the positions of some of its outputs,
+        from 1 on, or a matrix S_i of q_i columns, so that S_i y_i is held at S_i r_i.  By default
+        what the plant names as `MultiChannelSystem.regulated`, else every output.
     aims : Aims, optional
         What the search aims at.  The weights are those of the plant.
     progress : callable, optional
@@ -99,9 +107,10 @@ def design_setpoint(
     Returns
     -------
     Design
-        Agent i integrates y_i − r_i as the first q_i entries of its private state; in a search it
-        also uses y_i itself.  Its ``parts`` are the ``solvability``, and ``designed``, the parts of
-        the design for the plant with its integrators.
+        Agent i integrates y_i − r_i, or S_i (y_i − r_i), as the first entries of its private state;
+        in a search, and if only some outputs are held, it also uses y_i itself.  Its ``parts`` are
+        the ``solvability``, ``held``, the rows of S_i by agent where not every output is held, and
+        ``designed``, the parts of the design for the plant with its integrators.
 
     Raises
     ------
@@ -117,7 +126,8 @@ def design_setpoint(
     Paper, section III.  The proposals are those of the method for `setpoint_system`, with its
     output w_i made a part of agent i's own state.  With a stable loop, constant r leads to an
     equilibrium, where ẇ_i = y_i − r_i = 0.  It is also verified that the gain at s = 0 is the
-    identity.
+    identity, or that from r to S y is S.  Where only some outputs are held, the proposals are those
+    for `servo_system`: what is held and what is measured are told apart, as by Davison (1976).
 
     Examples
     --------
@@ -136,29 +146,34 @@ invariant zero of the plant
     InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_links(system, graph)
     one_of(method, (None, "observer", "extended"), "method")
-    solvability = _required(system)
-    integrated = setpoint_system(system)
+    selection = selected(system, regulate)
+    solvability = _required(system, selection)
+    integrated = setpoint_system(system) if selection is None else servo_system(system, selection)
+    held = selection or every_output(system)
     arguments = system, agent, spectrum, rate, radius, arithmetic, progress
-    controlled = integrated_plant(system)
     least_cost = method != "observer"
-    request = request_for(*arguments, aims=aims, controlled=controlled, least_cost=least_cost)
+    request = request_for(*arguments, aims=aims, selection=held, least_cost=least_cost)
     _require_reachable(integrated, request.region)
 
     def attempt(asked: Request) -> Design:
-        task = _Task(system, integrated, graph, asked, method, dimensions, aims or Aims())
-        proposals = (_for_the_plant(system, each) for each in task.proposals())
+        task = _Task(system, held, integrated, graph, asked, method, dimensions, aims or Aims())
+        proposals = (_for_the_plant(system, held, each) for each in task.proposals())
         return designed("observer", asked, system, system.neighbors, proposals, stable=True)
 
     design = at_a_reachable_rate(request, attempt)
-    gain = design.loop.closed.steady_gain
-    if gain is None or gain != Matrix.identity(gain.nrows):
+    gain, S = design.loop.closed.steady_gain, block_diagonal(held)
+    if gain is None or S @ gain != S:
         raise InternalError("a stable loop with integrators does not attain its set-points")
     methods: dict[str | None, Method] = {None: "observer", "decentralized": "decentralized"}
     return replace(
         design,
         method=methods.get(design.parts.get("network"), "extended"),
         certificates={**design.certificates, "setpoint": solvability},
-        parts={"solvability": solvability, "designed": design.parts},
+        parts={
+            "solvability": solvability,
+            "held": None if selection is None else _by_agent(system, selection),
+            "designed": design.parts,
+        },
     )
 
 
@@ -167,6 +182,7 @@ class _Task:
     """A set-point design, with the plant with its integrators."""
 
     system: MultiChannelSystem
+    selection: Sequence[Matrix]
     integrated: MultiChannelSystem
     graph: NeighborGraph
     request: Request
@@ -200,8 +216,8 @@ class _Task:
 
     def _weighed(self) -> tuple[MultiChannelSystem, StabilityRegion, Weights]:
         """The plant with its integrators, the region, and the weights."""
-        weights = Weights.of(self.system, self.aims.weights).with_integrators(self.system)
-        return integrated_plant(self.system), self.request.region, weights
+        weights = Weights.of(self.system, self.aims.weights).with_integrators(self.selection)
+        return integrated_plant(self.system, self.selection), self.request.region, weights
 
     def _network(self, to: MultiChannelSystem, asked: Request) -> DerivedNetwork:
         """The network over which agents share sub-states."""
@@ -240,9 +256,80 @@ class _Task:
         yield from _proposals(proposed, self.integrated, self.request, minimal=minimal)
 
 
-def _required(system: MultiChannelSystem) -> SetpointSolvability:
+def selected(system: MultiChannelSystem, regulate: Any) -> tuple[Matrix, ...] | None:
+    """Return the S_i of what is to be held; None for every output.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    regulate : mapping or None
+        As for `design_setpoint`.
+
+    Raises
+    ------
+    InputError
+        If an agent or an output does not exist, or a matrix has not q_i columns.
+    """
+    selection = system.regulated
+    if regulate is not None:
+        counts = [system.q(i) for i in range(system.m)]
+        selection = read_selection(regulate, system.names, counts)
+    return None if selection is None or selection == every_output(system) else selection
+
+
+def held_together(
+    system: MultiChannelSystem, selection: Sequence[Matrix] | None = None
+) -> tuple[Matrix, ...]:
+    """Choose as many regulated outputs as have equilibria for all set-points together.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    selection : sequence of m Matrix, optional
+        The S_i among whose rows to choose; by default all outputs.
+
+    Returns
+    -------
+    tuple of m Matrix
+        Rows of the S_i; there is no larger choice among them, but perhaps others of the same size.
+
+    Notes
+    -----
+    Exact: the rows that are independent of [A, B] (discrete time: A − I) and of those before them.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0], [0, 1]]])
+    >>> [S.numerators for S in held_together(plant)]
+    [((1, 0),)]
+    """
+    selection, n = selection or every_output(system), system.n
+    B = system.input_matrix()
+    steady = hstack([system.A - Matrix.identity(n) * steady_point(system.time), B])
+    outputs = block_diagonal(selection) @ system.output_matrix()
+    rows = vstack([steady, hstack([outputs, Matrix.zeros(outputs.nrows, B.ncols)])])
+    _, independent = row_echelon(rows.T)
+    kept, start = list[Matrix](), n
+    for S in selection:
+        kept.append(S.take(rows=[k - start for k in independent if start <= k < start + S.nrows]))
+        start += S.nrows
+    return tuple(kept)
+
+
+def _by_agent(
+    system: MultiChannelSystem, selection: Sequence[Matrix]
+) -> tuple[tuple[str, tuple[tuple[Fraction, ...], ...]], ...]:
+    """The rows of S_i by the names of agents that hold something."""
+    each = zip(system.names, selection, strict=True)
+    return tuple((name, tuple(map(tuple, S.rows()))) for name, S in each if S.nrows)
+
+
+def _required(
+    system: MultiChannelSystem, selection: Sequence[Matrix] | None
+) -> SetpointSolvability:
     """Raise an error if some set-points have no equilibrium."""
-    solvability = setpoint_solvability(system)
+    about = system if selection is None else regulated_outputs(system, selection)
+    solvability = setpoint_solvability(about)
     if solvability.solvable:
         return solvability
     raise refusal("equilibrium", solvability, combinations=solvability.combinations.rows())
@@ -287,17 +374,19 @@ def _proposals(
         raise
 
 
-def _for_the_plant(system: MultiChannelSystem, proposal: Proposal) -> Proposal:
+def _for_the_plant(
+    system: MultiChannelSystem, selection: Sequence[Matrix], proposal: Proposal
+) -> Proposal:
     """Convert a proposal for the plant with its integrators to one for the plant."""
     n, places = system.n, list(range(system.n))
-    w, start = n, n + sum(system.q(i) for i in range(system.m))
-    for i, agent in enumerate(proposal.controller.agents):
+    w, start = n, n + sum(S.nrows for S in selection)
+    for S, agent in zip(selection, proposal.controller.agents, strict=True):
         # (x_i, (w_i, z_i)), of (x, w, x_1, z_1, …).
-        places += [*range(start, start + agent.shared), *range(w, w + system.q(i))]
+        places += [*range(start, start + agent.shared), *range(w, w + S.nrows)]
         places += range(start + agent.shared, start + agent.shared + agent.private)
-        w, start = w + system.q(i), start + agent.shared + agent.private
+        w, start = w + S.nrows, start + agent.shared + agent.private
     return Proposal(
-        with_integrators(system, proposal.controller),
+        with_integrators(system, proposal.controller, selection),
         (product(proposal.polynomials),) if proposal.polynomials else (),
         ()
         if proposal.polynomials
@@ -306,7 +395,11 @@ def _for_the_plant(system: MultiChannelSystem, proposal: Proposal) -> Proposal:
     )
 
 
-def with_integrators(system: MultiChannelSystem, controller: Controller) -> Controller:
+def with_integrators(
+    system: MultiChannelSystem,
+    controller: Controller,
+    selection: Sequence[Matrix] | None = None,
+) -> Controller:
     """Make w_i a part of agent i's own state, for a controller of the plant with integrators.
 
     Parameters
@@ -314,8 +407,10 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
     system : MultiChannelSystem
         The plant.
     controller : Controller
-        A controller for its `setpoint_system` or `integrated_plant`, in which agents use their own
-        w_i and y_i alone.
+        A controller for its `setpoint_system`, `servo_system` or `integrated_plant`, in which
+        agents use their own w_i and y_i alone.
+    selection : sequence of m Matrix, optional
+        S_i, of which S_i y_i is integrated; by default every y_i is.
 
     Returns
     -------
@@ -329,7 +424,8 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
     """
     programs = []
     for i, agent in enumerate(controller.agents):
-        q, k = system.q(i), agent.private
+        S, k = (selection or every_output(system))[i], agent.private
+        q = S.nrows
         for each in agent.maps():
             if any(j != i and not M.is_zero() for j, M in each.outputs.items()):
                 raise InputError("an agent uses the integrators of another one")
@@ -340,10 +436,10 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
         ]
         own = maps[1].private or Matrix.zeros(k, q + k)
         private = LinearMap(
-            {i: vstack([Matrix.identity(q), maps[1].outputs.get(i, Matrix.zeros(k, q))])},
+            {i: vstack([S, maps[1].outputs.get(i, Matrix.zeros(k, S.ncols))])},
             {j: vstack([Matrix.zeros(q, M.ncols), M]) for j, M in maps[1].shared.items()},
             block([[hstack([stay, Matrix.zeros(q, k)])], [own]]),
-            vstack([-Matrix.identity(q), Matrix.zeros(k, q)]),
+            vstack([-S, Matrix.zeros(k, S.ncols)]),
         )
         programs.append(
             AgentProgram(

@@ -28,19 +28,26 @@ from decimal import ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 from scipy.linalg import eig, expm, matrix_balance
 
 from mcexact.analysis.stability import POLYNOMIAL_LIMIT, closed_loop_spectrum
 from mcexact.errors import LimitReached
 from mcexact.exact.balls import even_powers, response, states_at_doubling_steps
 from mcexact.exact.linear_algebra import characteristic_polynomial, solve_nonsingular
-from mcexact.exact.matrix import Matrix, matrix_from_float, matrix_to_float, to_float, vstack
+from mcexact.exact.matrix import (
+    Matrix,
+    block_diagonal,
+    matrix_from_float,
+    matrix_to_float,
+    to_float,
+    vstack,
+)
 from mcexact.exact.roots import StabilityRegion, is_discrete, steady_point
 from mcexact.floating.margins import is_within
 from mcexact.floating.verdicts import distance_at
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.regulated import Selection, positions_of
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum.figures import (
@@ -76,7 +83,9 @@ _MOST_EXACT_RESPONSES = 24
 MOST_DIGITS = 16
 
 
-def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[int] = ()) -> Figures:
+def figures_of_loop(
+    loop: ClosedLoop, weights: Weights, integrators: Integrators | None = None
+) -> Figures:
     """Compute the figures of a closed loop.
 
     Parameters
@@ -126,7 +135,9 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
     )
 
 
-def sure_figures(loop: ClosedLoop, weights: Weights, integrators: Sequence[int] = ()) -> Figures:
+def sure_figures(
+    loop: ClosedLoop, weights: Weights, integrators: Integrators | None = None
+) -> Figures:
     """Compute the figures of a closed loop as `figures_of_loop` does, accurately.
 
     Returns
@@ -281,13 +292,15 @@ def _sure_peak(loop: ClosedLoop, values: Complexes) -> float:
     return max(1.0, max((norm(E) for E in states), default=1.0))
 
 
-def step_peak(loop: ClosedLoop) -> float:
-    """Compute the largest output of a loop while its own set-point steps from 0 to 1.
+def step_peak(loop: ClosedLoop, integrators: Integrators) -> float:
+    """Compute the largest regulated output of a loop while its own set-point steps from 0 to 1.
 
     Parameters
     ----------
     loop : ClosedLoop
-        Stable, with integrators.
+        Stable.
+    integrators : Integrators
+        Those of `integrators_of`.
 
     Returns
     -------
@@ -300,19 +313,21 @@ def step_peak(loop: ClosedLoop) -> float:
     >>> from mcexact.model.system import MultiChannelSystem
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], neighbors={"1": []})
     >>> controller = design_setpoint(plant, rate=1).controller
-    >>> 1 <= step_peak(closed_loop(plant, controller)) < 10
+    >>> loop = closed_loop(plant, controller)
+    >>> 1 <= step_peak(loop, integrators_of(loop)) < 10
     True
     """
     discrete, N, n = is_discrete(loop.plant.time), loop.dimension, loop.plant.n
     values = loop_eigenvalues(loop.matrix, discrete=discrete)
     at_rest = Matrix.identity(N) * Fraction(steady_point(loop.plant.time))
-    rest = solve_nonsingular(at_rest - loop.matrix, loop.reference)
+    entering = -Matrix.identity(N).take(cols=integrators.places)
+    rest = solve_nonsingular(at_rest - loop.matrix, entering)
     if values is None or rest is None:
         return np.nan
     states = _trajectory(loop.matrix, rest, values, n, discrete=discrete)
     if states is None:
         return np.nan
-    C = matrix_to_float(loop.plant.output_matrix())
+    C = matrix_to_float(block_diagonal(integrators.selection) @ loop.plant.output_matrix())
     reached = C @ matrix_to_float(rest.take(rows=range(n)))
     peaks = (float(np.max(np.abs(np.diag(reached - C @ E)), initial=0.0)) for E in states)
     return max(peaks, default=0.0)
@@ -419,7 +434,7 @@ def _cost(
     loop: ClosedLoop,
     form: SchurForm,
     weights: Weights,
-    integrators: Sequence[int],
+    integrators: Integrators | None,
     scales: Floats | None = None,
 ) -> float:
     """The linear-quadratic cost of a stable loop; infinite where its Gramian overflows.
@@ -428,10 +443,11 @@ def _cost(
     """
     U = input_rows(loop)
     size, n = loop.dimension, loop.plant.n
-    places = np.array([*range(n), *integrators], dtype=np.intp)
+    added = () if integrators is None else integrators.places
+    places = np.array([*range(n), *added], dtype=np.intp)
     N, D = _noise(loop)
-    if integrators:
-        N, D = _with_integrals(loop, N, D, U, places[n:])
+    if integrators is not None:
+        N, D = _with_integrals(loop, N, D, U, integrators)
     Q, W = np.zeros((size, size)), np.zeros((size, size))
     Q[np.ix_(places, places)] = weights.Q
     W[np.ix_(places, places)] = weights.W
@@ -454,20 +470,21 @@ def _cost(
 
 
 def _with_integrals(
-    loop: ClosedLoop, N: Floats, D: Floats, U: Floats, places: npt.NDArray[np.intp]
+    loop: ClosedLoop, N: Floats, D: Floats, U: Floats, integrators: Integrators
 ) -> tuple[Floats, Floats]:
     """Extend the N and D of `_noise` by noise of the integrals; integrators get no output noise.
 
     The columns are in the order of the channels, for each channel the integrals first.
     """
+    places = np.array(integrators.places, dtype=np.intp)
     measured = matrix_to_float(loop.matrix)[:, places]
     N, measured = N.copy(), measured.copy()
     N[places] = measured[places] = 0.0
-    columns, start = list[tuple[Floats, Floats]](), 0
-    for i in range(loop.plant.m):
-        own = slice(start, start + loop.plant.q(i))
-        columns += [(measured[:, own], U[:, places[own]]), (N[:, own], D[:, own])]
-        start = own.stop
+    columns, first, second = list[tuple[Floats, Floats]](), 0, 0
+    for S in integrators.selection:
+        held, own = slice(first, first + S.nrows), slice(second, second + S.ncols)
+        columns += [(measured[:, held], U[:, places[held]]), (N[:, own], D[:, own])]
+        first, second = held.stop, own.stop
     return np.hstack([each for each, _ in columns]), np.hstack([each for _, each in columns])
 
 
@@ -499,30 +516,48 @@ def _noise(loop: ClosedLoop) -> tuple[Floats, Floats]:
     return N, np.vstack([np.zeros((0, int(starts[-1]))), *inputs])
 
 
-def integrators_of(loop: ClosedLoop) -> tuple[int, ...]:
-    """Return where a controller integrates all outputs less set-points; () if it does not.
+@dataclass(frozen=True)
+class Integrators:
+    """The integrators of outputs less set-points in a controller.
 
-    These are the first q_i private states of each agent, as in the controllers of
-    `design_setpoint`.
+    Attributes
+    ----------
+    places : tuple of int
+        Their positions in the state of the loop.
+    selection : tuple of Matrix
+        S_i, of which agent i integrates S_i (y_i − r_i); without rows for one that integrates
+        nothing.
+    """
+
+    places: tuple[int, ...]
+    selection: Selection
+
+
+def integrators_of(loop: ClosedLoop) -> Integrators | None:
+    """Return the integrators of a controller that holds outputs at set-points; None without any.
+
+    These are the first private states of each agent, as in the controllers of `design_setpoint`.
 
     Parameters
     ----------
     loop : ClosedLoop
     """
-    places: list[int] = []
+    places, selection = list[int](), list[Matrix]()
     for i, agent in enumerate(loop.controller.agents):
-        q, update = loop.plant.q(i), agent.private_update
+        S, update = Matrix.zeros(0, loop.plant.q(i)), agent.private_update
         own, less = update.outputs.get(i), update.reference
-        if q and (own is None or less is None or agent.private < q):
-            return ()
         if own is not None and less is not None:
-            rows = range(q)
-            one = Matrix.identity(q)
-            if own.take(rows=rows) != one or less.take(rows=rows) != -one:
-                return ()
+            rows = []
+            for row in range(agent.private):
+                taken, lost = own.take(rows=[row]), less.take(rows=[row])
+                if taken.is_zero() or lost != -taken:
+                    break
+                rows.append(row)
+            S = own.take(rows=rows)
         place, _ = loop.blocks["z_", i, 0]
-        places += range(place, place + q)
-    return tuple(places)
+        places += range(place, place + S.nrows)
+        selection.append(S)
+    return Integrators(tuple(places), tuple(selection)) if places else None
 
 
 def digits_that_suffice(
@@ -732,17 +767,18 @@ def _powers(step: Floats, count: int) -> Iterator[Floats]:
 def _steps(
     loop: ClosedLoop, M: Floats, step: Floats, count: int, *, discrete: bool
 ) -> list[tuple[str, list[float]]]:
-    """Each output after a unit step of its own set-point; () without integrators."""
-    if not integrators_of(loop):
+    """Each regulated output after a unit step of its own set-point; () without integrators."""
+    integrators = integrators_of(loop)
+    if integrators is None:
         return []
     n, plant = loop.plant.n, loop.plant
-    C, R = matrix_to_float(plant.output_matrix()), matrix_to_float(loop.reference)
+    C = matrix_to_float(block_diagonal(integrators.selection) @ plant.output_matrix())
+    R = -np.eye(len(M))[:, np.array(integrators.places, dtype=np.intp)]
     at_rest = np.linalg.solve((np.eye(len(M)) if discrete else 0.0) - M, R)
-    names = [
-        name if plant.q(i) == 1 else f"{name}, {k + 1}"
-        for i, name in enumerate(plant.names)
-        for k in range(plant.q(i))
-    ]
+    names = list[str]()
+    for i, S in enumerate(integrators.selection):
+        listed = positions_of(S) or range(1, S.nrows + 1)
+        names += [plant.names[i] if plant.q(i) == 1 else f"{plant.names[i]}, {k}" for k in listed]
     state, outputs = -at_rest, [list[float]() for _ in names]
     for _ in range(count):
         reached = C @ (at_rest + state)[:n]

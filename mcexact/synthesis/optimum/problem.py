@@ -19,7 +19,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import accumulate, pairwise
+from itertools import accumulate
 from typing import Any, TypeVar
 
 import numpy as np
@@ -202,20 +202,21 @@ class Weights:
             weights = replace(weights, **changed)
         return weights
 
-    def with_integrators(self, system: MultiChannelSystem) -> Weights:
+    def with_integrators(self, selection: Sequence[Matrix]) -> Weights:
         """Return the weights of `integrated_plant`, for the weights of a system.
 
         Integrators are weighed by 1 and have noise of covariance 1.  What agents measure of them
-        has the noise of the outputs, independently.
+        has the noise of the combinations S_i y_i of outputs, independently.
         """
-        sizes = [system.q(i) for i in range(system.m)]
-        one, starts = np.eye(sum(sizes)), np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp)
-        places = [np.arange(a, b) for a, b in pairwise(starts)]
-        # The integrals of a channel come first, then its outputs.
-        order = np.concatenate([[], *(p + k for p in places for k in (0, len(one)))]).astype(
-            np.intp
-        )
-        V = block_diag(self.V, self.V)[np.ix_(order, order)]
+        S = block_diag(np.zeros((0, 0)), *map(matrix_to_float, selection))
+        one, order = np.eye(len(S)), list[int]()
+        first = second = 0
+        for each in selection:
+            # The integrals of a channel come first, then its outputs.
+            order += range(first, first + each.nrows)
+            order += range(len(S) + second, len(S) + second + each.ncols)
+            first, second = first + each.nrows, second + each.ncols
+        V = block_diag(S @ self.V @ S.T, self.V)[np.ix_(order, order)]
         return Weights(block_diag(self.Q, one), self.R, block_diag(self.W, one), V, self.bandwidth)
 
 

@@ -250,7 +250,9 @@ def floats(M: fmpq_mat) -> np.ndarray:
     return np.array(entries, dtype=float).reshape(int(M.nrows()), int(M.ncols()))
 
 
-def tracks(case: Case, varying: Sequence[bool], disturbed: bool = True, seed: int = 0) -> bool:
+def tracks(
+    case: Case, varying: Sequence[bool], disturbed: bool = True, seed: int = 0, held: Any = None
+) -> bool:
     """Whether outputs whose set-points are constant tend to these, by simulation.
 
     Parameters
@@ -260,6 +262,8 @@ def tracks(case: Case, varying: Sequence[bool], disturbed: bool = True, seed: in
         For each output whether its set-point is a sine; otherwise it is a drawn constant.
     disturbed : bool
         Whether a drawn constant acts on the plant's states as well.
+    held : matrix, optional
+        The combinations of the outputs that count, by default each output.
     """
     rng = np.random.default_rng(seed)
     M, E = references(case)
@@ -296,8 +300,10 @@ def tracks(case: Case, varying: Sequence[bool], disturbed: bool = True, seed: in
         error = C @ state[: case.plant.n] - constant
         if not np.isfinite(error).all():
             raise UnjudgedError("the loop is beyond double precision")
-        held = [abs(e) for e, moves in zip(error, varying, strict=True) if not moves]
-        if max(held, default=0.0) > scale * max(1.0, np.abs(state).max() * 1e-3):
+        if held is not None:
+            error, varying = held @ error, [False] * len(held)
+        away = [abs(e) for e, moves in zip(error, varying, strict=True) if not moves]
+        if max(away, default=0.0) > scale * max(1.0, np.abs(state).max() * 1e-3):
             return False
         state = (whole if discrete else expm(whole)) @ state
     return True
@@ -319,6 +325,27 @@ def _steady_state(said: Said, case: Case) -> bool:
     return all(
         tracks(case, [k != own for k in range(count)], disturbed=False) for own in range(count)
     )
+
+
+@judge("design-steady-regulated")
+def _steady_regulated(said: Said, case: Case) -> bool:
+    """The combinations of the outputs, from drawn states, with drawn constant set-points."""
+    S = _selection(said.values["held"], case)
+    still = [False] * int(case.plant.outputs().nrows())
+    return bool(len(S)) and _certified(case) and tracks(case, still, held=S)
+
+
+def _selection(held: Sequence[Sequence[Any]], case: Case) -> Any:
+    """The rows of combinations over the outputs of all channels."""
+    widths = [int(C.nrows()) for C in case.plant.C]
+    rows = []
+    for name, listed in held:
+        i = case.plant.names.index(name)
+        for row in listed:
+            whole = np.zeros(sum(widths))
+            whole[sum(widths[:i]) : sum(widths[: i + 1])] = [float(Fraction(x)) for x in row]
+            rows.append(whole)
+    return np.array(rows)
 
 
 def _equilibrium(case: Case) -> bool:
@@ -371,8 +398,15 @@ def _no_observation(said: Said, case: Case) -> bool:
     return lost(said, case.own.unobserved()) and _escapes(said, said.values["p"])
 
 
+def _integrators(case: Case) -> Mapping[str, Any]:
+    """The construction of the integrators that the sentence is about."""
+    named = ("integrators", "servo")
+    made = [step for step in case.asked.get("steps", ()) if step["construction"] in named]
+    return made[0] if made else {"construction": "integrators"}
+
+
 def _integrated(case: Case) -> Facts:
-    return Facts(case.made({"construction": "integrators"}))
+    return Facts(case.made(_integrators(case)))
 
 
 @judge("refused-integrators-control")
@@ -388,7 +422,7 @@ def _integrators_observe(said: Said, case: Case) -> bool:
 @judge("refused-integrators-fixed")
 def _integrators_fixed(said: Said, case: Case) -> bool:
     """Fixed with as many shared states as there are states, and with outputs sent as well."""
-    plant = replace(case, plant=case.made({"construction": "integrators"}))
+    plant = replace(case, plant=case.made(_integrators(case)))
     most = [plant.plant.n] * plant.plant.m
     fixed = plant.extended(most, OUTPUTS).fixed_polynomial
     p = monic(said.values["p"])
