@@ -116,7 +116,9 @@ from .derived.constructions import extended_system as extended_system
 from .derived.constructions import held_system as held_system
 from .derived.constructions import lifted_system as lifted_system
 from .derived.constructions import merged as merged
+from .derived.constructions import regulated_outputs as regulated_outputs
 from .derived.constructions import restricted as restricted
+from .derived.constructions import servo_system as servo_system
 from .derived.constructions import setpoint_system as setpoint_system
 from .derived.constructions import slow_system as slow_system
 from .derived.constructions import union_graph as union_graph

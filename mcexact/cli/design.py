@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 import click
@@ -30,6 +30,7 @@ from mcexact.cli.output import emit
 from mcexact.cli.results import Loop, Refused
 from mcexact.cli.running import Rechecked, Run
 from mcexact.errors import Impossible, InputError
+from mcexact.model.regulated import regulated_in
 
 
 @click.group(
@@ -440,21 +441,4 @@ def design_setpoint_command(
     with given set-points. If some set-points have no equilibrium, the status is 1 and a certificate
     gives their linear combinations.
     """
-    answer("setpoint", file, values, {"method": method, "regulate": _regulated(regulate)})
-
-
-def _regulated(texts: Sequence[str]) -> dict[str, Sequence[int] | None] | None:
-    """Read which outputs of which agents are held; None for all outputs of an agent."""
-    chosen: dict[str, Sequence[int] | None] = {}
-    for text in texts:
-        name, colon, listed = text.rpartition(":")
-        if not colon:
-            name, listed = text, ""
-        try:
-            chosen[name] = [options.count(part) for part in listed.split(",")] if colon else None
-        except ValueError:
-            raise click.BadParameter(
-                f"expected an agent, or an agent with outputs such as left:1,3, found '{text}'",
-                param_hint="--regulate",
-            ) from None
-    return chosen or None
+    answer("setpoint", file, values, {"method": method, "regulate": regulated_in(regulate)})

@@ -204,7 +204,7 @@ def _held(file: str, proof: Answer, system: MultiChannelSystem, regulate: Any) -
     chosen = zip(system.names, map(positions_of, kept), strict=True)
     options = [f"--regulate {name}:{','.join(map(str, k))}" for name, k in chosen if k]
     return (
-        f"; set-points of {selection_in_words(kept, system.names)} have equilibria: "
+        f"; all set-points of {selection_in_words(kept, system.names)} have one: "
         f"`mcexact design setpoint {file} {' '.join(options)}` asks for these"
     )
 

@@ -9,11 +9,12 @@ reads both, from a system file too, and `selection_document` writes them.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits, rational_text
 from mcexact.model.entries import as_matrix, matrix_json, read_matrix, require_shape
 from mcexact.model.text import NumberText, expect_integer, kind_of, nearest, quoted
 
@@ -92,6 +93,33 @@ def _rows(value: Any, q: int, where: str, limits: Limits) -> Matrix:
     return require_shape(exact, where, exact.nrows, q)
 
 
+def regulated_in(texts: Sequence[str]) -> dict[str, list[int] | None] | None:
+    """Read what is held from texts such as ``left:1,3``, or ``left`` for all outputs of an agent.
+
+    Raises
+    ------
+    InputError
+        If no positions follow the last colon, or an agent occurs twice.
+
+    Examples
+    --------
+    >>> regulated_in(["left:1,3", "right"]), regulated_in([])
+    ({'left': [1, 3], 'right': None}, None)
+    """
+    chosen: dict[str, list[int] | None] = {}
+    for text in texts:
+        name, colon, listed = text.rpartition(":")
+        parts = listed.split(",") if colon else []
+        name = name if colon else text
+        if name in chosen or not all(part.isascii() and part.isdigit() for part in parts):
+            raise InputError(
+                f"expected each agent once, as in left or left:1,3, found {quoted(text)}",
+                where="--regulate",
+            )
+        chosen[name] = [int(part) for part in parts] if colon else None
+    return chosen or None
+
+
 def positions_of(S: Matrix) -> list[int] | None:
     """The positions, from 1 on, of the outputs that S selects; None if it combines outputs.
 
@@ -126,22 +154,27 @@ def selection_document(selection: Selection, names: Sequence[str]) -> dict[str, 
 
 
 def selection_in_words(selection: Selection, names: Sequence[str]) -> str:
-    """Say what is held.
+    """Say what is held, outputs as in trajectories.
 
     Examples
     --------
-    >>> one, both = Matrix.identity(1), Matrix.from_rows([[1, 1]])
+    >>> one, both = Matrix.identity(1), Matrix.from_rows([[1, "-1/2"]])
     >>> selection_in_words((one, both), ["left", "right"])
-    'output 1 of "left", 1 combination of outputs of "right"'
+    'left, right[1] - 1/2 right[2]'
     """
     parts = []
     for name, S in zip(names, selection, strict=True):
-        positions = positions_of(S)
-        if positions is None:
-            several = "s" * (S.nrows > 1)
-            parts.append(f"{S.nrows} combination{several} of outputs of {quoted(name)}")
-        elif positions:
-            several = "s" * (len(positions) > 1)
-            listed = ", ".join(map(str, positions))
-            parts.append(f"output{several} {listed} of {quoted(name)}")
+        outputs = [name] if S.ncols == 1 else [f"{name}[{k + 1}]" for k in range(S.ncols)]
+        parts += [_sum(row, outputs) for row in S.rows()]
     return ", ".join(parts)
+
+
+def _sum(row: Sequence[Fraction], outputs: Sequence[str]) -> str:
+    """Write a combination of outputs."""
+    text = ""
+    for x, output in zip(row, outputs, strict=True):
+        if x:
+            size = "" if abs(x) == 1 else f"{rational_text(abs(x))} "
+            sign = ("-" if x < 0 else "") if not text else (" - " if x < 0 else " + ")
+            text += f"{sign}{size}{output}"
+    return text or "0"

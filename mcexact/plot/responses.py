@@ -87,10 +87,11 @@ def responses(run: Run, ax: Any = None, *, envelope: Bounds | None = None) -> An
     upper, lower = several_axes(ax, 2)
     outputs, references = run.values("outputs"), run.values("reference")
     _draw_curves(upper, run, outputs, "outputs")
-    nonzero = [values for values in references.values() if any(values)]
-    if nonzero and len(outputs) <= NAMED:
-        for k, values in enumerate(references.values()):
-            label = "set-points" if k == 0 else None
+    # A set-point of 0 may belong to an output that nobody holds.
+    nonzero = [(k, values) for k, values in enumerate(references.values()) if any(values)]
+    if len(outputs) <= NAMED:
+        for number, (k, values) in enumerate(nonzero):
+            label = None if number else "set-points"
             _draw(upper, run, values, f"C{k}", label, linestyle="--", linewidth=1)
     if envelope is not None and len(outputs) <= _BOUNDED:
         _draw_bounds(upper, run, envelope)

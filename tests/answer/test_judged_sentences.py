@@ -21,6 +21,7 @@ from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.decentralized import design_extended
+from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.assurance.campaigns.sentences import caught, drawn, examined
 from tests.checker.polynomials import generous
@@ -163,3 +164,16 @@ def test_judges_deny_what_was_made_false() -> None:
         denied |= caught(number, met - denied)
     assert len(met) > 60
     assert met - denied == set()
+
+
+def test_what_is_regulated_tends_to_its_set_points_and_nothing_else_does() -> None:
+    plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0], [0, 1]]])
+    made = design_setpoint(plant, regulate={"1": [1]}, rate="1/4", aims=Aims(effort=1))
+    document = document_of(json.loads(json.dumps(made.controller.document(), default=str)))
+    asked = {"region": plain(made.region), "network": "decentralized"}
+    rows = [said(each) for each in made.account.sentences]
+    [held] = [row for row in rows if row.rule == "design-steady-regulated"]
+    case = Case(plant_of(plant), asked, document, rows)
+    assert verdict(held, case)
+    for other in ([["1", [["0", "1"]]]], [["1", [["1", "0"], ["0", "1"]]]], []):
+        assert not verdict(replace(held, values={"held": other}), case)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -36,7 +37,7 @@ OF_DESIGNS = ("design-", "certify-", "refused-", "members-in-region")
 """How the keys of these rules begin."""
 
 
-def tracking(time: str, program: Document, polynomial: list[int], **maps: Document) -> Document:
+def tracking(time: str, program: Document, polynomial: list[Any], **maps: Document) -> Document:
     """The loop of an integrator whose agent has one state z and takes a set-point."""
     agent = {"name": "1", "shared": 0, "private": 1, "shared_update": {}, **maps}
     controller = {"time": time, "agents": [agent | {"private_update": program}]}
@@ -54,6 +55,13 @@ TRACKS = tracking("continuous", FOLLOWED, [1, 2, 1], input=USED)
 """x' = -2 x - z, z' = x - r."""
 STEPS = tracking("discrete", FOLLOWED | {"private": [[1]]}, [0, 0, 1], input=USED)
 """x(t+1) = -x - z, z(t+1) = x + z - r: nothing is left after two steps."""
+HALF = tracking(
+    "continuous",
+    {"outputs": {"1": [["1/2"]]}, "reference": [["-1/2"]]},
+    ["1/2", 2, 1],
+    input=USED,
+)
+"""x' = -2 x - z, z' = (x - r)/2: half the output is integrated, and 1 is no row of it."""
 LEAKS = tracking("continuous", FOLLOWED | {"private": [[-1]]}, [3, 3, 1], input=USED)
 DEAF = tracking("continuous", {"outputs": {"1": [[1]]}}, [1, 2, 1], input=USED)
 DOUBLES = tracking("continuous", FOLLOWED | {"reference": [[-2]]}, [1, 2, 1], input=USED)
@@ -158,6 +166,7 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("design-kept", [KEPT_LOOP, document(fixed_spectrum(KEPT))]),
     ("design-steady-state", [TRACKS]),
     ("design-steady-state", [STEPS]),
+    *(("design-steady-regulated", [loop]) for loop in (TRACKS, STEPS, HALF)),
     ("certify-inside certify-decided certify-largest", [STABLE]),
     ("certify-decided-blocks", [BLOCKS]),
     ("certify-outside refused-outside", [SLOWER]),
@@ -177,7 +186,9 @@ DENIED: list[tuple[str, list[Document]]] = [
     *(("design-region", [loop]) for loop in (LOOP, UNBOUNDED, SLOWER)),
     ("design-kept", [LOOP, SPECTRUM]),
     ("design-kept", [document(fixed_spectrum(KEPT))]),
-    *(("design-steady-state", [loop]) for loop in (LOOP, LEAKS, DEAF, DOUBLES, GROWS, SLOWER)),
+    *(("design-steady-state", [loop]) for loop in (LOOP, HALF, LEAKS, DEAF, DOUBLES, GROWS)),
+    *(("design-steady-regulated", [loop]) for loop in (LOOP, LEAKS, DEAF, DOUBLES, GROWS, SLOWER)),
+    ("design-steady-state", [SLOWER]),
     ("certify-decided-blocks", [LOOP]),
     ("certify-outside refused-outside certify-least", [STABLE]),
     ("certify-inside certify-largest", [SLOWER]),
