@@ -26,6 +26,10 @@ from .analysis.fixed_modes import completeness as completeness
 from .analysis.fixed_modes import fixed_spectrum as fixed_spectrum
 from .analysis.fixed_modes import pencil_rank as pencil_rank
 from .analysis.fixed_modes import pencil_ranks as pencil_ranks
+from .analysis.in_units import cost_bound as cost_bound
+from .analysis.in_units import disk_margin as disk_margin
+from .analysis.in_units import loop_cost as loop_cost
+from .analysis.in_units import sector_stability as sector_stability
 from .analysis.parameters.hypersurfaces import ParametricCompleteness as ParametricCompleteness
 from .analysis.parameters.hypersurfaces import ParametricTransferGraph as ParametricTransferGraph
 from .analysis.parameters.hypersurfaces import (
@@ -36,12 +40,8 @@ from .analysis.parameters.modes import (
     shared_dimensions_for_every_value as shared_dimensions_for_every_value,
 )
 from .analysis.parameters.ranks import signal_solvability as signal_solvability
-from .analysis.performance import cost_bound as cost_bound
 from .analysis.performance import default_weights as default_weights
-from .analysis.performance import disk_margin as disk_margin
 from .analysis.performance import influences as influences
-from .analysis.performance import loop_cost as loop_cost
-from .analysis.performance import sector_stability as sector_stability
 from .analysis.sharing import common_dimension as common_dimension
 from .analysis.sharing import minimal_communication as minimal_communication
 from .analysis.sharing import minimal_shared_dimensions as minimal_shared_dimensions
@@ -154,6 +154,7 @@ from .model.gallery import gallery as gallery
 from .model.graph import NeighborGraph as NeighborGraph
 from .model.parametric import ParametricSystem as ParametricSystem
 from .model.radii import Radii as Radii
+from .model.sizes import TypicalSizes as TypicalSizes
 from .model.statespace import c2d as c2d
 from .model.statespace import from_statespace as from_statespace
 from .model.statespace import local_controllers as local_controllers

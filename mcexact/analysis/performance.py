@@ -10,9 +10,8 @@ to as few bits as the exact test allows, since certificates of large loops consi
 - `margin_of`, `sectors_of`: Riccati equations of the bounded real lemma, solved by Newton's method.
   The scaling of several ports comes from the worst frequency, by Osborne's iteration.
 
-These take a loop, and return None where floating point proposes nothing that holds.  `loop_cost`,
-`cost_bound`, `disk_margin` and `sector_stability` are for users: they take a plant and a
-controller, and raise an error there.
+These take a loop, and return None where floating point proposes nothing that holds.  `in_units`
+has functions for users, which take a plant and a controller.
 """
 
 from __future__ import annotations
@@ -23,7 +22,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Literal, TypeVar, get_args
+from itertools import chain
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -40,7 +40,7 @@ from mcexact.answer.performance import (
     SectorStability,
     Symmetric,
 )
-from mcexact.errors import InputError, LimitReached, UsageError, one_of
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import (
     Matrix,
     block,
@@ -48,15 +48,14 @@ from mcexact.exact.matrix import (
     matrix_to_float,
     to_float,
 )
-from mcexact.exact.rational import Entry, as_fraction
 from mcexact.exact.roots import is_discrete
-from mcexact.model.controller import Controller
-from mcexact.model.graph import NeighborGraph
-from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.loop import ClosedLoop
+from mcexact.model.sizes import TypicalSizes
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.units import Units, inverted, system_in
 
 Floats = npt.NDArray[np.float64]
-_BITS = (12, 16, 20, 26, 34, 46, 60)
+BITS = (12, 16, 20, 26, 34, 46, 60)
 """The bits to which a matrix is rounded, fewest first."""
 _ROOM = (1e-4, 1e-3, 1e-2, 3e-2)
 """The parts by which weights are made worse, to leave room for rounding."""
@@ -124,18 +123,19 @@ def _decimal_below(x: Fraction, digits: int = 6) -> Fraction:
     return Fraction(math.floor(x * Fraction(10) ** power)) / Fraction(10) ** power
 
 
-# Proofs about a plant and a controller, for users.
-
 Side = Literal["inputs", "outputs"]
 
 
 def default_weights(system: MultiChannelSystem) -> CostWeights:
-    """Weigh all states and inputs by 1, disturbances by 1, and the noise of outputs by 1/100.
+    """Return the weights that follow from the typical sizes of a plant.
+
+    Without sizes all states, inputs and disturbances are weighed by 1, and the noise of outputs by
+    1/100, in the units of the file.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        All quantities are in the units of the file.
+        Its ``typical_sizes`` x, u, r and errors e give Q = 1/x², R = 1/u², W = r x² and V = e².
 
     Returns
     -------
@@ -149,9 +149,18 @@ def default_weights(system: MultiChannelSystem) -> CostWeights:
     Fraction(100, 1)
     """
     InputError.require(system, MultiChannelSystem, "system")
-    n, one = system.n, Fraction(1)
-    p, q = (sum(map(size, range(system.m))) for size in (system.p, system.q))
-    white = CostWeights((one,) * n, (one,) * p, (one,) * n, (Fraction(1, 100),) * q, bandwidth=None)
+    if (units := Units.of(system)) is not None:
+        return weights_in(units.inverse(), default_weights(system_in(units, system)))
+    n, sizes = system.n, system.typical_sizes or TypicalSizes()
+    p, q = ([size(i) for i in range(system.m)] for size in (system.p, system.q))
+    x, u, e = sizes.of_states(n), chain(*sizes.of_inputs(p)), chain(*sizes.of_errors(q))
+    white = CostWeights(
+        tuple(1 / size**2 for size in x),
+        tuple(1 / size**2 for size in u),
+        tuple(sizes.disturbances * size**2 for size in x),
+        tuple(error**2 for error in e),
+        bandwidth=None,
+    )
     if is_discrete(system.time):
         return white
     plant = system.A, system.input_matrix(), system.output_matrix()
@@ -160,197 +169,29 @@ def default_weights(system: MultiChannelSystem) -> CostWeights:
     if solutions is not None and n:
         _, S, F = solutions
         a, b, c = _with_ports(plant)
-        regulator = a + b[:, :p] @ F
-        filtered = a - S @ c.T @ c * 100
+        regulator = a + b[:, : len(F)] @ F
+        # without outputs c has a row of zeros
+        noise = [to_float(v) for v in white.noise] or [1.0]
+        filtered = a - S @ c.T / noise @ c
         for M in (regulator, filtered):
             largest = max(largest, float(np.max(np.abs(np.linalg.eigvals(M)))))
     return replace(white, bandwidth=Fraction(10) ** round(math.log10(10 * largest)))
 
 
-def loop_cost(
-    system: MultiChannelSystem,
-    controller: Controller,
-    graph: NeighborGraph | None = None,
-    *,
-    weights: CostWeights | None = None,
-) -> LoopCost:
-    """Bound the stationary mean of xᵀQx + uᵀRu of a stable loop from above.
+def weights_in(units: Units, weights: CostWeights) -> CostWeights:
+    """The weights of the same cost, for signals that are measured in other units."""
+    x, u, y = units.states, units.of_inputs, units.of_outputs
 
-    Parameters
-    ----------
-    system : MultiChannelSystem
-    controller : Controller
-    graph : NeighborGraph, optional
-        Overrides ``system.neighbors``.
-    weights : CostWeights, optional
-        By default `default_weights`.
+    def times(diagonal: Sequence[Fraction], by: Sequence[Fraction]) -> tuple[Fraction, ...]:
+        return tuple(a * unit**2 for a, unit in zip(diagonal, by, strict=True))
 
-    Raises
-    ------
-    UsageError
-        If the cost is infinite, since white noise passes to an input at once.
-    LimitReached
-        If no proof was found, as for every loop that is not stable.
-
-    Examples
-    --------
-    >>> from mcexact.model.statespace import local_controllers
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
-    >>> found = loop_cost(plant, local_controllers(plant, [[["-1/2"]]]))
-    >>> print(f"{float(found.cost):.2f}")
-    1.67
-    >>> loop_cost(plant, local_controllers(plant, [[[1]]]))
-    Traceback (most recent call last):
-        ...
-    mcexact.errors.LimitReached: no proof was found that the loop is stable with a finite cost
-    """
-    loop = _closed(system, controller, graph)
-    found = cost_of(loop, weights or default_weights(loop.plant))
-    return _proved(found, "the loop is stable with a finite cost")
-
-
-def cost_bound(
-    system: MultiChannelSystem,
-    weights: CostWeights | None = None,
-    graph: CostGraph | None = None,
-) -> CostBound:
-    """Bound the stationary mean of xᵀQx + uᵀRu from below for every linear controller.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-    weights : CostWeights, optional
-        By default `default_weights`.
-    graph : CostGraph, optional
-        Only controllers are meant by which agents act on each other along its edges alone; see
-        `influences`.
-
-    Raises
-    ------
-    LimitReached
-        If no proof was found, as for plants that no controller stabilizes.
-
-    Examples
-    --------
-    >>> plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]], time="discrete")
-    >>> print(f"{float(cost_bound(plant).cost):.2f}")
-    1.00
-    """
-    InputError.require(system, MultiChannelSystem, "system")
-    found = bound_of(system, weights or default_weights(system), graph)
-    return _proved(found, "every controller costs something")
-
-
-def disk_margin(
-    system: MultiChannelSystem,
-    controller: Controller,
-    at: Side,
-    graph: NeighborGraph | None = None,
-    *,
-    together: bool = False,
-    margin: Entry | None = None,
-) -> DiskMargin:
-    """Prove how far inputs, or outputs, may be from 1 before a stable loop fails.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-    controller : Controller
-    at : {"inputs", "outputs"}
-    graph : NeighborGraph, optional
-        Overrides ``system.neighbors``.
-    together : bool
-        Whether all of them are multiplied at once, with a number for each; else one at a time.
-    margin : rational, optional
-        The margin to prove; by default about the largest one.
-
-    Raises
-    ------
-    LimitReached
-        If no proof was found, as for a margin that is larger than the loop's.
-
-    Examples
-    --------
-    >>> from mcexact.model.statespace import local_controllers
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
-    >>> deadbeat = local_controllers(plant, [[[-1]]])
-    >>> str(disk_margin(plant, deadbeat, "inputs", margin="3/5").margin)
-    '3/5'
-    >>> disk_margin(plant, deadbeat, "inputs", margin="7/10")
-    Traceback (most recent call last):
-        ...
-    mcexact.errors.LimitReached: no proof was found that the disk margin is at least 7/10
-    """
-    loop = _closed(system, controller, graph)
-    one_of(at, get_args(Side), "at")
-    alpha = None if margin is None else as_fraction(margin)
-    found = margin_of(loop, at, together=together, margin=alpha)
-    claim = (
-        "the loop has a disk margin" if alpha is None else f"the disk margin is at least {alpha}"
+    return CostWeights(
+        times(weights.states, x),
+        times(weights.inputs, u),
+        times(weights.disturbances, inverted(x)),
+        times(weights.noise, inverted(y)),
+        bandwidth=weights.bandwidth,
     )
-    return _proved(found, claim)
-
-
-def sector_stability(
-    system: MultiChannelSystem,
-    controller: Controller,
-    sectors: Sequence[tuple[Entry, Entry]],
-    graph: NeighborGraph | None = None,
-) -> SectorStability:
-    """Prove that a loop is stable whatever its inputs pass through, within sectors.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-    controller : Controller
-    sectors : sequence of pairs of rationals
-        The ends (a, b), a < b, one pair for each input in the order of the channels: the plant
-        receives f(t, v) between av and bv for the v that the agent computes.
-    graph : NeighborGraph, optional
-        Overrides ``system.neighbors``.
-
-    Raises
-    ------
-    UsageError
-        If there is not one pair for each input, or if a pair is not in order.
-    LimitReached
-        If no proof was found.
-
-    Examples
-    --------
-    >>> from mcexact.model.statespace import local_controllers
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
-    >>> deadbeat = local_controllers(plant, [[[-1]]])
-    >>> sector_stability(plant, deadbeat, [("1/2", "3/2")]).kind
-    'sector'
-    """
-    loop = _closed(system, controller, graph)
-    ends = [(as_fraction(a), as_fraction(b)) for a, b in sectors]
-    count = loop.disturbed.U.nrows
-    if len(ends) != count or any(a >= b for a, b in ends):
-        raise UsageError(
-            f"expected {count} pairs (a, b) with a < b, one for each input", where="sectors"
-        )
-    return _proved(sectors_of(loop, ends), "the loop is stable within these sectors")
-
-
-def _closed(
-    system: MultiChannelSystem, controller: Controller, graph: NeighborGraph | None
-) -> ClosedLoop:
-    """The loop of a plant and a controller, both of the right kind."""
-    InputError.require(system, MultiChannelSystem, "system")
-    InputError.require(controller, Controller, "controller")
-    return closed_loop(system, controller, graph)
-
-
-AnyProof = TypeVar("AnyProof", LoopCost, CostBound, DiskMargin, SectorStability)
-
-
-def _proved(found: AnyProof | None, claim: str) -> AnyProof:
-    """An answer; an error where there is none."""
-    if found is None:
-        raise LimitReached(f"no proof was found that {claim}")
-    return found
 
 
 # The cost of a loop.
@@ -383,12 +224,8 @@ def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
     from scipy.linalg import solve_continuous_lyapunov, solve_discrete_lyapunov
 
     discrete = is_discrete(loop.plant.time)
-    M, U, entering = _with_noise(loop, weights)
-    n, N = loop.plant.n, M.nrows
-    x = Matrix.identity(N).take(rows=range(n))
-    Q, R, W, V = (diagonal_matrix(d) for d in _diagonals(weights))
-    spent = x.T @ (Q @ x) + U.T @ (R @ U)
-    m = matrix_to_float(M)
+    M, _, spent = _spent(loop, weights)
+    N, m = M.nrows, matrix_to_float(M)
 
     def equation(right: Floats) -> Floats | None:
         if not N:
@@ -404,20 +241,37 @@ def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
     P1 = equation(np.diag(sizes))
     if P1 is None or np.any(np.diag(P1) <= 0) or np.max(P1, initial=0) > _HUGE:
         return None
-    at_once = trace(loop.disturbed.K.T @ (R @ loop.disturbed.K) @ V) if discrete else Fraction(0)
     for room in _ROOM:
         scale = room * (float(np.trace(P0)) or 1.0) / (float(np.trace(P1)) or 1.0)
-        for bits in _BITS[2:]:
+        for bits in BITS[2:]:
             form = rounded_form(P0 + scale * P1, bits)
-            P = None if form is None else form.matrix()
-            if form is None or P is None or not is_positive(P):
-                continue
-            if not is_positive(lyapunov_difference(P, M, discrete) - spent):
-                continue
-            cost = trace(P.take(rows=range(n), cols=range(n)) @ W)
-            cost += trace(entering.T @ (P @ entering) @ V) + at_once
-            return LoopCost(loop.system, weights, _decimal_above(cost), form)
+            cost = None if form is None else cost_by(loop, weights, form)
+            if form is not None and cost is not None:
+                return LoopCost(loop.system, weights, _decimal_above(cost), form)
     return None
+
+
+def cost_by(loop: ClosedLoop, weights: CostWeights, form: Symmetric) -> Fraction | None:
+    """The bound on the cost that a matrix proves; None if its inequality is not strict."""
+    P, discrete, n = form.matrix(), is_discrete(loop.plant.time), loop.plant.n
+    if not is_positive(P):
+        return None
+    M, entering, spent = _spent(loop, weights)
+    if not is_positive(lyapunov_difference(P, M, discrete) - spent):
+        return None
+    _, R, W, V = (diagonal_matrix(d) for d in _diagonals(weights))
+    K = loop.disturbed.K
+    cost = trace(P.take(rows=range(n), cols=range(n)) @ W)
+    cost += trace(entering.T @ (P @ entering) @ V)
+    return cost + (trace(K.T @ (R @ K) @ V) if discrete else 0)
+
+
+def _spent(loop: ClosedLoop, weights: CostWeights) -> tuple[Matrix, Matrix, Matrix]:
+    """The loop with its noise, where the noise enters, and what its states cost at once."""
+    M, U, entering = _with_noise(loop, weights)
+    x = Matrix.identity(M.nrows).take(rows=range(loop.plant.n))
+    Q, R = diagonal_matrix(weights.states), diagonal_matrix(weights.inputs)
+    return M, entering, x.T @ (Q @ x) + U.T @ (R @ U)
 
 
 def computed_cost(loop: ClosedLoop, weights: CostWeights) -> float:
@@ -519,7 +373,7 @@ def bound_of(
     everyone = tuple(range(plant.m))
     owners = [0] * plant.n if graph is None else [plant.index(name) for name in graph.states]
     groups = [everyone] if graph is None else _closed_groups(plant, graph)
-    parts = [_Group(plant, owners, group) for group in groups]
+    parts = [Group(plant, owners, group) for group in groups]
     proofs = [
         (part, W, V, bound)
         for part, W, V in _divided(parts, weights, plant.time)
@@ -604,7 +458,7 @@ def _closed_groups(plant: MultiChannelSystem, graph: CostGraph) -> list[tuple[in
     return list(dict.fromkeys(groups))
 
 
-class _Group:
+class Group:
     """The plant as a group of agents has it, and bounds of its cost."""
 
     def __init__(
@@ -685,10 +539,10 @@ _LEAST = 2e-3
 _UNIT = 2**20
 _TINY = 1e-200
 
-Divided = list[tuple[_Group, tuple[Fraction, ...], tuple[Fraction, ...]]]
+Divided = list[tuple[Group, tuple[Fraction, ...], tuple[Fraction, ...]]]
 
 
-def _divided(parts: list[_Group], weights: CostWeights, time: str) -> Divided:
+def _divided(parts: list[Group], weights: CostWeights, time: str) -> Divided:
     """The intensities W and V divided among groups, so that the sum of the bounds is large."""
     if len(parts) == 1:
         return [(parts[0], weights.disturbances, weights.noise)]
@@ -750,7 +604,7 @@ def _group(A: Matrix, B: Matrix, C: Matrix, weights: CostWeights, time: str) -> 
         solutions = _riccati(A, B, C, weights, time, room)
         if solutions is None:
             continue
-        for bits in _BITS[2:]:
+        for bits in BITS[2:]:
             found = _rounded_bound((A, B, C), weights, time, solutions, bits, room)
             if found is None:
                 continue
@@ -854,11 +708,21 @@ def _rounded_bound(
         return None
     F = dyadic_matrix(solutions[2], bits)
     share = Fraction(1) - Fraction(round(room * 2**20), 2**19)
-    P, S = forms[0].matrix(), forms[1].matrix()
-    first, second, bound = inequalities(plant, weights, time, (P, S, F, share))
-    if not all(is_positive(each) for each in (P, S, first, second)):
-        return None
-    return forms[0], forms[1], F, share, _decimal_below(bound, 8)
+    bound = bound_by(plant, weights, time, (forms[0], forms[1], F, share))
+    return None if bound is None else (forms[0], forms[1], F, share, _decimal_below(bound, 8))
+
+
+def bound_by(
+    plant: tuple[Matrix, Matrix, Matrix],
+    weights: CostWeights,
+    time: str,
+    proof: tuple[Symmetric, Symmetric, Matrix, Fraction],
+) -> Fraction | None:
+    """The bound that P, S, F and s prove; None unless both inequalities are strict."""
+    P, S = proof[0].matrix(), proof[1].matrix()
+    first, second, bound = inequalities(plant, weights, time, (P, S, *proof[2:]))
+    strict = all(is_positive(each) for each in (P, S, first, second))
+    return bound if strict else None
 
 
 def inequalities(
@@ -989,13 +853,7 @@ def sectors_of(
     The circle criterion: f(t, v) = mv + rg(t, v) with m = (a + b)/2, r = (b − a)/2 and |g| ≤ |v|,
     and the response from g to v has a norm below 1 with a constant scaling.
     """
-    disturbed, discrete = loop.disturbed, is_discrete(loop.plant.time)
-    middle = diagonal_matrix([(a + b) / 2 for a, b in sectors])
-    half = [(b - a) / 2 for a, b in sectors]
-    M = disturbed.M + disturbed.E @ (middle - Matrix.identity(len(half))) @ disturbed.U
-    response = PortResponse(
-        (M, disturbed.E @ diagonal_matrix(half), disturbed.U), discrete, Fraction(0)
-    )
+    response, half = sector_response(loop, sectors)
     if response.unstable or not all(half):
         return None
     part = response.proved(range(len(half)), Fraction(1))
@@ -1003,6 +861,20 @@ def sectors_of(
         return None
     scaling = tuple(t / r**2 for t, r in zip(part.scaling, half, strict=True))
     return SectorStability(loop.system, tuple(sectors), scaling, part.P)
+
+
+def sector_response(
+    loop: ClosedLoop, sectors: Sequence[tuple[Fraction, Fraction]]
+) -> tuple[PortResponse, list[Fraction]]:
+    """The response from g to v of `sectors_of`, and half the width of each sector."""
+    disturbed, discrete = loop.disturbed, is_discrete(loop.plant.time)
+    middle = diagonal_matrix([(a + b) / 2 for a, b in sectors])
+    half = [(b - a) / 2 for a, b in sectors]
+    M = disturbed.M + disturbed.E @ (middle - Matrix.identity(len(half))) @ disturbed.U
+    response = PortResponse(
+        (M, disturbed.E @ diagonal_matrix(half), disturbed.U), discrete, Fraction(0)
+    )
+    return response, half
 
 
 def _margin_parts(
@@ -1111,20 +983,14 @@ class PortResponse:
         if norm * to_float(alpha) >= 1:
             return None
         scaling = tuple(Fraction(float(x)) for x in theta)
-        Theta = diagonal_matrix(scaling)
-        M, enter, leave = self.exact
-        enter, leave = enter.take(cols=places), leave.take(rows=places)
         for P in self._proposals(places, theta, alpha):
-            for bits in _BITS:
+            for bits in BITS:
                 form = rounded_form(P, bits)
                 if form is None:
                     break
-                exact = form.matrix()
-                gain = bounded_real(
-                    exact, (M, enter, leave), Theta, 1 / alpha**2, self.discrete, self.direct
-                )
-                if is_positive(exact) and is_positive(gain):
-                    return MarginPart(tuple(places), scaling, form)
+                part = MarginPart(tuple(places), scaling, form)
+                if part_holds(self.exact, part, alpha, discrete=self.discrete, direct=self.direct):
+                    return part
         return None
 
     def _proposals(self, ports: list[int], theta: Floats, alpha: Fraction) -> Iterator[Floats]:
@@ -1182,6 +1048,22 @@ def _osborne(G: npt.NDArray[np.complex128]) -> Floats:
             if row > 0 and column > 0:
                 theta[i] *= math.sqrt(column / row)
     return theta
+
+
+def part_holds(
+    signals: tuple[Matrix, Matrix, Matrix],
+    part: MarginPart,
+    alpha: Fraction,
+    *,
+    discrete: bool,
+    direct: Fraction = HALF,
+) -> bool:
+    """Whether a matrix proves ‖Θ^½(T + cI)Θ^−½‖ < 1/α for its ports, T of all ports as given."""
+    M, enter, leave = signals
+    chosen = M, enter.take(cols=part.ports), leave.take(rows=part.ports)
+    P, Theta = part.P.matrix(), diagonal_matrix(part.scaling)
+    gain = bounded_real(P, chosen, Theta, 1 / alpha**2, discrete, direct)
+    return is_positive(P) and is_positive(gain)
 
 
 def bounded_real(

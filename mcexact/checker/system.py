@@ -376,7 +376,8 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
 
     ``typed`` is the same document with its numbers as texts, if there is one.
     """
-    extra = () if limits is None else ("format", "name", "source", "sample_time", "D", "regulated")
+    unused = "format", "name", "source", "sample_time", "sizes", "D", "regulated"
+    extra = () if limits is None else unused
     keys = ("time", "A", "channels")
     optional = ("neighbors", "delays", "uncertainty", *extra)
     time, A_rows, listed, heard, waits, doubt, *more = fields(
@@ -405,12 +406,13 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
 
 def _check_unused(plant: System, unused: list[Json], limits: Limits) -> None:
     """Read the parts of a system file on which no claim depends: they are not in the digest."""
-    name, source, sample_time, D, regulated = unused
+    name, source, sample_time, sizes, D, regulated = unused
     for key, text in (("name", name), ("source", source)):
         printable("" if text is None else text, key, 10_000, allowed="\n\t")
     period = None if sample_time is None else number(sample_time, "sample_time", limits)
     if period is not None and (period <= 0 or plant.time != "discrete"):
         malformed("sample_time", "expected a number above 0, in discrete time only")
+    _check_sizes(plant, sizes, limits)
     _require_no_feedthrough(D, "D", limits)
     for _, i, held in reading.by_name(regulated, "regulated", plant.names):
         listed, q = items(held, "regulated"), plant.C[i].nrows
@@ -419,6 +421,28 @@ def _check_unused(plant: System, unused: list[Json], limits: Limits) -> None:
                 malformed("regulated", f"expected outputs from 1 to {q}")
         else:
             read_matrix(held, "regulated", None, q, limits)
+
+
+def _check_sizes(plant: System, sizes: Json, limits: Limits) -> None:
+    """Read the typical sizes of signals: claims about costs name their weights themselves."""
+    if sizes is None:
+        return
+    keys = ("states", "inputs", "errors", "disturbances")
+    states, inputs, errors, ratio = fields(sizes, "sizes", optional=keys)
+    known = tuple(plant.names)
+    lists = [] if states is None else [(states, plant.n)]
+    for value, counts in (
+        (inputs, [M.ncols for M in plant.B]),
+        (errors, [M.nrows for M in plant.C]),
+    ):
+        if value is not None:
+            by_name = zip(fields(value, "sizes", optional=known), counts, strict=True)
+            lists += [([] if row is None else row, count) for row, count in by_name]
+    lists += [] if ratio is None else [([ratio], 1)]
+    for row, count in lists:
+        values = [number(x, "sizes", limits) for x in items(row, "sizes")]
+        if len(values) != count or any(x <= 0 for x in values):
+            malformed("sizes", "expected a number above 0 for each state, input and output")
 
 
 def _require_no_feedthrough(D: Json, place: str, limits: Limits | None) -> None:

@@ -71,6 +71,7 @@ from mcexact.errors import LimitReached
     "moduli, such as 1%.",
 )
 @options.weights
+@options.sizes
 @options.no_box
 @options.prove_all
 @click.option(
@@ -97,6 +98,7 @@ def command(file: str, controller: str, **values: Any) -> int:
     and 4 if none are found.
     """
     run, weights, html = Run(values), values.pop("weights"), values.pop("html")
+    sizes = values.pop("sizes")
     output, values["effort"] = values.pop("output"), options.effort_of_search(values)
     if values["effort"] is not None and values["gains"] is not None:
         raise click.UsageError(
@@ -104,12 +106,13 @@ def command(file: str, controller: str, **values: Any) -> int:
         )
     if output is not None and values["round_gains"] is None:
         raise click.UsageError("-o writes the rounded controller: give --round-gains, too")
-    require_other(output, file, controller, weights)
+    require_other(output, file, controller, weights, sizes)
     require_writable(output, run.certificates)
-    require_page(html, run.certificates, file, controller, weights)
+    require_page(html, run.certificates, file, controller, weights, sizes)
     require_apart(output, html, run.certificates)
     about = place_of(controller)
-    programs = run.read(file), run.read(controller), None if weights is None else run.read(weights)
+    read = (None if each is None else run.read(each) for each in (weights, sizes))
+    programs = run.read(file), run.read(controller), *read
     answer = run.result(
         _certified,
         *programs,

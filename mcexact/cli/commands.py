@@ -90,7 +90,7 @@ GROUPS = {
         "free_assignability", "order", "agent", "arithmetic",
     ),
     "Weights and limits of the search": (
-        "weights", "margin", "disk", "box", "largest_gain", "largest_order", "most_digits",
+        "weights", "sizes", "margin", "disk", "box", "largest_gain", "largest_order", "most_digits",
         "effort", "seeds",
     ),
     "Output": ("output", "html", "certificates", "system_by_digest", "as_json"),

@@ -79,7 +79,7 @@ def design_options(
         click.option("--spectrum", metavar="SPECTRUM", help=spectrum_help),
         options.arithmetic,
         click.option("--agent", metavar="NAME", help=agent_help),
-        options.aims if searches else options.weights,
+        options.aims if searches else options.weighed,
         options.no_box,
         options.prove_all,
         options.controller_output,
@@ -114,14 +114,16 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
         If no controller of this form exists, which a certificate proves.
     """
     run, spectrum, weights = Run(values), values["spectrum"], values["weights"]
+    sizes = values["sizes"]
     output, html = values["output"], values["html"]
-    require_other(output, file, spectrum, weights)
+    require_other(output, file, spectrum, weights, sizes)
     require_writable(output, run.certificates)
-    require_page(html, run.certificates, file, spectrum, weights)
+    require_page(html, run.certificates, file, spectrum, weights, sizes)
     require_apart(output, html, run.certificates)
     extra = (
         None if spectrum is None else read_spectrum(spectrum, run),
         None if weights is None else run.read(weights),
+        None if sizes is None else run.read(sizes),
     )
     keywords = {**wanted, "agent": values["agent"], **{key: values[key] for key in HOW}}
     aimed = {key: values[key] for key in options.AIMS if key in values}

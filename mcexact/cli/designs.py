@@ -23,7 +23,7 @@ from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.structure import SetpointSolvability
 from mcexact.answer.templates import Sentence
 from mcexact.cli.files import system_in
-from mcexact.cli.loops import assessed, read_weights, unproved
+from mcexact.cli.loops import assessed, read_weights, unproved, with_sizes
 from mcexact.cli.options import AIMS
 from mcexact.cli.results import Evidence, Loop, Refused
 from mcexact.derived.constructions import augmented_outputs
@@ -60,6 +60,7 @@ def designed(
     plant: tuple[str, bytes],
     prescribed: tuple[str, bytes] | None,
     weights: tuple[str, bytes] | None,
+    sizes: tuple[str, bytes] | None,
     limits: Mapping[str, int],
     wanted: dict[str, Any],
     aimed: Mapping[str, Any],
@@ -77,8 +78,9 @@ def designed(
         The name of the command, which is that of the function without ``design_``.
     plant : tuple of str and bytes
         The name of the file and its content.
-    prescribed, weights : tuple of str and bytes, or None
-        The spectrum and the weights, with the names by which messages refer to them.
+    prescribed, weights, sizes : tuple of str and bytes, or None
+        The spectrum, the weights and the typical sizes, with the names by which messages refer to
+        them.
     limits : mapping
         The limits on input files.
     wanted : dict
@@ -106,7 +108,7 @@ def designed(
             tell(step)
 
     spectrum, began = None, time.monotonic()
-    system = system_in(*plant, limits)
+    system = with_sizes(system_in(*plant, limits), sizes, limits)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
     if aimed:

@@ -45,6 +45,7 @@ from mcexact.model.box import radii_in_words
 from mcexact.model.controller import Controller, controller_text, read_controller
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.sizes import read_sizes
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import parse
 from mcexact.report.html import AnswerPage, EmbeddedPicture, shown_plant
@@ -80,6 +81,7 @@ def certified(
     plant: tuple[str, bytes],
     program: tuple[str, bytes],
     weights: tuple[str, bytes] | None,
+    sizes: tuple[str, bytes] | None,
     limits: Mapping[str, int],
     wanted: dict[str, Any],
     with_page: bool,
@@ -93,6 +95,8 @@ def certified(
         The names of the files of the plant and of the controller, and their contents.
     weights : tuple of str and bytes, or None
         The file of weights for the figures.
+    sizes : tuple of str and bytes, or None
+        The file of typical sizes, which replace those of the plant.
     limits : mapping
         The limits on input files.
     wanted : dict
@@ -112,11 +116,12 @@ def certified(
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
     if isinstance(typed_plant, ParametricSystem):
-        every_option = wanted | {"weights": weights, "effort": effort}
+        every_option = wanted | {"weights": weights, "sizes": sizes, "effort": effort}
         return _certified_for_all_values(
             typed_plant, controller, gains, every_option, with_page, system_by_digest
         )
-    system, search = uncertainty.with_radii(typed_plant, wanted.pop("uncertainty"))
+    sized = with_sizes(typed_plant, sizes, limits)
+    system, search = uncertainty.with_radii(sized, wanted.pop("uncertainty"))
     with InputError.inside(program[0]):
         digits, notes, typed = wanted.pop("round_gains"), tuple[str, ...](), controller
         if digits is not None:
@@ -176,7 +181,7 @@ def certified(
         ),
         pictures=uncertainty.pictures(search) if with_page else (),
         with_page=with_page,
-        system_by_digest=system_by_digest and system is typed_plant,
+        system_by_digest=system_by_digest and system is sized,
         document=account.as_json(
             certified=verdict.stable,
             region=str(verdict.region),
@@ -263,6 +268,25 @@ def read_weights(
         if not isinstance(content, dict):
             raise InputError('expected an object such as {"Q": rows, "R": rows}')
     return content
+
+
+def with_sizes(
+    system: MultiChannelSystem, file: tuple[str, bytes] | None, limits: Mapping[str, int]
+) -> MultiChannelSystem:
+    """The plant with the typical sizes of a file, an object as in a system file; or with its own.
+
+    Raises
+    ------
+    InputError
+        If it is malformed, or does not fit the plant.
+    """
+    if file is None:
+        return system
+    p, q = ([size(i) for i in range(system.m)] for size in (system.p, system.q))
+    with InputError.inside(file[0]):
+        content = parse(file[1], Limits(**limits))
+        sizes = read_sizes(content, system.names, system.n, p, q, Limits(**limits))
+    return system.with_typical_sizes(sizes)
 
 
 @dataclass(frozen=True)

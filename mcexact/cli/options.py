@@ -337,6 +337,20 @@ weights = click.option(
 )
 
 
+sizes = click.option(
+    "--sizes",
+    metavar="FILE",
+    help='JSON {"states": list, "inputs": {agent: list}, "errors": {agent: list}, '
+    '"disturbances": r}, or some of them: typical sizes x and u and errors e of sensors, which '
+    "replace those of the file; the weights are 1/x^2, 1/u^2, r x^2 and e^2.",
+)
+
+
+def weighed(function: F) -> F:
+    """Add the options of weights."""
+    return weights(sizes(function))
+
+
 no_box = click.option(
     "--no-box",
     is_flag=True,
@@ -433,6 +447,7 @@ def aims(function: F) -> F:
             help="Margin of all of the plant's inputs together to aim at.",
         ),
         weights,
+        sizes,
     ):
         function = option(function)
     return function

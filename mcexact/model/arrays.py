@@ -30,6 +30,7 @@ import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import accumulate, chain
 from pathlib import Path
 from typing import Any, cast, get_args
 
@@ -52,6 +53,7 @@ from mcexact.exact.roots import is_discrete
 from mcexact.exact.tables import is_mostly_zero
 from mcexact.model.entries import LONGEST_SIDE, as_matrix, read_number, require_shape
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.sizes import TypicalSizes
 from mcexact.model.system import MultiChannelSystem, read_by, split_by_sizes
 from mcexact.model.text import nearest, quoted, read_bytes, write_text
 
@@ -279,7 +281,9 @@ def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool
 ROUNDING = "rounding"
 """The key of the rounding of floats in a file, used where the caller does not choose one."""
 TEXTS = ("time", "name", "source", ROUNDING)
-TABLES = ("neighbors", "delays", "inputs", "outputs", "sample_time")
+SIZES = ("state_sizes", "input_sizes", "output_errors", "disturbances")
+"""The tables of `TypicalSizes`: rows of numbers for all states, inputs and outputs, and r."""
+TABLES = ("neighbors", "delays", "inputs", "outputs", "sample_time", *SIZES)
 KEYS = ("A", "B", "C", "D", *TABLES, *TEXTS, "names")
 NUMBERED = re.compile(r"([BC])_([1-9][0-9]{0,5})")
 
@@ -360,6 +364,7 @@ def system_of(parts: Parts, reading: Reading) -> MultiChannelSystem:
         sample_time=sample_time,
         names=names,
         neighbors=_graph(parts, matrix, tuple(names)),
+        typical_sizes=_typical_sizes(parts, matrix, B, C),
         name=parts.texts.get("name"),
         source=parts.texts.get("source"),
     )
@@ -470,6 +475,51 @@ def _graph(parts: Parts, matrix: Read, names: tuple[str, ...]) -> NeighborGraph 
     return NeighborGraph(names, heard, delays)
 
 
+def _typical_sizes(
+    parts: Parts, matrix: Read, B: Sequence[Matrix], C: Sequence[Matrix]
+) -> TypicalSizes | None:
+    """Read the sizes of all states and inputs and the errors of all outputs, in rows or columns."""
+    if not any(name in parts.tables for name in SIZES):
+        return None
+
+    def numbers(name: str, counts: Sequence[int]) -> list[list[Fraction]] | None:
+        if name not in parts.tables:
+            return None
+        M = matrix(name, None, None)
+        entries = [x for row in M.rows() for x in row]
+        if len(entries) != sum(counts) or min(M.shape) > 1:
+            raise InputError(
+                f"expected a list of {sum(counts)} numbers, found {M.nrows} × {M.ncols}", where=name
+            )
+        for k, x in enumerate(entries):
+            if x <= 0:
+                raise InputError(f"expected a size above 0, found {x}", where=f"{name}[{k}]")
+        ends = [*accumulate(counts)]
+        return [entries[end - count : end] for end, count in zip(ends, counts, strict=True)]
+
+    n = B[0].nrows
+    states = numbers("state_sizes", [n])
+    ratio = numbers("disturbances", [1])
+    return TypicalSizes(
+        None if states is None else states[0],
+        numbers("input_sizes", [M.ncols for M in B]),
+        numbers("output_errors", [M.nrows for M in C]),
+        1 if ratio is None else ratio[0][0],
+    )
+
+
+def _tables_of_sizes(sizes: TypicalSizes) -> dict[str, Matrix]:
+    """The tables of sizes, one row each."""
+    rows: dict[str, list[Fraction]] = {}
+    if sizes.states is not None:
+        rows["state_sizes"] = [*sizes.states]
+    for name, channels in (("input_sizes", sizes.inputs), ("output_errors", sizes.errors)):
+        if channels is not None:
+            rows[name] = [*chain(*channels)]
+    rows["disturbances"] = [sizes.disturbances]
+    return {name: Matrix.from_rows([row], ncols=len(row)) for name, row in rows.items()}
+
+
 def parts_of(system: MultiChannelSystem) -> Parts:
     """The parts of a system, whose tables are matrices.
 
@@ -487,6 +537,8 @@ def parts_of(system: MultiChannelSystem) -> Parts:
         tables[f"B_{k}"], tables[f"C_{k}"] = channel.B, channel.C
     if system.sample_time is not None:
         tables["sample_time"] = Matrix.from_rows([[system.sample_time]])
+    if system.typical_sizes is not None:
+        tables |= _tables_of_sizes(system.typical_sizes)
     graph = system.neighbors
     if graph is not None:
         m = system.m

@@ -115,6 +115,7 @@ class ParametricSystem(ByChannel[FunctionMatrix]):
     sample_time: ClassVar[None] = None
     regulated: ClassVar[None] = None
     uncertainty: ClassVar[None] = None
+    typical_sizes: ClassVar[None] = None
     rounding: ClassVar[None] = None
 
     parameters: tuple[str, ...]

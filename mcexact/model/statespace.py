@@ -580,6 +580,7 @@ most 0.51e-12
         names=system.names,
         neighbors=system.neighbors,
         sample_time=h if system.sample_time is None else system.sample_time,
+        typical_sizes=system.typical_sizes,
         name=system.name,
         source=note if system.source is None else f"{system.source}; {note}",
     )

@@ -60,6 +60,7 @@ from mcexact.model.regulated import (
     selection_document,
     selection_in_words,
 )
+from mcexact.model.sizes import TypicalSizes
 from mcexact.model.text import (
     LONGEST_TEXT,
     canonical,
@@ -276,6 +277,8 @@ class ByChannel(Shown, Generic[M]):
             yield "uncertainty", self.uncertainty
         if self.regulated is not None:
             yield "regulated", selection_in_words(self.regulated, self.names)
+        if self.typical_sizes is not None:
+            yield "typical sizes", self.typical_sizes
         if self.source is not None:
             yield "source", self.source
 
@@ -401,6 +404,8 @@ def _sentences(system: Any) -> Iterator[str]:
     if system.regulated is not None:
         held = selection_in_words(system.regulated, system.names)
         yield fitting(f"A controller is to hold at set-points: {held}.")
+    if system.typical_sizes is not None:
+        yield f"For costs, {system.typical_sizes.explain()}."
     if system.rounding is not None:
         yield f"{reading_in_words(system.rounding).capitalize()}."
 
@@ -536,6 +541,9 @@ class MultiChannelSystem(ByChannel[Matrix]):
         What a controller is to hold at set-points, for each agent that holds something: positions
         of its outputs from 1 on, or a matrix S_i of q_i columns.  No decision uses it, nor does the
         digest depend on it; `design_setpoint` takes it where nothing else is asked for.
+    typical_sizes : TypicalSizes, optional
+        How large signals typically are, for the weights of costs; no other decision uses them, and
+        the digest does not depend on them.
     name, source : str, optional
         A name and a source, which no decision uses.
 
@@ -584,6 +592,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
     neighbors: NeighborGraph | None
     sample_time: Fraction | None
     uncertainty: Radii | None
+    typical_sizes: TypicalSizes | None
     name: str | None = field(compare=False)
     source: str | None = field(compare=False)
     regulated: Selection | None = field(compare=False)
@@ -603,6 +612,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
         sample_time: Any = None,
         uncertainty: Radii | None = None,
         regulated: Mapping[str, Any] | None = None,
+        typical_sizes: TypicalSizes | None = None,
         name: str | None = None,
         source: str | None = None,
     ) -> None:
@@ -618,6 +628,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             neighbors=graph_for(neighbors, labels),
             sample_time=_checked_sample_time(sample_time, time),
             uncertainty=None,
+            typical_sizes=None,
             name=None if name is None else checked_text(name, "name"),
             source=None if source is None else checked_text(source, "source"),
             regulated=None,
@@ -630,6 +641,16 @@ class MultiChannelSystem(ByChannel[Matrix]):
             self._fill(regulated=read_selection(regulated, labels, counts, "regulated"))
         if uncertainty is not None:
             self._fill(uncertainty=self._fitting(uncertainty))
+        if typical_sizes is not None:
+            self._fill(typical_sizes=self._with_shapes(typical_sizes))
+
+    def _with_shapes(self, sizes: TypicalSizes) -> TypicalSizes:
+        """Return sizes of which there is one for each state, input and output."""
+        InputError.require(sizes, TypicalSizes, "sizes")
+        p, q = ([size(i) for i in range(self.m)] for size in (self.p, self.q))
+        with InputError.inside("sizes"):
+            sizes.require_shapes(self.n, p, q)
+        return sizes
 
     def _fitting(self, uncertainty: Radii) -> Radii | None:
         """Return radii that have the shapes of the matrices; None if all entries are certain."""
@@ -785,6 +806,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             neighbors=neighbors,
             sample_time=self.sample_time,
             uncertainty=None,
+            typical_sizes=None,
             name=self.name,
             source=self.source,
             regulated=None,
@@ -835,6 +857,23 @@ class MultiChannelSystem(ByChannel[Matrix]):
         other._fill(uncertainty=radii)
         return other
 
+    def with_typical_sizes(self, sizes: TypicalSizes | None) -> Self:
+        """Return the same plant with other typical sizes of its signals, or with none.
+
+        Raises
+        ------
+        UsageError
+            If this system was made by a construction.
+        InputError
+            If there is not one size for each state, input and output.
+        """
+        if self.subject:
+            raise UsageError("sizes belong to the plant, and not to a derived system")
+        other = object.__new__(type(self))
+        other._fill(**{name: getattr(self, name) for name in self.__dataclass_fields__})
+        other._fill(typical_sizes=None if sizes is None else self._with_shapes(sizes))
+        return other
+
     def _as_canonical_text(self) -> str:
         channels = ",".join(
             f'{{"B":{canonical_matrix_text(channel.B)},"C":{canonical_matrix_text(channel.C)},'
@@ -855,6 +894,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
             document = {"sample_time": number_json(self.sample_time)} | document
         if self.regulated is not None:
             document["regulated"] = selection_document(self.regulated, self.names)
+        if self.typical_sizes is not None:
+            document["sizes"] = self.typical_sizes.document(self.names)
         return document
 
     def __repr__(self) -> str:

@@ -38,6 +38,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem, require_ascending
 from mcexact.model.radii import read_radii
 from mcexact.model.regulated import read_selection, selection_document
+from mcexact.model.sizes import read_sizes
 from mcexact.model.system import FORMAT, MultiChannelSystem
 from mcexact.model.text import (
     NumberText,
@@ -62,8 +63,8 @@ M = TypeVar("M")
 
 _REQUIRED = ("format", "time", "A", "channels")
 _OPTIONAL = (
-    *("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty", "regulated"),
-    "parameters",
+    *("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty", "sizes"),
+    *("regulated", "parameters"),
 )
 
 
@@ -124,6 +125,10 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
     radii = None
     if "uncertainty" in document:
         radii = read_radii(document["uncertainty"], document, names, *parts, limits)
+    sizes = None
+    if "sizes" in document:
+        p, q = [M.ncols for M in parts[1]], [M.nrows for M in parts[2]]
+        sizes = read_sizes(document["sizes"], names, A.shape[0], p, q, limits)
     return MultiChannelSystem(
         *parts,
         time=document["time"],
@@ -132,6 +137,7 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
         sample_time=sample_time,
         uncertainty=radii,
         regulated=_read_regulated(document, names, [C_i.shape[0] for C_i in C], limits),
+        typical_sizes=sizes,
         **texts_of(document),
     )
 
@@ -259,6 +265,9 @@ def system_text(system: MultiChannelSystem | ParametricSystem) -> str:
         document = system.uncertainty.document(system.names)
         with numbers_of_any_length():
             head.append(("uncertainty", json.dumps(document)))
+    if system.typical_sizes is not None:
+        with numbers_of_any_length():
+            head.append(("sizes", json.dumps(system.typical_sizes.document(system.names))))
     return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in head) + "\n}\n"
 
 

@@ -286,6 +286,10 @@ def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, st
     if system.uncertainty is not None:
         radii = radii_in_words(system)
         rows.append(("uncertainty", f"{radii}; the matrices are those of the nominal values"))
+    if system.typical_sizes is not None:
+        rows.append(
+            ("sizes", f"{system.typical_sizes.explain()}; weights of costs follow from them")
+        )
     rows.append(("source", system.source or "not stated in the system file"))
     rows.append(("SHA-256 of the system", system.digest()))
     return tuple(rows)

@@ -131,6 +131,25 @@ def _uncertainty() -> Schema:
     return radii | {"minProperties": 1, "maxProperties": 1}
 
 
+def _typical_sizes() -> Schema:
+    """How large the signals of a system typically are."""
+    numbers = rows(NUMBER)
+    by_channel = table(numbers)
+    return record(
+        {},
+        {
+            "states": numbers | {"description": "of each state; by default 1"},
+            "inputs": by_channel | {"description": "of the inputs of each channel; by default 1"},
+            "errors": by_channel
+            | {"description": "of the sensors of each channel; by default 1/10"},
+            "disturbances": NUMBER | {"description": "r; by default 1"},
+        },
+        closed=True,
+        says="typical sizes x and u and errors e, from which costs have the weights Q = 1/x^2, "
+        "R = 1/u^2, W = r x^2 and V = e^2",
+    )
+
+
 def system() -> Schema:
     """System files."""
     channel = {"name": NAME | {"description": "by default the number of the channel"}}
@@ -155,6 +174,7 @@ def system() -> Schema:
             "regulated": table(
                 {"anyOf": [rows({"type": "integer", "minimum": 1}, minItems=1), MATRIX]}
             ),
+            "sizes": _typical_sizes(),
         },
         closed=True,
         says="a plant x' = A x + B_1 u_1 + …, y_i = C_i x (discrete time: x(t+1))",
@@ -351,6 +371,7 @@ ASSESSMENT = record(
         "relative_cost": some(FLOAT),
         "performance": some(PERFORMANCE),
         "digits_that_suffice": some(WHOLE),
+        "weights_of_the_cost": TEXT,
         "without_a_controller": some(_FIGURES),
         "links": rows(record({"sender": TEXT, "receiver": TEXT, "numbers": WHOLE})),
     },

@@ -38,9 +38,10 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop
 from mcexact.model.system import MultiChannelSystem, as_plant
+from mcexact.model.units import Units, loop_in
 from mcexact.shown import Shown, fitting
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.networks import decentralized_network, integrated_plant
+from mcexact.synthesis.networks import decentralized_network, without_integrators
 from mcexact.synthesis.optimum.diagnosis import (
     MOST_DIGITS,
     TIMES_THE_COST,
@@ -60,7 +61,13 @@ from mcexact.synthesis.optimum.figures import (
     Shape,
     figures_of,
 )
-from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights, quiet_floats
+from mcexact.synthesis.optimum.problem import (
+    NAMES,
+    FeedbackProblem,
+    Weights,
+    integrated_problem,
+    quiet_floats,
+)
 from mcexact.synthesis.performance import Performance, performance_of
 from mcexact.synthesis.robustness import EveryLoop, WithinRadii
 
@@ -109,7 +116,7 @@ class Assessment(Shown):
     diagnosis : Diagnosis
         Of the plant, for the region; with integrators if the controller has them.
     digits : int or None
-        See `digits_that_suffice`: for the region, and for a margin of 0.3 or nine tenths of it.
+        See `digits_that_suffice`.
     links : tuple of Link
     step_peak : float or None
         The largest output while one set-point steps from 0 to 1; None without integrators.
@@ -128,6 +135,10 @@ class Assessment(Shown):
         The part of each entry within which a plant is known whose loop is not stable.
     asked : StabilityRegion or None
         The region that was asked for, where no loop in it was found to have the margins.
+    weighed_by : str
+        Where the weights of the cost come from.
+    measured : bool
+        Whether figures are in units near the typical sizes of the plant, not in those of the file.
     """
 
     orders: Mapping[str, int]
@@ -145,6 +156,8 @@ class Assessment(Shown):
     performance: Performance | None = None
     fails_within: Fraction | None = None
     asked: StabilityRegion | None = None
+    weighed_by: str = ""
+    measured: bool = False
 
     def __repr__(self) -> str:
         return fitting(f"Assessment({self.verdict})")
@@ -341,19 +354,22 @@ class Assessment(Shown):
         most = max((link.numbers for link in self.links), default=0)
         network = f"{sent} over {count(len(self.links), 'link')}, at most {most} on one"
         network = network if sent else "none"
+        peak = compared("peak") if self.uncontrolled else _finite(seen.peak)
+        unit = ", in units near the sizes" if self.measured else ""
         return [
             ("states of each agent", per_agent),
-            ("largest gain", compared("largest_gain")),
+            (f"largest gain{unit}", compared("largest_gain")),
             ("slowest eigenvalue", f"{self.region.measure} = {shown(seen.bound)}"),
             *self._alone(),
             ("fastest eigenvalue", f"|λ| = {shown(seen.fastest)}"),
             ("least damping ratio", shown(seen.damping)),
             *self._margins(),
             ("margin at the plant's inputs", compared("margin")),
-            ("peak of the state", compared("peak") if self.uncontrolled else _finite(seen.peak)),
+            (f"peak of the state{unit}", peak),
             *self._stepped(),
             ("cost" if self.step_peak is None else "cost with integrators", _finite(seen.cost)),
             ("cost relative to the bound", _finite(self.relative_cost)),
+            ("weights of the cost", self.weighed_by),
             *self._digits(),
             ("numbers sent" + " at each step" * self.region.discrete, network),
             (f"sensible {word}", self._sensible()),
@@ -413,6 +429,7 @@ class Assessment(Shown):
             if self.uncontrolled is None
             else _numbers(self.uncontrolled),
             "digits_that_suffice": self.digits,
+            "weights_of_the_cost": self.weighed_by,
             "performance": None if self.performance is None else self.performance.to_dict(),
             "links": [vars(link) for link in self.links],
             "one_controller_for_all_agents": None
@@ -440,7 +457,7 @@ def _finite(value: float) -> str:
 
 # The figures of a design or of a loop, computed for its assessment.
 
-_HARDLY, _NEARLY = 1.02, 0.9
+_HARDLY = 1.02
 _WORDS: Mapping[Install, str] = {
     "yes": "Worth installing",
     "with care": "Install with care",
@@ -473,7 +490,8 @@ def assess(
 
     Notes
     -----
-    In floating point: only what the certificates of the design say is proved.
+    In floating point, in units near the sizes of the plant: only what the certificates of the
+    design say is proved.
 
     Examples
     --------
@@ -554,11 +572,19 @@ def assessed_loop(
     performance : Performance, optional
         What is proved of the cost and the margins; by default they are computed.
     """
-    plant, held = loop.plant, integrators_of(loop)
-    about, weighed = as_plant(plant), Weights.of(plant, weights)
+    typed, held, units = loop, integrators_of(loop), Units.of(loop.plant)
     if held is not None:
-        about = integrated_plant(plant, held.selection)
-        weighed = weighed.with_integrators(held.selection)
+        about, weighed, units = integrated_problem(loop.plant, held.selection, weights)
+        if units is not None:
+            ports = units.outputs
+            sigma = [each[: S.nrows] for each, S in zip(ports, held.selection, strict=True)]
+            loop = loop_in(without_integrators(units, held.selection), loop, sigma)
+            held = integrators_of(loop)
+    else:
+        weighed = Weights.of(loop.plant, weights, units)
+        loop = loop if units is None else loop_in(units, loop)
+        about = as_plant(loop.plant)
+    plant = loop.plant
     known = diagnosis or diagnosed(about, region, weighed)
     with quiet_floats():
         figures = sure_figures(loop, weighed, held)
@@ -566,28 +592,34 @@ def assessed_loop(
         if certified and alone is not None and alone.cost <= _HARDLY * figures.cost:
             notes = (*notes, _hardly(alone, figures, region))
         if performance is None and certified:
-            performance = performance_of(loop, weights=weights, proofs=False)
+            performance = performance_of(typed, weights=weights, proofs=False)
         return Assessment(
             {agent.name: agent.shared + agent.private for agent in loop.controller.agents},
             region,
             certified,
             figures,
             known,
-            digits_that_suffice(loop, region, _kept(figures.margin)) if certified else None,
+            digits_that_suffice(loop, region) if certified else None,
             _links(loop.controller, plant),
             step_peak(loop, held) if held is not None and certified else None,
             notes,
             shape,
             alone,
             performance=performance,
+            weighed_by=_weighed_by(typed.plant, weights),
+            measured=units is not None,
         )
 
 
-def _kept(margin: float) -> float:
-    """The margin that must remain after rounding: `MARGIN`, or nearly all of a smaller one."""
-    if np.isnan(margin):
-        return 0.0
-    return MARGIN if margin >= MARGIN else _NEARLY * margin
+def _weighed_by(plant: MultiChannelSystem, weights: Mapping[str, Any] | None) -> str:
+    """Where the weights of the cost come from, as the table of figures says it."""
+    given = sorted(weights or {})
+    others = "from the typical sizes of the plant"
+    if plant.typical_sizes is None:
+        others = "1 for states, inputs and disturbances, 1/100 for noise, in the units of the file"
+    if not given:
+        return others
+    return f"{listed(given)} as given" + (f"; {others}" if len(given) < len(NAMES) else "")
 
 
 def _uncontrolled(system: MultiChannelSystem, weights: Weights) -> Figures:

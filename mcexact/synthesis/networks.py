@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain
 from typing import Literal
 
 from mcexact.analysis.sharing import minimal_shared_dimensions, shared_dimension_bound
@@ -34,7 +35,9 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.sizes import STANDARD_ERROR, TypicalSizes
 from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
+from mcexact.model.units import Units
 from mcexact.synthesis.channel_controller import ChannelController
 from mcexact.synthesis.gate import Request
 
@@ -326,7 +329,38 @@ def integrated_plant(
     >>> integrated_plant(plant).C(0).numerators
     ((0, 1), (3, 0))
     """
-    return as_plant(servo_system(system, selection or every_output(system)))
+    held = selection or every_output(system)
+    plant = as_plant(servo_system(system, held))
+    return (
+        plant
+        if system.typical_sizes is None
+        else plant.with_typical_sizes(_with_integrators(system, system.typical_sizes, held))
+    )
+
+
+def _with_integrators(
+    system: MultiChannelSystem, sizes: TypicalSizes, selection: Sequence[Matrix]
+) -> TypicalSizes:
+    """The sizes of a plant with its integrators, which are as large as ten errors of S_i y_i."""
+    errors = sizes.of_errors([system.q(i) for i in range(system.m)])
+    summed = [
+        [sum((abs(x) * e for x, e in zip(row, each, strict=True)), Fraction(0)) for row in S.rows()]
+        for S, each in zip(selection, errors, strict=True)
+    ]
+    integrated = [[e or STANDARD_ERROR for e in each] for each in summed]
+    return TypicalSizes(
+        [*sizes.of_states(system.n), *(e / STANDARD_ERROR for e in chain(*integrated))],
+        sizes.inputs,
+        [[*first, *second] for first, second in zip(integrated, errors, strict=True)],
+        sizes.disturbances,
+    )
+
+
+def without_integrators(units: Units, selection: Sequence[Matrix]) -> Units:
+    """The units of a plant, for those of the plant with its integrators."""
+    count = sum(S.nrows for S in selection)
+    outputs = tuple(each[S.nrows :] for each, S in zip(units.outputs, selection, strict=True))
+    return Units(units.states[: len(units.states) - count], units.inputs, outputs)
 
 
 def every_output(system: MultiChannelSystem) -> tuple[Matrix, ...]:

@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from mcexact.analysis.in_units import in_file_units
 from mcexact.analysis.performance import (
     PortResponse,
     Side,
@@ -36,6 +37,7 @@ from mcexact.analysis.performance import (
     influences,
     margin_of,
     response_of,
+    weights_in,
 )
 from mcexact.answer.performance import CostBound, CostWeights, DiskMargin, LoopCost
 from mcexact.answer.protocol import Answer, encode
@@ -46,6 +48,7 @@ from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.units import Units, loop_in
 from mcexact.shown import Shown
 
 MOST_BYTES, MOST_SECONDS = 2_000_000, 5.0
@@ -249,6 +252,10 @@ def performance_of(
         As for `loop_performance`.
     proofs : bool
         Whether anything is proved; otherwise all figures are computed alone.
+
+    Notes
+    -----
+    All is calculated in units near the sizes of the plant; proofs are about the loop of the file.
     """
     left_out = dict[str, str]()
     if not isinstance(weights, CostWeights):
@@ -256,12 +263,16 @@ def performance_of(
             weights = cost_weights(loop.plant, weights)
         except UsageError as unproved:
             weights, left_out = default_weights(loop.plant), {"loop_cost": unproved.message}
-    responses = {side: response_of(loop, side) for side in SIDES}
+    units = Units.of(loop.plant)
+    inner, weighed = loop, weights
+    if units is not None:
+        inner, weighed = loop_in(units, loop), weights_in(units, weights)
+    responses = {side: response_of(inner, side) for side in SIDES}
     if any(each.unstable for each in responses.values()):
         return Performance(weights)
     margins = {side: computed_margins(each) for side, each in responses.items()}
-    seen, weakest = _computed(loop, weights, margins), _weakest(loop.plant, margins)
-    asked = _proofs(loop, weights, responses)
+    seen, weakest = _computed(inner, weighed, margins), _weakest(loop.plant, margins)
+    asked = _proofs(inner, weighed, responses)
     if left_out:
         asked = {name: each for name, each in asked.items() if name in MARGINS}
         seen = {name: value for name, value in seen.items() if name in MARGINS}
@@ -275,6 +286,8 @@ def performance_of(
             continue
         try:
             proved = prove()
+            if proved is not None and units is not None:
+                proved = in_file_units(proved, loop, units)
         except (LimitReached, UsageError) as reached:
             left_out[name] = reached.message
             continue
@@ -320,7 +333,8 @@ def _names(plant: MultiChannelSystem, size: Callable[[int], int]) -> Iterator[st
             yield f" {k + 1} of agent {name}" if size(i) > 1 else f" of agent {name}"
 
 
-Proof = tuple[int, int, Callable[[], Answer | None]]
+Proved = LoopCost | CostBound | DiskMargin
+Proof = tuple[int, int, Callable[[], Proved | None]]
 
 
 def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dict[str, Proof]:
@@ -333,7 +347,7 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
         "cost_bound": (plant.n + max(p, q), 2, lambda: bound_of(plant, weights)),
     }
 
-    def margin(side: Side, *, together: bool) -> Callable[[], Answer | None]:
+    def margin(side: Side, *, together: bool) -> Callable[[], Proved | None]:
         return lambda: margin_of(loop, side, together=together, response=responses[side])
 
     for name, (side, together) in MARGINS.items():

@@ -23,12 +23,12 @@ from mcexact.errors import InputError, LimitReached, UsageError, telling
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.units import Units, in_own_units
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.gate import Arithmetic, Progress, Request, Warned
-from mcexact.synthesis.networks import integrated_plant
 from mcexact.synthesis.optimum.diagnosis import chosen_regions
 from mcexact.synthesis.optimum.figures import Aims
-from mcexact.synthesis.optimum.problem import Weights
+from mcexact.synthesis.optimum.problem import Weights, integrated_problem
 
 _NO_OPTIMUM = "a small one, since all agents together have no optimal controller"
 _SMALL = (
@@ -90,9 +90,9 @@ since all agents together have no optimal controller
         request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
         return _limited(request, aims)
     telling(progress)("the sensible rate")
-    about, weights = system, Weights.of(system, aims.weights)
+    about, weights = in_own_units(system), Weights.of(system, aims.weights, Units.of(system))
     if selection is not None:
-        about, weights = integrated_plant(system, selection), weights.with_integrators(selection)
+        about, weights, _ = integrated_problem(system, selection, aims.weights)
     chosen = chosen_regions(about, weights)
     searches = least_cost and agent is None and aims.effort != 0
     brisk = None

@@ -25,6 +25,7 @@ from mcexact.exact.rational import percent, written
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.loop import ClosedLoop
+from mcexact.model.units import Units, loop_in, system_in
 from mcexact.shown import Shown
 
 WithinRadii = Literal["proved", "open", "refuted"]
@@ -188,10 +189,37 @@ def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -
         return EveryLoop(
             whole, None, None, None, f"not tried, as the loop has {size} signals{_ASK}"
         )
+    units = Units.of(loop.plant)
     try:
-        return _searched(loop, region, _Work.of(effort, size))
+        if units is None:
+            return _searched(loop, region, _Work.of(effort, size))
+        found = _searched(loop_in(units, loop), region, _Work.of(effort, size))
+        moved = _in_file_units(found, loop, units)
+        return moved or _searched(loop, region, _Work.of(effort, size))
     except LimitReached as reached:
         return EveryLoop(whole, None, None, None, f"not tried: {reached.message}")
+
+
+def _in_file_units(found: EveryLoop, loop: ClosedLoop, units: Units) -> EveryLoop | None:
+    """The same box and the same failing plant in the units of the file; None without a proof."""
+    back, failing, proof = units.inverse(), found.failing, found.proof
+    if failing is not None:
+        own = loop.plant.uncertainty is not None
+        unit = loop.plant if own else Box.relative(loop.plant, 1).system
+        search = StabilitySearch(replace(loop, plant=unit), StabilityRegion(loop.plant.time))
+        plant = system_in(back, failing.plant)
+        refutation = refuted_loop(search, plant)
+        failing = None
+        if refutation is not None and found.failing is not None:
+            failing = replace(found.failing, plant=plant, refutation=refutation)
+    if proof is not None:
+        box = replace(loop, plant=system_in(back, proof.about.plant))
+        gains = None if found.gains is None else gain_radii(loop.controller, found.gains)
+        with one_thread():
+            proof = StabilitySearch(box, found.region, gains, _MOST_SEGMENTS).border(Fraction(1))
+        if proof is None:
+            return None
+    return replace(found, proof=proof, failing=failing)
 
 
 def known_within(proof: BoxStability | None, failing: FailingPlant | None) -> WithinRadii:
@@ -214,8 +242,15 @@ def failing_plant(loop: ClosedLoop) -> FailingPlant | None:
     FailingPlant or None
         None if none was found, which proves nothing.
     """
+    units, region = Units.of(loop.plant), StabilityRegion(loop.plant.time)
+    measured = loop if units is None else loop_in(units, loop)
     with one_thread():
-        return _failing(StabilitySearch(loop, StabilityRegion(loop.plant.time)))
+        failing = _failing(StabilitySearch(measured, region))
+        if failing is None or units is None:
+            return failing
+        plant = system_in(units.inverse(), failing.plant)
+        refutation = refuted_loop(StabilitySearch(loop, region), plant)
+    return None if refutation is None else replace(failing, plant=plant, refutation=refutation)
 
 
 def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLoop:

@@ -46,7 +46,7 @@ from mcexact.synthesis.networks import (
 )
 from mcexact.synthesis.optimum.diagnosis import with_diagnosis
 from mcexact.synthesis.optimum.figures import Aims
-from mcexact.synthesis.optimum.problem import Weights
+from mcexact.synthesis.optimum.problem import Weights, integrated_problem
 from mcexact.synthesis.optimum.proposals import Family, searched_proposals
 from mcexact.synthesis.rate import at_a_reachable_rate, request_for
 
@@ -215,9 +215,9 @@ class _Task:
             raise limit or with_diagnosis(reached, *self._weighed()) from None
 
     def _weighed(self) -> tuple[MultiChannelSystem, StabilityRegion, Weights]:
-        """The plant with its integrators, the region, and the weights."""
-        weights = Weights.of(self.system, self.aims.weights).with_integrators(self.selection)
-        return integrated_plant(self.system, self.selection), self.request.region, weights
+        """The plant with its integrators, in units near its sizes, the region, and the weights."""
+        plant, weights, _ = integrated_problem(self.system, self.selection, self.aims.weights)
+        return plant, self.request.region, weights
 
     def _network(self, to: MultiChannelSystem, asked: Request) -> DerivedNetwork:
         """The network over which agents share sub-states."""
@@ -229,7 +229,8 @@ class _Task:
 
     def _searched(self) -> Iterator[Proposal]:
         """Search without communication if that suffices, else with shared sub-states."""
-        (plant, _, weights), asked = self._weighed(), self.request
+        (*_, weights), asked = self._weighed(), self.request
+        plant = integrated_plant(self.system, self.selection)
         network = self._network(plant, asked)
         family = Family(network, "states")
         if self.method is None and not any(network.dimensions):

@@ -235,7 +235,7 @@ def test_a_design_whose_search_takes_half_of_the_time_is_certified_without_a_box
     options: dict[str, object] = dict.fromkeys(AIMS)
     options |= {"margin": 0.3, "disk": 0.4, "seeds": 4, "seconds": 50.0}
     made = designs.designed(
-        "decentralized", ("plant.json", content), None, None, {},
+        "decentralized", ("plant.json", content), None, None, None, {},
         {"rate": None, "radius": None, "arithmetic": "exact", "agent": None}, options,
         with_box=True, with_page=False, prove_all=False, system_by_digest=False, tell=print,
     )  # fmt: skip

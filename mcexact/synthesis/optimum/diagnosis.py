@@ -26,6 +26,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
+from math import isnan
 
 import numpy as np
 from scipy.linalg import eig, expm, matrix_balance
@@ -51,6 +52,7 @@ from mcexact.model.regulated import Selection, positions_of
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum.figures import (
+    DISK,
     STEPS,
     CentralOptimum,
     Complexes,
@@ -81,6 +83,7 @@ _SAME = 0.005
 _MOST_EXACT_RESPONSES = 24
 """The most states of a loop whose response is computed in ball arithmetic at all frequencies."""
 MOST_DIGITS = 16
+_NEARLY = 0.9
 
 
 def figures_of_loop(
@@ -560,9 +563,7 @@ def integrators_of(loop: ClosedLoop) -> Integrators | None:
     return Integrators(tuple(places), tuple(selection)) if places else None
 
 
-def digits_that_suffice(
-    loop: ClosedLoop, region: StabilityRegion, margin: float = 0.0
-) -> int | None:
+def digits_that_suffice(loop: ClosedLoop, region: StabilityRegion) -> int | None:
     """Return a number of significant decimal digits to which all programs may be rounded.
 
     Parameters
@@ -570,20 +571,25 @@ def digits_that_suffice(
     loop : ClosedLoop
     region : StabilityRegion
         Where the eigenvalues of the rounded loop lie; computed ones beyond 40 states.
-    margin : float
-        A margin that the rounded loop has, too.
 
     Returns
     -------
     int or None
         By bisection, which assumes that more digits are never worse; None if 16 do not suffice.
+
+    Notes
+    -----
+    The least disk margin of a single input or output is to stay above 0.4, or above nine tenths of
+    a smaller one.  It is a ratio, which does not depend on units.
     """
+    margin = least_disk_margin(loop)
+    kept = 0.0 if isnan(margin) else DISK if margin >= DISK else _NEARLY * margin
 
     def holds(digits: int) -> bool:
         rounded = closed_loop(loop.plant, rounded_controller(loop.controller, digits), loop.graph)
         if not _is_inside(rounded.matrix, region):
             return False
-        return margin <= 0 or margin_of(rounded) >= margin
+        return kept <= 0 or least_disk_margin(rounded) >= kept
 
     fails, suffice = 0, MOST_DIGITS
     if not holds(suffice):

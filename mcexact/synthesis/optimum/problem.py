@@ -18,6 +18,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate
 from typing import Any, TypeVar
@@ -32,13 +33,17 @@ from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix, matrix_from_float, matrix_to_float, to_float
 from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import Controller
+from mcexact.model.sizes import TypicalSizes
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.units import Units, inverted, scaled, system_in
 from mcexact.synthesis.channel_controller import ChannelController
 from mcexact.synthesis.networks import (
     DerivedNetwork,
     Signal,
     decentralized_network,
+    integrated_plant,
     network_programs,
+    without_integrators,
 )
 
 # Floating-point arithmetic in one thread, without warnings about numbers that are dropped.
@@ -167,7 +172,12 @@ class Weights:
         return cls(Q, R, W, V, bandwidth)
 
     @classmethod
-    def of(cls, system: MultiChannelSystem, chosen: Mapping[str, Any] | None = None) -> Weights:
+    def of(
+        cls,
+        system: MultiChannelSystem,
+        chosen: Mapping[str, Any] | None = None,
+        units: Units | None = None,
+    ) -> Weights:
         """Return the chosen weights, completed by those of `unit`.
 
         Parameters
@@ -176,6 +186,9 @@ class Weights:
         chosen : mapping of {"Q", "R", "W", "V"} to matrix, optional
             Symmetric matrices of numbers, as arrays or as lists of rows.  Q and W are positive
             semidefinite, R and V are positive definite.
+        units : Units, optional
+            Those in which the plant is measured for which the weights are; the system and the
+            chosen weights are in the units of the file.
 
         Raises
         ------
@@ -192,24 +205,39 @@ class Weights:
             ...
         mcexact.errors.InputError: weights.R: expected a positive definite matrix
         """
-        weights = cls.unit(system)
+        weights = cls.unit(system if units is None else system_in(units, system))
         for name, entries in (chosen or {}).items():
             where = f"weights.{name}"
             if name not in NAMES:
                 raise InputError(f"expected one of {', '.join(NAMES)}, found {name!r}", where=where)
             size = len(getattr(weights, name))
-            changed: dict[str, Any] = {name: _checked(entries, size, where, definite=name in "RV")}
+            checked = _checked(entries, size, where, definite=name in "RV")
+            if units is not None:
+                by = {"R": units.of_inputs, "V": inverted(units.of_outputs)}
+                own = by.get(name, units.states if name == "Q" else inverted(units.states))
+                each = np.array([to_float(unit) for unit in own])
+                checked = checked * np.outer(each, each)
+            changed: dict[str, Any] = {name: checked}
             weights = replace(weights, **changed)
         return weights
 
-    def with_integrators(self, selection: Sequence[Matrix]) -> Weights:
+    def with_integrators(
+        self, selection: Sequence[Matrix], sizes: Sequence[Fraction] | None = None
+    ) -> Weights:
         """Return the weights of `integrated_plant`, for the weights of a system.
 
-        Integrators are weighed by 1 and have noise of covariance 1.  What agents measure of them
-        has the noise of the combinations S_i y_i of outputs, independently.
+        Integrators are weighed by 1 and have noise of covariance 1, in units of their sizes.  What
+        agents measure of them has the noise of the combinations S_i y_i of outputs, independently.
+
+        Parameters
+        ----------
+        selection : sequence of m Matrix
+        sizes : sequence of Fraction, optional
+            Of the integrators; by default 1.
         """
         S = block_diag(np.zeros((0, 0)), *map(matrix_to_float, selection))
-        one, order = np.eye(len(S)), list[int]()
+        large = np.array([to_float(size) for size in sizes or [Fraction(1)] * len(S)])
+        order = list[int]()
         first = second = 0
         for each in selection:
             # The integrals of a channel come first, then its outputs.
@@ -217,7 +245,40 @@ class Weights:
             order += range(len(S) + second, len(S) + second + each.ncols)
             first, second = first + each.nrows, second + each.ncols
         V = block_diag(S @ self.V @ S.T, self.V)[np.ix_(order, order)]
-        return Weights(block_diag(self.Q, one), self.R, block_diag(self.W, one), V, self.bandwidth)
+        Q, W = block_diag(self.Q, np.diag(large**-2)), block_diag(self.W, np.diag(large**2))
+        return Weights(Q, self.R, W, V, self.bandwidth)
+
+
+def integrated_problem(
+    system: MultiChannelSystem,
+    selection: Sequence[Matrix],
+    chosen: Mapping[str, Any] | None = None,
+) -> tuple[MultiChannelSystem, Weights, Units | None]:
+    """The plant with its integrators in units near its sizes, its weights, and these units.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    selection : sequence of m Matrix
+        As for `integrated_plant`.
+    chosen : mapping, optional
+        As for `Weights.of`, for the plant without integrators.
+    """
+    plant = integrated_plant(system, selection)
+    units, count = Units.of(plant), sum(S.nrows for S in selection)
+    if units is None:
+        sizes = None if plant.typical_sizes is None else plant.typical_sizes.of_states(plant.n)
+        large = None if sizes is None else sizes[system.n :]
+        return plant, Weights.of(system, chosen).with_integrators(selection, large), None
+    measured = system_in(units, plant)
+    own = measured.typical_sizes or TypicalSizes()
+    weights = Weights.of(system, chosen, without_integrators(units, selection))
+    parts = [
+        scaled(S, inverted(each[: S.nrows]), each[S.nrows :])
+        for S, each in zip(selection, units.outputs, strict=True)
+    ]
+    large = own.of_states(plant.n)[plant.n - count :]
+    return measured, weights.with_integrators(parts, large), units
 
 
 def _checked(entries: Any, size: int, where: str, *, definite: bool) -> Floats:

@@ -27,9 +27,10 @@ from mcexact.errors import Impossible, LimitReached, OutOfReach, UsageError
 from mcexact.exact.matrix import to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import Controller
+from mcexact.model.units import Units, controller_in, system_in
 from mcexact.synthesis.gate import Proposal, Request, Warned, certify
 from mcexact.synthesis.network_design import network_proposals, require_fast
-from mcexact.synthesis.networks import DerivedNetwork, shared_network
+from mcexact.synthesis.networks import DerivedNetwork, decentralized_network, shared_network
 from mcexact.synthesis.optimum.continuation import (
     fastest,
     more_damped,
@@ -98,6 +99,22 @@ class Family:
         sizes = [max(pair) for pair in zip(orders, network.dimensions, strict=True)]
         wider = shared_network(network.plant, network.graph, sizes, self.share, network.kind)
         return wider, none
+
+    @property
+    def units(self) -> Units | None:
+        """Units near the sizes of the plant, if they are not those of the file."""
+        return Units.of(self.network.plant)
+
+    def measured(self) -> Family:
+        """The same structures for the plant in units near its sizes."""
+        network, units = self.network, self.units
+        if units is None:
+            return self
+        plant = system_in(units, network.plant)
+        if network.graph is None or self.share is None:
+            return replace(self, network=decentralized_network(plant))
+        shared = network.graph, network.dimensions, self.share, network.kind
+        return replace(self, network=shared_network(plant, *shared))
 
     def theorem(self, request: Request) -> NetworkController | None:
         """Return the controller of the theorem, in floating point; None if there is none."""
@@ -492,7 +509,7 @@ def searched_proposals(
     aims : Aims, optional
         Without effort there is no search.
     weights : Weights, optional
-        Those of the aims, which are read if this is left out.
+        Those of the aims, for the plant in units near its sizes; they are read if this is left out.
 
     Yields
     ------
@@ -514,11 +531,12 @@ def searched_proposals(
     Notes
     -----
     A region that is hard even for all agents together is reported before the search, by a step
-    `Warned`.
+    `Warned`.  The search calculates in units near the sizes of the plant.
     """
-    network, aims = family.network, aims or Aims()
-    weights = weights or Weights.of(network.plant, aims.weights)
-    about = network.plant, request.region, weights, network.system
+    network, aims, units, searched = family.network, aims or Aims(), family.units, family.measured()
+    weights = weights or Weights.of(network.plant, aims.weights, units)
+    measured = searched.network
+    about = measured.plant, request.region, weights, measured.system
     if not aims.searched_for(request):
         try:
             yield from network_proposals(network, request)
@@ -539,16 +557,20 @@ def searched_proposals(
         request.tell(Warned(f"{request.region} is hard for all agents together: {known}"))
     more: dict[str, Any] = {"fixed_spectrum": fixed, "diagnosis": known}
     try:
-        result = optimum(family, request, aims, weights=weights, diagnosis=known)
+        result = optimum(searched, request, aims, weights=weights, diagnosis=known)
     except LimitReached as limit:
         if aims.largest_order is not None or aims.digits is not None or request.region.limits:
             raise
         yield _of_the_theorem(family, request, limit, known)
         return
     if result.region is not None and result.region != request.region:
-        about = network.plant, result.region, weights, network.system
+        about = measured.plant, result.region, weights, measured.system
         more["diagnosis"] = diagnosed(*about)
     proposal = proposal_of(result)
+    if units is not None:
+        digest = network.plant.digest_of_values()
+        own = controller_in(units.inverse(), proposal.controller, digest)
+        proposal = replace(proposal, controller=own)
     yield replace(proposal, parts={**proposal.parts, "kept": fixed.polynomial, **more})
 
 

@@ -22,6 +22,7 @@ from mcexact.model import arrays, gallery
 from mcexact.model.files import load_parametric_system, load_system, save_system
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.sizes import TypicalSizes
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system, system_text
 from tests.assurance.campaigns import damaged_files, grammar
@@ -38,13 +39,17 @@ FULL = MultiChannelSystem(
     neighbors=NeighborGraph(["pump, left", 'the "valve"', "Wärme"], [[1], [0, 2], []], [(1, 2, 3)]),
     name="a name",
     source="a source,\nof two lines",
+    typical_sizes=TypicalSizes(["0.2", 3, "1/7"], [[1, "1e-3"], [], [4]], [[], [5], [6, 7]], "1/4"),
 )
 PLAIN = MultiChannelSystem([["0.1", 0], [3, -4]], [[[1], [0]]], [[[0, "2.5"]]])
+SIZED = PLAIN.with_typical_sizes(TypicalSizes(inputs=[["0.25"]]))
 EMPTY = MultiChannelSystem([], [[], []], [[], []])
 
 
 @pytest.mark.parametrize("file", ["p.json", "p.yaml", "p.yml", "p.npz", "p"])
-@pytest.mark.parametrize("system", [FULL, PLAIN, EMPTY], ids=["full", "plain", "empty"])
+@pytest.mark.parametrize(
+    "system", [FULL, PLAIN, SIZED, EMPTY], ids=["full", "plain", "sized", "empty"]
+)
 def test_exact_kinds_lose_nothing(system: MultiChannelSystem, file: str, tmp_path: Path) -> None:
     save_system(system, tmp_path / file)
     read = load_system(tmp_path / file)
