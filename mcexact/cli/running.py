@@ -693,6 +693,8 @@ def _child(
     silence = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silence, 1)
     os.dup2(silence, 2)
+    # OpenBLAS, whose threads otherwise spin for 0.1 s of a processor once numpy is loaded.
+    os.environ.setdefault("OPENBLAS_THREAD_TIMEOUT", "4")
     max_memory, libraries = limits
     limit = None
     try:

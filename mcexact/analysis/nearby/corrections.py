@@ -347,7 +347,8 @@ def _turn(a: Fraction, b: Fraction, width: int) -> list[list[Fraction]]:
 
 # The exact change.
 
-_LONG = 60
+_LONG, _LONGEST = 60, 120
+"""Bits behind the point of numbers that are no short fractions, in balanced units."""
 _SHORT = 1000
 _ROUGH = 30
 _PASSES = 12
@@ -385,7 +386,8 @@ def corrected(target: Target, near: Refined, tolerance: float) -> Correction | N
     target : Target
     near : Refined
     tolerance : float
-        By what part of its size each number of K and Λ may be rounded to a short fraction.
+        By what part of its size each number of K and Λ may be rounded to a short fraction; with 0
+        none is, and they are longer.
     """
     try:
         basis = _Basis.of(target, near, tolerance)
@@ -492,11 +494,15 @@ def _pivots(R: Floats) -> list[int]:
 
 
 def _short(x: Fraction, size: int, tolerance: float) -> Fraction:
-    """A short number within a part of 2^size of x: a fraction, or a multiple of 2^(size − 60)."""
+    """A short number within a part of 2^size of x: a fraction, or a multiple of 2^(size − bits).
+
+    Tolerance 0 takes the most bits: a null space may have tiny entries that count.
+    """
     reach = Fraction(tolerance) * _power(size)
     if abs(x) <= reach:
         return _ZERO
-    rough = Fraction(round(x * _power(_LONG - size))) * _power(size - _LONG)
+    bits = _LONG if tolerance else _LONGEST
+    rough = Fraction(round(x * _power(bits - size))) * _power(size - bits)
     simple = rough.limit_denominator(_SHORT)
     return simple if simple and abs(simple - x) <= reach else rough
 

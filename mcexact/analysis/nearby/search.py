@@ -61,7 +61,7 @@ _TRIES, _TRIES_OF_LARGE, _LARGE = 4, 2, 100
 _HOPELESS = 100.0
 """A change in floating point so many times too large is not made exact."""
 _CLOSE = 4
-_TOLERANCES = (1e-8, 1e-12)
+_TOLERANCES = (1e-8, 1e-12, 0.0)
 
 
 def nearby_plants(

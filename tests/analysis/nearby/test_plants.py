@@ -134,6 +134,31 @@ def test_other_units_of_states_do_not_hide_a_plant_nearby(power: int) -> None:
     require_near(plant, near)
 
 
+def chained(n: int, step: Fraction) -> MultiChannelSystem:
+    """A plant in floats with a mode that no input moves: Σ (−step)^k x_k, whatever the inputs."""
+    rng = random.Random(1)
+    entry = lambda: Fraction(rng.randint(-99, 99), 100)  # noqa: E731
+    A = [[entry() if i and (2 * i >= n or 2 * j < n) else 0 for j in range(n)] for i in range(n)]
+    A[0][0] = Fraction(3, 10)
+    T = Matrix.from_rows(
+        [[1 if i == j else step if j == i + 1 else 0 for j in range(n)] for i in range(n)]
+    )
+    back = inverse(T)
+    assert back is not None
+    B = [T @ Matrix.from_rows([[entry() if i else 0] for i in range(n)]) for _ in range(2)]
+    C = [Matrix.from_rows([[entry() for _ in range(n)]]) for _ in range(2)]
+    return disturbed(MultiChannelSystem(T @ Matrix.from_rows(A) @ back, B, C), 1e-16)
+
+
+@pytest.mark.parametrize(("n", "step"), [(5, "1/2000"), (6, "1/1000")])
+def test_tiny_entries_of_a_null_space_count(n: int, step: str) -> None:
+    """The smallest entry is 10⁻¹³ or less: zero in its place is another plant."""
+    plant = chained(n, Fraction(step))
+    near = nearby_plants(plant, ["fixed"]).get("fixed")
+    assert near is not None and near.within == "rounding"
+    require_near(plant, near)
+
+
 @pytest.mark.parametrize("number", [3, 5, 8])
 def test_digits_that_were_not_typed_are_told_of(number: int) -> None:
     plant = grid(to_digits(number))
