@@ -61,6 +61,7 @@ _TRIES, _TRIES_OF_LARGE, _LARGE = 4, 2, 100
 _HOPELESS = 100.0
 """A change in floating point so many times too large is not made exact."""
 _CLOSE = 4
+_MOVED = 4
 _TOLERANCES = (1e-8, 1e-12, 0.0)
 
 
@@ -205,7 +206,8 @@ class _Search:
             return not suspect.outside
         if lost == "unstable":
             point, unit = self._point(suspect), 2.0**self.floats.units.time
-            margin = 1e-6 * max(abs(point), unit)
+            # The mode of the plant nearby is elsewhere, about as far as the path is wide.
+            margin = (1e-6 + _MOVED * suspect.bottleneck) * max(abs(point), unit)
             return bool(abs(point) >= 1 - margin if self.discrete else point.real >= -margin)
         return True
 
