@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import chain
+from itertools import chain, product
 from typing import Any, Literal
 
 import numpy as np
@@ -224,8 +224,8 @@ def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
     from scipy.linalg import solve_continuous_lyapunov, solve_discrete_lyapunov
 
     discrete = is_discrete(loop.plant.time)
-    M, _, spent = _spent(loop, weights)
-    N, m = M.nrows, matrix_to_float(M)
+    M, entering, spent = _spent(loop, weights)
+    n, N, m = loop.plant.n, M.nrows, matrix_to_float(M)
 
     def equation(right: Floats) -> Floats | None:
         if not N:
@@ -236,19 +236,66 @@ def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
     P0 = equation(matrix_to_float(spent))
     if P0 is None or np.any(np.diag(P0) < 0) or np.max(P0, initial=0) > _HUGE:
         return None
-    largest = float(np.max(np.diag(P0), initial=0.0)) or 1.0
-    sizes = np.maximum(np.diag(P0), 1e-12 * largest)
-    P1 = equation(np.diag(sizes))
-    if P1 is None or np.any(np.diag(P1) <= 0) or np.max(P1, initial=0) > _HUGE:
-        return None
-    for room in _ROOM:
-        scale = room * (float(np.trace(P0)) or 1.0) / (float(np.trace(P1)) or 1.0)
-        for bits in BITS[2:]:
-            form = rounded_form(P0 + scale * P1, bits)
+    W, V = (diagonal_matrix(d) for d in (weights.disturbances, weights.noise))
+    noise = matrix_to_float(entering @ V @ entering.T)
+    noise[:n, :n] += matrix_to_float(W)
+    for more in _additions(m, P0, noise, equation, discrete=discrete):
+        for room, bits in product(_ROOM, BITS[2:]):
+            form = rounded_form(P0 + room * more, bits)
             cost = None if form is None else cost_by(loop, weights, form)
             if form is not None and cost is not None:
                 return LoopCost(loop.system, weights, _decimal_above(cost), form)
     return None
+
+
+def _additions(
+    m: Floats,
+    P0: Floats,
+    noise: Floats,
+    equation: Callable[[Floats], Floats | None],
+    *,
+    discrete: bool,
+) -> Iterator[Floats]:
+    """Matrices that cost about as much as P0, a part of which makes its inequality strict.
+
+    The first one is that of weights in proportion to P0.  Where one mode is far slower than the
+    others, it takes nearly all of this; the second gives each mode the same part of the cost.
+    """
+    largest = float(np.max(np.diag(P0), initial=0.0)) or 1.0
+    P1 = equation(np.diag(np.maximum(np.diag(P0), 1e-12 * largest)))
+    if P1 is None or np.any(np.diag(P1) <= 0) or np.max(P1, initial=0) > _HUGE:
+        return
+    yield P1 * ((float(np.trace(P0)) or 1.0) / (float(np.trace(P1)) or 1.0))
+    modal = _modal_weight(m, noise, float(np.trace(P0 @ noise)), discrete=discrete)
+    P1 = None if modal is None else equation(modal)
+    if P1 is not None:
+        yield P1
+
+
+_LEAST_SHARE = 1e-8
+"""The least excitation of a mode that counts, as a part of the largest."""
+
+
+def _modal_weight(m: Floats, noise: Floats, cost: float, *, discrete: bool) -> Floats | None:
+    """The weight of states for which every mode has the same part of a cost; None if unknown.
+
+    With the left eigenvectors w of m it is the sum of c(−2 Re λ)w̄wᵀ, in discrete time of
+    c(1 − |λ|²)w̄wᵀ, which the Lyapunov equation takes to the sum of c w̄wᵀ.
+    """
+    if not len(m):
+        return None
+    modes, right = np.linalg.eig(m)
+    try:
+        left = np.linalg.inv(right)
+    except np.linalg.LinAlgError:
+        return None
+    excited = np.real(np.einsum("ki,ij,kj->k", left, noise, left.conj()))
+    if not np.all(np.isfinite(excited)) or not np.max(excited) > 0:
+        return None
+    excited = np.maximum(excited, _LEAST_SHARE * np.max(excited))
+    decay = 1 - np.abs(modes) ** 2 if discrete else -2 * modes.real
+    weight = np.real((left.conj().T * (decay * cost / len(m) / excited)) @ left)
+    return np.asarray((weight + weight.T) / 2, dtype=np.float64)
 
 
 def cost_by(loop: ClosedLoop, weights: CostWeights, form: Symmetric) -> Fraction | None:
@@ -998,15 +1045,19 @@ class PortResponse:
         h = np.sqrt(theta)
         e, y = self.e[:, ports] / h, self.y[ports] * h[:, None]
         k, gamma = len(ports), 1 / to_float(alpha)
-        for extra in _EXTRA:
-            P = self._bounded_real(e, y, k, gamma, extra)
+        for modal, extra in product((False, True), _EXTRA):
+            P = self._bounded_real(e, y, k, gamma, extra, modal=modal)
             if P is not None:
                 yield P / self.scales[:, None] / self.scales
 
     def _bounded_real(
-        self, e: Floats, y: Floats, k: int, gamma: float, extra: float
+        self, e: Floats, y: Floats, k: int, gamma: float, extra: float, *, modal: bool
     ) -> Floats | None:
-        """P of the Riccati equation, by Newton's method, whose steps are Lyapunov equations."""
+        """P of the Riccati equation, by Newton's method, whose steps are Lyapunov equations.
+
+        What is added to the weight of the states is the same for every state, or such that every
+        mode has the same part of the gain, for loops with one mode far slower than the others.
+        """
         from scipy.linalg import solve_continuous_lyapunov, solve_discrete_lyapunov
 
         n, eye = len(self.m), np.eye(len(self.m))
@@ -1019,7 +1070,13 @@ class PortResponse:
         X0, X1 = lyapunov(self.m, seen), lyapunov(self.m, eye)
         if X0 is None or X1 is None or n == 0:
             return X0
-        Q = seen + extra * (float(np.trace(X0)) or 1.0) / float(np.trace(X1)) * eye
+        more: Floats | None = (float(np.trace(X0)) or 1.0) / float(np.trace(X1)) * eye
+        if modal:
+            passed = float(np.trace(e.T @ X0 @ e))
+            more = _modal_weight(self.m, e @ e.T, passed, discrete=self.discrete)
+        if more is None:
+            return None
+        Q = seen + extra * more
         room = (gamma**2 - self._through**2) * np.eye(k)
         P = np.zeros((n, n))
         for _ in range(40):

@@ -1,11 +1,23 @@
-"""Default weights and Riccati solutions of plants with any number of outputs."""
+"""Default weights of plants with any number of outputs, and proofs where one mode is very slow."""
+
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from scipy.linalg import solve_continuous_are
 
-from mcexact.analysis.performance import default_weights
-from mcexact.exact.matrix import matrix_to_float, to_float
+from mcexact.analysis.performance import (
+    Side,
+    computed_cost,
+    computed_margins,
+    cost_of,
+    default_weights,
+    margin_of,
+    response_of,
+)
+from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 
 PLANT = MultiChannelSystem(
@@ -30,3 +42,49 @@ def test_the_bandwidth_is_near_ten_times_the_fastest_eigenvalue_for_any_number_o
     bandwidth = default_weights(plant).bandwidth
     assert bandwidth is not None
     assert 10**0.5 <= to_float(bandwidth) / fastest <= 10**1.5
+
+
+def _loop_with_a_slow_mode(
+    fast: int, decay: Fraction, gain: int, time: str, *, mixed: bool
+) -> ClosedLoop:
+    """A cascade that a mode of a small decay drives, which no input moves; states may be sums."""
+    n = fast + 1
+    A = [[Fraction(0)] * n for _ in range(n)]
+    for i in range(fast):
+        A[i][i], A[i][fast] = Fraction(-1 - i, 4), Fraction(gain)
+        if i + 1 < fast:
+            A[i][i + 1] = Fraction(1, 2)
+    A[fast][fast] = -decay
+    if time == "discrete":
+        A = [[Fraction(i == j) + x / 4 for j, x in enumerate(row)] for i, row in enumerate(A)]
+    T = Matrix.from_rows([[int(j <= i if mixed else j == i) for j in range(n)] for i in range(n)])
+    back = Matrix.from_rows(
+        [[int(i == j) - int(mixed and i == j + 1) for j in range(n)] for i in range(n)]
+    )
+    B = Matrix.from_rows([[int(i == fast - 1)] for i in range(n)])
+    C = Matrix.from_rows([[int(i == 0) for i in range(n)]])
+    plant = MultiChannelSystem(T @ Matrix.from_rows(A) @ back, [T @ B], [C @ back], time=time)
+    return closed_loop(plant, local_controllers(plant, [[["-1/10"]]]))
+
+
+@pytest.mark.parametrize(
+    ("time", "decay", "gain"),
+    [("continuous", Fraction(1, 10**5), 1), ("discrete", Fraction(1, 10**4), 10)],
+)
+def test_a_cost_is_proved_tightly_where_one_mode_has_nearly_all_of_it(
+    time: str, decay: Fraction, gain: int
+) -> None:
+    loop = _loop_with_a_slow_mode(4, decay, gain, time, mixed=True)
+    weights = default_weights(loop.plant)
+    proved = cost_of(loop, weights)
+    assert proved is not None
+    assert 1 <= to_float(proved.cost) / computed_cost(loop, weights) < 1.001
+
+
+@pytest.mark.parametrize("at", ["inputs", "outputs"])
+def test_a_margin_is_proved_tightly_beside_a_mode_far_slower_than_the_others(at: Side) -> None:
+    loop = _loop_with_a_slow_mode(6, Fraction(1, 10**6), 1, "continuous", mixed=False)
+    proved = margin_of(loop, at)
+    assert proved is not None
+    [seen], _ = computed_margins(response_of(loop, at))
+    assert 0.98 * seen <= to_float(proved.margin) <= 1.001 * seen
