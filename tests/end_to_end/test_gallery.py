@@ -108,7 +108,8 @@ def checked_theorems(
         if isinstance(found, dict) and "certificate" in found
     }
     assert {*REACH, "transfer_graph", "fixed_spectrum", "completeness"} <= named_files.keys()
-    files = sorted(set(named_files.values()))
+    plants = answer.get("nearby", {}).get("plants", [])
+    files = sorted({*named_files.values(), *(each["certificate"] for each in plants)})
     assert sorted([*files, "manifest.json"]) == sorted(path.name for path in folder.iterdir())
     program = ["env", "-C", str(copied_checker), sys.executable, "-S", "-E", "-m", "checker"]
     listed = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
