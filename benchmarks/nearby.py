@@ -24,9 +24,10 @@ import numpy as np
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.analysis.nearby.plants import Lost, Nearby, NearPlant
+from mcexact.analysis.nearby.plants import Nearby, NearPlant
 from mcexact.analysis.nearby.search import nearby_plants
 from mcexact.answer.check import check
+from mcexact.answer.nearby import Lost
 from mcexact.exact.matrix import Matrix, matrix_to_float
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem

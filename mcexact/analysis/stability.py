@@ -164,7 +164,7 @@ def certify_stability(
     InputError.require(loop, MultiChannelSystem, "loop")
     region = StabilityRegion.asked(loop.time, region, rate, radius) or StabilityRegion(loop.time)
     if damping is not None or largest_modulus is not None:
-        region = region.limited(damping, largest_modulus)
+        region = region.limited(damping=damping, largest_modulus=largest_modulus)
     if polynomial is not None:
         InputError.require(polynomial, Polynomial, "polynomial")
     one_of(method, (None, *get_args(Method)), "method")

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Literal
 
 from mcexact.answer.analysis import Said
 from mcexact.answer.sentence import Claim, Context, Rulebook, Several
@@ -26,20 +27,26 @@ from mcexact.answer.templates import Template
 from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.polynomial import product
 
-LOST = ("unstable", "fixed", "uncontrollable", "unobservable")
-"""What a plant nearby lacks, by the names of answers about it behind ``nearby_``."""
+Lost = Literal["unstable", "fixed", "uncontrollable", "unobservable"]
+LOST: tuple[Lost, ...] = ("unstable", "fixed", "uncontrollable", "unobservable")
+"""What a plant nearby can be, by the names of answers about it behind ``nearby_``: not
+stabilizable, with a fixed mode, or not controllable or not observable by all channels together."""
+LACKS: dict[Lost, str] = {
+    "unstable": "has the fixed {mode} and cannot be stabilized",
+    "fixed": "has the fixed {mode}",
+    "uncontrollable": "has the {mode}, which all channels together do not control",
+    "unobservable": "has the {mode}, which all channels together do not observe",
+}
+"""What is said of a plant that lacks something, with a place for its mode."""
 _FIXED = "evidence.loop_rank_pencil, dynamic_controllers.fixed_dynamic"
-_WHAT = {
-    "unstable": ("has the fixed {p:noun} {p:about} and cannot be stabilized", _FIXED),
-    "fixed": ("has the fixed {p:noun} {p:about}", _FIXED),
-    "uncontrollable": (
-        "has the {p:noun} {p:about}, which all channels together do not control",
-        "joint_controllability.controllable_hautus",
-    ),
-    "unobservable": (
-        "has the {p:noun} {p:about}, which all channels together do not observe",
-        "joint_controllability.observable_hautus",
-    ),
+_THEOREMS: dict[Lost, str] = {
+    "unstable": _FIXED,
+    "fixed": _FIXED,
+    "uncontrollable": "joint_controllability.controllable_hautus",
+    "unobservable": "joint_controllability.observable_hautus",
+}
+_WHAT: dict[str, tuple[str, str]] = {
+    lost: (said.format(mode="{p:noun} {p:about}"), _THEOREMS[lost]) for lost, said in LACKS.items()
 }
 _ROUNDING = "This answer depends on rounding errors: a plant within {part:part} of every entry "
 _DIGITS = (

@@ -30,7 +30,7 @@ from mcexact.answer.account import Account
 from mcexact.answer.sharing import ROW_BOUND
 from mcexact.cli import options, uncertainty
 from mcexact.cli.files import plant_in, system_in
-from mcexact.cli.results import Allocated, Analyzed, Asked, Evidence
+from mcexact.cli.results import PART_OF_SEARCH, Allocated, Analyzed, Asked, Evidence
 from mcexact.cli.running import Known, Reporting
 from mcexact.errors import UsageError
 from mcexact.exact.rational import parse_rational
@@ -48,8 +48,6 @@ if TYPE_CHECKING:
 
 _LINES_OF_WORDS, _WITH_LINKS = 5, 8
 """The most lines of sentences before the tables, and where sentences are about links as well."""
-_PART_OF_SEARCH = 4
-"""The search for plants nearby has this part of the time that the questions leave."""
 _LINES_NEARBY = 4
 """How many more lines there are where a sentence about a plant nearby leads."""
 _MODES = 6
@@ -113,7 +111,7 @@ def analyzed(
     if asked.seconds is not None:
         # The questions come first, and showing what they are has its time as well.
         decided, left = analysis.answers, asked.seconds - (time.monotonic() - began)
-        analysis.nearby_seconds = max(0.0, left) / _PART_OF_SEARCH if decided else 0.0
+        analysis.nearby_seconds = max(0.0, left) / PART_OF_SEARCH if decided else 0.0
     account, taken = analysis.account, effort_tables(analysis.effort())
     near = None if analysis.nearby_left_out else analysis.nearby
     suspected = () if near is None else suspicions(near)

@@ -22,6 +22,9 @@ from mcexact.model.properties import Property
 from mcexact.report.html import AnswerPage
 from mcexact.report.text import Table
 
+PART_OF_SEARCH = 4
+"""The search for plants nearby has this part of the time that a command leaves to one system."""
+
 
 @dataclass(frozen=True)
 class Evidence:

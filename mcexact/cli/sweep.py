@@ -36,6 +36,7 @@ from mcexact.cli.files import (
     write_result,
 )
 from mcexact.cli.output import emit_json
+from mcexact.cli.results import PART_OF_SEARCH
 from mcexact.cli.running import LIMITS, supervised
 from mcexact.derived.drawn.systems import Draw
 from mcexact.derived.variants import (
@@ -69,8 +70,6 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 _MOST_VALUES = 10**6
-_PART_OF_SEARCH = 4
-"""The search for plants nearby has this part of the time of one system."""
 
 
 def values(text: str) -> tuple[str, tuple[Fraction, ...]]:
@@ -465,7 +464,7 @@ def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[st
     """Decide a job in a child process, which is ended at a limit."""
     try:
         return supervised(
-            partial(decide, seconds=timeout / _PART_OF_SEARCH) if timeout is not None else decide,
+            partial(decide, seconds=timeout / PART_OF_SEARCH) if timeout is not None else decide,
             job,
             doing=f"deciding {job.name}",
             timeout=timeout,

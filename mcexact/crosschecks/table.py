@@ -28,10 +28,11 @@ from mcexact.analysis.controllability import (
     observability_indices,
 )
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
-from mcexact.analysis.nearby.plants import Lost, Nearby
+from mcexact.analysis.nearby.plants import Nearby
 from mcexact.analysis.nearby.search import nearby_plants
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.modes import FixedSpectrum
+from mcexact.answer.nearby import Lost
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import matrix_to_float

@@ -573,7 +573,7 @@ class StabilityRegion:
             raise UsageError("give a region of the same time domain, or a rate or a radius")
         return region
 
-    def limited(self, damping: Any = None, largest_modulus: Any = None) -> StabilityRegion:
+    def limited(self, *, damping: Any = None, largest_modulus: Any = None) -> StabilityRegion:
         """Return the part of the region with a damping ratio, or below a largest modulus.
 
         Raises

@@ -420,8 +420,9 @@ def wang_davison_discrete(note: Notebook) -> None:
     note.certify(spectrum, design.loop.proof)
     for plant in note.each(deficient_plants(2, share="states", time="discrete")):
         spectrum = fixed_spectrum(plant)
-        if spectrum.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x()):
-            note.counts(True)
+        hindered = spectrum.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x())
+        note.counts(hindered)
+        if hindered:
             note.refute("nothing-hinders")
         note.certify(spectrum)
     for plant in note.each(drawn_plants(6, states=3, channels=2, time="discrete", first=21)):

@@ -160,7 +160,7 @@ def block_ranks(note: Notebook) -> None:
     """(36): [M_k; e_i'] is nonsingular for λ ≠ 0."""
     for value in (Fraction(1), Fraction(-2), Fraction(1, 3)):
         note.on(f"λ = {value}".replace("-", "−"))
-        note.counts(True)
+        note.counts(value != 0)
         for k in range(1, 6):
             rows = [[0] * (k + 1) for _ in range(k)]
             M = Matrix.from_rows(

@@ -175,10 +175,10 @@ def both_kinds(note: Notebook) -> None:
             [[0]], [[[1]] for _ in names], [[[1]] for _ in names], neighbors=graph
         )
         note.on(f"graph {number + 1}, N_i = {[[j + 1 for j in N] for N in graph.neighbors]}")
-        note.counts(True)
         found = neighbor_graph(plant)
         m = len(names)
         proper = PROPER_SUBSETS[m]
+        note.counts(bool(proper))
         receives = all(set(graph.union(s)) != set(s) for s in proper)
         note.check("strongly connected iff every s receives", found.strongly_connected == receives)
         note.certify(found)

@@ -23,9 +23,10 @@ from dataclasses import dataclass, field, replace
 from io import FileIO
 from typing import Any
 
-from mcexact.analysis.nearby.plants import Lost, NearPlant
+from mcexact.analysis.nearby.plants import NearPlant
 from mcexact.answer.check import answer_of, checked
 from mcexact.answer.modes import PencilRank
+from mcexact.answer.nearby import Lost
 from mcexact.errors import InputError, InternalError, McexactError, NotWritten, UsageError, place_of
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits, written
@@ -100,7 +101,7 @@ class Record(Shown):
         return f"{self.digest[:12]}…, answers: {', '.join(self.answers)}"
 
     def explain(self) -> str:
-        """Say the answers in the statements that the checker verified, one a line."""
+        """Say what plants nearby are, what the checker verified of the answers, and what failed."""
         sentences = [str(each["text"]) for each in self.nearby]
         sentences += [str(answer["statement"]) for answer in self.answers.values()]
         if self.error is not None:

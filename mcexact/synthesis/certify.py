@@ -137,7 +137,9 @@ def certify_controller(
     InputError.require(controller, Controller, "controller")
     one_of(method, (None, *get_args(Method)), "method")
     tell = telling(progress)
-    region = StabilityRegion.of(system.time, rate, radius).limited(damping, largest_modulus)
+    region = StabilityRegion.of(system.time, rate, radius).limited(
+        damping=damping, largest_modulus=largest_modulus
+    )
     if largest and region.bound is not None:
         raise UsageError("give either a rate (radius) or `largest`, not both")
     if round_gains is not None:

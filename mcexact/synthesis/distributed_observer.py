@@ -450,8 +450,8 @@ def _unless_fragile(system: MultiChannelSystem, graph: NeighborGraph, request: R
     """Design an observer; where its loop is fragile, or there is none, compare as for low order."""
     try:
         design = _observer(system, graph, request)
-    except LimitReached:
-        return _better(system, graph, request)
+    except LimitReached as failed:
+        return _better(system, graph, request, failed)
     loop = design.loop.closed
     with quiet_floats():
         margin, disk = margin_of(loop), least_disk_margin(loop)
@@ -485,11 +485,12 @@ def _better(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     request: Request,
-    observer: Design | None = None,
+    observer: Design | LimitReached | None = None,
 ) -> Design:
     """Design an observer and a controller of low order, and keep the better one.
 
-    Without a rate the controller of low order is one of least cost.  The observer may be known.
+    Without a rate the controller of low order is one of least cost.  The observer may be known, or
+    why there is none.
 
     Raises
     ------
@@ -499,8 +500,14 @@ def _better(
     chosen = bool(request.notes)
     bound: dict[str, Any] = {} if chosen else {request.region.word: request.region.edge}
     asked: dict[str, Any] = {"arithmetic": request.arithmetic, "progress": request.tell, **bound}
+
+    def known() -> Design:
+        if isinstance(observer, LimitReached):
+            raise observer
+        return _observer(system, graph, request) if observer is None else observer
+
     ways: dict[str, Callable[[], Design]] = {
-        "the observer": lambda: _observer(system, graph, request) if observer is None else observer,
+        "the observer": known,
         "a controller of low order": lambda: design_extended(system, graph, **asked),
     }
     designs, outcomes, failed = dict[str, Design](), list[str](), list[McexactError]()

@@ -121,7 +121,7 @@ def _limited(request: Request, aims: Aims) -> Request:
         request = replace(request, deadline=time.monotonic() + aims.seconds)
     if request.region.discrete:
         return request
-    region = request.region.limited(aims.damping, aims.largest_modulus)
+    region = request.region.limited(damping=aims.damping, largest_modulus=aims.largest_modulus)
     if region.largest_modulus is not None and region.largest_modulus <= region.edge:
         raise UsageError(f"no eigenvalue satisfies {region}: allow a larger modulus")
     return replace(request, region=region)

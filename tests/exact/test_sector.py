@@ -40,9 +40,13 @@ def test_a_root_on_the_border_is_outside():
     near = Fraction(1, 10**30)
     inside = StabilityRegion("continuous", damping=Fraction(3, 5) - near, largest_modulus=5 + near)
     assert inside.contains_roots_of(p)
-    assert not inside.limited(Fraction(3, 5)).contains_roots_of(p)
+    assert not inside.limited(damping=Fraction(3, 5)).contains_roots_of(p)
     assert not inside.limited(largest_modulus=5).contains_roots_of(p)
-    assert not StabilityRegion("continuous").limited("1/100").contains_roots_of(Polynomial.of(0, 1))
+    assert (
+        not StabilityRegion("continuous")
+        .limited(damping="1/100")
+        .contains_roots_of(Polynomial.of(0, 1))
+    )
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ def test_eigenvalues_beyond_the_line_are_not_said_to_be_inside():
 def test_a_damping_ratio_and_a_largest_modulus_are_drawn_and_told():
     """Eigenvalues −1 ± i, of damping ratio 1/√2, on the inner sides of both edges."""
     plant = MultiChannelSystem([[0, 1], [-2, -2]], [[[0], [1]]], [[[1, 0]]])
-    region = StabilityRegion("continuous").limited("1/2", 2)
+    region = StabilityRegion("continuous").limited(damping="1/2", largest_modulus=2)
     curves, [picture, *_] = pictured(plant, 0, region)
     assert picture.alternative.startswith(
         "The 2 eigenvalues of the loop, inside the dashed line at 0 and the dashed lines of the "
@@ -60,7 +60,7 @@ def test_a_damping_ratio_and_a_largest_modulus_are_drawn_and_told():
     assert all(abs(abs(each) - 2) < 1e-9 and each.real <= 0 for each in circle)
     assert axis.get_xlim()[0] < -2 and axis.get_ylim()[1] > 2
     assert [each for each in (-1 + 1j, -0.2 + 1j, -3 + 0j) if curves.keeps(each)] == [-1 + 1j]
-    wide = StabilityRegion("continuous").limited(None, 1000)
+    wide = StabilityRegion("continuous").limited(largest_modulus=1000)
     _, [picture, *_] = pictured(plant, 0, wide)
     assert "and the circle of radius 1000, beyond the picture" in picture.alternative
     assert picture.figure.axes[0].get_ylim()[1] < 10

@@ -9,27 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Any
 
 from mcexact.analysis.nearby.allowances import FARTHEST, Allowance, distance
 from mcexact.answer.modes import PencilRank
+from mcexact.answer.nearby import LACKS, Lost
 from mcexact.answer.templates import about_mode
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import digits_outward, written
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import Shown
-
-Lost = Literal["unstable", "fixed", "uncontrollable", "unobservable"]
-LOST: tuple[Lost, ...] = ("unstable", "fixed", "uncontrollable", "unobservable")
-"""What a plant nearby can be: not stabilizable, with a fixed mode, or not controllable or not
-observable by all channels together."""
-_SAID = {
-    "unstable": "has the fixed mode {mode} and cannot be stabilized",
-    "fixed": "has the fixed mode {mode}",
-    "uncontrollable": "has the mode {mode}, which all channels together do not control",
-    "unobservable": "has the mode {mode}, which all channels together do not observe",
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +90,7 @@ class NearPlant:
     def explain(self) -> str:
         """Say in plain words how far the plant is, and what it lacks."""
         part = digits_outward(self.part, up=True, digits=2)
-        what = _SAID[self.lost].format(mode=self.about)
+        what = LACKS[self.lost].format(mode=f"mode {self.about}")
         return f"a plant within {part} of every entry {what}"
 
     def to_dict(self) -> dict[str, Any]:
@@ -139,7 +129,7 @@ class Suspicion:
     def explain(self) -> str:
         """Say in plain words what is computed."""
         sign = f" ± {abs(self.point.imag):.6g}i" if self.point.imag else ""
-        what = _SAID[self.lost].format(mode=f"{self.point.real:.6g}{sign}")
+        what = LACKS[self.lost].format(mode=f"mode {self.point.real:.6g}{sign}")
         return (
             f"computed, not certified: a plant within about {self.part:.1e} of every entry {what}"
         )

@@ -46,8 +46,9 @@ from mcexact.analysis.nearby.corrections import (
     pencil_matrix,
     refined,
 )
-from mcexact.analysis.nearby.plants import LOST, Lost, Nearby, NearPlant, Suspicion
+from mcexact.analysis.nearby.plants import Nearby, NearPlant, Suspicion
 from mcexact.analysis.nearby.suspects import Suspect, balanced, by_bottleneck, suspects
+from mcexact.answer.nearby import LOST, Lost
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError, several
 from mcexact.exact.matrix import Matrix

@@ -13,9 +13,10 @@ import pytest
 
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.nearby.allowances import digits, rounding, typed
-from mcexact.analysis.nearby.plants import LOST, Nearby, NearPlant
+from mcexact.analysis.nearby.plants import Nearby, NearPlant
 from mcexact.analysis.nearby.search import nearby_plants
 from mcexact.answer.check import check
+from mcexact.answer.nearby import LOST
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError
 from mcexact.exact.linear_algebra import inverse

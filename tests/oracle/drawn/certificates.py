@@ -82,7 +82,7 @@ def _stability(rng: random.Random, system: MultiChannelSystem) -> Found:
     region = StabilityRegion(system.time, bound)
     if system.time == "continuous" and rng.random() < 0.5:
         ratios, moduli = (None, "1/2", "1/10", "9/10", "3/5"), (None, 1, 3, 10, "100")
-        region = region.limited(rng.choice(ratios), rng.choice(moduli))
+        region = region.limited(damping=rng.choice(ratios), largest_modulus=rng.choice(moduli))
     return mcexact.certify_stability(system, region, method=method)
 
 
