@@ -141,6 +141,7 @@ from .errors import UsageError as UsageError
 from .exact.matrix import Matrix as Matrix
 from .exact.polynomial import Polynomial as Polynomial
 from .exact.roots import StabilityRegion as StabilityRegion
+from .export.code import export_controller as export_controller
 from .model.box import Box as Box
 from .model.controller import AgentProgram as AgentProgram
 from .model.controller import Controller as Controller

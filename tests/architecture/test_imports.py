@@ -20,6 +20,7 @@ STAGE = {
     "analysis": 5,
     "floating": 5,
     "synthesis": 6,
+    "export": 7,
     "simulation": 7,
     "report": 8,
     "crosschecks": 9,

@@ -1,0 +1,5 @@
+"""Controllers as code: difference equations, C99 and Structured Text of IEC 61131-3.
+
+`equations`   what an agent computes in each step, as sums, and an interpreter in doubles
+`code`        the sums as C, and as function blocks
+"""

@@ -1,0 +1,304 @@
+"""Exported code computes what the agents compute: C compiled and run, Structured Text evaluated."""
+
+from __future__ import annotations
+
+import ctypes
+import random
+import re
+import shutil
+import subprocess
+from collections import deque
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact import MultiChannelSystem
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.matrix import Matrix
+from mcexact.export.code import c_files, export_controller, structured_text_files
+from mcexact.export.equations import AgentRun, AgentStep, equations_document, steps_of
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.statespace import local_controllers
+from mcexact.simulation.trajectory import simulate
+from mcexact.synthesis.decentralized import design_extended
+from mcexact.synthesis.optimum.figures import Aims
+from mcexact.synthesis.setpoint import design_setpoint
+
+COMPILER = shutil.which("gcc")
+STEPS = 10_000
+
+
+def plant(delays: dict[str, dict[str, int]] | None = None) -> MultiChannelSystem:
+    """Three states in a row; the ends are driven and measured."""
+    graph = NeighborGraph.from_names(
+        ("left", "2nd pump"), {"left": ["2nd pump"], "2nd pump": ["left"]}, delays or {}
+    )
+    return MultiChannelSystem(
+        [["11/10", "1/5", 0], ["1/10", "1/2", "1/7"], [0, "1/5", "9/10"]],
+        [[[1], [0], [0]], [[0], [0], [1]]],
+        [[[1, 0, 0], [0, "1/3", 0]], [[0, 0, 1]]],
+        time="discrete",
+        names=["left", "2nd pump"],
+        neighbors=graph,
+    )
+
+
+def drawn(seed: int, hold: dict[int, int]) -> Controller:
+    """Programs that use every signal there is, with numbers that no double is."""
+    rng = random.Random(seed)
+
+    def M(rows: int, columns: int) -> Matrix:
+        entries = [[Fraction(rng.randint(-9, 9), 97) for _ in range(columns)] for _ in range(rows)]
+        return Matrix.from_rows(entries, ncols=columns)
+
+    q, shared, private = (2, 1), (2, 1), (1, 2)
+
+    def program(i: int, rows: int) -> LinearMap:
+        return LinearMap(
+            {j: M(rows, q[j]) for j in range(2)},
+            {j: M(rows, shared[j]) for j in range(2)},
+            M(rows, private[i]),
+            M(rows, q[i]),
+        )
+
+    def agent(i: int) -> AgentProgram:
+        maps = [program(i, rows) for rows in (shared[i], private[i], 1)]
+        name = plant().names[i]
+        return AgentProgram(
+            name, shared[i], private[i], maps[0], maps[1], maps[2], {} if i else hold
+        )
+
+    return Controller("discrete", "", (agent(0), agent(1)))
+
+
+def made() -> dict[str, tuple[MultiChannelSystem, Controller]]:
+    """Controllers without states, with shared ones, with set-points, held and delayed."""
+    network, delayed = plant(), plant({"left": {"2nd pump": 2}, "2nd pump": {"left": 1}})
+    static = local_controllers(network, [[["-1/3", "1/7"]], [["-2/7"]]])
+    tracking = design_setpoint(
+        network, regulate={"left": [1], "2nd pump": [1]}, radius="99/100", aims=Aims(effort=1)
+    )
+    sharing = design_extended(network, dimensions=[1, 1], arithmetic="float", agent="left")
+    return {
+        "static": (network, static),
+        "set-points": (network, tracking.controller),
+        "shared states": (network, sharing.controller),
+        "every signal": (network, drawn(1, {})),
+        "held and delayed": (delayed, drawn(2, {0: 3, 1: 1})),
+    }
+
+
+MADE = made()
+Signals = dict[Any, Sequence[float]]
+
+
+class CompiledAgent:
+    """An agent of a shared library, called as the run in doubles is."""
+
+    def __init__(self, library: ctypes.CDLL, steps: Sequence[AgentStep], position: int) -> None:
+        self.library, self.steps, self.step = library, steps, steps[position]
+        self.state = (ctypes.c_double * 64)()
+        self._call("reset")
+
+    def _call(self, function: str, *arguments: Any) -> None:
+        getattr(self.library, f"{self.step.identifier}_{function}")(self.state, *arguments)
+
+    def sent_to(self, follower: int) -> list[float]:
+        x = array([0.0] * len(self.step.x))
+        self._call(f"send_to_{self.steps[follower].identifier}", x)
+        return list(x)
+
+    def __call__(self, y: Sequence[float], r: Sequence[float], received: Signals) -> list[float]:
+        step, u = self.step, array([0.0] * len(self.step.u))
+        arguments = [array(y[: step.outputs])] * bool(step.outputs)
+        arguments += [array(r[: step.references])] * bool(step.references)
+        arguments += [array(received[kind, j]) for kind, j, _ in step.received]
+        self._call("step", *arguments, *[u] * bool(step.u))
+        return list(u)
+
+
+class BlockAgent:
+    """A function block of Structured Text, evaluated statement by statement."""
+
+    ARRAY = re.compile(r"(\w+) : ARRAY\[0\.\.(\d+)\] OF LREAL;")
+    STATEMENT = re.compile(r"(\w+)\[(\d+)\] := (.*)", re.DOTALL)
+
+    def __init__(self, text: str, steps: Sequence[AgentStep], position: int) -> None:
+        self.steps, self.step = steps, steps[position]
+        text = re.sub(r"\(\*.*?\*\)", "", text, flags=re.DOTALL)
+        head, _, body = text.rpartition("END_VAR")
+        assert head.split()[:2] == ["FUNCTION_BLOCK", self.step.identifier]
+        self.memory = {name: [0.0] * (int(k) + 1) for name, k in self.ARRAY.findall(head)}
+        *statements, end = body.split(";")
+        assert end.strip() == "END_FUNCTION_BLOCK"
+        found = [self.STATEMENT.fullmatch(each.strip()) for each in statements]
+        self.code = [
+            (m[1], int(m[2]), compile(" ".join(m[3].split()), "st", "eval")) for m in found if m
+        ]
+        assert len(self.code) == len(statements)
+
+    def sent_to(self, follower: int) -> list[float]:
+        return list(self.memory[f"sent_to_{self.steps[follower].identifier}"])
+
+    def __call__(self, y: Sequence[float], r: Sequence[float], received: Signals) -> list[float]:
+        step, given = self.step, {"y": y[: self.step.outputs], "r": r[: self.step.references]}
+        for kind, j, _ in step.received:
+            given[f"{kind}_{self.steps[j].identifier}"] = received[kind, j]
+        self.memory |= {name: list(values) for name, values in given.items() if values}
+        for name, k, code in self.code:
+            self.memory[name][k] = eval(code, {}, self.memory)
+        return list(self.memory["u"]) if step.u else []
+
+
+def array(values: Sequence[float]) -> Any:
+    return (ctypes.c_double * len(values))(*values)
+
+
+def run(
+    system: MultiChannelSystem, agents: Sequence[Any], r: Sequence[Sequence[float]], count: int
+) -> list[list[float]]:
+    """The inputs in each step of a loop whose plant is in doubles, with its delayed links."""
+    A, B, C = (
+        [[float(x) for x in row] for row in M.rows()]
+        for M in (system.A, system.input_matrix(), system.output_matrix())
+    )
+    graph, x, told = system.neighbors or NeighborGraph.complete(system.names), [1.0, -1.0, 0.5], []
+    late: dict[Any, deque[Any]] = {
+        (j, i): deque([None] * graph.delay(i, j)) for j, i in graph.edges() if i != j
+    }
+    for _ in range(count):
+        flat, measured = [sum(c * v for c, v in zip(row, x, strict=True)) for row in C], []
+        for i in range(system.m):
+            measured.append(flat[: system.q(i)])
+            flat = flat[system.q(i) :]
+        received: list[Signals] = [{} for _ in agents]
+        for (j, i), under_way in late.items():
+            sent = agents[j].sent_to(i) if i in agents[j].step.sent else []
+            under_way.append((measured[j], sent))
+            arrived = under_way.popleft()
+            zeros = [0.0] * system.q(j), [0.0] * len(sent)
+            received[i]["y", j], received[i]["x", j] = zeros if arrived is None else arrived
+        inputs = [a(y, s, got) for a, y, s, got in zip(agents, measured, r, received, strict=True)]
+        told.append([value for u in inputs for value in u or [0.0]])
+        whole = [u[k] if u else 0.0 for u, p in zip(inputs, (1, 1), strict=True) for k in range(p)]
+        x = [
+            sum(a * v for a, v in zip(A[k], x, strict=True))
+            + sum(b * v for b, v in zip(B[k], whole, strict=True))
+            for k in range(system.n)
+        ]
+        if max(map(abs, x)) > 1e6:  # an unstable loop starts again, with other numbers
+            x = [value / 1e7 for value in x]
+    return told
+
+
+def compiled(files: dict[str, str], folder: Path) -> ctypes.CDLL:
+    """Compile the files without a warning into a library."""
+    for name, text in files.items():
+        (folder / name).write_text(text)
+    flags = ["-Wall", "-Wextra", "-Werror", "-pedantic", "-std=c99", "-O2", "-ffp-contract=off"]
+    sources = sorted(name for name in files if name.endswith(".c"))
+    command = [str(COMPILER), *flags, "-shared", "-fPIC", *sources, "-o", "code.so"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    return ctypes.CDLL(str(folder / "code.so"))
+
+
+SET_POINTS = [[0.3, -2.0], [1.7]]
+
+
+@pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
+@pytest.mark.parametrize("name", MADE)
+def test_the_compiled_code_computes_the_bits_of_the_run(name: str, tmp_path: Path) -> None:
+    system, controller = MADE[name]
+    steps, library = steps_of(controller), compiled(c_files(controller), tmp_path)
+    ours = run(system, [AgentRun(step) for step in steps], SET_POINTS, STEPS)
+    agents = [CompiledAgent(library, steps, i) for i in range(system.m)]
+    theirs = run(system, agents, SET_POINTS, STEPS)
+    assert ours == theirs
+    assert len({tuple(u) for u in ours}) > 50
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_structured_text_computes_the_bits_of_the_run(name: str) -> None:
+    system, controller = MADE[name]
+    steps, files = steps_of(controller), structured_text_files(controller)
+    agents = [BlockAgent(files[f"{s.identifier}.st"], steps, s.position) for s in steps]
+    ours = run(system, [AgentRun(step) for step in steps], SET_POINTS, 300)
+    assert ours == run(system, agents, SET_POINTS, 300)
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_the_run_follows_the_exact_simulation(name: str) -> None:
+    system, controller = MADE[name]
+    ours = run(system, [AgentRun(step) for step in steps_of(controller)], SET_POINTS, 12)
+    exact = simulate(
+        system,
+        controller,
+        horizon=11,
+        initial=[1, -1, "1/2"],
+        reference=[["3/10", -2], ["17/10"]],
+        arithmetic="exact",
+    )
+    inputs = list(exact.values("inputs").values())
+    for t, values in enumerate(ours):
+        wanted = [float(each[t]) for each in inputs]
+        assert values == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+
+
+def test_what_is_no_program_of_steps_is_refused() -> None:
+    system = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    with pytest.raises(UsageError, match="discrete time"):
+        steps_of(local_controllers(system, [[[-2]]]))
+    sampled = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
+    with pytest.raises(InputError, match="beyond double precision"):
+        steps_of(local_controllers(sampled, [[[10**400]]]))
+
+
+def test_the_document_has_every_number_exactly_and_as_it_is_used() -> None:
+    _, controller = MADE["every signal"]
+    document = equations_document(controller)
+    terms = [
+        t
+        for a in document["agents"]
+        for key in ("u", "next x", "next z")
+        for row in a[key]
+        for t in row
+    ]
+    assert len(terms) == sum(len(row) for step in steps_of(controller) for row in step.rows())
+    assert all(float(Fraction(exact)) == double for exact, double, _ in terms)
+    assert {signal.split(" of ")[1] for *_, signal in terms} == {"left", "2nd pump"}
+
+
+def test_the_code_says_how_many_numbers_were_rounded() -> None:
+    text = c_files(MADE["static"][1])["left.h"]
+    assert "2 of its 2 numbers are rounded to the nearest double" in text
+    halves = local_controllers(plant(), [[["-1/2", 0]], [[0]]])
+    assert "All 1 numbers are those of the controller exactly" in c_files(halves)["left.h"]
+
+
+def test_no_name_of_an_agent_ends_a_comment_or_is_a_word_of_the_language() -> None:
+    names = ["*/ int x; /*", "*) END_VAR (*", "double", "Double", "x", "0"]
+    system = MultiChannelSystem(
+        [[0]], [[[1]]] * len(names), [[[1]]] * len(names), time="discrete", names=names
+    )
+    controller = local_controllers(system, [[["1/2"]]] * len(names))
+    steps = steps_of(controller)
+    assert len({step.identifier for step in steps}) == len(names)
+    assert "*/ int x; /*" in export_controller(controller, "json")["equations.json"]
+    for text in c_files(controller).values():
+        assert text.count("*/") == text.count("/*") <= 1
+    for text in structured_text_files(controller).values():
+        assert text.count("*)") == text.count("(*") == 1
+
+
+@pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
+def test_agents_of_any_name_compile(tmp_path: Path) -> None:
+    names = ["*/ int x; /*", "double", "x", "pump_h"]
+    system = MultiChannelSystem(
+        [[0]], [[[1]]] * len(names), [[[1]]] * len(names), time="discrete", names=names
+    )
+    compiled(c_files(local_controllers(system, [[["1/2"]]] * len(names))), tmp_path)
