@@ -260,6 +260,7 @@ def _sampled(
     help="Write the code of each agent, and equations.json, into this folder; JSON into this file, "
     "by default to standard output.",
 )
+@options.as_json
 @options.work_limits
 @options.file_limits
 def export_command(file: str, language: Language, output: Path | None, **values: Any) -> None:
@@ -280,12 +281,15 @@ def export_command(file: str, language: Language, output: Path | None, **values:
         require_writable(output)
     controller = run.read(file)
     files = run.result(_exported, controller, run.limits, language, doing=f"reading {file}")
-    if language != "json":
-        write_folder(output or Path(), files)
-    elif output is None:
+    if output is None:
         emit(files[EQUATIONS])
-    else:
+        return
+    if language == "json":
         write_result(output, files[EQUATIONS])
+    else:
+        write_folder(output, files)
+    if run.as_json:
+        emit(files[EQUATIONS])
 
 
 def _exported(
