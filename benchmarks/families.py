@@ -1,15 +1,12 @@
-"""How good are the controllers of the ladder on eight families of plants, of growing size?
+"""How good are designs without a rate for eight families of plants, of growing size?
 
 Run as ``python -m benchmarks.families [ROWS.jsonl] [FAMILY …] [SIZE …]``; by default all families,
 with about 10, 40 and 120 states, in continuous time and sampled, which makes 48 rows.  ROWS is a
 file: rows that it holds are printed and not measured again.  A sampled plant is the rounded one:
 its matrices are those of a zero-order hold, to six decimals.
 
-A line holds what was asked; the order, the largest gain (and that of the optimal controller of all
-agents together for the same rate), the margin (and its), the cost relative to its cost, the peak
-(and its), the digits that suffice, the step of the search and the seconds of the processor, or what
-the request was answered with; then for each method of `by_hand` the order, the largest gain, the
-margin, the relative cost and the slowest eigenvalue.
+A line holds the figures of `designed_rows`, or what the request was answered with, and the figures
+of what is made by hand.
 """
 
 from __future__ import annotations
@@ -19,7 +16,6 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from math import nan
 from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -29,17 +25,16 @@ from scipy.linalg import expm
 
 from benchmarks.by_hand import made_by_hand, told_by_hand
 from benchmarks.design_page import PAGE, written
+from benchmarks.designed_rows import answered, told
 from benchmarks.kept_rows import Row, chosen, kept, measured
 from mcexact import design_decentralized, design_extended
-from mcexact.errors import Impossible, LimitReached
-from mcexact.exact.roots import StabilityRegion, is_discrete
+from mcexact.exact.roots import is_discrete
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.design import Design
-from mcexact.synthesis.optimum.figures import Figures, least_cost
-from mcexact.synthesis.optimum.problem import Weights
 
 SIZES = (10, 40, 120)
+EFFORTS = {10: (2.5, 2.0), 40: (4.0, 3.0), 120: (8.0, 4.0)}
+"""About the seconds for each search of a controller and of a box, by the number of states."""
 
 Floats = np.ndarray
 Parts = tuple[Floats, list[Floats], list[Floats]]
@@ -160,23 +155,22 @@ def building(n: int) -> Parts:
 
 @dataclass(frozen=True)
 class Kind:
-    """A family: its plants, the rate asked, and the time between samples."""
+    """A family: its plants, the time between samples, and the kind of controller."""
 
     made: Callable[[int], Parts]
-    rate: float
     step: float
     structure: str = "decentralized"
 
 
 FAMILIES = {
-    "chain": Kind(chain, 0.05, 0.5),
-    "heat": Kind(heat, 0.3, 0.2),
-    "power": Kind(power, 0.1, 0.2),
-    "formation": Kind(formation, 0.2, 0.2, "extended"),
-    "platoon": Kind(platoon, 0.1, 0.2),
-    "areas": Kind(areas, 0.1, 0.1),
-    "pendula": Kind(pendula, 0.5, 0.1),
-    "building": Kind(building, 0.01, 0.1),
+    "chain": Kind(chain, 0.5),
+    "heat": Kind(heat, 0.2),
+    "power": Kind(power, 0.2),
+    "formation": Kind(formation, 0.2, "extended"),
+    "platoon": Kind(platoon, 0.2),
+    "areas": Kind(areas, 0.1),
+    "pendula": Kind(pendula, 0.1),
+    "building": Kind(building, 0.1),
 }
 
 
@@ -197,78 +191,12 @@ def plant(kind: Kind, n: int, time: str) -> MultiChannelSystem:
     return found.with_neighbors(NeighborGraph.from_names(names, heard))
 
 
-def asked_of(kind: Kind, time: str) -> dict[str, str]:
-    """The rate, or the radius of the same rate."""
-    if is_discrete(time):
-        return {"radius": f"{np.exp(-kind.rate * kind.step):.4f}"}
-    return {"rate": f"{kind.rate}"}
-
-
-def figures_row(made: Design) -> Row:
-    """The figures of a design as a row, with those of the optimum of all agents together."""
-    parts = made.parts.get("designed", made.parts)
-    found = parts.get("optimum")
-    if found is None:
-        return {"answer": "theorem", "order": made.order}
-    central: Figures | None = found.central
-    plant = found.problem.network.plant
-    least = None if "solvability" in made.parts else least_cost(plant, Weights.unit(plant))
-    return {
-        "answer": "designed",
-        "order": made.order,
-        "gain": found.figures.largest_gain,
-        "margin": found.figures.margin,
-        "disk": found.peaks.disk,
-        "damping": found.figures.damping,
-        "cost": found.relative_cost,
-        "over bound": None if least is None else found.figures.cost / least,
-        "peak": found.figures.peak,
-        "digits": found.digits,
-        "step": found.step,
-        "central": None
-        if central is None
-        else {
-            "gain": central.largest_gain,
-            "margin": central.margin,
-            "peak": central.peak,
-            "cost": central.cost,
-        },
-    }
-
-
-def told(row: Row) -> str:
-    """The figures of a row in one line."""
-    if row["answer"] != "designed":
-        return str(row.get("told") or f"the controller of the theorem, of order {row['order']}")
-    central = row["central"] or {"gain": 0.0, "margin": 0.0, "peak": 0.0}
-    return (
-        f"{row['order']} / {row['gain']:.3g} ({central['gain']:.3g}) / "
-        f"{row['margin']:.2f} ({central['margin']:.2f}) / {row['cost']:.2f}, "
-        f"disk {row.get('disk') or nan:.2f}, damping {row.get('damping') or nan:.2f}, "
-        f"J/bound {row.get('over bound') or nan:.3g}, "
-        f"peak {row['peak']:.3g} ({central.get('peak', nan):.3g}), digits {row['digits']}, "
-        f"{row['step']}"
-    )
-
-
-def answered(kind: Kind, system: MultiChannelSystem) -> Row:
-    """What the request is answered with, and what is made by hand."""
-    bound = asked_of(kind, system.time)
-    function: Any = design_extended if kind.structure == "extended" else design_decentralized
-    try:
-        made = function(system, arithmetic="float", **bound)
-        found = figures_row(made)
-        if str(made.region.edge) != str(StabilityRegion.of(system.time, **bound).edge):
-            found["slower"] = str(made.region)
-    except (Impossible, LimitReached) as refused:
-        found = {"answer": type(refused).__name__, "told": str(refused)}
-    cost = (found.get("central") or {}).get("cost")
-    return {**bound, **found, "by hand": made_by_hand(system, cost)}
-
-
-def designed_for(kind: Kind, n: int, domain: str) -> Row:
+def row_of(kind: Kind, n: int, domain: str) -> Row:
     """The row of a plant of a family."""
-    return answered(kind, plant(kind, n, domain))
+    system = plant(kind, n, domain)
+    function: Any = design_extended if kind.structure == "extended" else design_decentralized
+    found = answered(function, system, *EFFORTS[n])
+    return {**found, "by hand": made_by_hand(system)}
 
 
 def main(arguments: list[str]) -> int:
@@ -280,18 +208,10 @@ def main(arguments: list[str]) -> int:
     for n in sizes:
         for name in names:
             for domain in ("continuous", "discrete"):
-                kind = FAMILIES[name]
-                row = measured(
-                    path,
-                    f"{name} {n} {domain}",
-                    partial(designed_for, kind, n, domain),
-                    known,
-                )
-                asked = row.get("rate") or row.get("radius")
+                make = partial(row_of, FAMILIES[name], n, domain)
+                row = measured(path, f"{name} {n} {domain}", make, known)
                 hand = told_by_hand(row["by hand"])
-                print(
-                    f"{row['name']}, {asked} | {told(row)}, {row['seconds']} s | {hand}", flush=True
-                )
+                print(f"{row['name']} | {told(row)}, {row['seconds']} s | {hand}", flush=True)
     PAGE.write_text(written(), encoding="utf-8")
     return 0
 

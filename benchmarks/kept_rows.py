@@ -48,11 +48,15 @@ def kept(path: Path) -> dict[str, Row]:
 
 
 def measured(path: Path, name: str, measure: Callable[[], Row], known: dict[str, Row]) -> Row:
-    """The row of this name: the kept one, or else a new one, which is appended to the file."""
+    """The row of this name: the kept one, or else a new one, which is appended to the file.
+
+    Seconds are those of the whole measurement, unless the row says them itself.
+    """
     if name in known:
         return known[name]
     began = time.process_time()
-    found = {"name": name, **measure(), "seconds": round(time.process_time() - began, 1)}
+    found = {"name": name, **measure()}
+    found.setdefault("seconds", round(time.process_time() - began, 1))
     found["machine"] = machine()
     with path.open("a", encoding="utf-8") as file:
         if path.stat().st_size and not path.read_bytes().endswith(b"\n"):

@@ -55,6 +55,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.units import Units, inverted, system_in
 
 Floats = npt.NDArray[np.float64]
+Complexes = npt.NDArray[np.complex128]
 BITS = (12, 16, 20, 26, 34, 46, 60)
 """The bits to which a matrix is rounded, fewest first."""
 _ROOM = (1e-4, 1e-3, 1e-2, 3e-2)
@@ -808,6 +809,8 @@ _EXTRA = (1e-3, 1e-5, 1e-7)
 """What is added to the weight of the states, as a part, so that the inequality is strict."""
 _SCALINGS = 2.0**6
 """The largest factor by which a scaling departs from 1."""
+_CONDITION, _AT_ONCE = 1e8, 16
+"""The largest condition number of eigenvectors that are used, and the norms computed at once."""
 
 
 def margin_of(
@@ -955,7 +958,7 @@ class PortResponse:
     def __init__(
         self, exact: tuple[Matrix, Matrix, Matrix], discrete: bool, direct: Fraction
     ) -> None:
-        from scipy.linalg import hessenberg, matrix_balance
+        from scipy.linalg import matrix_balance
 
         self.exact, self.discrete, self.ports = exact, discrete, exact[2].nrows
         self.direct, self._through = direct, to_float(direct)
@@ -971,57 +974,55 @@ class PortResponse:
         self.poles = np.linalg.eigvals(self.m)
         edge = np.abs(self.poles) >= 1 if discrete else self.poles.real >= 0
         self.unstable = bool(np.any(edge))
-        self._h, q = hessenberg(self.m, calc_q=True) if len(m) else (m, m)
-        self._left, self._right = self.y @ q, q.T @ self.e
+        self._modal = _modal_form(self.m, self.e, self.y)
 
     def _points(self) -> npt.NDArray[np.complex128]:
         """Points of the border of the stable region, close to each other near the poles."""
-        poles, spread = self.poles, np.linspace(-2, 2, 9)
+        # conjugate poles have the same points
+        poles = np.unique(self.poles.real + 1j * np.abs(self.poles.imag))
+        spread = np.linspace(-2, 2, 9)
         if self.discrete:
             around = np.abs(np.angle(poles))[:, None]
             widths = np.log(np.maximum(np.abs(poles), 1e-3))[:, None]
             angles = [np.linspace(0, np.pi, 300), np.logspace(-5, 0, 60), around + widths * spread]
-            on_circle = np.exp(1j * np.concatenate([each.ravel() for each in angles]))
+            on_circle = np.exp(1j * np.unique(np.concatenate([each.ravel() for each in angles])))
             return np.asarray(on_circle, dtype=np.complex128)
         sizes = np.abs(poles)
         low = np.log10(max(float(np.min(sizes, initial=1.0)), 1e-9)) - 2
         high = np.log10(float(np.max(sizes, initial=1.0))) + 2
         near = np.abs(poles.imag)[:, None] + poles.real[:, None] * spread
         upward = np.abs(np.concatenate([[0.0], np.logspace(low, high, 300), near.ravel()]))
-        return np.asarray(1j * upward, dtype=np.complex128)
-
-    def _at(self, z: complex) -> npt.NDArray[np.complex128]:
-        """T(z) + cI."""
-        n = len(self._h)
-        inner = np.linalg.solve(z * np.eye(n) - self._h, self._right)
-        return np.asarray(self._left @ inner + self._through * np.eye(self.ports))
+        return np.asarray(1j * np.unique(upward), dtype=np.complex128)
 
     @cached_property
-    def _samples(self) -> list[npt.NDArray[np.complex128]]:
-        """T + cI at all points."""
-        return [self._at(z) for z in self._points()]
+    def _samples(self) -> Complexes:
+        """T + cI at all points, Z × k × k for k ports."""
+        points, direct = self._points(), self._through * np.eye(self.ports)
+        if self._modal is not None:
+            values, left, right = self._modal
+            return np.asarray((left[None] / (points[:, None, None] - values)) @ right + direct)
+        # the eigenvectors are too ill-conditioned: one triangular system for each point
+        from scipy.linalg import schur, solve_triangular
+
+        T, Z = schur(self.m, output="complex")
+        left, right, eye = self.y @ Z, Z.conj().T @ self.e, np.eye(len(T))
+        solved = [left @ solve_triangular(z * eye - T, right) for z in points]
+        return np.asarray(solved, dtype=np.complex128).reshape(len(points), *direct.shape) + direct
 
     def scaled_norm(self, ports: Sequence[int]) -> tuple[float, Floats]:
         """The largest gain seen of some ports, and a scaling that makes it small."""
-        chosen = np.ix_(list(ports), list(ports))
-        samples = [G[chosen] for G in self._samples]
-        theta = np.ones(len(ports))
-
-        def largest(scaling: Floats) -> tuple[float, npt.NDArray[np.complex128]]:
-            h = np.sqrt(scaling)
-            worst = max(samples, key=lambda G: float(np.linalg.norm(h[:, None] * G / h, 2)))
-            return float(np.linalg.norm(h[:, None] * worst / h, 2)), worst
-
-        best, worst = largest(theta)
-        chosen_theta = theta
-        for _ in range(6 if len(ports) > 1 else 0):
+        places = list(ports)
+        samples = self._samples[:, places][:, :, places]
+        best, worst = _largest_gain(samples, np.ones(len(places)))
+        theta = chosen = np.ones(len(places))
+        for _ in range(6 if len(places) > 1 else 0):
             target = np.clip(_osborne(worst), 1 / _SCALINGS, _SCALINGS)
             theta = np.exp((np.log(theta) + np.log(target)) / 2)
             rounded = np.exp2(np.round(np.log2(theta)))
-            value, worst = largest(rounded)
+            value, worst = _largest_gain(samples, rounded)
             if value < best:
-                best, chosen_theta = value, rounded
-        return best, chosen_theta
+                best, chosen = value, rounded
+        return best, chosen
 
     def proved(self, ports: Sequence[int], alpha: Fraction) -> MarginPart | None:
         """A matrix that proves the margin of these ports together; None if none holds."""
@@ -1092,6 +1093,48 @@ class PortResponse:
                 return step
             P = step
         return P
+
+
+def _modal_form(m: Floats, e: Floats, y: Floats) -> tuple[Complexes, Complexes, Complexes] | None:
+    """λ, yV and V⁻¹e of m = V diag(λ) V⁻¹; None if the eigenvectors are too ill-conditioned."""
+    values, V = np.linalg.eig(m)
+    try:
+        right = np.linalg.solve(V, e.astype(np.complex128))
+    except np.linalg.LinAlgError:
+        return None
+    # Rounding in V⁻¹ is magnified by its condition number.
+    if len(m) and np.linalg.cond(V) > _CONDITION:
+        return None
+    return np.asarray(values, dtype=np.complex128), np.asarray(y @ V), np.asarray(right)
+
+
+def _largest_gain(samples: Complexes, scaling: Floats) -> tuple[float, Complexes]:
+    """The largest norm of Θ^½ G Θ^−½ among samples G, and the sample that has it.
+
+    No norm exceeds the Frobenius norm, nor the geometric mean of the largest sums of a row and of a
+    column; norms are computed in the order of these bounds, until none can be larger.
+    """
+    h = np.sqrt(scaling)
+    scaled = h[:, None] * samples / h
+    if not len(h):
+        return 0.0, samples[0]
+    if len(h) == 1:
+        sizes = np.abs(scaled[:, 0, 0])
+        place = int(np.argmax(sizes))
+        return float(sizes[place]), samples[place]
+    moduli = np.abs(scaled)
+    rows, columns = moduli.sum(axis=2).max(axis=1), moduli.sum(axis=1).max(axis=1)
+    bounds = np.minimum(np.sqrt(rows * columns), np.sqrt((moduli**2).sum(axis=(1, 2))))
+    order, best, place = np.argsort(-bounds), -1.0, 0
+    for first in range(0, len(order), _AT_ONCE):
+        some = order[first : first + _AT_ONCE]
+        if bounds[some[0]] <= best:
+            break
+        sizes = np.linalg.norm(scaled[some], 2, axis=(1, 2))
+        k = int(np.argmax(sizes))
+        if sizes[k] > best:
+            best, place = float(sizes[k]), int(some[k])
+    return best, samples[place]
 
 
 def _osborne(G: npt.NDArray[np.complex128]) -> Floats:

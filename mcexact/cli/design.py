@@ -2,7 +2,9 @@
 
 The four commands differ in what they ask of `mcexact.synthesis`; their options (`design_options`)
 and their work (`answer`) are the same: `mcexact.cli.designs.designed` designs in a child process,
-the result is shown, its certificates are verified, and the files are written.  `read_spectrum`
+the result is shown, its certificates are verified, and the files are written.  Where a limit ends
+the child after it certified a controller, this one is the result, with what was proved of it by
+then, and a note says what is left out.  `read_spectrum`
 reads what ``--spectrum`` takes: numbers, JSON or the name of a file.
 """
 
@@ -27,9 +29,9 @@ from mcexact.cli.files import (
     write_result,
 )
 from mcexact.cli.output import emit
-from mcexact.cli.results import Loop, Refused
-from mcexact.cli.running import Rechecked, Run
-from mcexact.errors import Impossible, InputError
+from mcexact.cli.results import DESIGNED, Loop, Refused
+from mcexact.cli.running import Kept, Rechecked, Run, supervised
+from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.model.regulated import regulated_in
 
 
@@ -131,15 +133,24 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
     if aimed and left is not None:
         # The best controller so far is certified in the rest of the time.
         aimed["seconds"] = _SEARCHING * left
-    plant = run.read(file)
-    result = run.result(
-        _designed,
-        *(name, plant, *extra, run.limits, keywords, aimed),
-        *(not values["no_box"], values["prove_all"]),
-        *(html is not None, run.system_by_digest),
-        doing=f"designing for {plant[0]}",
-        telling=True,
-    )
+    plant, kept = run.read(file), Kept()
+    result: Loop | Refused
+    try:
+        result = supervised(
+            _designed,
+            *(name, plant, *extra, run.limits, keywords, aimed),
+            *(not values["no_box"], values["prove_all"]),
+            *(html is not None, run.system_by_digest, left),
+            doing=f"designing for {plant[0]}",
+            timeout=run.deadline,
+            max_memory=run.max_memory,
+            telling=True,
+            kept=kept,
+        )
+    except LimitReached:
+        if DESIGNED not in kept.parts:
+            raise
+        result = kept.parts[DESIGNED]
 
     def show() -> bool:
         if isinstance(result, Refused):

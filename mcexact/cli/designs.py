@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import log10
 from typing import Any
 
@@ -25,7 +25,8 @@ from mcexact.answer.templates import Sentence
 from mcexact.cli.files import system_in
 from mcexact.cli.loops import assessed, read_weights, unproved, with_sizes
 from mcexact.cli.options import AIMS
-from mcexact.cli.results import Evidence, Loop, Refused
+from mcexact.cli.results import DESIGNED, Evidence, Loop, Refused
+from mcexact.cli.running import Reporting
 from mcexact.derived.constructions import augmented_outputs
 from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.exact.rational import Limits, written
@@ -41,12 +42,18 @@ from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Warned
 from mcexact.synthesis.optimum.figures import Aims
-from mcexact.synthesis.performance import performance_of
+from mcexact.synthesis.performance import Performance, performance_of
 from mcexact.synthesis.robustness import EveryLoop
 from mcexact.synthesis.setpoint import design_setpoint, held_together, selected
 from mcexact.synthesis.state_feedback import require_numbers
 
-_ENDED = "half of the time limit was over after the search, so that no box of plants was sought"
+_PROVING = 0.5
+"""The part of the rest of the time after which no further proof of the performance is begun."""
+_NOTHING_ELSE = (
+    "the time limit ended the proofs of the cost and of the margins, whose figures are computed, "
+    "and no box of plants was sought"
+)
+_NO_BOX = "the time limit ended the search of a box of plants"
 _DESIGNERS: dict[str, Callable[..., Design]] = {
     "decentralized": design_decentralized,
     "extended": design_extended,
@@ -68,7 +75,9 @@ def designed(
     prove_all: bool,
     with_page: bool,
     system_by_digest: bool,
+    left: float | None,
     tell: Callable[[str], None],
+    report: Reporting,
 ) -> Loop | Refused:
     """Design a controller, prove its loop, and format the result.
 
@@ -92,8 +101,12 @@ def designed(
     prove_all : bool
         Whether costs and margins are proved however large the certificates are.
     with_page, system_by_digest : bool
+    left : float or None
+        The seconds of the time limit; None without one.
     tell : callable
         Shows a warning to the user at once.
+    report : Reporting
+        Takes the progress, and with a time limit the design whenever more is proved of it.
 
     Raises
     ------
@@ -106,8 +119,10 @@ def designed(
     def progress(step: str) -> None:
         if isinstance(step, Warned):
             tell(step)
+        else:
+            report.step(step)
 
-    spectrum, began = None, time.monotonic()
+    spectrum, end = None, None if left is None else time.monotonic() + left
     system = with_sizes(system_in(*plant, limits), sizes, limits)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
@@ -134,34 +149,77 @@ def designed(
             + _held(plant[0], proof, system, wanted.get("regulate")),
         )
     _require_readable(design, Limits(**limits))
-    every_loop = None
-    if with_box and aims.seconds is not None and time.monotonic() - began > aims.seconds:
-        with_box = False
-        design = replace(design, notes=(*design.notes, _ENDED))
-    if with_box and design.stable:
-        every_loop = design.every_loop(**({"effort": aims.effort} if aims.effort else {}))
-    proved = None
-    if design.stable:
-        closed = design.loop.closed
-        proved = performance_of(closed, weights=weighed, prove_all=prove_all)
-    account = design.account_with(every_loop, proved)
-    assessment = assess(design, aims, every_loop, proved)
-    rows = [*unproved(proved), *assessment.rows()]
-    figures = measured(design.measures(), rows, account.sentences, design.region.discrete)
-    return assessed(
-        account,
-        assessment,
-        design.loop.closed,
-        tables=(*tables(account.sentences, note=account.reading), *_box(every_loop), figures),
-        with_page=with_page,
-        system_by_digest=system_by_digest,
-        document=account.as_json(
-            **design.to_dict(),
-            **({} if every_loop is None else {"every_loop": every_loop.to_dict()}),
-            assessment=assessment.to_dict(),
-        ),
-        controller=controller_text(design.controller),
-    )
+    shape = _Shaped(design, aims, weighed, prove_all, with_box, with_page, system_by_digest)
+    return shape.in_time(end, report)
+
+
+@dataclass(frozen=True)
+class _Shaped:
+    """A certified design, of which more is proved step by step, and how it is shown."""
+
+    design: Design
+    aims: Aims
+    weights: Mapping[str, Any] | None
+    prove_all: bool
+    with_box: bool
+    with_page: bool
+    system_by_digest: bool
+
+    def in_time(self, end: float | None, report: Reporting) -> Loop:
+        """Prove the performance, then a box, and hand over what is proved before each step.
+
+        Parameters
+        ----------
+        end : float or None
+            The time of `time.monotonic` at which the time limit ends this process.
+        report : Reporting
+        """
+        closed, proved, every_loop = self.design.loop.closed, None, None
+        if not self.design.stable:
+            return self.shown(None, None)
+        if end is not None:
+            report.keep(DESIGNED, self.shown(None, None, _NOTHING_ELSE))
+        report.step("proofs of the cost and of the margins")
+        deadline = None
+        if end is not None:
+            deadline = time.monotonic() + _PROVING * (end - time.monotonic())
+        proved = performance_of(
+            closed, weights=self.weights, prove_all=self.prove_all, deadline=deadline
+        )
+        if self.with_box:
+            if end is not None:
+                report.keep(DESIGNED, self.shown(proved, None, _NO_BOX))
+            report.step("a proof for a box of plants")
+            effort = self.aims.effort
+            every_loop = self.design.every_loop(**({"effort": effort} if effort else {}))
+        return self.shown(proved, every_loop)
+
+    def shown(
+        self, proved: Performance | None, every_loop: EveryLoop | None, note: str | None = None
+    ) -> Loop:
+        """The design with what is proved of it, and a note of what is left out."""
+        design = self.design
+        if note is not None:
+            design = replace(design, notes=(*design.notes, note))
+        account = design.account_with(every_loop, proved)
+        assessment = assess(design, self.aims, every_loop, proved)
+        rows = [*unproved(proved), *assessment.rows()]
+        figures = measured(design.measures(), rows, account.sentences, design.region.discrete)
+        listed = tables(account.sentences, note=account.reading)
+        return assessed(
+            account,
+            assessment,
+            design.loop.closed,
+            tables=(*listed, *_box(every_loop), figures),
+            with_page=self.with_page,
+            system_by_digest=self.system_by_digest,
+            document=account.as_json(
+                **design.to_dict(),
+                **({} if every_loop is None else {"every_loop": every_loop.to_dict()}),
+                assessment=assessment.to_dict(),
+            ),
+            controller=controller_text(design.controller),
+        )
 
 
 def _aims(aimed: Mapping[str, Any], weights: Mapping[str, Any] | None) -> Aims:

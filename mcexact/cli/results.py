@@ -24,6 +24,8 @@ from mcexact.report.text import Table
 
 PART_OF_SEARCH = 4
 """The search for plants nearby has this part of the time that a command leaves to one system."""
+DESIGNED = "the design"
+"""The name of a design that a child process hands over, again whenever more is proved of it."""
 
 
 @dataclass(frozen=True)

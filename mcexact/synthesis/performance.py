@@ -15,6 +15,7 @@ floating point, and said to be.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -240,6 +241,7 @@ def performance_of(
     weights: CostWeights | Mapping[str, Any] | None = None,
     prove_all: bool = False,
     proofs: bool = True,
+    deadline: float | None = None,
 ) -> Performance:
     """Prove the cost of a loop, a bound for every controller, and disk margins.
 
@@ -252,6 +254,8 @@ def performance_of(
         As for `loop_performance`.
     proofs : bool
         Whether anything is proved; otherwise all figures are computed alone.
+    deadline : float, optional
+        The time of `time.monotonic` after which no further proof is begun.
 
     Notes
     -----
@@ -281,6 +285,9 @@ def performance_of(
     work = _Work(prove_all=prove_all)
     answers = dict[str, Answer]()
     for name, (size, count, prove) in asked.items():
+        if deadline is not None and time.monotonic() >= deadline:
+            left_out[name] = "the time limit left no time for it"
+            continue
         if not work.allows(size, count):
             left_out[name] = f"a proof has about {work.megabytes(size, count)} MB (--prove-all)"
             continue

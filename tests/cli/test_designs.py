@@ -1,21 +1,24 @@
 """What the design commands and `certify` show besides what is certified."""
 
-import itertools
 import json
 import re
 import time
 from html import unescape
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from mcexact.cli import designs
 from mcexact.cli.options import AIMS
-from mcexact.cli.results import Loop
+from mcexact.cli.results import DESIGNED, Loop
+from mcexact.cli.running import Reporting
 from mcexact.model import gallery
 from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.design import Design
 from tests.answer.written import with_graph
+from tests.cli.calling import call
 from tests.end_to_end.command_line import run
 from tests.report.strict_html import Page, external_addresses
 
@@ -226,18 +229,57 @@ def test_a_box_and_disk_margins_are_aims_of_a_search(plant: str) -> None:
     assert refused.status == 2 and "disk: expected a number above 0 and below 2" in refused.stderr
 
 
-def test_a_design_whose_search_takes_half_of_the_time_is_certified_without_a_box(
-    plant: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    ticks = itertools.count()
-    monkeypatch.setattr(time, "monotonic", lambda: float(next(ticks)))
+def handed_over(plant: str, left: float | None) -> tuple[Loop, list[Loop]]:
+    """The design for a plant, and what is handed over before it is complete."""
     content = Path(plant).read_bytes()
     options: dict[str, object] = dict.fromkeys(AIMS)
-    options |= {"margin": 0.3, "disk": 0.4, "seeds": 4, "seconds": 50.0}
+    options |= {"margin": 0.3, "disk": 0.4, "seeds": 4, "seconds": left}
+    sent = list[Any]()
     made = designs.designed(
         "decentralized", ("plant.json", content), None, None, None, {},
         {"rate": None, "radius": None, "arithmetic": "exact", "agent": None}, options,
-        with_box=True, with_page=False, prove_all=False, system_by_digest=False, tell=print,
+        with_box=True, with_page=False, prove_all=False, system_by_digest=False, left=left,
+        tell=print, report=Reporting(sent.append),
     )  # fmt: skip
     assert isinstance(made, Loop)
-    assert any("no box of plants was sought" in line for line in made.verdict)
+    parts = [each.value for each in sent if getattr(each, "name", "") == DESIGNED]
+    return made, parts
+
+
+def test_with_a_time_limit_a_design_is_handed_over_before_each_further_proof(plant: str) -> None:
+    made, (certified, with_margins) = handed_over(plant, 600.0)
+    proved = [set(each.evidence.certificates) for each in (certified, with_margins, made)]
+    assert proved[0] < proved[1] < proved[2]
+    told = ["\n".join(each.verdict) for each in (certified, with_margins, made)]
+    assert ["time limit" in each for each in told] == [True, True, False]
+    assert certified.verdict[0].startswith("Worth installing")
+    assert handed_over(plant, None)[1] == []
+
+
+def test_a_search_whose_time_is_over_gives_the_best_so_far(plant: str) -> None:
+    made, _ = handed_over(plant, 1e-9)
+    assert any("the best controller so far" in line for line in made.verdict)
+    assert "stability.json" in made.evidence.certificates
+    assert any("the time limit left no time for it" in str(table) for table in made.tables)
+
+
+def test_what_is_certified_when_the_time_limit_comes_is_the_result(
+    plant: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Design, "every_loop", lambda *_, **__: time.sleep(600))
+    controller = tmp_path / "controller.json"
+    status, out, err = call(
+        "design", "decentralized", plant, "--timeout", "20", "-o", str(controller)
+    )
+    assert status == 0, err
+    assert "note: the time limit ended the search of a box of plants" in out
+    assert out.startswith("Proved: cost ≤ ")
+    assert "VALID" in out and run("certify", plant, str(controller)).status == 0
+
+
+def test_a_time_limit_before_anything_is_certified_is_one(
+    plant: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(designs, "assess", lambda *_: time.sleep(600))
+    status, _, err = call("design", "decentralized", plant, "--timeout", "3")
+    assert status == 4 and "nothing has been decided" in err

@@ -181,7 +181,7 @@ def sure_figures(
         if again is not None and again.bound < limit:
             peaks = [
                 peak_of_state(M, loop.plant.n, form),
-                peak_of_state(other, loop.plant.n, again),
+                peak_of_state(other, loop.plant.n, again, _scales(M)),
             ]
             peak = peaks[0] if _agree(peaks) else np.nan
         stays = True

@@ -837,8 +837,10 @@ def damping_and_fastest(
     return least_damping(eigenvalues, discrete=discrete), largest
 
 
-def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
+def peak_of_state(M: Floats, n: int, form: SchurForm, scales: Floats | None = None) -> float:
     """Compute max ‖E‖ over time, E the block of n plant states of exp(Mt) or M^t.
+
+    With scales d the matrix is that of the loop in the coordinates x/d, and E that of x.
 
     Notes
     -----
@@ -846,7 +848,9 @@ def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
     fastest time constant to eight times the slowest; in discrete time at the first 400 steps, and
     then alike.  A lower estimate.
     """
-    return max(1.0, max((norm(E[:n, :n]) for E in _powers(M, form)), default=1.0))
+    d = np.ones(n) if scales is None else scales[:n]
+    blocks = (E[:n, :n] * d[:, None] / d for E in _powers(M, form))
+    return max(1.0, max(map(norm, blocks), default=1.0))
 
 
 def _powers(M: Floats, form: SchurForm) -> Iterator[Floats]:

@@ -115,8 +115,12 @@ class Effort:
     @property
     def over(self) -> bool:
         """Whether nothing is left."""
-        late = self.deadline is not None and time.monotonic() >= self.deadline
-        return late or self.left <= 0
+        return self.late or self.left <= 0
+
+    @property
+    def late(self) -> bool:
+        """Whether the deadline has passed."""
+        return self.deadline is not None and time.monotonic() >= self.deadline
 
     def part(self, share: float) -> Effort:
         """Return a share of the units that are left, as an effort of its own."""

@@ -132,6 +132,10 @@ _MOST_TRIED, _STARTS_OF_FASTEST = 12, 2
 _LEAST_STORED, _MORE, _CERTIFIED = 3, 3, 20
 _ENOUGH = 1.5
 _GAINS = 10.0
+_LATE = (
+    "the time for the search was over: this is the best controller so far, for which no larger "
+    "margins, damping or box were sought"
+)
 _LEAST_GAIN = 1.0
 _LARGEST_UNKNOWN = 1e3
 _LEAST_EFFORT, _LEAST_ENOUGH, _AFTERWARDS = 40_000.0, 1.05, 0.5
@@ -274,14 +278,10 @@ def optimum(
         ladder = _ladder(family, request, aims, weights, known.central)
         candidates = ranked(ladder, climbed(ladder))
         result = _Result(tuple(candidates), ladder.target)
-        if candidates and not result.keeps_margins:
-            ladder.tell("larger margins")
-            candidates = ranked(ladder, [*with_margins(_more(ladder), candidates), *candidates])
-            result = replace(result, candidates=tuple(candidates))
-        if request.brisk is None and not result.keeps_margins:
-            result = _slower(family, request, aims, weights, result) or result
-        elif candidates and (request.brisk is not None or aims.box is not None):
-            result = _improved(ladder, request, aims, result)
+        if ladder.effort.late:
+            result = replace(result, notes=(_LATE,))
+        else:
+            result = _completed(family, request, aims, weights, ladder, result)
     if not result.candidates:
         raise LimitReached(f"no controller was found for {request.region}: {known}")
     limit = LimitReached("")
@@ -341,6 +341,27 @@ def _ladder(
         tell=request.tell,
         brisk=request.brisk,
     )
+
+
+def _completed(
+    family: Family,
+    request: Request,
+    aims: Aims,
+    weights: Weights,
+    ladder: Ladder,
+    result: _Result,
+) -> _Result:
+    """Look for the margins where they are missed, and for damping and a box."""
+    if result.candidates and not result.keeps_margins:
+        ladder.tell("larger margins")
+        found = with_margins(_more(ladder), result.candidates)
+        candidates = tuple(ranked(ladder, [*found, *result.candidates]))
+        result = replace(result, candidates=candidates)
+    if request.brisk is None and not result.keeps_margins:
+        return _slower(family, request, aims, weights, result) or result
+    if result.candidates and (request.brisk is not None or aims.box is not None):
+        return _improved(ladder, request, aims, result)
+    return result
 
 
 def _more(ladder: Ladder) -> Ladder:

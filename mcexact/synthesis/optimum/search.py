@@ -291,7 +291,7 @@ def steps_of(
     yield observers
     # It takes long to construct, and is hardly ever a better start than what was found.
     small = static.n <= (_SMALL if candidates else MOST_STATES)
-    proposed = ladder.theorem() if small else None
+    proposed = ladder.theorem() if small and not ladder.effort.late else None
     if proposed is not None:
         problem, K = problem_of(*proposed, ladder.weights, ladder.sizes)
         if problem.size <= _MOST_ENTRIES:
@@ -447,17 +447,20 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     best two of them to the end; a start that lies inside the region counts as it is, too.  For a
     large plant 1.5 times the price that is enough ends the search after a step.  Where drafts take
     much of the effort a step has only one; if its cost is far too high it is followed after all
-    other steps, unless its agents are tied.  A draft of hopeless cost always comes last.
+    other steps, unless its agents are tied.  A draft of hopeless cost always comes last.  Where the
+    effort is over before anything was found, the starts that are left count as they are.
     """
     candidates: list[Candidate] = []
     later: list[tuple[float, Start]] = []
     for step in steps_of(ladder, candidates, later):
         drafts, dear = list[tuple[float, Start]](), False
         for start in filter(lambda each: ladder.allows(each.problem), step):
-            if ladder.effort.over:
+            if ladder.effort.over and candidates:
                 break
             ladder.tell(f"{start.step}{_so_far(ladder, candidates)}")
             candidates += _as_it_is(ladder, start)
+            if ladder.effort.over:
+                continue
             before = ladder.effort.left
             value, draft = _draft(ladder, start)
             if value <= ladder.enough and _finish(ladder, draft, candidates):

@@ -1,0 +1,92 @@
+"""What a design without a rate is answered with, as a row of a table.
+
+`answered` designs, proves the cost, its bound and the margins, searches a box, and asks for the
+verdict, as `mcexact design` does.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from math import isfinite, nan
+from typing import Any
+
+from benchmarks.kept_rows import Row
+from mcexact import Aims
+from mcexact.errors import Impossible, LimitReached, OutOfReach
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.performance import performance_of
+
+
+def answered(
+    function: Callable[..., Design], system: MultiChannelSystem, effort: float, box: float
+) -> Row:
+    """The row of a plant: its figures, or the reason why there is no controller.
+
+    Parameters
+    ----------
+    function : callable
+        A ``design_…`` function.
+    system : MultiChannelSystem
+    effort, box : float
+        About the seconds of the search of a controller, and of a proof for a box of plants.
+    """
+    began = time.process_time()
+    try:
+        design = function(system, arithmetic="float", aims=Aims(effort=effort))
+    except Impossible as refused:
+        row: Row = {"answer": "refused", "told": str(refused)}
+    except OutOfReach as far:
+        row = {"answer": "out of reach", "told": str(far)}
+    except LimitReached as limit:
+        row = {"answer": "limit", "told": str(limit)}
+    else:
+        row = _figures(design, effort, box)
+    return {**row, "seconds": round(time.process_time() - began, 1)}
+
+
+def _figures(design: Design, effort: float, box: float) -> Row:
+    """What is proved and computed of a design."""
+    around = design.every_loop(box)
+    seen = performance_of(design.loop.closed)
+    account = design.account_with(around, seen)
+    known = assess(design, Aims(effort=effort), around, seen)
+    parts = design.parts.get("designed", design.parts)
+    optimum, failing = parts.get("optimum"), around.failing
+    return {
+        "answer": "designed" if optimum is not None else "theorem",
+        design.region.word: str(design.region.edge),
+        "states": design.loop.matrix.nrows,
+        "order": design.order,
+        "proved ratio": None if seen.ratio is None else float(seen.ratio),
+        "ratio": _known(seen.times_the_bound),
+        "why not": dict(seen.left_out),
+        "disk": _known(seen.least_margin),
+        "disk is proved": seen.margin is not None,
+        "joint": _known(seen.joint_margin),
+        "damping": _known(known.figures.damping),
+        "margin": _known(known.figures.margin),
+        "box": None if around.part is None else float(around.part),
+        "fails within": None if failing is None else float(failing.distance),
+        "digits": known.digits,
+        "step": None if optimum is None else optimum.step,
+        "install": known.install,
+        "first line": known.first_line(account.sentences.at("first")),
+        "warnings": list(known.warnings),
+    }
+
+
+def _known(value: float) -> float | None:
+    return value if isfinite(value) else None
+
+
+def told(row: Row) -> str:
+    """The figures of a row in one line."""
+    if row["answer"] not in ("designed", "theorem"):
+        return str(row["told"])
+    figures: dict[str, Any] = {name: row[name] or nan for name in ("disk", "joint", "damping")}
+    ratio = row["proved ratio"] or nan
+    listed = ", ".join(f"{name} {value:.2f}" for name, value in figures.items())
+    return f"order {row['order']}, ratio {ratio:.3g}, {listed}: {row['first line']}"
