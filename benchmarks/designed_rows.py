@@ -62,6 +62,7 @@ def _figures(design: Design, effort: float, box: float) -> Row:
         "order": design.order,
         "proved ratio": None if seen.ratio is None else float(seen.ratio),
         "ratio": _known(seen.times_the_bound),
+        "least": _known(seen.computed.get("cost_bound", nan)),
         "why not": dict(seen.left_out),
         "disk": _known(seen.least_margin),
         "disk is proved": seen.margin is not None,

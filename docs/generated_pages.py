@@ -222,24 +222,29 @@ def _rows(stem: str) -> list[dict[str, Any]]:
 
 def _by_hand() -> list[str]:
     """Designs beside those that an engineer makes by hand from the usual functions."""
-    methods = ("local LQR", "local LQG", "python-control")
+    methods = ("static BFGS", "local LQR", "local LQG", "python-control")
     lines = [
-        "| plant and task | mcexact | " + " | ".join(methods) + " |",
+        "| plant | mcexact | " + " | ".join(methods) + " |",
         "|---|---|" + "---|" * len(methods),
     ]
     for row in _rows("families"):
         if row["answer"] != "designed" or not row.get("by hand"):
             continue
-        cells = [_figures(row), *(_figures(row["by hand"].get(each)) for each in methods)]
+        own = {**row, "over bound": row["ratio"]}
+        hand = row["by hand"]
+        cells = [
+            _figures(own),
+            *("–" if each not in hand else _figures(hand[each]) for each in methods),
+        ]
         lines.append(f"| {row['name']} | " + " | ".join(cells) + " |")
     return lines
 
 
 def _figures(found: dict[str, Any] | None) -> str:
-    """The margin and the number of states of a controller, or that there is none."""
-    if found is None or found.get("margin") is None:
+    """The cost over the bound, the least disk margin and the order, or that there is none."""
+    if found is None or found["over bound"] is None or found["disk"] is None:
         return "none"
-    return f"margin {found['margin']:.2f}, order {found['order']}"
+    return f"cost {found['over bound']:.3g}, disk {found['disk']:.2f}, order {found['order']}"
 
 
 def _speed() -> list[str]:

@@ -54,9 +54,16 @@ from mcexact.shown import Shown
 
 MOST_BYTES, MOST_SECONDS = 2_000_000, 5.0
 """What the certificates of a loop may have, and may take the checker, unless all are asked for."""
-_BYTES, _SECONDS = 8.0, 3.5e-7
-"""Of a proof: bytes for each entry of its matrix, and seconds for each product of a row, a column
-and an entry; both are those of large loops."""
+_BYTES = 10.0
+"""Of a proof, for each entry of its symmetric matrices."""
+_COST, _BOUND, _MARGIN, _JOINT = 1.6e-7, 0.8e-7, 3.5e-7, 2e-6
+"""The seconds of the checker for the cube of the size of an inequality, of large loops.
+
+Those of the cost and of the bound have many zeros; `_JOINT` is for the joint margin of so many
+states and ports that the checker stops at its limit on work.
+"""
+_MOST_JOINT = 130
+"""The largest size of an inequality of several ports that the checker decides by default."""
 MARGINS: Mapping[str, tuple[Side, bool]] = {
     "input_margin": ("inputs", False),
     "output_margin": ("outputs", False),
@@ -284,15 +291,16 @@ def performance_of(
         return Performance(weights, {}, seen, dict.fromkeys(seen, "not tried"), weakest)
     work = _Work(prove_all=prove_all)
     answers = dict[str, Answer]()
-    for name, (size, count, prove) in asked.items():
+    for name, each in asked.items():
         if deadline is not None and time.monotonic() >= deadline:
             left_out[name] = "the time limit left no time for it"
             continue
-        if not work.allows(size, count):
-            left_out[name] = f"a proof has about {work.megabytes(size, count)} MB (--prove-all)"
+        if not work.allows(each):
+            size = f"about {each.bytes / 1e6:.1f} MB, and takes {each.seconds:.0f} s to check"
+            left_out[name] = f"a proof has {size} (--prove-all)"
             continue
         try:
-            proved = prove()
+            proved = each.prove()
             if proved is not None and units is not None:
                 proved = in_file_units(proved, loop, units)
         except (LimitReached, UsageError) as reached:
@@ -302,7 +310,7 @@ def performance_of(
             left_out[name] = "no proof was found"
         else:
             answers[name] = proved
-            work.done(size, count, len(encode(proved)))
+            work.done(each, len(encode(proved)))
     return Performance(weights, answers, seen, left_out, weakest)
 
 
@@ -341,17 +349,31 @@ def _names(plant: MultiChannelSystem, size: Callable[[int], int]) -> Iterator[st
 
 
 Proved = LoopCost | CostBound | DiskMargin
-Proof = tuple[int, int, Callable[[], Proved | None]]
 
 
-def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dict[str, Proof]:
-    """What is proved, in the order of importance: the size and number of matrices, and how."""
-    plant, N = loop.plant, loop.dimension
+@dataclass(frozen=True)
+class _Proof:
+    """How something is proved, with the bytes of its certificate and the seconds of the checker."""
+
+    prove: Callable[[], Proved | None]
+    bytes: float
+    seconds: float
+
+    @classmethod
+    def of(cls, prove: Callable[[], Proved | None], sizes: list[int], seconds: float) -> _Proof:
+        """Estimate the bytes from the sizes of the matrices."""
+        return cls(prove, _BYTES * sum(size * (size + 1) / 2 for size in sizes), seconds)
+
+
+def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dict[str, _Proof]:
+    """What is proved, in the order of importance."""
+    plant, N, n = loop.plant, loop.dimension, loop.plant.n
     p, q = (sum(map(ports, range(plant.m))) for ports in (plant.p, plant.q))
-    filtered = q if weights.bandwidth is not None else 0
-    proofs: dict[str, Proof] = {
-        "loop_cost": (N + filtered, 1, lambda: cost_of(loop, weights)),
-        "cost_bound": (plant.n + max(p, q), 2, lambda: bound_of(plant, weights)),
+    whole = N + (q if weights.bandwidth is not None else 0)
+    of_plant = _BOUND * ((n + p) ** 3 + (n + q) ** 3)
+    proofs = {
+        "loop_cost": _Proof.of(lambda: cost_of(loop, weights), [whole], _COST * whole**3),
+        "cost_bound": _Proof.of(lambda: bound_of(plant, weights), [n, n], of_plant),
     }
 
     def margin(side: Side, *, together: bool) -> Callable[[], Proved | None]:
@@ -359,15 +381,17 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
 
     for name, (side, together) in MARGINS.items():
         ports = p if side == "inputs" else q
-        proofs[name] = (N + 1, 1 if together else ports, margin(side, together=together))
+        count, size = (1 if together else ports), N + ports
+        seconds = count * _MARGIN * (N + 1) ** 3
+        if together and size > _MOST_JOINT:
+            seconds = _JOINT * size**3
+        proofs[name] = _Proof.of(margin(side, together=together), count * [N], seconds)
     messages = bool(loop.controller.edges())
     graph = influences(plant.with_neighbors(loop.graph), messages=messages)
     if graph is not None:
         groups = len({*graph.states}) + 1
-        proofs["graph_cost_bound"] = (
-            plant.n + max(p, q),
-            2 * groups,
-            lambda: bound_of(plant, weights, graph),
+        proofs["graph_cost_bound"] = _Proof.of(
+            lambda: bound_of(plant, weights, graph), 2 * groups * [n], groups * of_plant
         )
     return proofs
 
@@ -415,16 +439,11 @@ class _Work:
         self.all = prove_all
         self.bytes, self.seconds = float(MOST_BYTES), MOST_SECONDS
 
-    def allows(self, size: int, count: int) -> bool:
-        """Whether so many matrices of a size are within what is left."""
-        needed = count * size**2 / 2 * _BYTES <= self.bytes
-        return self.all or (needed and count * size**3 * _SECONDS <= self.seconds)
+    def allows(self, proof: _Proof) -> bool:
+        """Whether a proof is within what is left."""
+        return self.all or (proof.bytes <= self.bytes and proof.seconds <= self.seconds)
 
-    def megabytes(self, size: int, count: int) -> str:
-        """How large so many matrices are."""
-        return f"{count * size**2 / 2 * _BYTES / 1e6:.1f}"
-
-    def done(self, size: int, count: int, written: int) -> None:
+    def done(self, proof: _Proof, written: int) -> None:
         """Take off what a proof has, and takes."""
         self.bytes -= written
-        self.seconds -= count * size**3 * _SECONDS
+        self.seconds -= proof.seconds

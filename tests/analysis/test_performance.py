@@ -1,4 +1,4 @@
-"""Default weights of plants with any number of outputs, and proofs where one mode is very slow."""
+"""Default weights, frequency responses of loops, and proofs where one mode is very slow."""
 
 from fractions import Fraction
 
@@ -7,7 +7,10 @@ import pytest
 from scipy.linalg import solve_continuous_are
 
 from mcexact.analysis.performance import (
+    HALF,
+    PortResponse,
     Side,
+    _largest_gain,
     computed_cost,
     computed_margins,
     cost_of,
@@ -88,3 +91,44 @@ def test_a_margin_is_proved_tightly_beside_a_mode_far_slower_than_the_others(at:
     assert proved is not None
     [seen], _ = computed_margins(response_of(loop, at))
     assert 0.98 * seen <= to_float(proved.margin) <= 1.001 * seen
+
+
+def chain(n: int, spread: int) -> PortResponse:
+    """The response through a chain of lags; without spread it has one eigenvector alone."""
+    rows = [[-1 - spread * i if i == j else int(i == j + 1) for j in range(n)] for i in range(n)]
+    enter = [[1, 0], [0, 1], *([0, 0] for _ in range(n - 2))]
+    leave = [[0] * (n - 1) + [-1], [0, -1] + [0] * (n - 2)]
+    M, E, Y = map(Matrix.from_rows, (rows, enter, leave))
+    return PortResponse((M, E, Y), False, HALF)
+
+
+@pytest.mark.parametrize(("length", "spread"), [(3, 1), (12, 0), (12, 1)])
+def test_responses_are_those_of_linear_systems_whatever_the_eigenvectors_are(
+    length: int, spread: int
+) -> None:
+    response = chain(length, spread)
+    assert (response._modal is None) == (spread == 0)
+    M, E, Y = map(matrix_to_float, response.exact)
+    for z, seen in zip(response._points(), response._samples, strict=True):
+        expected = Y @ np.linalg.solve(z * np.eye(length) - M, E) + np.eye(2) / 2
+        assert np.allclose(seen, expected, rtol=1e-6, atol=1e-8)
+    single, together = computed_margins(response)
+    assert 0 < together <= min(single) <= 2
+
+
+def test_the_largest_norm_is_that_of_all_samples() -> None:
+    rng = np.random.default_rng(5)
+    samples = rng.normal(size=(200, 4, 4)) + 1j * rng.normal(size=(200, 4, 4))
+    samples *= rng.uniform(0.5, 1, size=(200, 1, 1))
+    scaling = np.array([1.0, 4.0, 0.25, 16.0])
+    h = np.sqrt(scaling)
+    norms = [np.linalg.norm(h[:, None] * G / h, 2) for G in samples]
+    value, worst = _largest_gain(samples, np.abs(samples), scaling)
+    assert value == pytest.approx(max(norms))
+    assert np.array_equal(worst, samples[int(np.argmax(norms))])
+
+
+def test_without_ports_nothing_is_amplified() -> None:
+    nothing = Matrix.from_rows([[-1]]), Matrix.zeros(1, 0), Matrix.zeros(0, 1)
+    assert computed_margins(PortResponse(nothing, False, HALF)) == ([], 2.0)
+    assert PortResponse(nothing, False, HALF).scaled_norm([])[0] == 0

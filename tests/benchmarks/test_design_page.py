@@ -4,19 +4,24 @@ from typing import Any
 
 import pytest
 
-from benchmarks.design_page import PAGE, REMARKS, exceptions, page, reason, written
-from benchmarks.kept_rows import ROWS, kept
+from benchmarks.design_page import PAGE, REMARKS, exceptions, page, ratio_of, reason, written
+from benchmarks.kept_rows import ROWS, Row, kept
 
 DESIGNED: dict[str, Any] = {
-    "name": "plant decentralized", "answer": "designed", "rate": "1/2", "order": 0, "gain": 2.0,
-    "margin": 0.5, "cost": 1.2, "peak": 3.0, "digits": 2, "step": "static gains", "seconds": 0.5,
-    "central": {"gain": 1.0, "margin": 0.6, "peak": 2.0, "cost": 10.0}, "machine": "a machine",
+    "name": "plant decentralized", "answer": "designed", "rate": "1/2", "states": 3, "order": 1,
+    "proved ratio": 1.25, "ratio": 1.25, "least": 8.0, "why not": {}, "disk": 0.5,
+    "disk is proved": True, "joint": 0.4, "damping": 0.3, "margin": 0.4, "box": 0.02,
+    "fails within": 0.1, "digits": 2, "step": "static gains", "install": "yes",
+    "first line": "Worth installing", "warnings": [], "seconds": 0.5, "machine": "a machine",
     "by hand": {
-        "local LQR": {
-            "order": 0, "gain": 1.0, "bound": -0.1, "margin": 0.4, "cost": 0.5, "peak": 1.0
-        },
+        "local LQR": {"order": 0, "over bound": 3.5, "disk": 0.1},
         "local LQG": None,
+        "python-control": {"order": 3, "over bound": 1.0, "disk": 0.9},
     },
+}  # fmt: skip
+BEFORE: dict[str, Any] = {
+    "name": "plant decentralized", "answer": "designed", "order": 4, "cost": 2.0,
+    "central": {"cost": 12.0}, "install": "yes",
 }  # fmt: skip
 
 
@@ -34,40 +39,57 @@ def test_what_is_remarked_on_is_an_exception() -> None:
     ("changed", "told"),
     [
         ({}, []),
-        ({"margin": 0.02}, ["margin 0.02"]),
-        ({"disk": 0.3}, ["disk margin 0.3"]),
-        ({"disk": 0.41, "damping": 0.05, "over bound": 2.0}, []),
-        ({"damping": 0.04}, ["damping 0.04"]),
+        ({"proved ratio": 2.5, "ratio": 2.5}, ["cost/bound 2.5"]),
         (
-            {"slower": "Re λ < -1/4"},
-            ["Re λ < -1/4, the fastest that was found with the margins"],
+            {"proved ratio": None, "why not": {"cost_bound": "no proof was found"}},
+            ["cost/bound is not proved (cost bound: no proof was found)"],
         ),
-        ({"peak": 101.0}, ["peak 101"]),
-        ({"gain": 11.0}, ["gain 11, 1 for all agents together"]),
-        ({"cost": 11.0}, ["11 times the cost of one controller for all agents"]),
-        ({"digits": 5}, ["5 digits"]),
-        ({"digits": None}, ["more than 12 digits"]),
+        ({"disk": 0.3}, ["disk margin 0.3"]),
+        ({"disk": None}, ["disk margin –"]),
+        ({"disk": 0.4, "damping": 0.05, "proved ratio": 2.0}, []),
+        ({"damping": 0.04}, ["damping 0.04"]),
         ({"seconds": 61.0}, ["61 seconds"]),
-        ({"rate": "1/20"}, ["dearer than local LQR, 0.50"]),
+        ({"install": "no"}, ["not to be installed"]),
+        ({"answer": "theorem"}, ["the controller of the theorem"]),
         ({"answer": "refused", "told": "no control moves it"}, []),
-        ({"answer": "limit", "told": "nothing was found"}, ["nothing was found"]),
+        ({"answer": "limit", "told": "nothing was found"}, ["no controller: nothing was found"]),
     ],
 )
 def test_exceptions_are_what_a_practitioner_should_know(changed, told) -> None:
     row = {**DESIGNED, **changed}
     assert exceptions(row) == told
-    text = page({row["name"]: row}, {})
-    above = text[: text.index("## Published plants")]
+    text = page({row["name"]: row}, {}, {})
+    above = text[text.index("## Exceptions") : text.index("## Published plants")]
     assert all(each in above for each in told) and (row["name"] in above) == bool(told)
 
 
 def test_an_exception_of_a_plant_that_is_fragile_in_one_hand_says_so() -> None:
-    fragile = {**DESIGNED, "margin": 0.1, "central": {**DESIGNED["central"], "margin": 0.05}}
-    assert reason(fragile) == "the margin of one controller for all agents is 0.05"
+    hand: dict[str, Any] = {"python-control": {"order": 3, "over bound": 1.0, "disk": 0.05}}
+    row: dict[str, Any] = {**DESIGNED, "by hand": hand, "warnings": ["a margin is low"]}
+    assert reason(row) == (
+        "one controller for all agents has a disk margin of 0.05; a margin is low"
+    )
     assert reason(DESIGNED) == ""
 
 
-def test_a_refusal_is_listed_with_its_reason() -> None:
-    row = {"name": "stuck", "answer": "refused", "told": "no control moves it", "by hand": {},
-           "seconds": 0.1, "machine": "a machine"}  # fmt: skip
-    assert "| stuck | no control moves it | 0.1 |" in page({"stuck": row}, {})
+def test_a_refusal_is_listed_with_its_reason_and_counts_nowhere() -> None:
+    row: Row = {"name": "stuck decentralized", "answer": "refused", "told": "no control moves it",
+           "by hand": {}, "seconds": 0.1, "machine": "a machine"}  # fmt: skip
+    text = page({"stuck decentralized": row, "plant decentralized": DESIGNED}, {}, {})
+    assert "| stuck decentralized | no control moves it | 0.1 |" in text
+    assert "1 of 2 requests are not refused with a proof; median of cost/bound 1.25" in text
+
+
+def test_a_limit_counts_as_an_infinite_cost() -> None:
+    row: Row = {"name": "lost decentralized", "answer": "limit", "told": "nothing was found",
+           "by hand": {}, "seconds": 9.0, "machine": "a machine"}  # fmt: skip
+    assert ratio_of(row) == float("inf") and ratio_of(DESIGNED) == 1.25
+    text = page({row["name"]: row}, {}, {})
+    assert "median of cost/bound inf" in text and "| lost decentralized | ∞ |" in text
+
+
+def test_what_was_recorded_before_stands_beside_over_the_same_bound() -> None:
+    text = page({DESIGNED["name"]: DESIGNED}, {}, {BEFORE["name"]: BEFORE})
+    assert "| plant decentralized | 1.25 (3) | 0.5 | 0.4 | 0.3 | 2 % | 1 (4) | 0.5 |" in text
+    assert "before 3 of 1, computed" in text and "worth installing 1 (before 1" in text
+    assert "| 3.5, 0.1 | not stable | 1, 0.9 |" in text

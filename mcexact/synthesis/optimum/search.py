@@ -448,14 +448,14 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     large plant 1.5 times the price that is enough ends the search after a step.  Where drafts take
     much of the effort a step has only one; if its cost is far too high it is followed after all
     other steps, unless its agents are tied.  A draft of hopeless cost always comes last.  Where the
-    effort is over before anything was found, the starts that are left count as they are.
+    deadline has passed before anything was found, the starts that are left count as they are.
     """
     candidates: list[Candidate] = []
     later: list[tuple[float, Start]] = []
     for step in steps_of(ladder, candidates, later):
         drafts, dear = list[tuple[float, Start]](), False
         for start in filter(lambda each: ladder.allows(each.problem), step):
-            if ladder.effort.over and candidates:
+            if ladder.effort.over and (candidates or not ladder.effort.late):
                 break
             ladder.tell(f"{start.step}{_so_far(ladder, candidates)}")
             candidates += _as_it_is(ladder, start)

@@ -120,3 +120,17 @@ def test_printed_figures_are_alike_on_different_processors() -> None:
         done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
         shown.append(done.stdout)
     assert all(one == other for one, other in pairwise(shown)) and "'bound': '-1'" in shown[0]
+
+
+def test_the_peak_of_a_large_loop_is_known_in_whatever_units_its_states_are() -> None:
+    """With more than 40 states it is compared with that of balanced coordinates."""
+    n = 44
+    sizes = [Fraction(10) ** (k % 5 - 2) for k in range(n)]
+    rows = [
+        [Fraction(-1 if i == j else (i == j + 1)) * sizes[i] / sizes[j] for j in range(n)]
+        for i in range(n)
+    ]
+    plant = MultiChannelSystem(rows, [[[1]] * n], [[[1] * n]])
+    loop = closed_loop(plant, local_controllers(plant, [[[0]]]))
+    seen, plain = (make(loop, Weights.unit(plant)) for make in (sure_figures, figures_of_loop))
+    assert seen.peak == pytest.approx(plain.peak, rel=5e-3) and seen.peak > 10
