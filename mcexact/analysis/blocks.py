@@ -13,6 +13,10 @@ system are those of the blocks, and `bounded_blocks` has a sequence for each.  A
 modes whose sequence is too short can be proved by two coprime polynomials in its place
 (`completed_blocks`).
 
+Blocks that leave modes are decided one by one (`local_subspaces`).  A shrunk subspace of the system
+of a block proves that its modes are fixed in the whole system: nothing acts on a block that it
+drives.
+
 The same blocks prove how much channels control.  Modes that channels do not control are fixed,
 whatever the channels measure.  So the states that they measure can be chosen, and one of them can
 measure everything (`measured_system`).
@@ -25,8 +29,15 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from mcexact.analysis.subspaces import decide
-from mcexact.answer.evidence import Block, CoprimePolynomials, KrylovSequence
+from mcexact.analysis.sparse import fixed_subspaces
+from mcexact.analysis.subspaces import ExactSubspace, decide, evidence, shrunk_subspace
+from mcexact.answer.evidence import (
+    Block,
+    CoprimePolynomials,
+    KrylovSequence,
+    LocalSubspace,
+    ShrunkSubspace,
+)
 from mcexact.derived.modular import (
     Gains,
     ModularSystem,
@@ -35,9 +46,12 @@ from mcexact.derived.modular import (
     generator,
     lifted_gains,
 )
+from mcexact.errors import LimitReached
 from mcexact.exact.krylov import Start, cofactors, least_recurrence
+from mcexact.exact.linear_algebra import PolynomialMatrix, characteristic_polynomial, nullspace_at
 from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.exact.modular import ModularPolynomial
+from mcexact.exact.polynomial import Polynomial
 from mcexact.model.graph import components_of
 from mcexact.model.system import MultiChannelSystem
 
@@ -341,6 +355,152 @@ def free_blocks(system: MultiChannelSystem) -> tuple[Block, ...] | None:
     if modes_left(blocks) and len(blocks) > 1:
         blocks = completed_blocks(system, blocks)
     return None if modes_left(blocks) else blocks
+
+
+# Fixed modes of the blocks, each proved by a subspace of the states of its block.
+
+LARGEST_DENSE = 500
+"""Larger blocks are searched by sparse products, which find no Jordan chains."""
+
+# If more modes may be fixed, sparse products, or χ_A of the block, are not tried.
+_MOST_MODES = 64
+_MOST_ALONE = 500
+
+Fixed = tuple[Polynomial, int, ShrunkSubspace | LocalSubspace]
+"""An irreducible factor, the rank that pencils lose at its roots, and the proof."""
+
+
+def local_subspaces(
+    system: MultiChannelSystem, blocks: Sequence[Block]
+) -> tuple[tuple[Block, ...], tuple[Fixed, ...]]:
+    """Decide each block that leaves modes by itself.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    blocks : sequence of Block
+        Of `bounded_blocks`.
+
+    Returns
+    -------
+    blocks : tuple of Block
+        The same, with two polynomials where no mode is fixed.
+    fixed : tuple of (Polynomial, int, ShrunkSubspace or LocalSubspace)
+        Sorted by degree, then by coefficients.
+
+    Raises
+    ------
+    LimitReached
+        A factor divides χ_{A_F} more often than pencils lose rank at its roots: by a Jordan chain
+        within a block, or in blocks of which one acts on the other through states outside of both.
+        Then blocks do not prove the rank.  Or a block is too large for its search.
+    """
+    parts, proved = state_blocks(system), list[Block]()
+    found: dict[Polynomial, list[tuple[StateBlock, ExactSubspace]]] = {}
+    for part, block in zip(parts, blocks, strict=True):
+        spaces: Sequence[tuple[Polynomial, ExactSubspace]] = ()
+        if _left(block):
+            spaces = _subspaces_of_block(system, part, _left(block))
+            if not spaces:
+                block = _completed(part, block, system.denominator)
+            elif _left(block) > sum(p.degree * each.deficiency for p, each in spaces):
+                raise LimitReached("the modes of a block are fixed by Jordan chains")
+        proved.append(block)
+        for p, space in spaces:
+            found.setdefault(p, []).append((part, space))
+    arcs = _arcs(system)[1] if found else []
+    fixed = [_in_whole(system, arcs, p, places) for p, places in found.items()]
+    fixed.sort(key=lambda each: (each[0].degree, each[0].coefficients))
+    return tuple(proved), tuple(fixed)
+
+
+def _subspaces_of_block(
+    system: MultiChannelSystem, part: StateBlock, left: int
+) -> Sequence[tuple[Polynomial, ExactSubspace]]:
+    """The fixed factors of a block, each with a shrunk subspace of its system."""
+    size = len(part.states)
+    products = part.system is not None and size > LARGEST_DENSE
+    if left > (_MOST_MODES if products else _MOST_ALONE):
+        raise LimitReached(f"{left} modes of a block of {size} states may be fixed")
+    if part.system is not None and products:
+        return fixed_subspaces(part.system)
+    if part.system is not None:
+        decision = decide(part.system, generator(part.system, "fixed_spectrum"))
+        return [(o.polynomial, o.subspace) for o in decision.obstructions]
+    A = _matrix_within(system, part.states)
+    return [(p, _eigenvectors(A, p)) for p, _ in characteristic_polynomial(A).factor()]
+
+
+def _matrix_within(system: MultiChannelSystem, states: Sequence[int]) -> Matrix:
+    at = {state: k for k, state in enumerate(states)}
+    return _within(system.A, at, at)
+
+
+def _eigenvectors(A: Matrix, p: Polynomial) -> ExactSubspace:
+    """The null space of xI − A modulo p, as a shrunk subspace of a system without channels."""
+    U, pivots = nullspace_at(-A, Matrix.identity(A.nrows), p)
+    V = PolynomialMatrix.from_matrices(Matrix.zeros(0, len(pivots)))
+    return ExactSubspace((), U, V, pivots, len(pivots))
+
+
+def _in_whole(
+    system: MultiChannelSystem,
+    arcs: list[list[int]],
+    p: Polynomial,
+    places: list[tuple[StateBlock, ExactSubspace]],
+) -> Fixed:
+    """One subspace for all blocks in which the roots of p are fixed."""
+    part, space = places[0]
+    if len(places) > 1:
+        part, space = _joined(system, arcs, p, places)
+    if part.system is system:
+        return p, space.deficiency, evidence(system, space)
+    seeing, acting = _seeing(system, arcs, part.states)
+    named = () if part.system is None else part.system.names
+    inner = ShrunkSubspace(
+        tuple(named[i] for i in space.channels_T), space.U, space.V, space.pivots
+    )
+    kept = {*inner.channels_T, *system.named(seeing - acting)}
+    T = tuple(name for name in system.names if name in kept)
+    return p, space.deficiency, LocalSubspace(T, part.states, inner)
+
+
+def _joined(
+    system: MultiChannelSystem,
+    arcs: list[list[int]],
+    p: Polynomial,
+    places: list[tuple[StateBlock, ExactSubspace]],
+) -> tuple[StateBlock, ExactSubspace]:
+    """The states of several blocks with their subspace, if it loses as much as all of them."""
+    states = tuple(sorted(a for part, _ in places for a in part.states))
+    if len(states) > LARGEST_DENSE:
+        raise LimitReached(f"the modes of {p} are fixed in several large blocks")
+    acting = sorted(_seeing(system, arcs, states)[1])
+    part = StateBlock(states, _part(system, states, acting))
+    space = (
+        _eigenvectors(_matrix_within(system, states), p)
+        if part.system is None
+        else shrunk_subspace(part.system, p, generator(part.system, "fixed_spectrum"))
+    )
+    if space is None or space.deficiency < sum(each.deficiency for _, each in places):
+        raise LimitReached(f"the modes of {p} are fixed in blocks that act on each other")
+    return part, space
+
+
+def _seeing(
+    system: MultiChannelSystem, arcs: list[list[int]], states: Sequence[int]
+) -> tuple[set[int], set[int]]:
+    """The channels that see some states or what these drive, and those that act within them."""
+    n, own = system.n, set(states)
+    found, rest = set(own), [*states]
+    while rest:
+        new = set(arcs[rest.pop()]) - found
+        found |= new
+        rest += new
+    within = {c for b in states for c in arcs[b] if c >= n and not own.isdisjoint(arcs[c])}
+    if any(not own.isdisjoint(arcs[b]) for b in found - own - within):
+        raise LimitReached("a factor is fixed in several blocks, with others between them")
+    return {c - n for c in found if c >= n}, {c - n for c in within}
 
 
 # Blocks of channels that measure states, which prove how much these channels control.

@@ -8,8 +8,8 @@ has rank below n.  There are 2^m such sets; none is enumerated.
 
 1. Blocks of states, each with a Krylov sequence of drawn gains (`blocks`).  These bound how many
    modes are fixed; without fixed modes they nearly always suffice, and this takes O(n³).
-2. For large sparse systems, shrunk subspaces by sparse products (`sparse`), if the blocks leave
-   few modes.
+2. For large systems of several blocks, or sparse ones, each block that leaves modes by itself
+   (`local_subspaces`): its shrunk subspaces are evidence about the whole system.
 3. The dense search (`subspaces`): all fixed factors of χ_A, each with a shrunk subspace that proves
    it fixed.  That no other mode is fixed is proved by the blocks, or by gains F and a prime modulo
    which χ_{A_F} is coprime to the rest of χ_A; this also serves modes fixed by Jordan chains.
@@ -30,12 +30,12 @@ from mcexact.analysis.blocks import (
     best_sequences,
     bounded_blocks,
     completed_blocks,
+    local_subspaces,
     longest_sequence,
     modes_left,
 )
 from mcexact.analysis.sparse import (
     edge_modulus,
-    fixed_subspaces,
     is_connected,
     is_large_and_sparse,
     reachable_pairs,
@@ -101,10 +101,8 @@ if TYPE_CHECKING:
 
 # Up to this size dense matrices are searched, which finds Jordan chains as well.
 _DENSE = 500
-# Blocks of so many states are decided densely, one after the other.
-_SMALL_BLOCK = 500
-# If more modes may be fixed, sparse products do not search for their subspaces.
-_MOST_MODES = 64
+# From here on blocks are decided one after the other, and the exponents in χ_A are left open.
+_WHOLE = 100
 
 
 @overload
@@ -169,15 +167,19 @@ def fixed_spectrum(
     blocks = bounded_blocks(system)
     if not modes_left(blocks):
         return _answer(system, (), None, ByBlocks(blocks, None, ()))
-    if _is_large_and_sparse(system):
-        blocks = _with_small_blocks_completed(system, blocks)
-        if not modes_left(blocks):
-            return _answer(system, (), None, ByBlocks(blocks, None, ()))
-        answer = _by_sparse_search(system, blocks)
-        if answer is not None:
-            return answer
+    reason = ""
+    if _in_parts(system, blocks):
+        try:
+            return _part_by_part(system, blocks)
+        except LimitReached as limit:
+            reason = str(limit)
     rng = generator(system, "fixed_spectrum")
-    decision = decide(system, rng)
+    try:
+        decision = decide(system, rng)
+    except LimitReached as limit:
+        raise LimitReached(
+            f"{limit}; block by block: {reason}" if reason else str(limit)
+        ) from limit
     region = StabilityRegion(cast(Time, system.time))
     discs, rate = located(system.time, [o.polynomial for o in decision.obstructions])
     subspaces = tuple(evidence(system, o.subspace) for o in decision.obstructions)
@@ -197,52 +199,38 @@ def fixed_spectrum(
     return _answer(system, factors, rate, proof)
 
 
-def _is_large_and_sparse(system: MultiChannelSystem) -> bool:
+def _in_parts(system: MultiChannelSystem, blocks: tuple[Block, ...]) -> bool:
+    """Whether the blocks are decided one after the other, without the polynomial of A."""
     channels = system.channels
-    return system.n > _DENSE and stays_sparse(
+    sparse = system.n > _DENSE and stays_sparse(
         system.A, [c.B for c in channels], [c.C for c in channels]
     )
+    return sparse or (system.n > _WHOLE and len(blocks) > 1)
 
 
-def _with_small_blocks_completed(
-    system: MultiChannelSystem, blocks: tuple[Block, ...]
-) -> tuple[Block, ...]:
-    """The blocks; if they are small, those without fixed modes get two polynomials as proof."""
-    short = [block for block in blocks if modes_left([block])]
-    if len(blocks) < 2 or max(len(block.states) for block in short) > _SMALL_BLOCK:
-        return blocks
-    return completed_blocks(system, blocks)
-
-
-def _by_sparse_search(
-    system: MultiChannelSystem, blocks: tuple[Block, ...]
-) -> FixedSpectrum | None:
-    """The fixed spectrum by products with sparse matrices, without χ_A; None if that fails."""
-    if modes_left(blocks) > _MOST_MODES:
-        return None
-    try:
-        subspaces = fixed_subspaces(system)
-    except LimitReached:
-        return None
-    ell = _separating(product(p for p, _ in subspaces), MODULI[-1])
-    fixed = sum(p.degree * space.deficiency for p, space in subspaces)
-    if modes_left(blocks) != fixed or ell is None:
-        return None
+def _part_by_part(system: MultiChannelSystem, blocks: tuple[Block, ...]) -> FixedSpectrum:
+    """The fixed spectrum from those of the blocks, without χ_A."""
+    blocks, subspaces = local_subspaces(system, blocks)
+    ell = _separating(product(p for p, _, _ in subspaces), MODULI[-1]) if subspaces else None
+    if modes_left(blocks) != sum(p.degree * deficiency for p, deficiency, _ in subspaces):
+        raise LimitReached("two polynomials modulo one prime do not prove that a block is free")
+    if subspaces and ell is None:
+        raise LimitReached("factors have common roots modulo each prime that is tried")
     region = StabilityRegion(cast(Time, system.time))
-    discs, rate = located(system.time, [p for p, _ in subspaces])
+    discs, rate = located(system.time, [p for p, _, _ in subspaces])
     factors = tuple(
         FixedFactor(
             polynomial=p,
             multiplicity_in_A=None,
-            multiplicity_at_most=space.deficiency,
-            channels=system.named(i for i in range(system.m) if i not in set(space.channels_T)),
-            rank=system.n - space.deficiency,
+            multiplicity_at_most=deficiency,
+            channels=tuple(name for name in system.names if name not in set(space.channels_T)),
+            rank=system.n - deficiency,
             stable=region.contains_roots_of(p),
             roots=roots,
         )
-        for (p, space), roots in zip(subspaces, discs, strict=True)
+        for (p, deficiency, space), roots in zip(subspaces, discs, strict=True)
     )
-    spaces = tuple(evidence(system, space) for _, space in subspaces)
+    spaces = tuple(space for _, _, space in subspaces)
     return _answer(system, factors, rate, ByBlocks(blocks, ell, spaces))
 
 

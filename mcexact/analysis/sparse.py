@@ -61,8 +61,10 @@ if TYPE_CHECKING:
 
 # Each column has n entries in the certificate, and takes n products with A_F.
 MOST_COLUMNS = 256
-# Each prime takes a sequence of its own.
-MOST_PRIMES = 12
+# Each prime takes two sequences, each of 2n products of a vector with A_F, 1 ns for each entry that
+# is not 0; together they take about a minute at most.
+MOST_WORK = 2**36
+_STEP = 10**4
 
 
 @dataclass(frozen=True)
@@ -97,6 +99,12 @@ def exact_primes(system: MultiChannelSystem, rng: random.Random) -> Iterator[int
     for ell in primes(rng.getrandbits(64), bits):
         if all(d % ell for d in denominators):
             yield ell
+
+
+def affordable(system: MultiChannelSystem) -> int:
+    """The number of primes for which two sequences each are computed."""
+    entries = sum(1 for _ in system.A.nonzero()) + system.n
+    return max(2, MOST_WORK // (4 * max(system.n, 1) * (entries + _STEP)))
 
 
 def drawn_loop(system: MultiChannelSystem, ell: int, rng: random.Random) -> DrawnLoop:
@@ -172,7 +180,7 @@ def _common_factor(
     """The common divisor of the minimal polynomials of two loops, lifted to Q; and one of them."""
     residues: list[int] = []
     modulus = 1
-    for ell in islice(moduli, MOST_PRIMES):
+    for ell in islice(moduli, affordable(system)):
         first, second = (drawn_loop(system, ell, rng) for _ in range(2))
         common = first.polynomial.gcd(second.polynomial).coefficients
         if not residues or len(common) < len(residues):
@@ -186,7 +194,7 @@ def _common_factor(
             # few residues lift to numbers so short by accident
             if _SURE * max(*map(abs, numerators), d) ** 2 < modulus:
                 return from_integer_coefficients(numerators, d), first
-    raise LimitReached("the factors that are fixed have too long coefficients")
+    raise LimitReached(f"coefficients of fixed factors do not fit in {affordable(system)} primes")
 
 
 def _subspace(
@@ -194,7 +202,7 @@ def _subspace(
 ) -> ExactSubspace:
     """A shrunk subspace for an irreducible polynomial, from its residues where p has all roots."""
     known: tuple[_Limit, list[list[int]], int] | None = None
-    for loop in islice(loops, MOST_PRIMES):
+    for loop in islice(loops, affordable(system)):
         ell, roots = loop.parts.ell, polynomial_residues(p, loop.parts.ell).roots()
         limits = [_limit(loop, mu, rng) for mu in roots]
         first = limits[0]
@@ -208,7 +216,7 @@ def _subspace(
         subspace = None if lifted is None else _exact(system, p, first, *lifted)
         if subspace is not None:
             return subspace
-    raise LimitReached(f"the subspace for {p} has too long entries")
+    raise LimitReached(f"entries of the subspace for {p} do not fit in {affordable(system)} primes")
 
 
 def _limit(loop: DrawnLoop, mu: int, rng: random.Random) -> _Limit | None:
@@ -341,7 +349,7 @@ def annihilator(system: MultiChannelSystem, size: int) -> tuple[Matrix, tuple[in
         return None
     rng = generator(system, "controllability")
     known: tuple[tuple[int, ...], list[list[int]], int] | None = None
-    for ell in islice(exact_primes(system, rng), MOST_PRIMES):
+    for ell in islice(exact_primes(system, rng), affordable(system)):
         rows, pivots = _residues(system, size, ell, rng)
         if len(pivots) != size:
             continue

@@ -38,6 +38,27 @@ class ShrunkSubspace(Part):
 
 
 @dataclass(frozen=True)
+class LocalSubspace(Part):
+    """A shrunk subspace of the system of some states, on which nothing acts that they drive.
+
+    Attributes
+    ----------
+    channels_T : tuple of str
+        T of the whole system, in its order: the channels in T of the subspace, those that measure
+        other states that the states drive, along A and through channels, and those that measure the
+        states and drive none of them.
+    states : tuple of int
+        Increasing.
+    subspace : ShrunkSubspace
+        Of the system of the states, with the channels that measure some of them and drive some.
+    """
+
+    channels_T: tuple[str, ...]
+    states: tuple[int, ...]
+    subspace: ShrunkSubspace
+
+
+@dataclass(frozen=True)
 class ZeroBlock(Part):
     """W (xI − A) U = 0, W B_T = 0 and C_i U = 0 for i outside T, modulo p and perhaps q.
 

@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from mcexact.answer.evidence import (
     Block,
     KrylovSequence,
+    LocalSubspace,
     RateInterval,
     RootDisc,
     ShrunkSubspace,
@@ -48,8 +49,9 @@ class FixedFactor(Part):
         χ_{A_F} over all constant gains: the multiplicity itself if the evidence is by blocks, else
         the exponent for the drawn F, which is nearly always equal.
     channels : tuple of str
-        s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
-        least rank.
+        s, a set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the least rank:
+        the largest one; or with a subspace of some states the largest one among those whose
+        channels measure nothing that these states drive.
     rank : int
         That rank, below n.
     stable : bool
@@ -86,13 +88,13 @@ class ByBlocks(Part):
     modulus : int or None
         ℓ ≥ 2, modulo which no two factors have a common root and none has a multiple one; None if
         there is no factor.
-    subspaces : tuple of ShrunkSubspace
+    subspaces : tuple of ShrunkSubspace or LocalSubspace
         One for each factor, of deficiency n − rank.
     """
 
     blocks: tuple[Block, ...]
     modulus: int | None
-    subspaces: tuple[ShrunkSubspace, ...]
+    subspaces: tuple[ShrunkSubspace | LocalSubspace, ...]
 
 
 @dataclass(frozen=True)
@@ -255,12 +257,12 @@ class FixedModeWitness(Part):
     ----------
     polynomial : Polynomial
         p, monic of degree at least 1.
-    subspace : ShrunkSubspace
+    subspace : ShrunkSubspace or LocalSubspace
         Of deficiency at least 1 for p.
     """
 
     polynomial: Polynomial
-    subspace: ShrunkSubspace
+    subspace: ShrunkSubspace | LocalSubspace
 
 
 @dataclass(frozen=True)

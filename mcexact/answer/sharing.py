@@ -25,6 +25,7 @@ from mcexact.answer.evidence import (
     ConnectivityCut,
     DeficiencyCut,
     LinkCut,
+    LocalSubspace,
     ShrunkSubspace,
     Tree,
 )
@@ -78,13 +79,13 @@ class RankLoss(Part):
     ----------
     polynomial : Polynomial
     deficiency : int
-    subspace : ShrunkSubspace
+    subspace : ShrunkSubspace or LocalSubspace
         Of this deficiency.
     """
 
     polynomial: Polynomial
     deficiency: int
-    subspace: ShrunkSubspace
+    subspace: ShrunkSubspace | LocalSubspace
 
 
 @dataclass(frozen=True)
@@ -105,7 +106,7 @@ class ByBlocks(Part):
     losses: tuple[RankLoss, ...]
 
     @property
-    def worst(self) -> tuple[Polynomial, ShrunkSubspace] | None:
+    def worst(self) -> tuple[Polynomial, ShrunkSubspace | LocalSubspace] | None:
         """A factor of the largest deficiency, with its subspace."""
         largest = max(self.losses, key=lambda loss: loss.deficiency, default=None)
         return None if largest is None else (largest.polynomial, largest.subspace)

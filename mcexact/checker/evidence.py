@@ -1,7 +1,8 @@
 """Proofs that modes are fixed, and that no more are.
 
 - A mode is fixed: a `shrunk_subspace`, whose columns prove that a pencil P_s loses rank at every
-  root of a polynomial p.
+  root of a polynomial p.  It may be a shrunk subspace of some states on which nothing acts that
+  they drive (`Losses`).
 - No more is fixed, by two characteristic polynomials (`TwoPolynomials`): what is left of
   det(xI − A) after the named factors is coprime modulo ℓ to det(xI − A_F), so that the gains F
   move all of it.
@@ -17,6 +18,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
 from itertools import accumulate, chain, zip_longest
 from operator import add, itemgetter, mul
 from typing import Any
@@ -178,6 +180,86 @@ def shrunk_subspace(
     message = f"proves deficiency {lost}, not {deficiency} >= 1"
     require(lost >= deficiency >= 1, "rank", place, message)
     return T
+
+
+class Losses:
+    """Proofs that pencils of one system lose rank, each by a shrunk subspace.
+
+    It is one of the whole system, or one of the system of some states: these may drive others, but
+    nothing that they drive acts on them.
+    """
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+
+    def require(self, value: Json, place: str, p: Polynomial, deficiency: int) -> list[int]:
+        """Stop unless P_s loses at least this rank at every root of p, and return T = m − s."""
+        if isinstance(value, Mapping) and "states" in value:
+            return self._local_subspace(value, place, p, deficiency)
+        return shrunk_subspace(value, place, self.system, p, deficiency)
+
+    def _local_subspace(self, value: Json, place: str, p: Polynomial, deficiency: int) -> list[int]:
+        """Check a shrunk subspace of the system of some states Z.
+
+        With D the other states that Z drives, the columns of U and of the identity for D are mapped
+        by xI − A into the span of the latter and of the rows of B_T for Z.
+
+        Open: see ``proofs/OPEN.md``.
+        """
+        chosen, listed, inner = fields(value, place, "states", "channels_T", "subspace")
+        states = positions(chosen, f"{place}.states", self.system.n)
+        seeing, acting = self._channels(set(states), place)
+        part = _part(self.system, states, acting)
+        inside = shrunk_subspace(inner, f"{place}.subspace", part, p, deficiency)
+        T = sorted(seeing.difference(acting).union(acting[k] for k in inside))
+        same = names(listed, f"{place}.channels_T", self.system.names) == T
+        require(same, "claim", place, "T is not the channels that see what the states drive")
+        return T
+
+    def _channels(self, states: set[int], place: str) -> tuple[set[int], list[int]]:
+        """The channels that see the states or what these drive, and those that act within them."""
+        found, rest, seeing = set[int](), [*states], set[int]()
+        while rest:
+            b = rest.pop()
+            spend(20 + 4 * len(self._driven[b]))
+            heard = self._heard[b] - seeing
+            seeing |= heard
+            new = self._driven[b].union(*(self._entered[i] for i in heard))
+            if b in states:
+                new = new - states
+            returns = not states.isdisjoint(new)
+            returns = returns or any(
+                not states.isdisjoint(self._entered[i]) for i in self._heard[b]
+            )
+            require(b in states or not returns, "path", place, "what the states drive acts on them")
+            rest += new - found
+            found |= new
+        return seeing, sorted(i for i in seeing if not states.isdisjoint(self._entered[i]))
+
+    @cached_property
+    def _driven(self) -> list[set[int]]:
+        """For each state b the states a with A_ab ≠ 0."""
+        entries = entries_of(self.system.A)
+        spend(60 * (len(entries) + self.system.n))
+        driven: list[set[int]] = [set() for _ in range(self.system.n)]
+        for a, b, _ in entries:
+            driven[b].add(a)
+        return driven
+
+    @cached_property
+    def _heard(self) -> list[set[int]]:
+        """For each state the channels whose outputs see it."""
+        spend(60 * self.system.n)
+        heard: list[set[int]] = [set() for _ in range(self.system.n)]
+        for i, C in enumerate(self.system.C):
+            for _, b, _ in entries_of(C):
+                heard[b].add(i)
+        return heard
+
+    @cached_property
+    def _entered(self) -> list[set[int]]:
+        """For each channel the states on which its inputs act."""
+        return [{a for a, _, _ in entries_of(B)} for B in self.system.B]
 
 
 def zero_transfer(value: Json, place: str, system: System) -> tuple[list[int], Matrix]:

@@ -149,14 +149,14 @@ REGION = {"continuous": "Hurwitz", "discrete": "Schur"}
 
 
 def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
-    """Check a shrunk subspace for every factor, and that no more is fixed.
+    """Check a loss of rank for every factor, and that no more is fixed.
 
     Theorems ``fixed_spectrum.fixed_spectrum_rule``, ``wang_davison.region_attained``.
     """
     whole, entries, verdict, rate = fields(claim, "claim", *CLAIM)
     proof, spaces, completion = _proof(witness, system)
     reading.items(spaces, "witness.subspaces", len(reading.items(entries, "claim.factors")))
-    n, product = system.n, [1]
+    n, product, losses = system.n, [1], evidence.Losses(system)
     psi: Polynomial = []
     modes: list[tuple[Polynomial, int, bool, list[Disc]]] = []
     for k, entry in enumerate(entries):
@@ -165,7 +165,7 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
         p = reading.polynomial(listed, f"{place}.polynomial", 1)
         s = reading.names(names, f"{place}.channels", system.names)
         at_most, r = map(reading.integer, counts, [place] * 2, (1, 0))
-        T = evidence.shrunk_subspace(spaces[k], space, system, p, n - r)
+        T = losses.require(spaces[k], space, p, n - r)
         require(s == evidence.complement(system, T), "claim", place, "T is not the complement of s")
         evidence.require_coprime(product, p, proof.ell, "two factors")
         product = arithmetic.poly_product(product, p)
@@ -179,9 +179,9 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
         discs = root_discs(roots, f"{place}.roots", p)
         modes.append((p, n - r, stable, discs))
-    losses = [(p, loss) for p, loss, *_ in modes]
+    lost = [(p, loss) for p, loss, *_ in modes]
     if isinstance(proof, Blocks):
-        proof.require_no_more(losses)
+        proof.require_no_more(lost)
     else:
         proof.require_moved(psi)
     stabilizable = all(stable for _, _, stable, _ in modes)
@@ -192,7 +192,7 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
         require(rate is None and completion is None, "claim", "claim", "expected null for both")
     else:
         if isinstance(proof, TwoPolynomials):
-            proof.require_ranks(completion, losses)
+            proof.require_ranks(completion, lost)
         centers = [disc for *_, discs in modes for disc in discs]
         require_rate(rate, "claim.best_rate", centers, system.time)
 
@@ -265,7 +265,7 @@ def check_completeness(claim: Json, witness: Json, system: System) -> None:
     else:
         coefficients, subspace = fields(witness, "witness", "polynomial", "subspace")
         p = polynomial(coefficients, "witness.polynomial", 1)
-        evidence.shrunk_subspace(subspace, "witness.subspace", system, p, 1)
+        evidence.Losses(system).require(subspace, "witness.subspace", p, 1)
 
 
 def completeness_statement(claim: Json, system: System) -> str:
@@ -525,12 +525,13 @@ def _by_blocks(witness: Json, system: System) -> int:
     """
     parts, number, listed = fields(witness, "witness", "blocks", "modulus", "losses")
     proof, losses = Blocks(parts, "witness", system, number), list[Loss]()
+    lost = evidence.Losses(system)
     product: Polynomial = [1]
     for k, entry in enumerate(items(listed, "witness.losses")):
         place = f"witness.losses[{k}]"
         coefficients, loss, space = fields(entry, place, "polynomial", "deficiency", "subspace")
         p, d = polynomial(coefficients, place, 1), integer(loss, place, 1)
-        evidence.shrunk_subspace(space, f"{place}.subspace", system, p, d)
+        lost.require(space, f"{place}.subspace", p, d)
         evidence.require_coprime(product, p, proof.ell, "two factors")
         product = arithmetic.poly_product(product, p)
         losses.append((p, proof.multiplicity(p, d)))

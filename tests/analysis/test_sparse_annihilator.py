@@ -53,5 +53,5 @@ def test_what_is_not_found_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     part, _ = measured_system(beside(10**9 + 7), [0])
     assert annihilator(part, 2) is None
     assert annihilator(part, 10**4) is None
-    monkeypatch.setattr(sparse, "MOST_PRIMES", 1)
+    monkeypatch.setattr(sparse, "MOST_WORK", 0)
     assert annihilator(part, 1) is None

@@ -19,7 +19,7 @@ import pytest
 import scipy
 
 import mcexact
-from mcexact.analysis import controllability, fixed_modes, sharing, structure
+from mcexact.analysis import blocks, controllability, fixed_modes, sharing, structure
 from mcexact.analysis.questions import QUESTIONS
 from mcexact.analysis.sharing import neighbor_graph
 from mcexact.analysis.stability import open_loop_spectrum
@@ -92,15 +92,17 @@ def of_large_systems(system: MultiChannelSystem) -> Answers:
         mock.patch.object(controllability, "_SMALL", -1),
         mock.patch.object(sharing, "_SMALL", -1),
         mock.patch.object(structure, "is_large_and_sparse", lambda system: True),
-        mock.patch.object(fixed_modes, "_is_large_and_sparse", lambda system: True),
+        mock.patch.object(fixed_modes, "_in_parts", lambda system, blocks: True),
     ):
         found = {
             "controllability_by_blocks": mcexact.joint_controllability(system),
             "observability_by_blocks": mcexact.joint_observability(system),
             "deficiency_by_blocks": sharing.deficiency(system),
             "transfer_graph_by_paths": mcexact.transfer_graph(system),
-            "fixed_spectrum_by_products": mcexact.fixed_spectrum(system),
+            "fixed_spectrum_by_parts": mcexact.fixed_spectrum(system),
         }
+        with mock.patch.object(blocks, "LARGEST_DENSE", 0):
+            found["fixed_spectrum_by_products"] = mcexact.fixed_spectrum(system)
     yield from found.items()
 
 

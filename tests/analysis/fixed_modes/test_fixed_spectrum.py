@@ -8,13 +8,14 @@ from pathlib import Path
 
 import pytest
 
+from mcexact.analysis import blocks as blocks_module
 from mcexact.analysis import fixed_modes as module
 from mcexact.analysis.analyze import Analysis, analyze
 from mcexact.analysis.blocks import bounded_blocks, modes_left
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.subspaces import CommonFactor, decide
 from mcexact.answer import protocol
-from mcexact.answer.evidence import Block, CoprimePolynomials
+from mcexact.answer.evidence import Block, CoprimePolynomials, LocalSubspace
 from mcexact.answer.modes import ByBlocks, FixedFactor, FixedSpectrum
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.kinds import Expectation, check_document
@@ -286,30 +287,37 @@ def test_the_rest_of_the_spectrum_is_moved_by_the_gains_of_the_decision() -> Non
 
 def without_multiplicity(spectrum: FixedSpectrum) -> list[FixedFactor]:
     return [
-        dataclasses.replace(f, multiplicity_in_A=None, multiplicity_at_most=0)
+        dataclasses.replace(f, multiplicity_in_A=None, multiplicity_at_most=0, channels=())
         for f in spectrum.factors
     ]
 
 
-def test_the_search_for_large_sparse_systems_finds_the_same(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize("largest_dense", [0, 500])
+def test_the_search_block_by_block_finds_the_same(
+    largest_dense: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "_is_large_and_sparse", lambda system: True)
-    counted: Counter[bool] = Counter()
+    """The channels named are among those of the largest set with the least rank."""
+    monkeypatch.setattr(module, "_in_parts", lambda system, blocks: True)
+    monkeypatch.setattr(blocks_module, "LARGEST_DENSE", largest_dense)
+    counted: Counter[str] = Counter()
     for number in range(150):
         system = exact(sparse_system(random.Random(number)))
         found = fixed_spectrum(system)
         with monkeypatch.context() as patched:
-            patched.setattr(module, "_is_large_and_sparse", lambda system: False)
+            patched.setattr(module, "_in_parts", lambda system, blocks: False)
             expected = fixed_spectrum(system)
         assert without_multiplicity(found) == without_multiplicity(expected)
         assert found.best_rate == expected.best_rate
+        for f, largest in zip(found.factors, expected.factors, strict=True):
+            assert set(f.channels) <= set(largest.channels)
         assert check_document(protocol.encode(found).encode()).verdict == "VALID"
         if not found.empty:
             open_ = any(f.multiplicity_in_A is None for f in found.factors)
             assert isinstance(found.evidence, ByBlocks) or not open_
-            counted[open_] += 1
-    assert counted[True] > 5 * counted[False], counted
+            counted["open" if open_ else "in A"] += 1
+            counted["local"] += any(isinstance(s, LocalSubspace) for s in found.evidence.subspaces)
+    assert counted["open"] > 3 * counted["in A"], counted
+    assert counted["local"] > 10, counted
 
 
 def test_a_mode_planted_in_a_large_sparse_system_is_certified() -> None:
@@ -339,7 +347,7 @@ def test_small_blocks_without_a_sequence_are_completed_one_by_one(
     assert len(blocks) == 60
     assert not modes_left(blocks)
     short = (*blocks[:5], Block(blocks[5].states, None), *blocks[6:])
-    monkeypatch.setattr(module, "_is_large_and_sparse", lambda system: True)
+    monkeypatch.setattr(module, "_in_parts", lambda system, blocks: True)
     monkeypatch.setattr(module, "bounded_blocks", lambda system: short)
     monkeypatch.setattr(module, "decide", None)  # the whole is not decided
     found = fixed_spectrum(system)
@@ -347,10 +355,6 @@ def test_small_blocks_without_a_sequence_are_completed_one_by_one(
     assert isinstance(found.evidence, ByBlocks)
     assert isinstance(found.evidence.blocks[5].evidence, CoprimePolynomials)
     assert check_document(protocol.encode(found).encode()).verdict == "VALID"
-    with monkeypatch.context() as patched:
-        patched.setattr(module, "_SMALL_BLOCK", 1)
-        patched.setattr(module, "_by_sparse_search", lambda system, blocks: found)
-        assert fixed_spectrum(system) is found
 
 
 def test_many_fixed_modes_are_not_looked_for_sparsely(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -358,7 +362,7 @@ def test_many_fixed_modes_are_not_looked_for_sparsely(monkeypatch: pytest.Monkey
     nothing = MultiChannelSystem(
         Matrix.zeros(n, n), [Matrix.zeros(n, 1)], [Matrix.zeros(1, n)], time="discrete"
     )
-    monkeypatch.setattr(module, "fixed_subspaces", None)
+    monkeypatch.setattr(blocks_module, "fixed_subspaces", None)
     found = analyze(nothing)
     with pytest.raises(LimitReached, match="a sparse 6000 × 6000 matrix has more than"):
         found.fixed_spectrum  # noqa: B018
@@ -375,7 +379,7 @@ def told(found: Analysis, place: str) -> str:
 def test_what_is_told_where_it_is_open_how_often_a_mode_is_in_A(
     rows: list[list[int]], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(module, "_is_large_and_sparse", lambda system: True)
+    monkeypatch.setattr(module, "_in_parts", lambda system, blocks: True)
     n = len(rows)
     A = [[*row, 0] for row in rows] + [[0] * n + [5]]
     found = analyze(MultiChannelSystem(A, [[[0]] * n + [[1]]], [[[0] * n + [1]]]))

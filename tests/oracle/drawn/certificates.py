@@ -10,6 +10,7 @@ from typing import Any
 from unittest import mock
 
 import mcexact
+from mcexact.analysis import blocks as blocks_module
 from mcexact.analysis import controllability, fixed_modes, structure
 from mcexact.analysis import sharing as deficiency_module
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
@@ -136,7 +137,8 @@ def _as_large(
             mock.patch.object(controllability, "_SMALL", -1),
             mock.patch.object(deficiency_module, "_SMALL", -1),
             mock.patch.object(structure, "is_large_and_sparse", lambda system: True),
-            mock.patch.object(fixed_modes, "_is_large_and_sparse", lambda system: True),
+            mock.patch.object(fixed_modes, "_in_parts", lambda system, blocks: True),
+            mock.patch.object(blocks_module, "LARGEST_DENSE", rng.choice((0, 500))),
         ):
             return decide(rng, system)
 

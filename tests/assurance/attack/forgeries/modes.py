@@ -14,7 +14,7 @@ from tests.oracle.drawn.plants import Document
 from ..mutators import copied
 from . import sequences
 from .joined import factors_joined
-from .writing import PRIME, coefficients, drawn, drawn_gains, unit, zeros
+from .writing import PRIME, coefficients, drawn, drawn_gains, left_kernel, unit, written, zeros
 
 Forged = Document | None
 
@@ -65,6 +65,48 @@ def fixed_by_nothing(rng: random.Random, document: Document) -> Forged:
     document["claim"]["complete"] = False
     document["witness"] = _movable(rng, system)
     return document
+
+
+def fixed_within_states(rng: random.Random, document: Document) -> Forged:
+    """Not complete, by a mode of some states, on which what they drive may act."""
+    made = _local_subspace(rng, subject_of(document))
+    if made is None:
+        return None
+    p, space = made
+    document["claim"]["complete"] = False
+    document["witness"] = {"polynomial": coefficients(p), "subspace": space}
+    return document
+
+
+def _local_subspace(rng: random.Random, system: Any) -> tuple[Any, Document] | None:
+    """An eigenvector of A within drawn states, and channels that may be too few or too many."""
+    states = [a for a in range(system.n) if rng.random() < 0.5]
+    A = sequences.picked(system.A, states, states)
+    roots = [p for p, _ in algebra.irreducible_factors(A.charpoly()) if p.degree() == 1]
+    if not roots:
+        return None
+    p = rng.choice(roots)
+    shifted = A + p[0] * algebra.identity(len(states))
+    rows, pivots = left_kernel(shifted.transpose())
+    if rng.random() < 0.2:
+        p *= algebra.X - rng.randint(-3, 3)
+    seeing = [
+        name
+        for name, C in zip(system.names, system.C, strict=True)
+        if any(row[a] != 0 for row in C.tolist() for a in states)
+    ]
+    inner = [name for name in seeing if rng.random() < 0.2]
+    width = sum(system.B[system.names.index(name)].ncols() for name in inner)
+    U = written(rows.transpose())
+    space = {
+        "channels_T": inner,
+        "U": {"denominator": U["denominator"], "coefficients": [U["entries"]]},
+        "V": {"denominator": 1, "coefficients": [[[0] * len(pivots) for _ in range(width)]]},
+        "pivots": pivots,
+    }
+    outside = [name for name in system.names if name in seeing or rng.random() < 0.3]
+    T = outside if rng.random() < 0.7 else seeing
+    return p, {"channels_T": T, "states": states, "subspace": space}
 
 
 def _movable(rng: random.Random, system: Any) -> Document:
@@ -161,7 +203,12 @@ def factor_added(rng: random.Random, document: Document) -> Forged:
             "roots": [{"re": digits, "im": "0", "radius": "0"}],
         }
     )
-    document["witness"]["subspaces"].append(_empty_subspace(rng, system, T))
+    made = _local_subspace(rng, system) if rng.random() < 0.5 else None
+    space = _empty_subspace(rng, system, T) if made is None else made[1]
+    if made is not None:
+        factor = claim["factors"][-1]
+        factor["channels"] = [name for name in system.names if name not in space["channels_T"]]
+    document["witness"]["subspaces"].append(space)
     _restated(rng, document)
     return document
 
@@ -301,7 +348,10 @@ def vanishing_kernel(rng: random.Random, document: Document) -> Forged:
     return document
 
 
-COMPLETENESS = (no_subset_at_all, unconnected, unconnected, fixed_by_nothing)
+COMPLETENESS = (
+    *(no_subset_at_all, unconnected, unconnected, fixed_by_nothing),
+    *(fixed_within_states, fixed_within_states),
+)
 DEFICIENCY = (other_deficiency,)
 SPECTRUM = (
     *(factor_dropped, factor_twice, factor_added, factor_details, factor_details),
