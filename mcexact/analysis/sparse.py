@@ -62,9 +62,11 @@ if TYPE_CHECKING:
 # Each column has n entries in the certificate, and takes n products with A_F.
 MOST_COLUMNS = 256
 # Each prime takes two sequences, each of 2n products of a vector with A_F, 1 ns for each entry that
-# is not 0; together they take about a minute at most.
+# is not 0, and what it takes to begin; together they take about a minute at most.
 MOST_WORK = 2**36
-_STEP = 10**4
+_STEP, _START = 10**4, 10**8
+# A rank that is another one modulo so many primes is another one over Q.
+_MISSES = 12
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ def exact_primes(system: MultiChannelSystem, rng: random.Random) -> Iterator[int
 def affordable(system: MultiChannelSystem) -> int:
     """The number of primes for which two sequences each are computed."""
     entries = sum(1 for _ in system.A.nonzero()) + system.n
-    return max(2, MOST_WORK // (4 * max(system.n, 1) * (entries + _STEP)))
+    return max(2, MOST_WORK // (4 * system.n * (entries + _STEP) + _START))
 
 
 def drawn_loop(system: MultiChannelSystem, ell: int, rng: random.Random) -> DrawnLoop:
@@ -349,9 +351,13 @@ def annihilator(system: MultiChannelSystem, size: int) -> tuple[Matrix, tuple[in
         return None
     rng = generator(system, "controllability")
     known: tuple[tuple[int, ...], list[list[int]], int] | None = None
+    misses = 0
     for ell in islice(exact_primes(system, rng), affordable(system)):
         rows, pivots = _residues(system, size, ell, rng)
         if len(pivots) != size:
+            misses += 1
+            if misses == _MISSES:
+                return None
             continue
         table: list[list[int]] = rows.tolist()
         if known is not None and known[0] == pivots:
