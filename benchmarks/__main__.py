@@ -22,6 +22,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from benchmarks import (
     bad_inputs,
     commands,
+    every_question,
     fixed_spectrum,
     matrices,
     networks,
@@ -57,6 +58,18 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
         f"checked {n} states": partial(fixed_spectrum.checked_rows, n, limit)
         for n, limit in ((500, 0.5), (1000, 2), (2000, 15))
     },
+    **{
+        f"questions dense {n} states {m} channels": partial(every_question.dense_rows, n, m)
+        for n, m in every_question.DENSE
+    },
+    "questions building 10000 states 400 channels": partial(
+        every_question.sparse_rows, 10_000, 400
+    ),
+    **{
+        f"whole analyze {n} states": partial(every_question.whole_rows, n)
+        for n in every_question.WHOLE
+    },
+    "chains with fixed modes": every_question.chain_rows,
     "planted modes": fixed_spectrum.planted_rows,
     "planted modes in large plants": fixed_spectrum.large_rows,
     "planted modes of high degree": fixed_spectrum.high_degree_rows,

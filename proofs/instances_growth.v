@@ -68,6 +68,18 @@ apply: (@kernel_realization _ 1 1 1 1 0 A0 A0 B1 1%:M 0 0 0).
 - by apply/matrixP => i -[].
 Qed.
 
+(* One state, which is on the path. *)
+Lemma inst_path_realization k : A0 *m krylov A0 B1 k =
+  colsub enum_val A0 *m krylov (mxsub enum_val enum_val A0 : 'M_#|[set: 'I_1]|) (rowsub enum_val B1) k.
+Proof.
+apply: (@path_realization _ 1 1 1 A0 B1 A0 setT set0).
+- by move=> a; rewrite inE.
+- by move=> a u; rewrite inE.
+- by move=> a b; rewrite inE.
+- by move=> a b _; rewrite inE.
+by move=> v b; rewrite inE.
+Qed.
+
 Lemma inst_block_echelon : exists Y : 'M[rat]_2, (1%:M *m 1%:M : 'M[rat]_2) *m Y = 1%:M.
 Proof.
 apply: (@block_echelon _ 2 2 2 1%:M 1%:M id (fun s : 'I_2 => s : nat)) => // s t.

@@ -1,4 +1,4 @@
-(* checker/modes.py: the McMillan degree from above; kind `assignability`.
+(* checker/modes.py: the McMillan degree from above, and states off all paths; kind `assignability`.
 
    Rows W with W A = Z W, W B = 0 annihilate what the inputs reach; columns U with A U = U Y, C U = 0,
    W U = 0 are states that the outputs do not see.  The realization on ker W / im U has the same C A^k B. *)
@@ -70,3 +70,52 @@ have vk : V *m krylov Ax Bx k = krylov A' (V *m Bx) k.
 by rewrite mulmxA eC' -mulmxA vk.
 Qed.
 End Realization.
+
+(* Paths: what inputs and the states of P drive outside of P leads to none of them and is not measured. *)
+Section Paths.
+Variables (L : fieldType) (n p q : nat).
+Variables (A : 'M[L]_n) (B : 'M[L]_(n, p)) (C : 'M[L]_(q, n)) (P F : {set 'I_n}).
+Hypothesis outside : forall a, a \in F -> a \notin P.
+Hypothesis driven_by_inputs : forall a u, a \notin P -> a \notin F -> B a u = 0.
+Hypothesis driven_by_states : forall a b, a \notin P -> a \notin F -> b \in P -> A a b = 0.
+Hypothesis stays : forall a b, a \notin F -> b \in F -> A a b = 0.
+Hypothesis not_measured : forall v b, b \in F -> C v b = 0.
+
+Local Notation A' := (mxsub enum_val enum_val A : 'M_#|P|).
+Local Notation B' := (rowsub enum_val B : 'M_(#|P|, p)).
+Local Notation C' := (colsub enum_val C : 'M_(q, #|P|)).
+
+Lemma path_zero k a u : a \notin P -> a \notin F -> krylov A B k a u = 0.
+Proof.
+elim: k a u => [|k IH] a u aP aF; first exact: driven_by_inputs.
+rewrite krylovS mxE big1// => b _.
+have [bP|bP] := boolP (b \in P); first by rewrite driven_by_states// mul0r.
+have [bF|bF] := boolP (b \in F); first by rewrite stays// mul0r.
+by rewrite IH// mulr0.
+Qed.
+
+(* A sum over all states is one over P, if the factor is 0 on F. *)
+Lemma path_sum k u (w : 'I_n -> L) : (forall b, b \in F -> w b = 0) ->
+  \sum_b w b * krylov A B k b u = \sum_(i < #|P|) w (enum_val i) * krylov A B k (enum_val i) u.
+Proof.
+move=> w0; rewrite (bigID (mem P)) /= [X in _ + X]big1 => [|b bP].
+  by rewrite addr0 (big_enum_val (fun b => w b * krylov A B k b u)).
+have [bF|bF] := boolP (b \in F); first by rewrite w0// mul0r.
+by rewrite path_zero// mulr0.
+Qed.
+
+Lemma path_krylov k : rowsub enum_val (krylov A B k) = krylov A' B' k.
+Proof.
+elim: k => [|k IH]; first by [].
+apply/matrixP => i u; rewrite !krylovS -IH !mxE path_sum => [|b bF].
+  by apply: eq_bigr => j _; rewrite !mxE.
+by apply: stays => //; apply: contraL (enum_valP i) => /outside.
+Qed.
+
+(* Theorem: the states off all paths may be left out. *)
+Theorem path_realization k : C *m krylov A B k = C' *m krylov A' B' k.
+Proof.
+apply/matrixP => v u; rewrite -path_krylov !mxE path_sum; last exact: not_measured.
+by apply: eq_bigr => j _; rewrite !mxE.
+Qed.
+End Paths.

@@ -443,7 +443,7 @@ def _require_paths_within(A: Matrix, B: Matrix, C: Matrix, at: Mapping[int, int]
     What inputs and these states drive outside of these states leads to none of them, and is not
     measured.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorem ``realization.path_realization``.
     """
     arcs = arithmetic.entries_of(A)
     spend(40 * (len(arcs) + A.nrows))

@@ -1,0 +1,176 @@
+"""How long do the questions about a plant take, and the check of each beside that of the first?"""
+
+from __future__ import annotations
+
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from benchmarks.fixed_spectrum import Row
+from benchmarks.measure import processor_seconds
+from mcexact import (
+    assignability,
+    completeness,
+    controllability_indices,
+    fixed_spectrum,
+    joint_controllability,
+    joint_observability,
+    observability_indices,
+    setpoint_solvability,
+    transfer_graph,
+)
+from mcexact.answer.protocol import encode
+from mcexact.checker.kinds import check_document
+from mcexact.derived.drawn.systems import Draw, drawn_system
+from mcexact.errors import LimitReached
+from mcexact.exact.matrix import Matrix
+from mcexact.model.files import save_system
+from mcexact.model.system import MultiChannelSystem
+
+QUESTIONS: dict[str, Callable[[MultiChannelSystem], Any]] = {
+    "fixed spectrum": fixed_spectrum,
+    "controllability": joint_controllability,
+    "observability": joint_observability,
+    "controllability indices": controllability_indices,
+    "observability indices": observability_indices,
+    "transfer graph": transfer_graph,
+    "completeness": completeness,
+    "assignability": assignability,
+    "set-points": setpoint_solvability,
+}
+DENSE = tuple((n, m) for n in (20, 100, 200, 500, 1000, 2000) for m in dict.fromkeys((2, n // 10)))
+WHOLE = {3: 0.35, 20: 0.5, 100: 1.0, 200: 1.5, 500: 5.0, 1000: 20.0}
+"""The seconds in which `analyze` is to end, by the states of a dense plant."""
+_RATIO = 3.0
+_SPARSE = 5.0
+
+
+def dense_plant(n: int, m: int) -> MultiChannelSystem:
+    """Integer entries from −9 to 9, with m channels of one input and one output."""
+    rng = random.Random(n + m)
+
+    def matrix(rows: int, cols: int) -> Matrix:
+        entries = [[rng.randint(-9, 9) for _ in range(cols)] for _ in range(rows)]
+        return Matrix.from_integers(entries, ncols=cols)
+
+    return MultiChannelSystem(
+        matrix(n, n), [matrix(n, 1) for _ in range(m)], [matrix(1, n) for _ in range(m)]
+    )
+
+
+def dense_rows(n: int, m: int) -> Iterator[Row]:
+    """Every question about a dense plant."""
+    limit = _RATIO if n >= 100 else None
+    yield from _rows(f"dense, n={n}, m={m}", lambda: dense_plant(n, m), limit, 5 if n < 500 else 1)
+
+
+def sparse_rows(n: int, m: int) -> Iterator[Row]:
+    """Every question about a large building."""
+    drawn = Draw(0, n, m, network="building")
+    yield from _rows(f"building, n={n}, m={m}", lambda: drawn_system(drawn), None, 1)
+
+
+def _rows(
+    plant: str, make: Callable[[], MultiChannelSystem], ratio: float | None, runs: int
+) -> Iterator[Row]:
+    first, largest = 0.0, 0.0
+    for name, decide in QUESTIONS.items():
+        try:
+            found, written, checked, verdict, size = _measured(make, decide, runs)
+        except LimitReached as limit:
+            yield Row(f"{plant}, {name}", 0.0, "reported", True, f"left open: {limit}"[:90], "s")
+            continue
+        first = first or checked
+        largest = max(largest, checked / first)
+        good = verdict == "VALID" and (ratio is not None or runs > 1 or checked <= _SPARSE)
+        detail = (
+            f"found {found:.3f} s, written {written:.3f} s, {size / 1000:.0f} kB, {verdict}, "
+            f"{checked / first:.2f} times the first check"
+        )
+        said = "reported" if ratio is not None or runs > 1 else f"<= {_SPARSE:g} s"
+        yield Row(f"{plant}, {name}, checked", checked, said, good, detail, "s")
+    good = ratio is None or largest <= ratio
+    said = "reported" if ratio is None else f"<= {ratio:g}"
+    yield Row(f"{plant}, the slowest check beside the first", largest, said, good, "")
+
+
+def _measured(
+    make: Callable[[], MultiChannelSystem], decide: Callable[[MultiChannelSystem], Any], runs: int
+) -> tuple[float, float, float, str, int]:
+    """The medians of seconds to find, write and check, the verdict, and the size in bytes."""
+    seconds: list[tuple[float, float, float]] = []
+    for _ in range(runs):
+        system, times = make(), [processor_seconds()]
+        answer = decide(system)
+        times.append(processor_seconds())
+        data = encode(answer).encode()
+        times.append(processor_seconds())
+        verdict = check_document(data).verdict
+        times.append(processor_seconds())
+        seconds.append((times[1] - times[0], times[2] - times[1], times[3] - times[2]))
+    found, written, checked = (statistics.median(each) for each in zip(*seconds, strict=True))
+    return found, written, checked, verdict, len(data)
+
+
+def whole_rows(n: int) -> Iterator[Row]:
+    """`analyze` in a process of its own, with certificates and manifest, all of them checked."""
+    m = max(n // 10, 2)
+    seconds, size, status = _whole(n, m)
+    if n <= 200:  # the median of three
+        seconds = statistics.median([seconds, *(_whole(n, m)[0] for _ in range(2))])
+    good = status == 0 and seconds <= WHOLE[n]
+    detail = f"folder of {size / 1000:.0f} kB, status {status}"
+    yield Row(f"whole analyze, n={n}, m={m}", seconds, f"<= {WHOLE[n]:g} s", good, detail, "s")
+
+
+def _whole(n: int, m: int) -> tuple[float, int, int]:
+    """The seconds, the bytes of the folder, and the status."""
+    with tempfile.TemporaryDirectory() as place:
+        plant, folder = Path(place, "plant.json"), Path(place, "certificates")
+        save_system(dense_plant(n, m), plant)
+        command = [sys.executable, "-m", "mcexact", "analyze", str(plant)]
+        start = processor_seconds()
+        run = subprocess.run(
+            [*command, "--certificates", str(folder)], capture_output=True, text=True, check=False
+        )
+        seconds = processor_seconds() - start
+        size = sum(file.stat().st_size for file in folder.iterdir())
+    return seconds, size, run.returncode
+
+
+def chain_rows() -> Iterator[Row]:
+    """Chains of fractions in a row, with two states between them that no channel moves."""
+    for n in (400, 600, 800, 2000, 10_000):
+        found, written, checked, verdict, size = _measured(partial(chains, n), fixed_spectrum, 1)
+        good = verdict == "VALID" and found <= 5 and checked <= 5
+        detail = f"found {found:.3f} s, written {written:.3f} s, {size / 1000:.0f} kB, {verdict}"
+        yield Row(f"chains with a fixed mode, n={n}, m=20", checked, "<= 5 s", good, detail, "s")
+
+
+def chains(n: int, m: int = 20) -> MultiChannelSystem:
+    """m chains, each driving the next, and between the middle ones x² + 3x + 1, in drawn order."""
+    rng, size = random.Random(n), (n - 2) // m
+    n = m * size + 2
+    order = rng.sample(range(n), n)
+    entries = [(n - 2, n - 1, -1), (n - 1, n - 2, 1), (n - 1, n - 1, -3)]
+    starts = [size * k for k in range(m)]
+    for k, start in enumerate(starts):
+        for a in range(start, start + size):
+            entries.append((a, a, Fraction(rng.randint(-9, 9), rng.choice([1, 2, 5]))))
+            if a > start:
+                entries.append((a, a - 1, rng.choice([1, -1, 2, 3])))
+                entries.append((a - 1, a, Fraction(rng.choice([1, -1, 2, 5]), rng.choice([1, 3]))))
+        if k and k != m // 2:
+            entries.append((start + size // 2, starts[k - 1], 1))
+    entries += [(n - 2, starts[m // 2 - 1], 1), (starts[m // 2] + size // 2, n - 1, 1)]
+    A = Matrix.from_entries((n, n), [(order[a], order[b], x) for a, b, x in entries])
+    B = [Matrix.from_entries((n, 1), [(order[a], 0, 1)]) for a in starts]
+    C = [Matrix.from_entries((1, n), [(0, order[a], 1)]) for a in starts]
+    return MultiChannelSystem(A, B, C)
