@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs
+.PHONY: gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -73,6 +73,10 @@ nearby: $(STAMP)
 # NAMES='theorem compleib-ac1' tries some; a folder of further system files can be among them.
 digits: $(STAMP)
 	$(BIN)/python -m benchmarks.digits $(NAMES)
+
+# Costs of drawn controllers beside the certified bound: a minute.  Writes benchmarks/COSTS.md.
+costs: $(STAMP)
+	$(BIN)/python -m benchmarks.costs
 
 # How many numbers each rounding of floats recovers: a minute.  Writes benchmarks/ROUNDING.md.
 rounding: $(STAMP)

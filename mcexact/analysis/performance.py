@@ -58,7 +58,7 @@ Floats = npt.NDArray[np.float64]
 Complexes = npt.NDArray[np.complex128]
 BITS = (12, 16, 20, 26, 34, 46, 60)
 """The bits to which a matrix is rounded, fewest first."""
-_ROOM = (1e-4, 1e-3, 1e-2, 3e-2)
+_ROOM = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2)
 """The parts by which weights are made worse, to leave room for rounding."""
 _HUGE = 1e100
 """The largest entry of a matrix that is rounded: others come from equations without solution."""
