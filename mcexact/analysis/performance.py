@@ -866,6 +866,15 @@ def response_of(loop: ClosedLoop, at: Side) -> PortResponse:
     return PortResponse((disturbed.M, enter, leave), is_discrete(loop.plant.time), HALF)
 
 
+def single_margin(response: PortResponse, port: int) -> Fraction | None:
+    """About the largest disk margin of one port by itself that is proved; None without a proof."""
+    if response.unstable:
+        return None
+    worst = max(response.scaled_norm([port])[0], 0.5)
+    tried = (_decimal_below(Fraction(1 / (worst * slack)), 3) for slack in _SLACK)
+    return next((alpha for alpha in tried if response.proved([port], alpha)), None)
+
+
 def computed_margins(response: PortResponse) -> tuple[list[float], float]:
     """The disk margin of each port by itself, and that of all together, at many frequencies.
 
@@ -993,6 +1002,12 @@ class PortResponse:
         near = np.abs(poles.imag)[:, None] + poles.real[:, None] * spread
         upward = np.abs(np.concatenate([[0.0], np.logspace(low, high, 300), near.ravel()]))
         return np.asarray(1j * np.unique(upward), dtype=np.complex128)
+
+    def worst_point(self, port: int) -> complex:
+        """The sampled point of the upper half of the border where a port's gain is largest."""
+        gains = [abs(G[port, port]) for G in self._samples]
+        z = complex(self._points()[int(np.argmax(gains))])
+        return complex(z.real, abs(z.imag))
 
     @cached_property
     def _samples(self) -> Complexes:

@@ -28,7 +28,8 @@ from mcexact.cli.options import as_json
 from mcexact.cli.output import emit, emit_json
 from mcexact.cli.results import Compared
 from mcexact.cli.running import Run, supervised
-from mcexact.errors import MissingExtra
+from mcexact.errors import InputError, MissingExtra
+from mcexact.exact.rational import Limits
 from mcexact.report.text import WIDE, plain
 
 if TYPE_CHECKING:
@@ -121,6 +122,7 @@ def _tell(name: str, findings: tuple[Notebook, ...]) -> None:
 
 @click.command(name="crosscheck", short_help="Compare floating-point verdicts with the exact ones.")
 @click.argument("file", required=False)
+@click.argument("controller", required=False)
 @click.option(
     "--exhibits",
     is_flag=True,
@@ -136,12 +138,15 @@ def _tell(name: str, findings: tuple[Notebook, ...]) -> None:
 @options.as_json
 @options.work_limits
 @options.file_limits
-def crosscheck_command(file: str | None, exhibits: bool, html: Path | None, **values: Any) -> None:
+def crosscheck_command(
+    file: str | None, controller: str | None, exhibits: bool, html: Path | None, **values: Any
+) -> None:
     """Answer structural questions about the system in FILE in floating point and exactly.
 
     Each floating-point verdict comes from a library's own function with its default tolerance; the
-    table quotes the call. The last table has a plant near a small system that has a fixed
-    mode, which is decided exactly.
+    table quotes the call. With a CONTROLLER the disk margin of each loop is asked for as well, by
+    python-control on a grid of frequencies and with a proof. The last table has a plant near a
+    small system that has a fixed mode, which is decided exactly.
     """
     if exhibits == (file is not None):
         raise click.UsageError("give either FILE or --exhibits")
@@ -154,7 +159,8 @@ def crosscheck_command(file: str | None, exhibits: bool, html: Path | None, **va
     else:
         plant = run.read(file)
         doing = f"cross-checking {plant[0]}"
-        answer = run.result(_crosschecked, *plant, run.limits, doing=doing)
+        program = None if controller is None else run.read(controller)
+        answer = run.result(_crosschecked, *plant, program, run.limits, doing=doing)
     if html is not None:
         write_result(html, answer.page)
     if run.as_json:
@@ -163,13 +169,22 @@ def crosscheck_command(file: str | None, exhibits: bool, html: Path | None, **va
         emit(plain(answer.tables, width=WIDE))
 
 
-def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> Compared:
+def _crosschecked(
+    place: str, data: bytes, program: tuple[str, bytes] | None, limits: dict[str, int]
+) -> Compared:
     """Answer and format the answers, in the child process."""
     # Only there: numpy has threads, with which this process could not be forked.
     from mcexact.crosschecks.gallery import crosscheck_tables, crosscheck_view
     from mcexact.crosschecks.table import crosscheck
+    from mcexact.model.controller import read_controller
+    from mcexact.model.system import with_links
 
-    comparison = crosscheck(system_in(place, data, limits))
+    system, controller = system_in(place, data, limits), None
+    if program is not None:
+        with InputError.inside(program[0]):
+            controller = read_controller(program[1], Limits(**limits))
+            controller.require_fits(system, with_links(system)[1])
+    comparison = crosscheck(system, controller)
     document = {"format": FORMAT, **crosscheck_view(comparison)}
     return Compared(document, crosscheck_tables(comparison))
 

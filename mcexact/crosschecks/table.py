@@ -30,16 +30,19 @@ from mcexact.analysis.controllability import (
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.nearby.plants import Nearby
 from mcexact.analysis.nearby.search import nearby_plants
+from mcexact.analysis.performance import PortResponse, Side, response_of, single_margin
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.nearby import Lost
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.matrix import matrix_to_float
-from mcexact.exact.roots import StabilityRegion
+from mcexact.exact.matrix import matrix_to_float, to_float
+from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.floating import margins, verdicts
 from mcexact.floating.verdicts import transfer_edges
-from mcexact.model.graph import strong_components
+from mcexact.model.controller import Controller
+from mcexact.model.graph import NeighborGraph, strong_components
+from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.shown import Shown, grid
 
@@ -263,12 +266,20 @@ class _Floats:
         return np.vstack([np.zeros((0, len(self.A))), *self.C])
 
 
-def crosscheck(system: MultiChannelSystem) -> CrossChecks:
+def crosscheck(
+    system: MultiChannelSystem,
+    controller: Controller | None = None,
+    graph: NeighborGraph | None = None,
+) -> CrossChecks:
     """Answer structural questions about a system in floating point and exactly.
 
     Parameters
     ----------
     system : MultiChannelSystem
+    controller : Controller, optional
+        The disk margins of its loops are asked for, too.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
 
     Notes
     -----
@@ -278,6 +289,11 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
     names the libraries and the kernel.  Where the answers differ, those of floating point are
     compared with the exact ones of plants nearby, too, if rounding errors or digits that were not
     typed may have led to these (`Analysis.nearby`): then neither answer is wrong.
+
+    ``control.disk_margins`` looks at the frequencies of a grid, which this takes as users do: 1,000
+    of them over four decades.  A margin is an artifact of the grid if it is more than 1 % above
+    both the proved one and what the same function gives at the worst frequency.  A loop that is not
+    stable has no margin, which the function does not notice.
 
     Examples
     --------
@@ -302,6 +318,9 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
             replace(row, within_data=True) if row.agree is False and other.agree else row
             for row, other in zip(rows, others, strict=True)
         ]
+    if controller is not None:
+        InputError.require(controller, Controller, "controller")
+        rows += _margins(closed_loop(system, controller, graph))
     return CrossChecks(
         system,
         tuple(rows),
@@ -517,3 +536,78 @@ def _stability(system: MultiChannelSystem, floats: _Floats) -> CrossCheck:
     )
     truth = region.contains_roots_of(characteristic_polynomial(system.A))
     return _row("stability of A", call, verdict, truth, _yes)
+
+
+# Disk margins of a loop, by python-control on a grid of frequencies and proved.
+
+_SIDES: tuple[Side, ...] = ("inputs", "outputs")
+_GRID, _DECADES = 1000, (-2.0, 2.0)
+"""The frequencies that python-control looks at, in radians, as powers of ten."""
+_TOO_LARGE = 1.01
+"""By how much a margin on the grid may exceed that at the worst frequency."""
+
+
+def _margins(loop: ClosedLoop) -> list[CrossCheck]:
+    """The disk margin of each input and of each output by itself."""
+    names, rows = loop.plant.names, list[CrossCheck]()
+    for side in _SIDES:
+        response, size = response_of(loop, side), loop.plant.p if side == "inputs" else loop.plant.q
+        owners = [(i, k) for i in range(loop.plant.m) for k in range(size(i))]
+        for port, (i, k) in enumerate(owners):
+            which = f" {k + 1}" if size(i) > 1 else ""
+            port_name = f"{side.removesuffix('s')}{which} of agent {names[i]}"
+            rows.append(_margin(loop, response, port, f"disk margin of the {port_name}"))
+    return rows
+
+
+def _margin(loop: ClosedLoop, response: PortResponse, port: int, question: str) -> CrossCheck:
+    """The margin that python-control finds beside the one that is proved."""
+    ends = ", ".join(f"{end:g}" for end in _DECADES)
+    call = f"control.disk_margins(L, numpy.logspace({ends}, {_GRID}))"
+    found = _answer(lambda: _by_control(loop, response, port))
+    floating = str(found) if isinstance(found, _NoAnswer) else f"{found[0]:.4g}"
+    if response.unstable:
+        # disk_margins takes the loop for stable, and answers all the same
+        agree = None if isinstance(found, _NoAnswer) else False
+        return CrossCheck(question, call, floating, "none, the loop is not stable", agree)
+    proved = single_margin(response, port)
+    if proved is None:
+        return CrossCheck(question, call, floating, "not proved", None)
+    exact = f"at least {to_float(proved):.3g}"
+    if isinstance(found, _NoAnswer):
+        return CrossCheck(question, call, floating, exact, None)
+    on_grid, at_worst, frequency = found
+    more = on_grid / to_float(proved) - 1
+    said = f"{on_grid:.4g}, {100 * abs(more):.3g} % {'more' if more >= 0 else 'less'}"
+    # a proof may lose some per cent, which is no fault of the grid
+    right = on_grid <= _TOO_LARGE * max(to_float(proved), at_worst)
+    if not right:
+        unit = "rad a step" if is_discrete(loop.plant.time) else "rad/s"
+        said += f", an artifact of the grid: {at_worst:.4g} at {frequency:.4g} {unit}"
+    return CrossCheck(question, call, said, exact, right)
+
+
+def _by_control(
+    loop: ClosedLoop, response: PortResponse, port: int
+) -> tuple[float, float, float] | _NoAnswer:
+    """The margin on the grid, that at the worst frequency which we know, and this frequency."""
+    import cmath
+
+    import control
+    import numpy as np
+
+    if not hasattr(control, "disk_margins"):
+        return _NoAnswer("control has no disk_margins before 0.10.2")
+    M, enter, leave = map(matrix_to_float, response.exact)
+    e, y = enter[:, [port]], leave[[port]]
+    discrete = is_discrete(loop.plant.time)
+    # the loop opened at the port, with the usual sign of feedback
+    L = control.ss(M - e @ y, e, -y, 0, True if discrete else 0)
+    grid = np.logspace(*_DECADES, _GRID)
+    grid = grid[grid <= np.pi] if discrete else grid
+    z = response.worst_point(port)
+    worst = abs(cmath.phase(z)) if discrete else abs(z.imag)
+    on_grid, at_worst = (
+        float(control.disk_margins(L, np.asarray(points))[0]) for points in (grid, [worst])
+    )
+    return on_grid, at_worst, worst
