@@ -21,7 +21,7 @@ import random
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
@@ -110,12 +110,17 @@ def drawn(dice: random.Random, family: int) -> Drawn:
     def floats(rows: Any) -> Floats:
         return np.array([[float(x) for x in row] for row in rows], dtype=np.float64)
 
-    diagonals = weights.states, weights.inputs, weights.disturbances, weights.noise
+    def diagonal(entries: Sequence[Fraction]) -> Floats:
+        return np.diag([float(x) for x in entries])
+
     plant = Plant(
         floats(system.A.rows()),
         floats(system.input_matrix().rows()),
         floats(system.output_matrix().rows()),
-        *(np.diag([float(x) for x in each]) for each in diagonals),
+        diagonal(weights.states),
+        diagonal(weights.inputs),
+        diagonal(weights.disturbances),
+        diagonal(weights.noise),
         discrete,
         None if weights.bandwidth is None else float(weights.bandwidth),
     )

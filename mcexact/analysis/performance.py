@@ -1003,6 +1003,13 @@ class PortResponse:
         upward = np.abs(np.concatenate([[0.0], np.logspace(low, high, 300), near.ravel()]))
         return np.asarray(1j * np.unique(upward), dtype=np.complex128)
 
+    def nyquist(self, port: int) -> list[complex]:
+        """The loop opened at a port, with the usual sign of feedback, along the border upward."""
+        points, direct = self._points(), self._through
+        order = np.argsort(np.angle(points) if self.discrete else points.imag)
+        T = [complex(self._samples[k][port, port]) - direct for k in order]
+        return [-t / (1 + t) for t in T if t != -1]
+
     def worst_point(self, port: int) -> complex:
         """The sampled point of the upper half of the border where a port's gain is largest."""
         gains = [abs(G[port, port]) for G in self._samples]

@@ -239,7 +239,15 @@ def assessed(
     page = None
     if with_page:
         curves = curves_of(loop, assessment.region)
-        page = loop_page(account, assessment.install, lines, tables, curves, loop.controller)
+        page = loop_page(
+            account,
+            assessment.install,
+            lines,
+            tables,
+            curves,
+            loop.controller,
+            assessment.performance,
+        )
         page = replace(page, pictures=(*pictures, *page.pictures))
     evidence = Evidence.of(account, system_by_digest)
     whole = {**document, "first_line": lines[0]}

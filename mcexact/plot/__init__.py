@@ -10,6 +10,8 @@ from mcexact.plot.eigenvalues import eigenvalues as eigenvalues
 from mcexact.plot.graphs import gains as gains
 from mcexact.plot.graphs import graph as graph
 from mcexact.plot.graphs import structure as structure
+from mcexact.plot.margins import margins as margins
+from mcexact.plot.margins import nyquist as nyquist
 from mcexact.plot.parameters import hypersurfaces as hypersurfaces
 from mcexact.plot.parameters import parameter_modes as parameter_modes
 from mcexact.plot.parameters import uncertainty as uncertainty

@@ -12,6 +12,7 @@ from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import NAMED, PANEL, one_axis
 from mcexact.plot.eigenvalues import circle_near
+from mcexact.plot.margins import Margins, margin_bars, nyquist
 from mcexact.plot.parameters import hypersurfaces, parameter_modes
 from mcexact.plot.responses import LoopCurves, effort, loop_decay, poles, sensitivity, steps
 from mcexact.report.figures import (
@@ -109,6 +110,7 @@ def loop_page(
     tables: Sequence[Table],
     curves: LoopCurves | None,
     controller: Controller,
+    margins: Margins | None = None,
 ) -> AnswerPage:
     """Return the contents of the page.
 
@@ -122,9 +124,13 @@ def loop_page(
     curves : LoopCurves or None
         None if the loop is not stable, which leaves out their pictures.
     controller : Controller
+    margins : Performance, optional
+        The disk margins of the loop, and its single loops.
     """
     system = account.given.system
-    pictures = [*([] if curves is None else loop_pictures(curves)), *gains_pictures(controller)]
+    pictures = [] if curves is None else loop_pictures(curves)
+    pictures += [] if margins is None or not margins.bars else margin_pictures(margins)
+    pictures += gains_pictures(controller)
     return AnswerPage(
         title=system.name or "A closed loop",
         heading="A controller and its closed loop. Certificates prove where the eigenvalues lie, "
@@ -141,6 +147,26 @@ def loop_pictures(curves: LoopCurves) -> list[Picture]:
     """Draw the eigenvalues, the sensitivity, the decay, and the effort or the step responses."""
     drawn = [_eigenvalues(curves), _sensitivity(curves), _decay(curves)]
     return [*drawn, _steps(curves) if curves.steps else _effort(curves)]
+
+
+def margin_pictures(margins: Margins) -> list[Picture]:
+    """Draw the disk margins, and the Nyquist curves of the weakest single loops."""
+    bars = ", ".join(f"{name} {value:.3g}" for name, (value, _) in margins.bars.items())
+    names = ", ".join(each.name for each in margins.loops)
+    proved = "" if margins.margin is None else " No curve enters the disk, which is proved."
+    return [
+        Picture(
+            margin_bars(margins),
+            "Disk margins",
+            f"Disk margins: {bars}. Filled bars are proved.",
+        ),
+        Picture(
+            nyquist(margins),
+            "Nyquist curves",
+            f"Nyquist curves of the loops opened at the {names}.{proved} The curves are computed, "
+            "not certified.",
+        ),
+    ]
 
 
 def _picture(

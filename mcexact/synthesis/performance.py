@@ -83,6 +83,33 @@ _LABELS = {
 }
 
 
+_BARS = {
+    "input_margin": "each input",
+    "output_margin": "each output",
+    "all_inputs_margin": "all inputs",
+    "all_outputs_margin": "all outputs",
+}
+_MOST_CURVES = 4
+"""The single loops whose curves are kept."""
+
+
+@dataclass(frozen=True)
+class SingleLoop:
+    """A loop opened at one input or output.
+
+    Attributes
+    ----------
+    name : str
+        The input or output, in words.
+    curve : tuple of complex
+        Its transfer function L at points of the upper border of stability, in order, with the usual
+        sign of feedback: the loop is 1 + L = 0.  Computed in floating point.
+    """
+
+    name: str
+    curve: tuple[complex, ...]
+
+
 @dataclass(frozen=True, repr=False)
 class Performance(Shown):
     """What is proved, and what is only computed, of the performance of a stable loop.
@@ -99,6 +126,8 @@ class Performance(Shown):
         Why there is no proof, by the same names.
     weakest : str
         The single input or output with the least margin, in words.
+    loops : tuple of SingleLoop
+        Those of the least margins, at most four.
     """
 
     weights: CostWeights
@@ -106,6 +135,7 @@ class Performance(Shown):
     computed: Mapping[str, float] = field(default_factory=dict)
     left_out: Mapping[str, str] = field(default_factory=dict)
     weakest: str = ""
+    loops: tuple[SingleLoop, ...] = ()
 
     @property
     def ratio(self) -> Fraction | None:
@@ -152,6 +182,30 @@ class Performance(Shown):
 
     def _seen(self, name: str) -> float:
         return self.computed.get(name, nan)
+
+    @property
+    def bars(self) -> dict[str, tuple[float, bool]]:
+        """Each disk margin that is known, by a label, and whether it is proved."""
+        known = {name: self._margin(name) for name in MARGINS}
+        return {
+            _BARS[name]: (value, name in self.answers)
+            for name, value in known.items()
+            if isfinite(value)
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the disk margins and the Nyquist curves of single loops; see `mcexact.plot.margins`.
+
+        Raises
+        ------
+        UsageError
+            If the loop is not stable, so that it has no margins.
+        """
+        from mcexact.plot.margins import margins
+
+        if not self.bars:
+            raise UsageError("a loop that is not stable has no margins to draw")
+        return margins(self, ax)
 
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield a label and a text for each figure that is computed and not proved."""
@@ -283,12 +337,13 @@ def performance_of(
         return Performance(weights)
     margins = {side: computed_margins(each) for side, each in responses.items()}
     seen, weakest = _computed(inner, weighed, margins), _weakest(loop.plant, margins)
+    loops = _single_loops(loop.plant, margins, responses)
     asked = _proofs(inner, weighed, responses)
     if left_out:
         asked = {name: each for name, each in asked.items() if name in MARGINS}
         seen = {name: value for name, value in seen.items() if name in MARGINS}
     if not proofs:
-        return Performance(weights, {}, seen, dict.fromkeys(seen, "not tried"), weakest)
+        return Performance(weights, {}, seen, dict.fromkeys(seen, "not tried"), weakest, loops)
     work = _Work(prove_all=prove_all)
     answers = dict[str, Answer]()
     for name, each in asked.items():
@@ -311,7 +366,7 @@ def performance_of(
         else:
             answers[name] = proved
             work.done(each, len(encode(proved)))
-    return Performance(weights, answers, seen, left_out, weakest)
+    return Performance(weights, answers, seen, left_out, weakest, loops)
 
 
 Responses = Mapping[Side, PortResponse]
@@ -331,14 +386,27 @@ def _computed(loop: ClosedLoop, weights: CostWeights, margins: Margins) -> dict[
 
 def _weakest(plant: MultiChannelSystem, margins: Margins) -> str:
     """The input or output with the least margin, in words."""
+    return next((name for *_, name in _by_margin(plant, margins)), "input")
+
+
+def _by_margin(plant: MultiChannelSystem, margins: Margins) -> list[tuple[float, Side, int, str]]:
+    """All inputs and outputs, the least margin first: margin, side, place and name."""
     sizes = {"inputs": plant.p, "outputs": plant.q}
-    ports = [
-        (margin, side, name)
+    return sorted(
+        (margin, side, k, f"{side.removesuffix('s')}{name}")
         for side, (single, _) in margins.items()
-        for margin, name in zip(single, _names(plant, sizes[side]), strict=True)
-    ]
-    _, side, name = min(ports, default=(2.0, "inputs", ""))
-    return f"{side.removesuffix('s')}{name}"
+        for k, (margin, name) in enumerate(zip(single, _names(plant, sizes[side]), strict=True))
+    )
+
+
+def _single_loops(
+    plant: MultiChannelSystem, margins: Margins, responses: Responses
+) -> tuple[SingleLoop, ...]:
+    """The loops with the least margins."""
+    return tuple(
+        SingleLoop(name, tuple(responses[side].nyquist(k)))
+        for _, side, k, name in _by_margin(plant, margins)[:_MOST_CURVES]
+    )
 
 
 def _names(plant: MultiChannelSystem, size: Callable[[int], int]) -> Iterator[str]:

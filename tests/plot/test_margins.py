@@ -1,0 +1,54 @@
+"""Disk margins and Nyquist curves, which stay out of the certified disk."""
+
+from __future__ import annotations
+
+import pytest
+from matplotlib.figure import Figure
+
+from mcexact.errors import UsageError
+from mcexact.exact.matrix import to_float
+from mcexact.model import gallery
+from mcexact.model.statespace import local_controllers
+from mcexact.model.system import MultiChannelSystem
+from mcexact.plot.margins import disk, margins, nyquist
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.optimum.figures import Aims
+from mcexact.synthesis.performance import Performance, loop_performance, performance_of
+
+
+def of(gain: int, time: str = "continuous") -> Performance:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time=time)
+    return loop_performance(plant, local_controllers(plant, [[[gain]]]))
+
+
+def test_the_bars_are_the_margins_that_are_proved() -> None:
+    performance = of(-3)
+    left, right = performance.plot().axes
+    assert [bar.get_width() for bar in left.patches] == [v for v, _ in performance.bars.values()]
+    assert all(proved for _, proved in performance.bars.values())
+    assert "certified" in right.get_legend().get_texts()[-1].get_text()
+
+
+@pytest.mark.parametrize("name", ["compleib-dis5", "farina-string-of-vehicles-4"])
+def test_no_curve_enters_the_certified_disk_and_one_nearly_touches_it(name: str) -> None:
+    loop = design_decentralized(gallery.load(name), aims=Aims(effort=1)).loop.closed
+    performance = performance_of(loop)
+    assert performance.margin is not None
+    center, radius = disk(to_float(performance.margin))
+    distances = [abs(z - center) for each in performance.loops for z in each.curve]
+    assert radius < min(distances) < 1.05 * radius
+
+
+def test_a_known_loop_has_its_curve() -> None:
+    """L = 3/(s − 1) at s = 0 is −3, and at infinity 0."""
+    (first, *_) = of(-3).loops
+    assert first.name in ("input of agent 1", "output of agent 1")
+    assert first.curve[0] == pytest.approx(-3) and abs(first.curve[-1]) < 0.1
+
+
+def test_axes_can_be_given_and_an_unstable_loop_has_nothing_to_draw() -> None:
+    figure = Figure()
+    assert margins(of(-3), figure.subplots(1, 2)) is figure
+    assert nyquist(of(-3), figure.add_subplot()) is figure
+    with pytest.raises(UsageError, match="not stable"):
+        of(3).plot()
