@@ -1006,8 +1006,11 @@ class PortResponse:
     def nyquist(self, port: int) -> list[complex]:
         """The loop opened at a port, with the usual sign of feedback, along the border upward."""
         points, direct = self._points(), self._through
-        order = np.argsort(np.angle(points) if self.discrete else points.imag)
-        T = [complex(self._samples[k][port, port]) - direct for k in order]
+        T = [complex(G[port, port]) - direct for G in self._samples]
+        # the response at a conjugate point is the conjugate one
+        T = [t.conjugate() if z.imag < 0 else t for z, t in zip(points, T, strict=True)]
+        order = np.argsort(np.abs(np.angle(points)) if self.discrete else points.imag)
+        T = [T[k] for k in order]
         return [-t / (1 + t) for t in T if t != -1]
 
     def worst_point(self, port: int) -> complex:

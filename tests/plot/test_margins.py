@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 from matplotlib.figure import Figure
 
@@ -37,6 +39,10 @@ def test_no_curve_enters_the_certified_disk_and_one_nearly_touches_it(name: str)
     center, radius = disk(to_float(performance.margin))
     distances = [abs(z - center) for each in performance.loops for z in each.curve]
     assert radius < min(distances) < 1.05 * radius
+    for each in performance.loops:
+        # nor does a chord between neighbors
+        middles = [(a + b) / 2 for a, b in pairwise(each.curve)]
+        assert all(abs(z - center) > 0.98 * radius for z in middles)
 
 
 def test_a_known_loop_has_its_curve() -> None:
