@@ -34,7 +34,7 @@ from mcexact.analysis.performance import PortResponse, Side, response_of, single
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.nearby import Lost
-from mcexact.errors import InputError, LimitReached
+from mcexact.errors import InputError, LimitReached, MissingExtra
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import matrix_to_float, to_float
 from mcexact.exact.roots import StabilityRegion, is_discrete
@@ -593,7 +593,8 @@ def _by_control(
     """The margin on the grid, that at the worst frequency which we know, and this frequency."""
     import cmath
 
-    import control
+    with MissingExtra.named("control"):
+        import control
     import numpy as np
 
     if not hasattr(control, "disk_margins"):

@@ -158,13 +158,12 @@ def margin_pictures(margins: Margins) -> list[Picture]:
         Picture(
             margin_bars(margins),
             "Disk margins",
-            f"Disk margins: {bars}. Filled bars are proved.",
+            f"The largest ones known: {bars}. Filled bars are proved.",
         ),
         Picture(
             nyquist(margins),
             "Nyquist curves",
-            f"Nyquist curves of the loops opened at the {names}.{proved} The curves are computed, "
-            "not certified.",
+            f"The loops opened at the {names}.{proved} The curves are computed, not certified.",
         ),
     ]
 
