@@ -296,7 +296,8 @@ def held_together(
 
     Notes
     -----
-    Exact: the rows that are independent of [A, B] (discrete time: A − I) and of those before them.
+    Exact: the rows that are independent of [A, B] (discrete time: A − I) and of those before them,
+    the first row of every agent before the second of any.
 
     Examples
     --------
@@ -307,14 +308,15 @@ def held_together(
     selection, n = selection or every_output(system), system.n
     B = system.input_matrix()
     steady = hstack([system.A - Matrix.identity(n) * steady_point(system.time), B])
-    outputs = block_diagonal(selection) @ system.output_matrix()
+    order = sorted((k, i) for i, S in enumerate(selection) for k in range(S.nrows))
+    outputs = vstack([selection[i].take(rows=[k]) @ system.C(i) for k, i in order], ncols=n)
     rows = vstack([steady, hstack([outputs, Matrix.zeros(outputs.nrows, B.ncols)])])
     _, independent = row_echelon(rows.T)
-    kept, start = list[Matrix](), n
-    for S in selection:
-        kept.append(S.take(rows=[k - start for k in independent if start <= k < start + S.nrows]))
-        start += S.nrows
-    return tuple(kept)
+    chosen = {order[place - n] for place in independent if place >= n}
+    return tuple(
+        S.take(rows=[k for k in range(S.nrows) if (k, i) in chosen])
+        for i, S in enumerate(selection)
+    )
 
 
 def _by_agent(
