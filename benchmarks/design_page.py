@@ -19,7 +19,10 @@ RATIO, DISK, DAMPING, SECONDS = 2.0, 0.4, 0.05, 60.0
 _HAND = ("static BFGS", "local LQR", "local LQG", "python-control")
 Rows = Mapping[str, Row]
 
-REMARKS: Mapping[str, str] = {}
+REMARKS: Mapping[str, str] = {
+    "compleib-tf1 decentralized": "the mode -1/100000 is fixed without communication, and no bound "
+    "for controllers without communication is known",
+}
 """What is known of exceptions that their figures do not tell, by the names of rows."""
 
 _HEAD = """\
@@ -120,6 +123,10 @@ def page(gallery: Rows, families: Rows, before: Rows) -> str:
     both = {**gallery, **families}
     lines = [_HEAD, f"Measured on {'; '.join(sorted({r['machine'] for r in both.values()}))}.", ""]
     lines += ["## Summary", "", *_summary(gallery, families, before), ""]
+    missing = [name for name in before if name not in both]
+    if missing:
+        told = f"Not measured yet, {len(missing)} of {len(both) + len(missing)} requests"
+        lines += [f"{told}: {', '.join(missing)}.", ""]
     lines += ["## Exceptions", "", _told_of_exceptions(both), ""]
     odd = [row for row in both.values() if exceptions(row)]
     lines += _table(

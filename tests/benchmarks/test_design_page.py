@@ -93,3 +93,10 @@ def test_what_was_recorded_before_stands_beside_over_the_same_bound() -> None:
     assert "| plant decentralized | 1.25 (3) | 0.5 | 0.4 | 0.3 | 2 % | 1 (4) | 0.5 |" in text
     assert "before 3 of 1, computed" in text and "worth installing 1 (before 1" in text
     assert "| 3.5, 0.1 | not stable | 1, 0.9 |" in text
+
+
+def test_requests_that_are_not_measured_are_named() -> None:
+    other = {**BEFORE, "name": "other decentralized"}
+    rows = {each["name"]: each for each in (BEFORE, other)}
+    text = page({DESIGNED["name"]: DESIGNED}, {}, rows)
+    assert "Not measured yet, 1 of 2 requests: other decentralized." in text
