@@ -10,6 +10,7 @@ from .analysis.boxes.largest import largest_loop_ranges as largest_loop_ranges
 from .analysis.boxes.largest import largest_loop_uncertainty as largest_loop_uncertainty
 from .analysis.boxes.largest import largest_uncertainty as largest_uncertainty
 from .analysis.boxes.loops import box_stability as box_stability
+from .analysis.boxes.margins import box_disk_margin as box_disk_margin
 from .analysis.boxes.members import box_controllability as box_controllability
 from .analysis.boxes.members import box_fixed_modes as box_fixed_modes
 from .analysis.boxes.members import box_observability as box_observability

@@ -242,6 +242,21 @@ def _observable(box_observability: Claim, context: Context) -> Iterator[Sentence
 # Answer: every loop in a box is stable.
 
 
+@dataclass(frozen=True)
+class SingleDisk(Part):
+    """Each input, or each output, is multiplied by (1 + δ/2)/(1 − δ/2) by itself, |δ| ≤ margin.
+
+    Attributes
+    ----------
+    at : "inputs" or "outputs"
+    margin : Fraction
+        Above 0 and below 2.
+    """
+
+    at: str
+    margin: Fraction
+
+
 @answer("box_stable")
 class BoxStability(EigenvaluesInside, Answer):
     """Every eigenvalue of every member of a box lies in a region: usually of a closed loop.
@@ -253,6 +268,8 @@ class BoxStability(EigenvaluesInside, Answer):
     gain_radii : dict or None
         The radii of the controller's gains, as the object of a controller with the same agents;
         None if they are certain.
+    disk : SingleDisk or None
+        The claim is also for each input, or output, multiplied by complex numbers near 1.
     nominal : PolynomialMethod or LyapunovMethod
         Evidence that the nominal loop is stable, as in the kind ``stability``.
     points : tuple of Fraction
@@ -267,6 +284,7 @@ class BoxStability(EigenvaluesInside, Answer):
 
     bound: Fraction | None = claim("every eigenvalue of every member")
     gain_radii: dict[str, Any] | None = claim("gains")
+    disk: SingleDisk | None = claim(optional=True)
     nominal: PolynomialMethod | LyapunovMethod = witness()
     points: tuple[Fraction, ...] = witness()
     growth: tuple[int, ...] | None = witness()

@@ -579,6 +579,11 @@ def _could_be(wanted: Any, value: Any) -> bool:
     if is_dataclass(wanted) and wanted not in _READ and isinstance(value, dict):
         needed = {key_of(each) for each in fields(wanted) if not is_optional(each)}
         return needed <= value.keys() <= {key_of(each) for each in fields(wanted)}
+    if wanted is int:
+        return isinstance(value, int)
+    if typing.get_origin(wanted) is tuple:
+        (first, *_), known = typing.get_args(wanted), isinstance(value, list)
+        return known and all(_could_be(first, each) for each in value[:1])
     return True
 
 

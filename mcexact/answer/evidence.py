@@ -253,10 +253,11 @@ class InverseFrame(Part):
 
     It proves that the pencil is regular for |λ − c| ≤ ρ and all Z within radii D, wherever
     Σ_j |I − V(cE − Z)|_ij w_j + (|V|Dw)_i + ρ(|V|Ew)_i < w_i in every row i.
+    Where ports are multiplied by numbers, w has the weights of the pencil of each port.
     """
 
     V: ComplexMatrix
-    w: tuple[int, ...]
+    w: tuple[int, ...] | tuple[tuple[int, ...], ...]
 
 
 Cover = tuple[tuple[int | None, ...], ...]

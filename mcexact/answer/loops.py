@@ -281,6 +281,20 @@ EVERY_LOOP_PART = Template(
     "{region:region} for every plant within {part:percent} of each entry{gains:gains}",
     label="every loop near this one",
 )
+_EVERY_MARGIN = "at least {margin:digits_below} for every plant within the radii"
+_EVERY_MARGIN_PART = (
+    "at least {margin:digits_below} for every plant within {part:percent} of each entry"
+)
+EVERY_MARGIN = {
+    at: (
+        Template(f"members-{at}-margin", _EVERY_MARGIN, label=label),
+        Template(f"members-{at}-margin-part", _EVERY_MARGIN_PART, label=label),
+    )
+    for at, label in (
+        ("input", "disk margin of each input in a box"),
+        ("output", "disk margin of each output in a box"),
+    )
+}
 EVERY_VALUE = Template(
     "parametric-ranges-in-region",
     "{region:region} for every {parameters:words}{gains:gains}",
@@ -338,6 +352,24 @@ def _every_loop(box_stability: Claim, context: Context) -> Said:
         yield EVERY_LOOP(region=region, gains=gains)
     else:
         yield EVERY_LOOP_PART(region=region, part=context.part_of_plant, gains=gains)
+
+
+def _margin_rule(at: str) -> None:
+    """Make the rule about the disk margin of each input, or output, for all plants of a box."""
+    within_radii, within_part = EVERY_MARGIN[at]
+
+    @EVERY_LOOP_RULES.rule("table", within_radii, within_part, premises=(f"box_{at}_margin",))
+    def _margin(loops: Claim, context: Context) -> Said:
+        if loops.has("disk") and loops.disk.at == f"{at}s":
+            part = context.part_of_margins
+            if part is None:
+                yield within_radii(margin=loops.disk.margin)
+            else:
+                yield within_part(margin=loops.disk.margin, part=part)
+
+
+for _at in EVERY_MARGIN:
+    _margin_rule(_at)
 
 
 @EVERY_LOOP_RULES.rule(

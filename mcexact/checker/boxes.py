@@ -11,6 +11,7 @@ The kinds ``parametric_box_…`` are about the values of parameters in ranges.  
 into cells (`cells`), and the same checks run for a box around the plants of each cell.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
@@ -19,22 +20,40 @@ from operator import mul
 from . import budget, loops
 from .arithmetic import Matrix, beside, diagonal, stack
 from .cells import FunctionLoop, boxes_of_cells, ranges_text
+from .constructions import ports_of
 from .discs import (
     Box,
     Pencil,
+    Regular,
     absolute,
+    complex_matrix,
     discs_of_gains,
+    inverse_multiplied,
     left_inverse,
     loop_pencil,
     magnitude,
+    multiplied,
     read_weights,
+    regular_by,
     require_covered,
     right_inverse,
 )
 from .evidence import inputs
 from .modes import inside, no_fixed_mode, read_rate_or_radius
 from .parametric_system import FunctionSystem
-from .reading import Json, fields, integer, items, malformed, matrices, names, rational, require
+from .performance import PORTS, diagonal_of
+from .reading import (
+    Json,
+    fields,
+    integer,
+    items,
+    malformed,
+    matrices,
+    names,
+    rational,
+    require,
+    string,
+)
 from .roots import Disc
 from .system import (
     MAPS,
@@ -151,31 +170,74 @@ def controls(claim: Json, box: System | FunctionSystem, members: str) -> str:
 def check_box_stable(claim: Json, witness: Json, box: Box) -> None:
     """Check the values themselves, and that no eigenvalue crosses the border of the region.
 
-    Theorems ``box_stable.box_stable_continuous``, ``box_stable.box_stable_discrete``.
+    With a ``disk`` this is also for each input, or each output, multiplied by complex numbers.
+
+    Theorems ``box_stable.box_stable_continuous``, ``box_stable.box_stable_discrete``,
+    ``box_disk.box_disk_continuous``, ``box_disk.box_disk_discrete``.
     """
-    limit, gain_radii = fields(claim, "claim", "bound", "gain_radii")
+    limit, gain_radii, disk = fields(claim, "claim", "bound", "gain_radii", optional=("disk",))
     rate = read_rate_or_radius(limit, box)
     bound = Fraction(int(box.time == "discrete")) if rate is None else rate
     keys = ("nominal", "points", "growth", "segments", "frames")
     nominal, listed, growth, used, frames = fields(witness, "witness", *keys)
     loops.check_stability({"bound": limit, "stable": True}, nominal, box)
     pencil = loop_pencil(box, gain_radii)
+    ports, alpha = ([], Fraction(0)) if disk is None else read_disk(disk, box, pencil)
+    pencils = [multiplied(pencil, k, alpha) for k in ports]
     ends = [rational(point, "witness.points") for point in items(listed, "witness.points")]
     segments = segments_of(box.time, bound, ends)
     if box.time == "continuous":
-        _require_growth(growth, pencil, ends[-1] if ends else Fraction(0))
+        last = ends[-1] if ends else Fraction(0)
+        _require_growth(growth, pencil, last, ports, (1 + alpha / 2) / (1 - alpha / 2))
     else:
         require(growth is None, "growth", "witness.growth", "expected null in discrete time")
     regular = []
     for k, entry in enumerate(items(frames, "witness.frames")):
         where = f"witness.frames[{k}]"
         V, w = fields(entry, where, "V", "w")
-        regular.append(left_inverse(V, w, where, pencil))
+        if disk is None:
+            regular.append(left_inverse(V, w, where, pencil))
+        else:
+            regular.append(_of_every_port(V, w, where, ports, pencils))
     for k, number in enumerate(items(used, "witness.segments", len(segments))):
         where = f"witness.segments[{k}]"
         if integer(number, where) >= len(regular):
             malformed(where, f"expected a position below {len(regular)}")
         require(regular[number](*segments[k]), "segment", where, "not regular by this frame")
+
+
+def read_disk(value: Json, box: Box, pencil: Pencil) -> tuple[list[int], Fraction]:
+    """The places, among the signals of a loop, of its inputs or outputs, and the margin."""
+    side, size = fields(value, "claim.disk", "at", "margin")
+    at, alpha = string(side, "claim.disk.at", *PORTS), rational(size, "claim.disk.margin")
+    # at α = 2 the disk contains δ = 2, where (1 + δ/2)/(1 − δ/2) is not defined
+    require(0 < alpha < 2, "margin", "claim.disk.margin", "expected a number above 0, below 2")
+    require(box.plant is not None, "claim", "claim.disk", "expected none without a controller")
+    plant = box if box.plant is None else box.plant
+    p, q = ports_of(plant)
+    size_of_all = pencil.Z.nrows
+    first = size_of_all - p - q if at == "outputs" else size_of_all - p
+    ports = [*range(first, first + (q if at == "outputs" else p))]
+    # without a port nothing would be proved about the loop itself
+    require(bool(ports), "ports", "claim.disk.at", "the loop has none")
+    return ports, alpha
+
+
+def _of_every_port(
+    value: Json, weights: Json, place: str, ports: list[int], pencils: list[Pencil]
+) -> Regular:
+    """The discs on which one V, with weights for each port, proves all pencils to be regular.
+
+    V is about the inverse of the loop's own pencil, from which that of each port is made.
+    """
+    size = pencils[0].Z.nrows
+    V = complex_matrix(value, place, size - 2, size - 2)
+    tests = []
+    listed = zip(items(weights, f"{place}.w", len(ports)), ports, pencils, strict=True)
+    for w, k, pencil in listed:
+        heavy = read_weights(w, f"{place}.w", size)
+        tests.append(regular_by(inverse_multiplied(V, k), heavy, pencil))
+    return lambda re, im, rho: all(test(re, im, rho) for test in tests)
 
 
 def segments_of(time: str, bound: Fraction, ends: list[Fraction]) -> list[Disc]:
@@ -213,13 +275,26 @@ def _arc(p: tuple[Fraction, Fraction], q: tuple[Fraction, Fraction]) -> Disc:
     return (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, Fraction(magnitude(int(x * d), int(y * d)), d)
 
 
-def _require_growth(value: Json, pencil: Pencil, R: Fraction) -> None:
+def _require_growth(
+    value: Json,
+    pencil: Pencil,
+    R: Fraction,
+    ports: Sequence[int] = (),
+    largest: Fraction = Fraction(1),
+) -> None:
     """Stop unless positive weights of the states exclude every eigenvalue of modulus R or more.
 
-    Theorem ``boxes.growth``.
+    What the signals at ``ports`` are multiplied by is at most ``largest`` in absolute value.
+
+    Theorems ``boxes.growth``, ``box_disk.disk_reads``.
     """
     n, place = pencil.dynamic, "witness.growth"
     most = sum(map(absolute, pencil.tied), absolute(pencil.Z) + pencil.D)
+    if ports:
+        factors = [Fraction(1)] * most.ncols
+        for k in ports:
+            factors[k] = largest
+        most = most @ diagonal_of(factors)
     sizes = [Fraction(row[0]) for row in read_weights(value, place, n).rows]
     for row in most.rows[n:]:
         # the signals before it, of which such a row computes the next one
@@ -239,7 +314,7 @@ def box_stable_statement(claim: Json, box: Box) -> str:
 
 
 def lie_inside(claim: Json, box: System | FunctionSystem, members: str) -> str:
-    """Where all eigenvalues of these members lie."""
+    """Where all eigenvalues of these members lie, also with one port multiplied by numbers."""
     limit, radii = claim["bound"], claim["gain_radii"]
     bound = int(box.time == "discrete") if limit is None else limit
     gains = ""
@@ -249,7 +324,14 @@ def lie_inside(claim: Json, box: System | FunctionSystem, members: str) -> str:
         near = radii_in_words(gain_pairs(programs, radii), "their radii")
         which = f"those of the controller {near}, the radii being those with {with_digest(text)}"
         gains = f", and for all controllers whose entries differ from {which}"
-    return f"{members}{gains}, every eigenvalue of A has {inside(bound, box)}"
+    disk = ""
+    if "disk" in claim:
+        port, size = claim["disk"]["at"].removesuffix("s"), claim["disk"]["margin"]
+        disk = (
+            f", also where any one {port} is multiplied by (1 + d/2)/(1 - d/2) for complex numbers "
+            f"d with |d| <= {size} (disk margin {size} of each {port} by itself)"
+        )
+    return f"{members}{gains}{disk}, every eigenvalue of A has {inside(bound, box)}"
 
 
 def gain_pairs(programs: Json, radii: Json) -> list[Pair]:
@@ -313,10 +395,11 @@ def parametric_box_controllable_statement(claim: Json, plant: FunctionSystem) ->
 
 
 def check_parametric_box_stable(claim: Json, witness: Json, plant: FunctionSystem) -> None:
-    """Check the claim of the kind ``box_stable`` for a box around the plants of each cell.
+    """Check the claim of the kind ``box_stable``, without a disk, for a box around each cell.
 
     Theorems ``box_stable.tied_stable_continuous``, ``box_stable.tied_stable_discrete``.
     """
+    fields(claim, "claim", "bound", "gain_radii")
     for box, part in boxes_of_cells(witness, plant):
         check_box_stable(claim, part, box)
 

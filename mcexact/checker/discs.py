@@ -130,7 +130,12 @@ def left_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Regu
     Theorems ``boxes.regular_disc_left``, ``boxes.regular_disc_left_tied``.
     """
     size = pencil.Z.nrows
-    V, w = complex_matrix(value, place, size, size), read_weights(weights, place, size)
+    V = complex_matrix(value, place, size, size)
+    return regular_by(V, read_weights(weights, place, size), pencil)
+
+
+def regular_by(V: ComplexMatrix, w: Matrix, pencil: Pencil) -> Regular:
+    """The discs on which V and the weights w prove that a pencil is regular."""
     dynamic = range(pencil.dynamic)
     P = ComplexMatrix(V.re.take(None, dynamic), V.im.take(None, dynamic))
     spread = V.magnitudes() @ (pencil.D @ w)
@@ -568,3 +573,61 @@ def _pencil(
     for j, (signal, width) in enumerate(inputs):
         rows.append(mapped(programs[j][2], reads, width, x.ncols) - reads[signal].times(one))
     return stack(rows, x.ncols)
+
+
+# The pencil of a loop in which one output or input, a signal, is multiplied by a complex number.
+
+
+def multiplied(pencil: Pencil, k: int, alpha: Fraction) -> Pencil:
+    """The pencil in which everybody who reads signal k reads it times f = (1 + δ/2)/(1 − δ/2).
+
+    δ is a complex number with |δ| ≤ α < 2.  Two signals stand behind the others, w = δv and
+    v + w/2, which is what is read; signal k itself is v, what it was computed from plus w/2.
+
+    Theorem ``box_disk.disk_loop``.
+    """
+    size = pencil.Z.nrows
+    fixed, radius = ([[0] * (size + 2) for _ in range(size + 2)] for _ in range(2))
+    fixed[k][size] = 1
+    fixed[size][size] = -2
+    fixed[size + 1][k], fixed[size + 1][size : size + 2] = 2, [1, -2]
+    radius[size][k] = alpha.numerator
+    Z = _read_last(pencil.Z, k) + Matrix(fixed, size + 2, 2)
+    D = _read_last(pencil.D, k) + Matrix(radius, size + 2, alpha.denominator)
+    return Pencil(Z, D, pencil.dynamic, [_read_last(M, k) for M in pencil.tied])
+
+
+def _read_last(M: Matrix, k: int) -> Matrix:
+    """The matrix with two more signals, the last of which all other rows read in place of k."""
+    size = M.nrows + 2
+    budget.spend(budget.table(size, size, M.limbs))
+    rows = [[*row[:k], 0, *row[k + 1 :], 0, row[k]] for row in M.rows]
+    rows[k] = [*M.rows[k], 0, 0]
+    return Matrix([*rows, [0] * size, [0] * size], size, M.denominator)
+
+
+def inverse_multiplied(V: ComplexMatrix, k: int) -> ComplexMatrix:
+    """[V, Ve − e/2, Ve − e; 0, 1, 0; e'V, e'Ve, e'Ve], e the unit vector of the signal k.
+
+    It is the inverse of the nominal pencil of `multiplied` if V is that of the pencil.
+    """
+    size = V.re.nrows
+    budget.spend(2 * budget.table(size + 2, size + 2, V.limbs))
+    parts = []
+    for M in (V.re, V.im):
+        rows = [[*row, row[k], row[k]] for row in M.rows]
+        parts.append(Matrix([*rows, [0] * (size + 2), rows[k]], size + 2, M.denominator))
+    re, im = parts
+    fixed = [[0] * (size + 2) for _ in range(size + 2)]
+    fixed[k][size : size + 2] = [-1, -2]
+    fixed[size][size] = 2
+    re = re + Matrix(fixed, size + 2, 2)
+    d = math.lcm(re.denominator, im.denominator)
+    return ComplexMatrix(*(_over(M, d) for M in (re, im)))
+
+
+def _over(M: Matrix, d: int) -> Matrix:
+    """The matrix over a multiple of its denominator."""
+    f = d // M.denominator
+    budget.spend(budget.table(M.nrows, M.ncols, M.limbs))
+    return Matrix([[f * entry for entry in row] for row in M.rows], M.ncols, d)

@@ -408,4 +408,19 @@ def within(loops: Premise) -> str:
 
 restate("members-in-region", LOOPS, lambda c: True)
 restate("members-in-region-part", LOOPS, lambda c: True, words=within)
+
+
+def of_disk(key: str, at: str) -> None:
+    """Enter the rules about the disk margin of single inputs or outputs for all members."""
+
+    def holds(loops: Premise) -> bool:
+        claim = loops.document["claim"]
+        return "disk" in claim and claim["disk"]["at"] == at
+
+    restate(key, LOOPS, holds)
+    restate(f"{key}-part", LOOPS, holds, words=within)
+
+
+of_disk("members-input-margin", "inputs")
+of_disk("members-output-margin", "outputs")
 restate("parametric-ranges-in-region", Role(("parametric_box_stable",), CLOSED), lambda c: True)

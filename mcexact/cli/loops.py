@@ -67,6 +67,8 @@ from mcexact.synthesis.robustness import (
     every_loop,
     failing_plant,
     known_within,
+    margins_view,
+    margins_within,
 )
 
 _EFFORT = 5.0
@@ -164,6 +166,7 @@ def certified(
         gains=gains,
         failing=loops.failing,
         performance=proved,
+        margins=loops.margins,
     )
     if digits is not None:
         loops = loops.with_digits(loops_with_digits(system, typed, verdict, digits))
@@ -313,6 +316,8 @@ class Loops:
         Whether all loops within the radii of the plant are stable; None if it has none.
     failing : FailingPlant or None
         A plant nearby whose loop is not stable.
+    margins : mapping
+        Proofs of disk margins of single inputs and outputs in a box.
     """
 
     rows: tuple[tuple[str, str], ...] = ()
@@ -320,6 +325,7 @@ class Loops:
     view: Mapping[str, Any] = field(default_factory=dict)
     within_radii: WithinRadii | None = None
     failing: FailingPlant | None = None
+    margins: Mapping[str, BoxStability] = field(default_factory=dict)
 
     def fails_within(self, plant: MultiChannelSystem) -> Fraction | None:
         """The part of its entries within which a plant fails, if it has no radii of its own."""
@@ -381,7 +387,11 @@ def loops_within(
     within: WithinRadii | None = known_within(proof, failing)
     if search is not None and search.proof is not None:
         within = _within_radii_of_file(search)
-    return Loops(tuple(rows), proof, {"every_loop": view}, within, failing or near)
+    margins = dict[str, BoxStability]()
+    if proof is not None and system.uncertainty is not None:
+        margins = margins_within(closed_loop(system, controller))
+        view["margins"] = margins_view(margins)
+    return Loops(tuple(rows), proof, {"every_loop": view}, within, failing or near, margins)
 
 
 def loops_near(
@@ -391,7 +401,8 @@ def loops_near(
     around = every_loop(loop, verdict.region)
     failing = known.failing or around.failing
     view = {"every_loop": around.to_dict()}
-    return Loops(tuple(around.rows()), around.proof, view, None, failing), around.gains
+    rows, margins = tuple(around.rows()), around.margins
+    return Loops(rows, around.proof, view, None, failing, margins), around.gains
 
 
 def _within_radii_of_file(search: LargestUncertainty) -> WithinRadii | None:

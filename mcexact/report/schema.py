@@ -386,6 +386,12 @@ EVERY_LOOP = record(
         "gains": some(NUMBER),
         "fails_within": some(NUMBER),
         "failing": some({"type": "object"}),
+        "margins": some(
+            record(
+                {"part": some(NUMBER), "inputs": some(NUMBER), "outputs": some(NUMBER)},
+                says="disk margins of single inputs and outputs for every plant in a box",
+            )
+        ),
         "reason": some(TEXT),
     },
     says="what is proved of all loops in a box around the plant, and a plant whose loop fails",

@@ -14,7 +14,7 @@ which every rounding keeps the loop in the region, proved for the box of all rou
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, get_args
@@ -54,6 +54,7 @@ from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.observer import observer_coordinates
 from mcexact.synthesis.optimum.diagnosis import rounded_controller
 from mcexact.synthesis.performance import Performance
+from mcexact.synthesis.robustness import margin_answers, margins_part
 
 _PARTS_TRIED = 32
 _MOST_ROUNDED = 1000
@@ -244,6 +245,7 @@ def account_of_verdict(
     gains: Fraction | None = None,
     failing: FailingPlant | None = None,
     performance: Performance | None = None,
+    margins: Mapping[str, BoxStability] | None = None,
 ) -> Account:
     """Make the account of a verdict on a closed loop.
 
@@ -260,12 +262,17 @@ def account_of_verdict(
         A plant nearby whose loop is not stable.
     performance : Performance, optional
         The cost and the margins of the loop.
+    margins : mapping, optional
+        Proofs of disk margins in a box of plants (`EveryLoop.margins`).
     """
     asked = {"region": verdict.region, "states": verdict.about.n, "largest": largest}
     answers: dict[str, Answer] = {verdict.kind: verdict}
     if every_loop is not None:
         answers["box_stability"] = every_loop
         asked |= {"part_of_plant": Box(every_loop.about.plant).part, "part_of_gains": gains}
+    if margins:
+        answers |= margin_answers(margins)
+        asked["part_of_margins"] = margins_part(margins)
     if failing is not None and failing.refutation is not None:
         answers[FAILING] = failing.refutation
         asked |= failing.facts(verdict.about.plant)

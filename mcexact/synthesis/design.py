@@ -27,7 +27,12 @@ from mcexact.plot.responses import loop as loop_figure
 from mcexact.synthesis.gate import Arithmetic, CertifiedLoop, Proposal, Request, first_certified
 from mcexact.synthesis.optimum.diagnosis import bound_of_eigenvalues, curves_of
 from mcexact.synthesis.performance import Performance
-from mcexact.synthesis.robustness import EveryLoop, every_loop
+from mcexact.synthesis.robustness import (
+    EveryLoop,
+    every_loop,
+    margin_answers,
+    margins_part,
+)
 
 Method = Literal["decentralized", "observer", "extended"]
 
@@ -145,6 +150,9 @@ class Design(ShownByAccount):
         if around is not None and around.proof is not None:
             answers["box_stability"] = around.proof
             facts |= {"part_of_plant": around.part, "part_of_gains": around.gains}
+        if around is not None and around.margins:
+            answers |= margin_answers(around.margins)
+            facts["part_of_margins"] = margins_part(around.margins)
         failing = None if around is None else around.failing
         if failing is not None and failing.refutation is not None:
             answers[FAILING] = failing.refutation

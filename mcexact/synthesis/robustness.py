@@ -10,14 +10,15 @@ finds larger boxes and nearer plants with more work.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Literal
 
 from mcexact.analysis.boxes.failure import FailingPlant, severed_plants
 from mcexact.analysis.boxes.largest import failing_loop, refuted_loop, short
 from mcexact.analysis.boxes.loops import StabilitySearch, gain_radii
+from mcexact.analysis.boxes.margins import SIDES, margin_in_box
 from mcexact.analysis.boxes.pencils import one_thread
 from mcexact.answer.boxes import BoxStability
 from mcexact.errors import LimitReached, require_seconds
@@ -40,6 +41,10 @@ _MOST_SIGNALS, _MOST_SEGMENTS, _USUAL = 160, 600, 30
 the border are tried."""
 _PER_SECOND = 170
 """How many parts of the border of a loop with the usual number of signals are tried in a second."""
+_HALF = Fraction(1, 2)
+"""The part of a proved box in which disk margins are proved; at its end little is left of them."""
+_LEFT, _FEWEST = 800, 10
+"""The parts of the border that are tried for disk margins, and the fewest for one side."""
 _LITTLE = 300
 """With fewer parts of the border than these, only the boxes that likely have a proof are tried."""
 _ASK = "; `mcexact certify --uncertainty 0.1%` asks about one box with more work"
@@ -62,6 +67,8 @@ class EveryLoop(Shown):
         part of its entries.
     reason : str
         Why there is no proof.
+    margins : mapping
+        Proofs of disk margins of single inputs and outputs in a box, by "inputs" and "outputs".
     """
 
     region: StabilityRegion
@@ -69,6 +76,7 @@ class EveryLoop(Shown):
     gains: Fraction | None
     failing: FailingPlant | None
     reason: str = ""
+    margins: Mapping[str, BoxStability] = field(default_factory=dict)
 
     @property
     def part(self) -> Fraction | None:
@@ -110,6 +118,7 @@ class EveryLoop(Shown):
             "gains": None if self.gains is None else written(self.gains),
             "fails_within": None if failing is None else written(failing.distance),
             "failing": None if failing is None else failing.plant.to_dict(),
+            "margins": margins_view(self.margins),
             "reason": self.reason or None,
         }
 
@@ -219,7 +228,61 @@ def _in_file_units(found: EveryLoop, loop: ClosedLoop, units: Units) -> EveryLoo
             proof = StabilitySearch(box, found.region, gains, _MOST_SEGMENTS).border(Fraction(1))
         if proof is None:
             return None
-    return replace(found, proof=proof, failing=failing)
+    margins = dict[str, BoxStability]()
+    if proof is not None and found.margins:
+        margins = margins_within(_for_margins(replace(loop, plant=proof.about.plant), loop))
+    return replace(found, proof=proof, failing=failing, margins=margins)
+
+
+def _for_margins(about: ClosedLoop, loop: ClosedLoop) -> ClosedLoop:
+    """The loop of the box in which margins are proved: own radii, or half of a box that was found."""
+    if loop.plant.uncertainty is not None:
+        return about
+    return replace(about, plant=Box(about.plant).scaled(_HALF).system)
+
+
+def margins_view(margins: Mapping[str, BoxStability]) -> dict[str, Any] | None:
+    """The disk margins in a box, and the part of each entry that the box has, as plain data."""
+    if not margins:
+        return None
+    part = margins_part(margins)
+    sizes = {at: each.disk.margin for at, each in margins.items() if each.disk is not None}
+    return {
+        "part": None if part is None else written(part),
+        **{at: written(sizes[at]) if at in sizes else None for at in SIDES},
+    }
+
+
+def margins_part(margins: Mapping[str, BoxStability]) -> Fraction | None:
+    """The radius of each entry of the plant, as a part of its modulus; None for own radii."""
+    return next((Box(each.about.plant).part for each in margins.values()), None)
+
+
+def margin_answers(margins: Mapping[str, BoxStability]) -> dict[str, BoxStability]:
+    """The proofs by the names under which sentences cite them."""
+    return {f"box_{at.removesuffix('s')}_margin": each for at, each in margins.items()}
+
+
+def margins_within(loop: ClosedLoop, left: int = _LEFT) -> dict[str, BoxStability]:
+    """Search disk margins of single inputs and outputs for all plants of a box, with little work.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        Of a plant with radii.
+    left : int
+        How many parts of the border may be tried, times the number of ports.
+    """
+    found: dict[str, BoxStability] = {}
+    plant = loop.plant
+    sizes = {"inputs": plant.p, "outputs": plant.q}
+    for at in SIDES:
+        ports = sum(sizes[at](i) for i in range(plant.m))
+        most = min(left // max(2 * ports, 1), _MOST_SEGMENTS)
+        proof = margin_in_box(loop, at, most=most) if most >= _FEWEST else None
+        if proof is not None:
+            found[at] = proof
+    return found
 
 
 def known_within(proof: BoxStability | None, failing: FailingPlant | None) -> WithinRadii:
@@ -270,7 +333,8 @@ def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLo
         for about, wanted, gains in dict.fromkeys(tried):
             proof = work.proof(about, wanted, gains)
             if proof is not None:
-                return EveryLoop(wanted, proof, gains, failing)
+                margins = margins_within(_for_margins(about, loop), work.left)
+                return EveryLoop(wanted, proof, gains, failing, margins=margins)
     box = f"every plant within the radii{_ASK_OWN}" if own else f"any box{_ASK}"
     return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
 

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from mcexact.analysis.boxes.loops import box_stability
+from mcexact.analysis.boxes.margins import box_disk_margin
 from mcexact.analysis.boxes.members import box_controllability, box_fixed_modes
 from mcexact.analysis.controllability import exceptional_gains
 from mcexact.analysis.fixed_modes import fixed_spectrum
@@ -91,6 +92,8 @@ def write_all(folder: Path) -> None:
     save_certificate(box_controllability(near), place / "box_controllable.json")
     kept = box_stability(near, local_controllers(unstable, [[[-3]]]))
     save_certificate(kept, place / "box_stable.json")
+    margin = box_disk_margin(near, local_controllers(unstable, [[[-3]]]), margin="1/2")
+    save_certificate(margin, place / "box_disk_margin.json")
     ranged = ParametricSystem(
         [["t", 1], [0, 2]], [[[1], ["t"]]], [[[1, 0]]], parameters=["t"], assume={"t": ("3/2", 2)}
     )

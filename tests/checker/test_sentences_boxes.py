@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from mcexact.analysis.boxes.loops import box_stability
-from mcexact.answer.protocol import document
+from mcexact.analysis.boxes.margins import box_disk_margin
+from mcexact.answer.protocol import document, encode
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.sentences_loops import least
 from mcexact.checker.system import pairs_of, radii_in_words, read_matrix
@@ -131,3 +133,21 @@ def test_a_loop_is_in_its_region_at_all_values(tmp_path: Path) -> None:
 @pytest.mark.parametrize("key", keys("boxes"))
 def test_a_rule_answers_as_it_did(key: str) -> None:
     compare(key)
+
+
+def test_a_margin_in_a_box_is_said_of_the_ports_of_its_certificate(tmp_path: Path) -> None:
+    wide = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/10").system
+    gain = local_controllers(wide, [[[-3]]])
+    found = {
+        at: json.loads(encode(box_disk_margin(wide, gain, at=at, margin="1/2")))  # type: ignore[arg-type]
+        for at in ("inputs", "outputs")
+    }
+    for at, other in (("inputs", "outputs"), ("outputs", "inputs")):
+        key = f"members-{at.removesuffix('s')}-margin"
+        verdict = judged(tmp_path, key, [found[at]])
+        assert verdict.verdict == "IMPLIED"
+        assert f"any one {at.removesuffix('s')} is multiplied" in verdict.statement
+        part = judged(tmp_path, f"{key}-part", [found[at]])
+        assert "in the plant by more than 1/10 of its modulus" in part.statement
+        assert judged(tmp_path, key, [found[other]]).verdict == "INVALID"
+        assert judged(tmp_path, key, [LOOP_STABLE]).verdict == "INVALID"

@@ -40,7 +40,12 @@ from mcexact.analysis.boxes.pencils import (
     whole_weights,
 )
 from mcexact.analysis.stability import certify_stability
-from mcexact.answer.boxes import BoxStability, ParametricBoxStability, StabilityOfCell
+from mcexact.answer.boxes import (
+    BoxStability,
+    ParametricBoxStability,
+    SingleDisk,
+    StabilityOfCell,
+)
 from mcexact.answer.evidence import InverseFrame
 from mcexact.answer.loops import LyapunovMethod, PolynomialMethod, StabilityVerdict
 from mcexact.derived.constructions import add_links, looped
@@ -181,6 +186,8 @@ class StabilitySearch:
         By default those of the box of the plant.
     tested : int
         The number of segments tested so far.
+    disk : SingleDisk, optional
+        What single inputs or outputs are multiplied by (`boxes.margins`).
     """
 
     loop: ClosedLoop
@@ -189,6 +196,7 @@ class StabilitySearch:
     most: int = _MOST_SEGMENTS
     members: Members | None = None
     tested: int = 0
+    disk: SingleDisk | None = None
 
     def __post_init__(self) -> None:
         from scipy.linalg import matrix_balance
@@ -234,7 +242,8 @@ class StabilitySearch:
         if evidence is None:
             return None
         radii = None if self.radii is None else _scaled(self.radii, factor).document()
-        return BoxStability(self._about(factor), self.region.bound, radii, **vars(evidence))
+        about, bound = self._about(factor), self.region.bound
+        return BoxStability(about, bound, radii, disk=self.disk, **vars(evidence))
 
     def evidence(self, factor: Fraction) -> StabilityOfCell | None:
         """Search a proof for radii that are multiplied by a factor; None if the search fails."""
@@ -341,6 +350,7 @@ def _last_point(pencil: Pencil, factor: Fraction) -> tuple[Fraction, tuple[int, 
     Z0, D, _ = pencil.balanced
     radii = D + sum(map(np.abs, pencil.balanced_generators))
     top, N = np.abs(Z0) + float(factor) * radii, pencil.n
+    top[:, list(pencil.ports)] *= float(pencil.readers)
     X = np.vstack([np.eye(N), np.zeros((len(top) - N, N))])
     for i in range(N, len(top)):
         X[i] = top[i, :i] @ X[:i]
@@ -355,6 +365,9 @@ def _last_point(pencil: Pencil, factor: Fraction) -> tuple[Fraction, tuple[int, 
 def _least_radius(pencil: Pencil, factor: Fraction, g: tuple[int, ...]) -> Fraction:
     """An integer R above Σ_j (|Z0| + D)_ij g_j / g_i for every dynamic row i, D of all changes."""
     most = moduli(pencil.Z0) + sum(map(moduli, pencil.generators), pencil.D) * factor
+    if pencil.ports:
+        factors = [pencil.readers if j in pencil.ports else Fraction(1) for j in range(most.ncols)]
+        most = most @ Matrix.from_entries(most.shape, ((j, j, x) for j, x in enumerate(factors)))
     rows, d = most.numerators, most.denominator
     sizes = [Fraction(x) for x in g]
     for row in rows[pencil.n :]:

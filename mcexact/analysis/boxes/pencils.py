@@ -426,6 +426,13 @@ class Pencil:
     n: int
     scale: Floats
     generators: tuple[Matrix, ...] = ()
+    ports: tuple[int, ...] = ()
+    """The signals that are multiplied (`boxes.margins`)."""
+
+    @property
+    def readers(self) -> Fraction:
+        """What a signal is multiplied by at most, in absolute value."""
+        return Fraction(1)
 
     @cached_property
     def balanced(self) -> tuple[Floats, Floats, Floats]:

@@ -11,14 +11,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 from flint import fmpq, fmpq_mat
 
 from . import algebra
+from .algebra import below, beside, selection
 from .constructions import built
 from .controllers import MAPS, read_agents
 from .loops import bound_of
 from .modes import fixed_modes
-from .reading import demand, listed, positions, record
+from .performance import disturbed_loop
+from .reading import demand, listed, positions, rational, record
 from .roots import inside
 from .several_parameters import read_several
 from .systems import System, read_plant
@@ -168,8 +171,93 @@ def _all_controlled(claim: Any, systems: Iterator[System], system: System) -> bo
 
 def stable(claim: Any, document: Mapping[str, Any], system: System) -> bool:
     """Every eigenvalue of every member lies in the region."""
-    radii = record(claim, "bound", "gain_radii")["gain_radii"]
-    return _all_inside(claim, members(document, radii), system.time)
+    optional = ["disk"] if isinstance(claim, Mapping) and "disk" in claim else []
+    found = record(claim, "bound", "gain_radii", *optional)
+    radii = found["gain_radii"]
+    if not _all_inside(claim, members(document, radii), system.time):
+        return False
+    return not optional or _all_multiplied(claim, found["disk"], document, system.time)
+
+
+def _all_multiplied(claim: Any, disk: Any, document: Mapping[str, Any], time: str) -> bool:
+    """Whether loops of members are in the region with one port multiplied, at some δ each."""
+    given = record(disk, "at", "margin")
+    demand(given["at"] in ("inputs", "outputs"), "expected inputs or outputs")
+    alpha, bound = rational(given["margin"]), bound_of(claim["bound"], time)
+    demand(0 < alpha < 2, "expected a margin above 0, below 2")
+    plant, steps = read_plant(document["system"]), listed(document["subject"])
+    demand(bool(steps) and steps[-1].get("construction") == "closed_loop", "expected a loop")
+    ports = None
+    for parts in shares():
+        system = built(member(plant, parts), steps[:-1])
+        controller = steps[-1]["controller"]
+        if claim["gain_radii"] is not None:
+            controller = moved_controller(system, controller, claim["gain_radii"], parts)
+        loop = disturbed_loop(system, read_agents(system, controller))
+        X, Y = (loop.E, loop.U) if given["at"] == "inputs" else (loop.G, loop.Y)
+        ports = Y.nrows()
+        for k in range(ports):
+            enter = X * selection(ports, [k]).transpose()
+            leave = selection(ports, [k]) * Y
+            for delta in worst_numbers((loop.M, enter, leave), alpha, bound, time):
+                if not inside(multiplied(loop.M, enter * leave, delta).charpoly(), time, bound):
+                    return False
+    demand(bool(ports), "expected a port")
+    return True
+
+
+def multiplied(M: fmpq_mat, product: fmpq_mat, delta: tuple[fmpq, fmpq]) -> fmpq_mat:
+    """[Re, −Im; Im, Re] of M + (f − 1)EU, f = (1 + δ/2)/(1 − δ/2): its eigenvalues, and conjugates.
+
+    f − 1 = δ/(1 − δ/2).
+    """
+    a, b = delta
+    real, imaginary = 1 - a / 2, -b / 2
+    size = real * real + imaginary * imaginary
+    re, im = (a * real + b * imaginary) / size, (b * real - a * imaginary) / size
+    top = beside([M + re * product, -im * product], M.nrows())
+    bottom = beside([im * product, M + re * product], M.nrows())
+    return below([top, bottom], 2 * M.nrows())
+
+
+def worst_numbers(
+    loop: tuple[fmpq_mat, fmpq_mat, fmpq_mat], alpha: fmpq, bound: fmpq | None, time: str
+) -> list[tuple[fmpq, fmpq]]:
+    """Numbers with |δ| = α: those that bring an eigenvalue nearest to the border, and some others.
+
+    δ (T(λ) + 1/2) = 1 puts the eigenvalue λ there; where |T + 1/2| is largest at a point of the
+    border, the δ of its direction is the worst one.
+    """
+    M, E, U = (
+        np.array([[int(x.p) / int(x.q) for x in row] for row in each.tolist()], dtype=complex)
+        for each in loop
+    )
+    n = len(M)
+    edge = int(time == "discrete") if bound is None else int(bound.p) / int(bound.q)
+    if time == "discrete":
+        points = edge * np.exp(1j * np.linspace(0, np.pi, 400))
+    else:
+        values = np.abs(np.linalg.eigvals(M)) if n else np.ones(1)
+        top = max(float(values.max(initial=1.0)), 1e-3)
+        points = -edge + 1j * np.concatenate([[0], values, np.geomspace(top / 1e4, 100 * top, 400)])
+    gains = []
+    for z in points:
+        try:
+            T = (U @ np.linalg.solve(z * np.eye(n) - M, E))[0, 0] if n else 0.0
+        except np.linalg.LinAlgError:
+            continue
+        gains.append(T + 0.5)
+    worst = sorted(gains, key=abs)[-2:]
+    angles = [-np.angle(gain) for gain in worst] + [0.0, np.pi, np.pi / 2]
+    return [_on_circle(alpha, float(angle)) for angle in angles]
+
+
+def _on_circle(alpha: fmpq, angle: float) -> tuple[fmpq, fmpq]:
+    """A rational point of the circle with this radius, near an angle."""
+    if abs(abs(angle) - np.pi) < 1e-6:
+        return -alpha, fmpq(0)
+    t = fmpq(round(np.tan(angle / 2) * 10**6), 10**6)
+    return alpha * (1 - t * t) / (1 + t * t), alpha * 2 * t / (1 + t * t)
 
 
 def stable_in_ranges(claim: Any, document: Mapping[str, Any], system: System) -> bool:

@@ -332,8 +332,16 @@ def _box_stable(claim: Any, system: System, members: str) -> str:
             f", and for all controllers whose entries differ from those of the controller {near}, "
             f"the radii being those with {text}"
         )
+    disk = ""
+    if "disk" in claim:
+        port = {"inputs": "input", "outputs": "output"}[claim["disk"]["at"]]
+        size = rational(claim["disk"]["margin"])
+        disk = (
+            f", also where any one {port} is multiplied by (1 + d/2)/(1 - d/2) for complex numbers "
+            f"d with |d| <= {size} (disk margin {size} of each {port} by itself)"
+        )
     region = _region(claim["bound"], system.time)
-    return f"{members}{gains}, every eigenvalue of A has {region}"
+    return f"{members}{gains}{disk}, every eigenvalue of A has {region}"
 
 
 def _transfer_graph(claim: Any, system: System) -> str:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from flint import fmpq
 
+from tests.oracle.certificates.controllers import read_agents
 from tests.oracle.certificates.performance import (
     Disturbed,
     cost_of,
@@ -145,6 +146,27 @@ def _single(case: Case, at: str, margin: fmpq) -> bool:
 def _margin(said: Said, case: Case) -> bool:
     at = "inputs" if said.rule == "performance-input-margin" else "outputs"
     return _single(case, at, number(said.values["margin"]))
+
+
+@judge(
+    "members-input-margin",
+    "members-output-margin",
+    "members-input-margin-part",
+    "members-output-margin-part",
+)
+def _margin_of_members(said: Said, case: Case) -> bool:
+    """The margin of each input, or output, of drawn plants of the box, each decided exactly."""
+    at = "inputs" if said.rule.startswith("members-input") else "outputs"
+    part = number(Fraction(said.values["part"])) if "part" in said.values else None
+    margin = number(said.values["margin"])
+    if part is None and case.plant.radii is None:
+        return False
+    for plant in members(case.plant, part):
+        loop = disturbed_loop(plant, read_agents(plant, case.controller))
+        ports = (loop.U if at == "inputs" else loop.Y).nrows()
+        if not all(has_margin(loop, at, [k], [fmpq(1)], margin) for k in range(ports)):
+            return False
+    return True
 
 
 @judge("first-margin")

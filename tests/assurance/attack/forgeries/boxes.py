@@ -232,7 +232,10 @@ def weights_scaled(rng: random.Random, document: Document) -> Forged:
         return None
     frame, factor = rng.choice(frames), rng.choice((2, 1000))
     whole = rng.random() < 0.3
-    frame["w"] = [w * factor if whole or rng.random() < 0.5 else w for w in frame["w"]]
+    weights = frame["w"]
+    if weights and isinstance(weights[0], list):
+        weights = rng.choice(weights)
+    weights[:] = [w * factor if whole or rng.random() < 0.5 else w for w in weights]
     return document
 
 
@@ -267,6 +270,31 @@ def gap_between_points(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def margin_of_ports(rng: random.Random, document: Document) -> Forged:
+    """A larger margin, other ports, ports exchanged or left out, or no disk at all any more."""
+    claim, frames = document["claim"], document["witness"].get("frames", [])
+    disk = claim.get("disk")
+    if disk is None:
+        claim["disk"] = {"at": rng.choice(("inputs", "outputs")), "margin": rng.choice((1, "1/9"))}
+        for frame in frames:
+            frame["w"] = [[*frame["w"], 1, 1]]
+        return document
+    way = rng.randrange(5)
+    if way < 2:
+        by = rng.choice((Fraction(1001, 1000), Fraction(11, 10), Fraction(3, 2), Fraction(4)))
+        disk["margin"] = number(Fraction(disk["margin"]) * by)
+    elif way == 2:
+        disk["at"] = "outputs" if disk["at"] == "inputs" else "inputs"
+    elif way == 3:
+        for frame in frames:
+            rng.shuffle(frame["w"])
+    else:
+        k = rng.randrange(len(frames[0]["w"])) if frames and frames[0]["w"] else 0
+        for frame in frames:
+            del frame["w"][k : k + 1]
+    return document
+
+
 ANY = (
     radii_grown,
     radius_added,
@@ -287,4 +315,11 @@ COVERED = (
     nodes_left_out,
 )
 FIXED = (*COVERED, gains_exchanged)
-STABLE = (*ANY, border_cut_off, gap_between_points, unstable_nominal, gain_radii_grown)
+STABLE = (
+    *ANY,
+    border_cut_off,
+    gap_between_points,
+    unstable_nominal,
+    gain_radii_grown,
+    margin_of_ports,
+)

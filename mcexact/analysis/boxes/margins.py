@@ -1,0 +1,302 @@
+"""Disk margins of single inputs and outputs, for every plant in a box.
+
+`box_disk_margin` proves that every loop of a box stays in a region while any one input, or any one
+output, is multiplied by (1 + δ/2)/(1 − δ/2) for complex numbers δ with |δ| ≤ α.  The proof is that
+of `boxes.loops`, about a pencil with two more signals for each port: with v the mean of the port's
+signal before and after it is multiplied, w = δv is what is added, and v + w/2 is what everybody
+reads.  So δ is an entry of its own, of the radius α, beside the radii of the plant.
+
+Members are complex then.  As the conjugate of each of them is a member, too, the upper half of the
+border is enough.  One V serves all ports, since the inverse of the pencil of each port at δ = 0 is
+made from that of the loop; only the weights differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import floor, inf
+from typing import Any, Literal
+
+import numpy as np
+
+from mcexact.analysis.boxes.loops import StabilitySearch
+from mcexact.analysis.boxes.pencils import (
+    Complex,
+    ComplexRows,
+    Pencil,
+    Point,
+    RegularDiscs,
+    dyadic,
+    one_thread,
+    weights,
+    whole_weights,
+)
+from mcexact.answer.boxes import BoxStability, SingleDisk
+from mcexact.errors import InputError, LimitReached
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import as_fraction
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.controller import Controller
+from mcexact.model.graph import NeighborGraph
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.system import MultiChannelSystem
+
+Side = Literal["inputs", "outputs"]
+
+
+@dataclass(frozen=True, eq=False)
+class PortDiscs:
+    """The tests of a disc for all ports, by one V and the weights of each port."""
+
+    V: ComplexRows
+    tests: tuple[RegularDiscs, ...]
+
+    @property
+    def w(self) -> tuple[tuple[int, ...], ...]:
+        """The weights of each port."""
+        return tuple(each.w for each in self.tests)
+
+    def seem(self, c: complex, rho: float) -> bool:
+        """Whether a disc passes all tests in floating point, which proves nothing."""
+        return all(each.seem(c, rho) for each in self.tests)
+
+    def hold(self, c: Point, rho: Fraction) -> bool:
+        """Whether a disc passes all tests, done in integers."""
+        return all(each.hold(c, rho) for each in self.tests)
+
+
+@dataclass(frozen=True, eq=False)
+class PortPencil(Pencil):
+    """The pencil of a loop, some signals of which are multiplied, one at a time.
+
+    Attributes
+    ----------
+    ports : tuple of int
+        The places of the signals.
+    alpha : Fraction
+        The radius of δ, below 2.
+    """
+
+    ports: tuple[int, ...] = ()
+    alpha: Fraction = Fraction(0)
+
+    @property
+    def readers(self) -> Fraction:
+        """What a signal is multiplied by at most, in absolute value."""
+        return (1 + self.alpha / 2) / (1 - self.alpha / 2)
+
+    @cached_property
+    def parts(self) -> tuple[Pencil, ...]:
+        """The pencil of each port, with its two signals behind all others."""
+        return tuple(self._part(k) for k in self.ports)
+
+    def _part(self, k: int) -> Pencil:
+        N, half = self.Z0.nrows, Fraction(1, 2)
+        shape = N + 2, N + 2
+        fixed = ((k, N, half), (N, N, -1), (N + 1, k, 1), (N + 1, N, half), (N + 1, N + 1, -1))
+
+        def read(M: Matrix) -> Iterator[tuple[int, int, Any]]:
+            for i, j, x in M.nonzero():
+                yield i, N + 1 if j == k and i != k else j, Fraction(x, M.denominator)
+
+        Z0 = Matrix.from_entries(shape, (*read(self.Z0), *fixed))
+        D = Matrix.from_entries(shape, (*read(self.D), (N, k, self.alpha)))
+        scale = np.concatenate([self.scale, self.scale[[k, k]]])
+        return Pencil(Z0, D, self.n, scale)
+
+    def margin(self, c: complex) -> float:
+        """The largest α for which the pencils of all ports seem regular at a point."""
+        V = self.inverse(c)
+        if V is None:
+            return 0.0
+        least = inf
+        for k, part in zip(self.ports, self.parts, strict=True):
+            wide, D, N = extended(V, k), part.balanced[1].copy(), len(V)
+            D[N, k] = 0.0
+            spread = np.abs(wide) @ D
+            w = weights(spread)
+            if w is None:
+                return 0.0
+            gain = np.linalg.solve(np.eye(N + 2) - spread, np.abs(wide[:, N]))[k]
+            least = min(least, 1 / gain if gain > 0 else inf)
+        return float(least)
+
+    def proposal(self, c: complex, rho: float, factor: Fraction) -> Any:
+        """Propose one V, and weights for each port; None without a proposal."""
+        V = self.inverse(c)
+        if V is None or factor != 1:
+            return None
+        N, unit, heavy = len(V), np.full(V.shape, inf), []
+        for k, part in zip(self.ports, self.parts, strict=True):
+            wide, (Z0, D, E) = extended(V, k), part.balanced
+            w = weights(np.abs(wide) @ D + rho * np.abs(wide) @ np.diag(E))
+            if w is None:
+                return None
+            spent = np.abs(c * np.diag(E) - Z0) @ w + D @ w
+            spent[k] += spent[N] + spent[N + 1]
+            room = w[:N].copy()
+            room[k] = min(w[k], w[N + 1])
+            unit = np.minimum(unit, room[:, None] / (len(w) * spent[:N])[None, :])
+            heavy.append(whole_weights(w * part.scale))
+        ratios = self.scale[:, None] / self.scale[None, :]
+        exact = dyadic(V * ratios, unit * ratios)
+        tests = [
+            part.tested(_extended(exact, k), w, Fraction(1))
+            for k, part, w in zip(self.ports, self.parts, heavy, strict=True)
+        ]
+        return PortDiscs(exact, tuple(tests))
+
+
+def extended(V: Complex, k: int) -> Complex:
+    """[V, Ve − e/2, Ve − e; 0, 1, 0; e'V, e'Ve, e'Ve], e the unit vector of the signal k."""
+    wide = np.vstack(
+        [np.hstack([V, V[:, [k, k]]]), np.zeros((1, len(V) + 2)), np.zeros(len(V) + 2)]
+    )
+    wide[-1] = wide[k]
+    wide[k, -2:] -= (0.5, 1.0)
+    wide[-2, -2] = 1.0
+    return wide
+
+
+def _extended(V: ComplexRows, k: int) -> ComplexRows:
+    """The same in exact numbers."""
+    d, N = 2 * V.denominator, V.re.nrows
+    parts = []
+    for real, rows in zip((True, False), V.integers(d), strict=True):
+        wide = [[*row, row[k], row[k]] for row in rows] + [[0] * (N + 2)]
+        wide.append(list(wide[k]))
+        if real:
+            wide[k][N] -= d // 2
+            wide[k][N + 1] -= d
+            wide[N][N] = d
+        parts.append(Matrix.from_integers(wide, d, N + 2))
+    return ComplexRows(*parts)
+
+
+class MarginSearch(StabilitySearch):
+    """The search for a proof that every loop of a box keeps a disk margin."""
+
+    def with_disk(self, at: Side, alpha: Fraction) -> None:
+        """Multiply the inputs, or the outputs, by numbers of the disk of a margin."""
+        loop, N = self.loop, self.pencil.Z0.nrows
+        p, q = (sum(size(i) for i in range(loop.plant.m)) for size in (loop.plant.p, loop.plant.q))
+        first, number = (N - p, p) if at == "inputs" else (N - p - q, q)
+        ports = tuple(range(first, first + number))
+        base = self.pencil
+        self.pencil = PortPencil(
+            base.Z0, base.D, base.n, base.scale, base.generators, ports=ports, alpha=alpha
+        )
+        self.disk = SingleDisk(at, alpha)
+
+    def largest(self) -> float:
+        """About the largest margin of which a proof can be found."""
+        return min((each for each, _ in self.margins()), default=0.0)
+
+
+SIDES: tuple[Side, ...] = ("inputs", "outputs")
+PARTS = (0.95, 0.8, 0.5)
+"""The parts of what seems to be the largest margin that are tried."""
+_LARGEST = 1.9
+
+
+def margin_in_box(
+    loop: ClosedLoop, at: Side, alpha: Fraction | None = None, most: int = 4000
+) -> BoxStability | None:
+    """Search a proof that every loop within the radii of the plant keeps a disk margin.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        Of a plant with radii.
+    at : "inputs" or "outputs"
+        Each of them is multiplied by itself.
+    alpha : Fraction, optional
+        The margin; by default a large part of what seems to be possible.
+    most : int
+        The largest number of segments of the border that are tested for one margin.
+    """
+    region = StabilityRegion(loop.plant.time)
+    if not sum((loop.plant.p if at == "inputs" else loop.plant.q)(i) for i in range(loop.plant.m)):
+        return None
+    with one_thread():
+        if alpha is not None:
+            return _proof(loop, region, at, alpha, most)
+        search = MarginSearch(loop, region, most=most)
+        search.with_disk(at, Fraction(0))
+        limit = min(search.largest(), _LARGEST)
+        tried = [Fraction(floor(part * limit * 100), 100) for part in PARTS]
+        for size in dict.fromkeys(tried):
+            proof = _proof(loop, region, at, size, most) if size > 0 else None
+            if proof is not None:
+                return proof
+    return None
+
+
+def _proof(
+    loop: ClosedLoop, region: StabilityRegion, at: Side, alpha: Fraction, most: int
+) -> BoxStability | None:
+    search = MarginSearch(loop, region, most=most)
+    search.with_disk(at, alpha)
+    return search.border(Fraction(1))
+
+
+def box_disk_margin(
+    system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    at: Side = "inputs",
+    margin: Any = None,
+) -> BoxStability:
+    """Prove a disk margin of each input, or of each output, for every plant within its radii.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant with radii, such as ``Box.relative(plant, "1/100").system``.
+    controller : Controller
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    at : "inputs" or "outputs"
+        Which signals are multiplied, each by itself.
+    margin : rational, optional
+        α, above 0 and below 2; by default a large one is searched.
+
+    Raises
+    ------
+    InputError
+        If the margin is not above 0 and below 2.
+    LimitReached
+        If no proof was found, which proves nothing.
+
+    Examples
+    --------
+    >>> from mcexact.model.box import Box
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> gain = local_controllers(plant, [[[-3]]])
+    >>> box_disk_margin(Box.relative(plant, "1/10").system, gain, margin="1/2").disk.margin
+    Fraction(1, 2)
+    >>> box_disk_margin(Box.relative(plant, "1/10").system, gain, margin="99/100")
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: no proof was found that each of the inputs has a disk margin of \
+99/100 for every plant within the radii
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    alpha = None if margin is None else as_fraction(margin, where="margin")
+    if alpha is not None and not 0 < alpha < 2:
+        raise InputError("expected a number above 0 and below 2", where="margin")
+    if at not in ("inputs", "outputs"):
+        raise InputError('expected "inputs" or "outputs"', where="at")
+    proof = margin_in_box(closed_loop(system, controller, graph), at, alpha)
+    if proof is None:
+        size = "" if alpha is None else f" of {alpha}"
+        raise LimitReached(
+            f"no proof was found that each of the {at} has a disk margin{size} for every plant "
+            "within the radii"
+        )
+    return proof
