@@ -235,7 +235,7 @@ def _in_file_units(found: EveryLoop, loop: ClosedLoop, units: Units) -> EveryLoo
 
 
 def _for_margins(about: ClosedLoop, loop: ClosedLoop) -> ClosedLoop:
-    """The loop of the box in which margins are proved: own radii, or half of a box that was found."""
+    """The loop of the box in which margins are proved: own radii, or half of what was found."""
     if loop.plant.uncertainty is not None:
         return about
     return replace(about, plant=Box(about.plant).scaled(_HALF).system)
