@@ -653,6 +653,27 @@ def demo() -> Schema:
     )
 
 
+def export() -> Schema:
+    """The JSON of `mcexact export`: the sums of all agents."""
+    term = {"type": "array", "prefixItems": [TEXT, FLOAT, TEXT], "minItems": 3, "maxItems": 3}
+    sums = rows(rows(term))
+    heard = record({"signal": {"enum": ["y", "x"]}, "of": NAME, "entries": WHOLE}, closed=True)
+    agent = {"name": NAME, "outputs": WHOLE, "references": WHOLE, "receives": rows(heard)}
+    agent |= {
+        "sends x to": table(record({"held": WHOLE}, closed=True)),
+        "uses its x held for": WHOLE,
+        "u": sums,
+        "next x": sums,
+        "next z": sums,
+    }
+    return record(
+        named("mcexact-code/1")
+        | {"arithmetic": TEXT, "system": TEXT, "agents": rows(record(agent, closed=True))},
+        closed=True,
+        says="what each agent computes in a step: [number, double, signal], added in this order",
+    )
+
+
 def error() -> Schema:
     """The JSON that a failing command prints."""
     return record(
@@ -737,6 +758,7 @@ DOCUMENTS = {
     "sweep": (sweep, "mcexact sweep --json"),
     "reproduce": (reproduce, "mcexact reproduce --json"),
     "demo": (demo, "mcexact demo --json"),
+    "export": (export, "mcexact export --json, and equations.json"),
     "gallery": (gallery, "mcexact gallery --json"),
     "error": (error, "every command with --json that fails"),
 }

@@ -5,8 +5,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import jsonschema
+
 from mcexact import MultiChannelSystem, save_controller
 from mcexact.model.statespace import local_controllers
+from mcexact.report.schema import schema_text
 from tests.cli.calling import call
 
 
@@ -30,6 +33,7 @@ def test_equations_go_to_standard_output(tmp_path: Path) -> None:
     path, code = controller(tmp_path), tmp_path / "code"
     status, out, _ = call("export", str(path), "--to", "json")
     assert status == 0 and json.loads(out)["agents"][0]["name"] == "pump"
+    jsonschema.validate(json.loads(out), json.loads(schema_text("export")))
     status, again, _ = call("export", str(path), "-o", str(code), "--json")
     assert status == 0 and again == out == (code / "equations.json").read_text()
     target = tmp_path / "sums.json"
