@@ -184,7 +184,7 @@ def _summary(gallery: Rows, families: Rows, before: Rows) -> Iterator[str]:
         were = sum((before.get(name) or {}).get("install") == "yes" for name in rows)
         known = any("install" in (before.get(name) or {}) for name in rows)
         median_before = f" (before {median(old):.3g} of {len(old)}, computed)" if old else ""
-        counted = f" (before {were}, by a verdict that was less strict)" if known else ""
+        counted = f" (before {were} of those recorded, less strictly)" if known else ""
         yield (
             f"- {title}: {len(able)} of {len(rows)} requests are not refused with a proof; median "
             f"of cost/bound {median(ratios):.3g}{median_before}, an open one counted as infinite; "

@@ -192,7 +192,7 @@ class Losses:
     def __init__(self, system: System) -> None:
         self.system = system
 
-    def require(self, value: Json, place: str, p: Polynomial, deficiency: int) -> list[int]:
+    def checked(self, value: Json, place: str, p: Polynomial, deficiency: int) -> list[int]:
         """Stop unless P_s loses at least this rank at every root of p, and return T = m − s."""
         if isinstance(value, Mapping) and "states" in value:
             return self._local_subspace(value, place, p, deficiency)

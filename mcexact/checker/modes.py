@@ -165,7 +165,7 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
         p = reading.polynomial(listed, f"{place}.polynomial", 1)
         s = reading.names(names, f"{place}.channels", system.names)
         at_most, r = map(reading.integer, counts, [place] * 2, (1, 0))
-        T = losses.require(spaces[k], space, p, n - r)
+        T = losses.checked(spaces[k], space, p, n - r)
         require(s == evidence.complement(system, T), "claim", place, "T is not the complement of s")
         evidence.require_coprime(product, p, proof.ell, "two factors")
         product = arithmetic.poly_product(product, p)
@@ -265,7 +265,7 @@ def check_completeness(claim: Json, witness: Json, system: System) -> None:
     else:
         coefficients, subspace = fields(witness, "witness", "polynomial", "subspace")
         p = polynomial(coefficients, "witness.polynomial", 1)
-        evidence.Losses(system).require(subspace, "witness.subspace", p, 1)
+        evidence.Losses(system).checked(subspace, "witness.subspace", p, 1)
 
 
 def completeness_statement(claim: Json, system: System) -> str:
@@ -531,7 +531,7 @@ def _by_blocks(witness: Json, system: System) -> int:
         place = f"witness.losses[{k}]"
         coefficients, loss, space = fields(entry, place, "polynomial", "deficiency", "subspace")
         p, d = polynomial(coefficients, place, 1), integer(loss, place, 1)
-        lost.require(space, f"{place}.subspace", p, d)
+        lost.checked(space, f"{place}.subspace", p, d)
         evidence.require_coprime(product, p, proof.ell, "two factors")
         product = arithmetic.poly_product(product, p)
         losses.append((p, proof.multiplicity(p, d)))

@@ -9,9 +9,10 @@ the verdict of an `Assessment` follows from them:
   or a single input or output has next to no disk margin;
 - "Install with care": a single input or output has a disk margin below 0.4, or all of them together
   one below 0.2; a plant within 1 % fails; the damping is below 0.05, or below the aim; the loop is
-  slower than the plant without it, or than was asked; it costs more than three times a bound for
-  every linear time-invariant controller, or needs more than four digits; an output reaches twice
-  its set-point; radii that were given are not proved, or a figure is not known;
+  slower than the plant without it, or than was asked; it holds no set-points and costs more than
+  three times a bound for every linear time-invariant controller; it needs more than four digits;
+  an output reaches twice its set-point; radii that were given are not proved, or a figure is not
+  known;
 - "Worth installing": none of these.
 
 Only ratios decide, which no change of units changes: costs beside a bound, margins, damping ratios,
@@ -288,7 +289,8 @@ class Assessment(Shown):
         if self.step_peak is not None and self.step_peak > _STEP_PEAK:
             text = f"an output reaches {shown(self.step_peak)} after a unit step"
             cares.append((f"overshoot to {shown(self.step_peak)}", text))
-        if self.relative_cost > _TIMES_THE_BOUND:
+        # No controller that holds set-points comes near a bound for those that hold none.
+        if self.step_peak is None and self.relative_cost > _TIMES_THE_BOUND:
             times = shown(self.relative_cost)
             text = f"its cost is {times} times a bound for every controller"
             cares.append((f"cost {times} times the bound", text))

@@ -135,7 +135,7 @@ def verdict(system: Document, value: Any, p: list[int], deficiency: int) -> str:
     """VALID, or the verdict of what is refused."""
     try:
         losses = Losses(read_plant(system))
-        losses.require(value, "witness", [Fraction(c) for c in p], deficiency)
+        losses.checked(value, "witness", [Fraction(c) for c in p], deficiency)
     except Refused as refused:
         return refused.verdict
     return "VALID"

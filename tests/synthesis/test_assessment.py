@@ -144,7 +144,9 @@ def test_a_loop_that_no_rounding_keeps_has_no_digits() -> None:
     assert digits_that_suffice(loop, region) is None
 
 
-def test_integrators_are_recognized_and_assessed_with_the_plant() -> None:
+def test_integrators_are_recognized_and_assessed_with_the_plant(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     made = design_setpoint(two_tanks(), rate="1/2", aims=Aims(effort=2))
     loop = made.loop.closed
     held = integrators_of(loop)
@@ -159,6 +161,8 @@ def test_integrators_are_recognized_and_assessed_with_the_plant() -> None:
     assert "one controller" not in dict(found.rows())["peak of the state"]
     peaked = replace(found, step_peak=1.5, figures=replace(found.figures, peak=99.0))
     assert peaked.install == "yes"
+    monkeypatch.setattr(Assessment, "relative_cost", 1e3)
+    assert peaked.install == "yes" and replace(peaked, step_peak=None).install == "with care"
     overshot = replace(found, step_peak=2.5)
     assert overshot.install == "with care"
     assert any("reaches 2.5 after a unit step" in each for each in overshot.warnings)
