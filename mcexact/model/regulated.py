@@ -54,7 +54,7 @@ def read_selection(
     >>> read_selection({"left": [3]}, ["left"], [2])
     Traceback (most recent call last):
         ...
-    mcexact.errors.InputError: regulate["left"]: expected outputs from 1 to 2, found 3
+    mcexact.errors.InputError: regulate['left']: expected outputs from 1 to 2, found 3
     """
     if not isinstance(value, Mapping):
         raise InputError(

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.cli import convert, main, reproduce, running, sweep
+from mcexact.cli import convert, design, main, reproduce, running, sweep
 from mcexact.cli.files import require_apart, require_writable
 from mcexact.errors import InputError, LimitReached, NotWritten
 from mcexact.model.files import save_system
@@ -70,7 +70,7 @@ def working(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         begun.append(options.get("doing", "sweeping"))
         raise LimitReached("the work was begun")
 
-    for module in (convert, reproduce, running, sweep):
+    for module in (convert, design, reproduce, running, sweep):
         monkeypatch.setattr(module, "supervised", limited)
     monkeypatch.setattr("mcexact.sweeps.run.sweep", limited)
     return begun

@@ -34,6 +34,7 @@ KINDS: dict[str, dict[str, Any]] = {
 LOOP = ("PLANT", "GAINS")
 SHORT = ("--effort", "0.1")
 CALLS: dict[str, tuple[tuple[str, ...], ...]] = {
+    "export": (("GAINS", "--to", "json"),),
     "analyze": (
         ("PLANT",),
         ("PLANT", "--minimal", "--subset", "1", "--channel", "1"),
