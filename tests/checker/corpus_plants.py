@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any, get_args
 
 from mcexact.analysis.analyze import analyze
+from mcexact.analysis.boxes.margins import box_disk_margin
 from mcexact.analysis.boxes.members import box_fixed_modes, box_setpoints
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum
@@ -37,6 +38,7 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import plain
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
@@ -385,6 +387,15 @@ def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
         yield f"based_{name}", found, base
 
 
+def margins_in_boxes() -> Iterator[Document]:
+    """The disk margins of single inputs and of single outputs for every plant in a box."""
+    plant = MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
+    near = Box.relative(plant, "1/100").system
+    controller = local_controllers(plant, [[[-1]]])
+    for at in ("inputs", "outputs"):
+        yield plain(document(box_disk_margin(near, controller, at=at, margin="1/2")))
+
+
 def held_in_boxes() -> Iterator[Document]:
     """Of a plant and of all plants near it: with integrators, and without."""
     near = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/10").system
@@ -433,6 +444,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     yield "within", list(told(lambda: fixed_spectrum(within), lambda: assignability(within)))
     yield "boxes", OF_ONE_PLANT
     yield "setpoints_in_boxes", list(held_in_boxes())
+    yield "margins_in_boxes", list(margins_in_boxes())
     yield "uneven", [UNEVEN, *analyses(uneven())]
     of_loops: dict[str, list[Document]] = {}
     for _, listed in [*design.IMPLIED, *design.DENIED]:
