@@ -42,6 +42,7 @@ from tests.answer.asking import asked as asking
 from tests.answer.test_sentences import drawn, question
 from tests.assurance.attack.forgeries.joined import factors_joined
 from tests.checker.box_plants import OF_ONE_PLANT
+from tests.checker.corpus_plants import margins_in_boxes
 from tests.checker.handmade import Document, changed
 from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.parameter_plants import HELD, LOOP_DAMPED, LOOP_SAMPLED, OBSERVED, QUARTERS
@@ -174,6 +175,7 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
     evidence += [{"a": each} for each in OF_ONE_PLANT]
     near = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/100").system
     evidence += [{"a": document(box_setpoints(near))}]
+    evidence += [{"a": each} for each in margins_in_boxes()]
     dual = changed(CUT, ("claim.property", "observable"), ("witness.side", "observable"))
     implied, denied = (dict[str, set[Any]]((key, set()) for key in RULES) for _ in range(2))
     for number, documents in enumerate([*evidence, {"a": dual}]):
