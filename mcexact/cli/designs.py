@@ -9,6 +9,7 @@ outputs that are shared over them leave no fixed mode, or else a search of links
 
 from __future__ import annotations
 
+import shlex
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -259,14 +260,16 @@ def _held(file: str, proof: Answer, system: MultiChannelSystem, regulate: Any) -
     if not isinstance(proof, SetpointSolvability):
         return ""
     kept = held_together(system, selected(system, regulate))
-    if not any(S.nrows for S in kept) or not any(S.nrows < S.ncols for S in kept):
+    if not any(S.nrows for S in kept):
         return ""
-    chosen = zip(system.names, map(positions_of, kept), strict=True)
-    options = [f"--regulate {name}:{','.join(map(str, k))}" for name, k in chosen if k]
-    return (
-        f"; all set-points of {selection_in_words(kept, system.names)} have one: "
-        f"`mcexact design setpoint {file} {' '.join(options)}` asks for these"
-    )
+    said = f"; all set-points of {selection_in_words(kept, system.names)} have one"
+    chosen = [(name, positions_of(S)) for name, S in zip(system.names, kept, strict=True)]
+    if any(positions is None for _, positions in chosen):
+        return said
+    texts = [f"{name}:{','.join(map(str, positions))}" for name, positions in chosen if positions]
+    command = shlex.join(["mcexact", "design", "setpoint", file])
+    asked = " ".join(f"--regulate {shlex.quote(text)}" for text in texts)
+    return f"{said}: `{command} {asked}` asks for these"
 
 
 def _box(every_loop: EveryLoop | None) -> tuple[Table, ...]:

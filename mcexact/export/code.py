@@ -14,7 +14,9 @@ sends in the next period.  All numbers are of the type LREAL, and all states are
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Literal
 
 from mcexact.errors import one_of
@@ -58,55 +60,57 @@ def export_controller(controller: Controller, language: Language) -> dict[str, s
     ['agent_1.st', 'equations.json']
     """
     one_of(language, ("c", "st", "json"), "language")
-    files = {EQUATIONS: json.dumps(equations_document(controller), indent=1) + "\n"}
-    if language == "c":
-        files |= c_files(controller)
-    elif language == "st":
-        files |= structured_text_files(controller)
-    return files
-
-
-# C99.
-
-
-def c_files(controller: Controller) -> dict[str, str]:
-    """Write the files of all agents: ``NAME.h`` and ``NAME.c``.
-
-    Parameters
-    ----------
-    controller : Controller
-        In discrete time.
-
-    Raises
-    ------
-    UsageError, InputError
-        As in `steps_of`.
-
-    Examples
-    --------
-    >>> from mcexact import MultiChannelSystem, local_controllers
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
-    >>> files = c_files(local_controllers(plant, [[["-1/2"]]]))
-    >>> sorted(files), "u[0] = -0.5 * y[0];" in files["agent_1.c"]
-    (['agent_1.c', 'agent_1.h'], True)
-    """
-    steps = steps_of(controller)
-    files = {}
+    steps, system = steps_of(controller), controller.system
+    files = {EQUATIONS: json.dumps(equations_document(steps, system), indent=1) + "\n"}
     for step in steps:
-        files[f"{step.identifier}.h"] = _header(step, steps, controller.system)
-        files[f"{step.identifier}.c"] = _source(step, steps)
+        if language == "c":
+            files[f"{step.identifier}.h"] = _header(step, steps, system)
+            files[f"{step.identifier}.c"] = _source(step, steps)
+        elif language == "st":
+            files[f"{step.identifier}.st"] = _block(step, steps, system)
     return files
 
 
-def signature(step: AgentStep, steps: Sequence[AgentStep]) -> str:
-    """The declaration of the function that runs a step, without its semicolon."""
-    arguments = [f"{step.identifier}_state *s"]
-    arguments += [f"const double y[{step.outputs}]"] * bool(step.outputs)
-    arguments += [f"const double r[{step.references}]"] * bool(step.references)
-    for kind, j, size in step.received:
-        arguments.append(f"const double {kind}_{steps[j].identifier}[{size}]")
-    arguments += [f"double u[{len(step.u)}]"] * bool(step.u)
-    return f"void {step.identifier}_step({', '.join(arguments)})"
+# What both languages have in common.
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """How a language writes numbers, and the agent's own signals that a step reads.
+
+    Attributes
+    ----------
+    number : callable
+        Writes a double.
+    x, z : str
+        Before the index of its own x, with a field for the steps for which it is held, and z.
+    break_ : str
+        What stands before a further term.
+    """
+
+    number: Callable[[float], str]
+    x: str
+    z: str
+    break_: str
+
+    def sum(self, row: Row, step: AgentStep, steps: Sequence[AgentStep]) -> str:
+        """The sum as an expression, which both languages add from the left to the right."""
+        own = {"y": "y", "r": "r", "x": self.x.format(step.held), "z": self.z}
+
+        def term(c: Fraction, signal: Signal) -> str:
+            theirs = f"{signal.kind}_{steps[signal.agent].identifier}"
+            name = own[signal.kind] if signal.agent == step.position else theirs
+            return f"{self.number(to_float(c))} * {name}[{signal.entry}]"
+
+        return f"{self.break_}+ ".join(term(c, signal) for c, signal in row) or "0.0"
+
+    def sums(self, step: AgentStep, steps: Sequence[AgentStep], assign: str) -> list[str]:
+        """The statements that compute u and the next states."""
+        return [
+            f"{target}[{k}] {assign} {self.sum(row, step, steps)};"
+            for target, rows in (("u", step.u), ("next_x", step.x), ("next_z", step.z))
+            for k, row in enumerate(rows)
+        ]
 
 
 def described(step: AgentStep, steps: Sequence[AgentStep], system: str) -> list[str]:
@@ -131,6 +135,22 @@ def described(step: AgentStep, steps: Sequence[AgentStep], system: str) -> list[
         lines.append("Until a first message has arrived, what is received is 0.")
     # A name must neither end the comment that it stands in nor begin another one.
     return [line.replace("*", "\\x2a") for line in lines]
+
+
+# C99.
+
+C = Dialect(repr, "s->x[{}]", "s->z", f"\n{INDENT * 2}")
+
+
+def signature(step: AgentStep, steps: Sequence[AgentStep]) -> str:
+    """The declaration of the function that runs a step, without its semicolon."""
+    arguments = [f"{step.identifier}_state *s"]
+    arguments += [f"const double y[{step.outputs}]"] * bool(step.outputs)
+    arguments += [f"const double r[{step.references}]"] * bool(step.references)
+    for kind, j, size in step.received:
+        arguments.append(f"const double {kind}_{steps[j].identifier}[{size}]")
+    arguments += [f"double u[{len(step.u)}]"] * bool(step.u)
+    return f"void {step.identifier}_step({', '.join(arguments)})"
 
 
 def _header(step: AgentStep, steps: Sequence[AgentStep], system: str) -> str:
@@ -167,8 +187,7 @@ def _source(step: AgentStep, steps: Sequence[AgentStep]) -> str:
         copied = [f"x[{k}] = s->x[{held}][{k}];" for k in range(states)]
         functions.append(_function(_send(step, steps, j), copied))
     body = [f"double next_x[{states}];"] * bool(states) + [f"double next_z[{kept}];"] * bool(kept)
-    for target, rows in (("u", step.u), ("next_x", step.x), ("next_z", step.z)):
-        body += [f"{target}[{k}] = {_sum(row, step, steps)};" for k, row in enumerate(rows)]
+    body += C.sums(step, steps, "=")
     for d in range(step.remembered, 0, -1):
         body += [f"s->x[{d}][{k}] = s->x[{d - 1}][{k}];" for k in range(states)]
     body += [f"s->x[0][{k}] = next_x[{k}];" for k in range(states)]
@@ -183,47 +202,7 @@ def _function(declaration: str, body: Sequence[str]) -> str:
     return f"{declaration}\n{{\n{lines}\n}}\n"
 
 
-def _sum(row: Row, step: AgentStep, steps: Sequence[AgentStep]) -> str:
-    """The sum as an expression; C adds from the left to the right."""
-    terms = [f"{to_float(c)!r} * {_signal(signal, step, steps)}" for c, signal in row]
-    return f"\n{INDENT * 2}+ ".join(terms) or "0.0"
-
-
-def _signal(signal: Signal, step: AgentStep, steps: Sequence[AgentStep]) -> str:
-    own = signal.agent == step.position
-    if not own:
-        return f"{signal.kind}_{steps[signal.agent].identifier}[{signal.entry}]"
-    if signal.kind == "x":
-        return f"s->x[{step.held}][{signal.entry}]"
-    return f"s->z[{signal.entry}]" if signal.kind == "z" else f"{signal.kind}[{signal.entry}]"
-
-
 # Structured Text.
-
-
-def structured_text_files(controller: Controller) -> dict[str, str]:
-    """Write the files of all agents, ``NAME.st``.
-
-    Parameters
-    ----------
-    controller : Controller
-        In discrete time.
-
-    Raises
-    ------
-    UsageError, InputError
-        As in `steps_of`.
-
-    Examples
-    --------
-    >>> from mcexact import MultiChannelSystem, local_controllers
-    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
-    >>> files = structured_text_files(local_controllers(plant, [[["-1/2"]]]))
-    >>> "u[0] := -0.5 * y[0];" in files["agent_1.st"]
-    True
-    """
-    steps = steps_of(controller)
-    return {f"{step.identifier}.st": _block(step, steps, controller.system) for step in steps}
 
 
 def literal(number: float) -> str:
@@ -239,6 +218,9 @@ def literal(number: float) -> str:
     return f"{digits}E{exponent}" if mark else digits
 
 
+TEXT = Dialect(literal, "x_{}", "z", f"\n{INDENT}")
+
+
 def _block(step: AgentStep, steps: Sequence[AgentStep], system: str) -> str:
     states, kept = len(step.x), len(step.z)
     comment = "\n".join(f"   {line}" for line in described(step, steps, system))
@@ -248,9 +230,7 @@ def _block(step: AgentStep, steps: Sequence[AgentStep], system: str) -> str:
     leaving |= {f"sent_to_{steps[j].identifier}": states for j in step.sent}
     kept_names = {f"x_{d}": states for d in range(step.remembered + 1)}
     kept_names |= {"z": kept, "next_x": states, "next_z": kept}
-    body = list[str]()
-    for target, rows in (("u", step.u), ("next_x", step.x), ("next_z", step.z)):
-        body += [f"{target}[{k}] := {_text_sum(row, step, steps)};" for k, row in enumerate(rows)]
+    body = TEXT.sums(step, steps, ":=")
     for d in range(step.remembered, 0, -1):
         body += [f"x_{d}[{k}] := x_{d - 1}[{k}];" for k in range(states)]
     body += [f"x_0[{k}] := next_x[{k}];" for k in range(states)]
@@ -276,17 +256,3 @@ def _variables(section: str, sizes: dict[str, int]) -> list[str]:
         return []
     declared = [f"{INDENT}{name} : ARRAY[0..{k - 1}] OF LREAL;" for name, k in used.items()]
     return [section, *declared, "END_VAR"]
-
-
-def _text_sum(row: Row, step: AgentStep, steps: Sequence[AgentStep]) -> str:
-    """The sum as an expression, added from the left to the right."""
-    terms = [f"{literal(to_float(c))} * {_text_signal(signal, step, steps)}" for c, signal in row]
-    return f"\n{INDENT}+ ".join(terms) or "0.0"
-
-
-def _text_signal(signal: Signal, step: AgentStep, steps: Sequence[AgentStep]) -> str:
-    if signal.agent != step.position:
-        return f"{signal.kind}_{steps[signal.agent].identifier}[{signal.entry}]"
-    if signal.kind == "x":
-        return f"x_{step.held}[{signal.entry}]"
-    return f"{signal.kind}[{signal.entry}]"

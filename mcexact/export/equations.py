@@ -7,7 +7,7 @@ and, perhaps held for some steps, its x.
 
 `steps_of` writes this as an `AgentStep` for each agent: rows of terms, each a number times a
 signal, to be added from the left to the right.  `AgentRun` carries it out in double precision.  The
-writers of code (`c99`, `structured_text`) write the same sums in the same order, so that they
+writers of code (`export.code`) write the same sums in the same order, so that they
 compute the same bits where a compiler does not contract a product and a sum.
 """
 
@@ -206,15 +206,15 @@ def identifiers(names: Sequence[str]) -> list[str]:
     for k, name in enumerate(names, start=1):
         plain = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
         plain = plain if plain[:1].isalpha() and plain not in _RESERVED else f"agent_{plain or k}"
-        plain = plain if plain not in found else f"{plain}_{k}"
         while plain in found:
-            plain += "_"
+            plain = f"{plain}_{k}"
         found.append(plain)
     return found
 
 
 # fmt: off
 _RESERVED = frozenset({
+    "r", "s", "u", "x", "y", "z",
     "and", "array", "auto", "bool", "break", "by", "byte", "case", "char", "const", "continue",
     "default", "do", "double", "else", "end", "enum", "exit", "extern", "false", "float", "for",
     "function", "goto", "if", "inline", "int", "long", "lreal", "mod", "not", "of", "or",
@@ -223,7 +223,7 @@ _RESERVED = frozenset({
     "until", "var", "void", "volatile", "while", "word", "xor",
 })
 # fmt: on
-"""Words of C and of Structured Text."""
+"""Words of C and of Structured Text, and the signals of a step."""
 
 
 class AgentRun:
@@ -292,12 +292,11 @@ def _sum(
     return 0.0 if total is None else total
 
 
-def equations_document(controller: Controller) -> dict[str, Any]:
-    """Return the sums of all agents as plain data.
+def equations_document(steps: Sequence[AgentStep], system: str) -> dict[str, Any]:
+    """Return the sums of all agents, made for the plant of this digest, as plain data.
 
     Each term is ``[number, double, signal]``, the number exactly as certified.
     """
-    steps = steps_of(controller)
     names = [step.name for step in steps]
 
     def terms(row: Row) -> list[list[Any]]:
@@ -309,7 +308,7 @@ def equations_document(controller: Controller) -> dict[str, Any]:
     return {
         "format": FORMAT,
         "arithmetic": "double, products added from the left to the right",
-        "system": controller.system,
+        "system": system,
         "agents": [
             {
                 "name": step.name,

@@ -18,7 +18,7 @@ import pytest
 from mcexact import MultiChannelSystem
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix
-from mcexact.export.code import c_files, export_controller, structured_text_files
+from mcexact.export.code import EQUATIONS, Language, export_controller
 from mcexact.export.equations import AgentRun, AgentStep, equations_document, steps_of
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
@@ -93,6 +93,15 @@ def made() -> dict[str, tuple[MultiChannelSystem, Controller]]:
 
 
 MADE = made()
+
+
+def code(controller: Controller, language: Language) -> dict[str, str]:
+    """The files of all agents."""
+    files = export_controller(controller, language)
+    del files[EQUATIONS]
+    return files
+
+
 Signals = dict[Any, Sequence[float]]
 
 
@@ -214,7 +223,7 @@ SET_POINTS = [[0.3, -2.0], [1.7]]
 @pytest.mark.parametrize("name", MADE)
 def test_the_compiled_code_computes_the_bits_of_the_run(name: str, tmp_path: Path) -> None:
     system, controller = MADE[name]
-    steps, library = steps_of(controller), compiled(c_files(controller), tmp_path)
+    steps, library = steps_of(controller), compiled(code(controller, "c"), tmp_path)
     ours = run(system, [AgentRun(step) for step in steps], SET_POINTS, STEPS)
     agents = [CompiledAgent(library, steps, i) for i in range(system.m)]
     theirs = run(system, agents, SET_POINTS, STEPS)
@@ -225,7 +234,7 @@ def test_the_compiled_code_computes_the_bits_of_the_run(name: str, tmp_path: Pat
 @pytest.mark.parametrize("name", MADE)
 def test_structured_text_computes_the_bits_of_the_run(name: str) -> None:
     system, controller = MADE[name]
-    steps, files = steps_of(controller), structured_text_files(controller)
+    steps, files = steps_of(controller), code(controller, "st")
     agents = [BlockAgent(files[f"{s.identifier}.st"], steps, s.position) for s in steps]
     ours = run(system, [AgentRun(step) for step in steps], SET_POINTS, 300)
     assert ours == run(system, agents, SET_POINTS, 300)
@@ -260,7 +269,7 @@ def test_what_is_no_program_of_steps_is_refused() -> None:
 
 def test_the_document_has_every_number_exactly_and_as_it_is_used() -> None:
     _, controller = MADE["every signal"]
-    document = equations_document(controller)
+    document = equations_document(steps_of(controller), controller.system)
     terms = [
         t
         for a in document["agents"]
@@ -274,10 +283,10 @@ def test_the_document_has_every_number_exactly_and_as_it_is_used() -> None:
 
 
 def test_the_code_says_how_many_numbers_were_rounded() -> None:
-    text = c_files(MADE["static"][1])["left.h"]
+    text = code(MADE["static"][1], "c")["left.h"]
     assert "2 of its 2 numbers are rounded to the nearest double" in text
     halves = local_controllers(plant(), [[["-1/2", 0]], [[0]]])
-    assert "All 1 numbers are those of the controller exactly" in c_files(halves)["left.h"]
+    assert "All 1 numbers are those of the controller exactly" in code(halves, "c")["left.h"]
 
 
 def test_no_name_of_an_agent_ends_a_comment_or_is_a_word_of_the_language() -> None:
@@ -289,9 +298,9 @@ def test_no_name_of_an_agent_ends_a_comment_or_is_a_word_of_the_language() -> No
     steps = steps_of(controller)
     assert len({step.identifier for step in steps}) == len(names)
     assert "*/ int x; /*" in export_controller(controller, "json")["equations.json"]
-    for text in c_files(controller).values():
+    for text in code(controller, "c").values():
         assert text.count("*/") == text.count("/*") <= 1
-    for text in structured_text_files(controller).values():
+    for text in code(controller, "st").values():
         assert text.count("*)") == text.count("(*") == 1
 
 
@@ -301,4 +310,4 @@ def test_agents_of_any_name_compile(tmp_path: Path) -> None:
     system = MultiChannelSystem(
         [[0]], [[[1]]] * len(names), [[[1]]] * len(names), time="discrete", names=names
     )
-    compiled(c_files(local_controllers(system, [[["1/2"]]] * len(names))), tmp_path)
+    compiled(code(local_controllers(system, [[["1/2"]]] * len(names)), "c"), tmp_path)

@@ -13,6 +13,7 @@ import pytest
 from mcexact.errors import InputError
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
+from mcexact.model.controller import read_controller
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
@@ -167,6 +168,27 @@ def test_integrators_are_recognized_and_assessed_with_the_plant(
     assert overshot.install == "with care"
     assert any("reaches 2.5 after a unit step" in each for each in overshot.warnings)
     assert integrators_of(loop_of("-3")) is None
+
+
+@pytest.mark.parametrize(
+    "update",
+    [
+        {"private": [[-1]]},  # a filter of the error
+        {"private": [["1/2"]]},
+        {"reference": [[-2]]},
+        {"outputs": {"1": [[0]]}, "reference": [[0]]},
+    ],
+)
+def test_a_state_that_something_else_moves_is_no_integrator(update: dict[str, Any]) -> None:
+    integrating = {"outputs": {"1": [[1]]}, "reference": [[-1]]}
+    agent: dict[str, Any] = {"name": "1", "shared": 0, "private": 1, "shared_update": {}}
+    agent["input"] = {"outputs": {"1": [[-3]]}, "private": [[-1]]}
+    for change, count in (({}, 1), (update, 0)):
+        agent["private_update"] = integrating | change
+        document = {"format": "mcexact-controller/1", "system": "", "time": "continuous"}
+        text = json.dumps(document | {"agents": [agent]})
+        found = integrators_of(closed_loop(ONE, read_controller(text)))
+        assert (0 if found is None else len(found.places)) == count
 
 
 def assessed(gain: str = "-3", **figures: Any) -> Assessment:

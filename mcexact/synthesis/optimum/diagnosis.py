@@ -26,6 +26,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
+from itertools import takewhile
 from math import isnan
 
 import numpy as np
@@ -46,7 +47,7 @@ from mcexact.exact.matrix import (
 from mcexact.exact.roots import StabilityRegion, is_discrete, steady_point
 from mcexact.floating.margins import is_within
 from mcexact.floating.verdicts import distance_at
-from mcexact.model.controller import Controller, LinearMap
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.regulated import Selection, positions_of
 from mcexact.model.system import MultiChannelSystem
@@ -97,8 +98,8 @@ def figures_of_loop(
         With n states of the plant.
     weights : Weights
         Of the plant, with its integrators if there are any.
-    integrators : sequence of int
-        The positions of the integrators of all outputs in the state of the loop.
+    integrators : Integrators, optional
+        Those of `integrators_of`.
 
     Notes
     -----
@@ -539,7 +540,8 @@ class Integrators:
 def integrators_of(loop: ClosedLoop) -> Integrators | None:
     """Return the integrators of a controller that holds outputs at set-points; None without any.
 
-    These are the first private states of each agent, as in the controllers of `design_setpoint`.
+    These are the first private states of each agent that nothing but S_i (y_i − r_i) moves, as in
+    the controllers of `design_setpoint`.
 
     Parameters
     ----------
@@ -547,20 +549,28 @@ def integrators_of(loop: ClosedLoop) -> Integrators | None:
     """
     places, selection = list[int](), list[Matrix]()
     for i, agent in enumerate(loop.controller.agents):
-        S, update = Matrix.zeros(0, loop.plant.q(i)), agent.private_update
-        own, less = update.outputs.get(i), update.reference
-        if own is not None and less is not None:
-            rows = []
-            for row in range(agent.private):
-                taken, lost = own.take(rows=[row]), less.take(rows=[row])
-                if taken.is_zero() or lost != -taken:
-                    break
-                rows.append(row)
-            S = own.take(rows=rows)
+        S = _integrated(agent, i, loop.plant)
         place, _ = loop.blocks["z_", i, 0]
         places += range(place, place + S.nrows)
         selection.append(S)
     return Integrators(tuple(places), tuple(selection)) if places else None
+
+
+def _integrated(agent: AgentProgram, i: int, plant: MultiChannelSystem) -> Matrix:
+    """The rows of S_i: those of the first private states that S_i (y_i − r_i) alone moves."""
+    update, stay = agent.private_update, Matrix.identity(agent.private) * steady_point(plant.time)
+    own, less = update.outputs.get(i), update.reference
+    if own is None or less is None:
+        return Matrix.zeros(0, plant.q(i))
+    others = [M for j, M in update.outputs.items() if j != i] + [*update.shared.values()]
+    others.append((update.private or Matrix.zeros(*stay.shape)) - stay)
+
+    def is_integrated(row: int) -> bool:
+        taken = own.take(rows=[row])
+        alone = all(M.take(rows=[row]).is_zero() for M in others)
+        return alone and not taken.is_zero() and less.take(rows=[row]) == -taken
+
+    return own.take(rows=list(takewhile(is_integrated, range(agent.private))))
 
 
 def digits_that_suffice(loop: ClosedLoop, region: StabilityRegion) -> int | None:
