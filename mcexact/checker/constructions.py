@@ -451,14 +451,22 @@ def integrators(system: System, step: dict[str, Json], place: str) -> System:
     Open: see ``proofs/OPEN.md``.
     """
     fields(step, place)
-    n, q = system.n, [C_i.nrows for C_i in system.C]
-    N = n + sum(q)
-    x, w = Matrix.unit_rows(N, 0, n), Matrix.unit_rows(N, n, sum(q))
-    change = outputs(system, range(system.m)) @ x
+    A, B, w = integrating(system, system.C)
+    return suffixed(system, "with integrators of its outputs", A=A, B=B, C=w)
+
+
+def integrating(system: System, rows: list[Matrix]) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+    """State (x, w), w' = rows x or w(t+1) = w + rows x: A, the B_i, and what selects each w_i.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    n, k = system.n, [rows_i.nrows for rows_i in rows]
+    N = n + sum(k)
+    x, w = Matrix.unit_rows(N, 0, n), Matrix.unit_rows(N, n, sum(k))
+    change = stack(rows, n) @ x
     A = stack([system.A @ x, change + w if system.time == "discrete" else change], N)
-    B = [stack([B_i, Matrix.zeros(sum(q), B_i.ncols)], B_i.ncols) for B_i in system.B]
-    C = [Matrix.unit_rows(N, n + sum(q[:i]), q_i) for i, q_i in enumerate(q)]
-    return suffixed(system, "with integrators of its outputs", A=A, B=B, C=C)
+    B = [stack([B_i, Matrix.zeros(sum(k), B_i.ncols)], B_i.ncols) for B_i in system.B]
+    return A, B, [Matrix.unit_rows(N, n + sum(k[:i]), k_i) for i, k_i in enumerate(k)]
 
 
 def read_selection(value: Json, place: str, system: System) -> list[Matrix]:
@@ -493,15 +501,9 @@ def servo(system: System, step: dict[str, Json], place: str) -> System:
     """
     (listed,) = fields(step, place, "gains")
     S = read_selection(listed, place, system)
-    n, k = system.n, [S_i.nrows for S_i in S]
-    N = n + sum(k)
-    x, z = Matrix.unit_rows(N, 0, n), Matrix.unit_rows(N, n, sum(k))
-    change = stack([S_i @ C_i for S_i, C_i in zip(S, system.C, strict=True)], n) @ x
-    A = stack([system.A @ x, change + z if system.time == "discrete" else change], N)
-    B = [stack([B_i, Matrix.zeros(sum(k), B_i.ncols)], B_i.ncols) for B_i in system.B]
-    C = []
-    for i, C_i in enumerate(system.C):
-        C.append(stack([Matrix.unit_rows(N, n + sum(k[:i]), k[i]), C_i @ x], N))
+    A, B, z = integrating(system, [S_i @ C_i for S_i, C_i in zip(S, system.C, strict=True)])
+    x = Matrix.unit_rows(A.ncols, 0, system.n)
+    C = [stack([z_i, C_i @ x], A.ncols) for z_i, C_i in zip(z, system.C, strict=True)]
     digest = with_digest(canonical_json(by_channel(system, S)))
     words = f"with integrators of the combinations S of its outputs with {digest}"
     return suffixed(system, words, A=A, B=B, C=C)

@@ -947,17 +947,23 @@ def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
     ((2, 0), (3, 1))
     """
     InputError.require(system, MultiChannelSystem, "system")
-    n, m = system.n, system.m
-    counts = [system.q(i) for i in range(m)]
-    total = sum(counts)
-    starts = [0, *accumulate(counts)]
-    W = Matrix.identity(total) * steady_point(system.time)
+    A, B, measured = _integrating(system, list(system.C))
     return system.derived(
-        block([[system.A, Matrix.zeros(n, total)], [system.output_matrix(), W]]),
-        [vstack([system.B(i), Matrix.zeros(total, system.p(i))]) for i in range(m)],
-        [selector(n + starts[i], counts[i], n + total).T for i in range(m)],
-        {"construction": "integrators"},
-        neighbors=system.neighbors,
+        A, B, measured, {"construction": "integrators"}, neighbors=system.neighbors
+    )
+
+
+def _integrating(
+    system: MultiChannelSystem, integrated: Sequence[Matrix]
+) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+    """Return Ã and B̃_i with integrators of these rows, and the rows that select each agent's."""
+    n, counts = system.n, [rows.nrows for rows in integrated]
+    total, starts = sum(counts), [0, *accumulate(counts)]
+    W = Matrix.identity(total) * steady_point(system.time)
+    return (
+        block([[system.A, Matrix.zeros(n, total)], [vstack(integrated, ncols=n), W]]),
+        [vstack([system.B(i), Matrix.zeros(total, system.p(i))]) for i in range(system.m)],
+        [selector(n + start, k, n + total).T for start, k in zip(starts[:-1], counts, strict=True)],
     )
 
 
@@ -1062,21 +1068,14 @@ def servo_system(system: MultiChannelSystem, selection: Sequence[Any]) -> MultiC
     """
     InputError.require(system, MultiChannelSystem, "system")
     exact = checked_selection(system, selection)
-    n, counts = system.n, [S.nrows for S in exact]
-    total, starts = sum(counts), [0, *accumulate(counts)]
     held = [S @ channel.C for S, channel in zip(exact, system.channels, strict=True)]
-    W = Matrix.identity(total) * steady_point(system.time)
+    A, B, own = _integrating(system, held)
     return system.derived(
-        block([[system.A, Matrix.zeros(n, total)], [vstack(held, ncols=n), W]]),
-        [vstack([system.B(i), Matrix.zeros(total, system.p(i))]) for i in range(system.m)],
+        A,
+        B,
         [
-            vstack(
-                [
-                    selector(n + starts[i], counts[i], n + total).T,
-                    hstack([system.C(i), Matrix.zeros(system.q(i), total)]),
-                ]
-            )
-            for i in range(system.m)
+            vstack([rows, hstack([channel.C, Matrix.zeros(channel.C.nrows, A.nrows - system.n)])])
+            for rows, channel in zip(own, system.channels, strict=True)
         ],
         {"construction": "servo", "gains": tuple(exact)},
         neighbors=system.neighbors,
