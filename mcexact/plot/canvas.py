@@ -105,7 +105,9 @@ def legend_below(axis: Any, columns: int = 2) -> None:
             frameon=False,
             ncols=min(columns, len(handles)),
             loc="upper center",
-            bbox_to_anchor=(0.5, -0.16),
+            bbox_to_anchor=(0.5, 0),
+            # in sizes of its letters, so that it clears the label of a small axis, too
+            borderaxespad=4,
         )
 
 

@@ -32,6 +32,8 @@ _LIMIT = 2.0
 """No disk margin is larger."""
 _WINDOW = 3.0
 """How far a picture of Nyquist curves reaches, if the disk is not larger."""
+_FAR = 20.0
+"""How far away a curve is still drawn, as a multiple of how far the picture reaches."""
 
 
 class SingleLoop(Protocol):
@@ -81,7 +83,14 @@ def margin_bars(performance: Margins, ax: Any = None) -> Any:
             place, value, 0.6, color=BLUE if proved else "white", edgecolor=BLUE, linewidth=1.2
         )
         text = f"{'≥ ' if proved else ''}{value:.3g}"
-        axis.annotate(text, (value, place), (3, 0), textcoords="offset points", va="center")
+        axis.annotate(
+            text,
+            (value, place),
+            (4, 0),
+            textcoords="offset points",
+            va="center",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1},
+        )
     axis.axvline(AIMED, color=RED, linestyle="--", linewidth=1)
     axis.set_yticks(range(len(bars)), [*bars])
     axis.invert_yaxis()
@@ -94,17 +103,18 @@ def nyquist(performance: Margins, ax: Any = None) -> Any:
     """Draw the weakest single loops in the complex plane, and the certified disk around −1."""
     axis = one_axis(ax, *PANEL)
     named = len(performance.loops) <= NAMED // 2
+    alpha, reach = performance.margin, _WINDOW
+    certified = None if alpha is None or not 0 < alpha < _LIMIT else disk(to_float(alpha))
+    if certified is not None:
+        reach = min(max(reach, 1.2 * (certified[1] - certified[0])), 3 * _WINDOW)
     for k, each in enumerate(performance.loops):
         # the curve of negative frequencies is its mirror image
         points = [*(z.conjugate() for z in reversed(each.curve)), *each.curve]
         label = plain_label(each.name, 28) if named else None
-        axis.plot(*_coordinates(points), color=f"C{k % 10}", linewidth=1.3, label=label)
-    reach = _WINDOW
-    alpha = performance.margin
-    if alpha is not None and 0 < alpha < _LIMIT:
-        center, radius = disk(to_float(alpha))
-        reach = min(max(reach, 1.2 * (radius - center)), 3 * _WINDOW)
-        _draw_disk(axis, center, radius, to_float(alpha))
+        curve = _coordinates(points, _FAR * reach)
+        axis.plot(*curve, color=f"C{k % 10}", linewidth=1.3, label=label)
+    if alpha is not None and certified is not None:
+        _draw_disk(axis, *certified, to_float(alpha))
     axis.plot([-1], [0], "+", color=RED, markersize=9)
     axis.axhline(0, color=GRAY, linewidth=0.6)
     axis.axvline(0, color=GRAY, linewidth=0.6)
@@ -136,5 +146,11 @@ def _draw_disk(axis: Any, center: float, radius: float, alpha: float) -> None:
     axis.fill(xs, ys, facecolor=LIGHT, edgecolor=RED, linewidth=1, zorder=0, label=label)
 
 
-def _coordinates(points: Sequence[complex]) -> tuple[list[float], list[float]]:
-    return [z.real for z in points], [z.imag for z in points]
+def _coordinates(points: Sequence[complex], far: float) -> tuple[list[float], list[float]]:
+    """The coordinates of points; a curve is interrupted where it is far away, as at a pole.
+
+    At a pole on the border of stability the points are rounding errors, and a line from one to the
+    next one would cross the picture.
+    """
+    kept = [z if abs(z) <= far else complex(math.nan, math.nan) for z in points]
+    return [z.real for z in kept], [z.imag for z in kept]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
@@ -15,7 +17,12 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.margins import disk, margins, nyquist
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.optimum.figures import Aims
-from mcexact.synthesis.performance import Performance, loop_performance, performance_of
+from mcexact.synthesis.performance import (
+    Performance,
+    SingleLoop,
+    loop_performance,
+    performance_of,
+)
 
 
 def of(gain: int, time: str = "continuous") -> Performance:
@@ -58,3 +65,21 @@ def test_axes_can_be_given_and_an_unstable_loop_has_nothing_to_draw() -> None:
     assert nyquist(of(-3), figure.add_subplot()) is figure
     with pytest.raises(UsageError, match="not stable"):
         of(3).plot()
+
+
+def test_no_line_crosses_the_certified_disk_where_a_curve_comes_from_infinity() -> None:
+    """1/s has the points −j/ω; at ω = 0 a program finds any number that is large enough."""
+    frequencies = np.logspace(-3, 3, 300)
+    curve = (complex(-1, -1e16), *(complex(0, -1 / w) for w in frequencies))
+    loop = replace(of(-3), loops=(SingleLoop("output of agent 1", curve),))
+    assert loop.margin is not None
+    center, radius = disk(to_float(loop.margin))
+    axis = Figure().add_subplot()
+    nyquist(loop, axis)
+    xs, ys = (np.asarray(values) for values in axis.lines[0].get_data())
+    # the point of each line that is nearest to the center
+    points = xs + 1j * ys
+    start, along = points[:-1], np.diff(points)
+    share = np.clip(((center - start) * along.conj()).real / np.abs(along) ** 2, 0, 1)
+    assert np.nanmin(np.abs(start + share * along - center)) > radius
+    assert np.sum(np.hypot(xs, ys) < axis.get_xlim()[1]) > 100
