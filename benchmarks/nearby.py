@@ -4,8 +4,9 @@
 
 Parts: ``noise`` (published plants whose fixed modes relative errors destroy, 20 draws each),
 ``floats`` (plants computed in floating point), ``units`` (states, inputs and outputs in other
-units), ``typed`` (plants of two or three digits), ``posed`` (published plants) and ``seconds`` (CPU
-of `analyze` with and without the search).  Every plant that is found is examined: it is near, keeps
+units), ``typed`` (plants of two or three digits), ``posed`` (published plants), ``seconds`` (CPU
+of `analyze` with and without the search) and ``reading`` (CPU of `from_float` with and without its
+warning).  Every plant that is found is examined: it is near, keeps
 its zeros, and its certificate is VALID.  Figures depend on the processor and its kernels.
 """
 
@@ -14,6 +15,7 @@ from __future__ import annotations
 import random
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -28,6 +30,7 @@ from mcexact.analysis.nearby.plants import Nearby, NearPlant
 from mcexact.analysis.nearby.search import nearby_plants
 from mcexact.answer.check import check
 from mcexact.answer.nearby import Lost
+from mcexact.errors import RoundingWarning
 from mcexact.exact.matrix import Matrix, matrix_to_float
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
@@ -296,9 +299,25 @@ def seconds() -> Iterator[str]:
             yield f"n = {n}, {name}: {taken[0]:.3f} s without, {taken[1]:.3f} s with"
 
 
+def reading() -> Iterator[str]:
+    rng = np.random.default_rng(4)
+    for n in (4, 30, 100):
+        A, B, C = rng.normal(size=(n, n)), rng.normal(size=(n, 4)), rng.normal(size=(4, n))
+        parts = A, np.hsplit(B, 4), np.vsplit(C, 4)
+        taken = []
+        for action in ("ignore", "always"):
+            with warnings.catch_warnings():
+                warnings.simplefilter(action, RoundingWarning)
+                MultiChannelSystem.from_float(*parts)
+                began = time.process_time()
+                MultiChannelSystem.from_float(*parts)
+                taken.append(time.process_time() - began)
+        yield f"n = {n}, well-posed: {taken[0]:.3f} s without the warning, {taken[1]:.3f} s with"
+
+
 PARTS: dict[str, Callable[[], Iterator[str]]] = {
     "noise": noise, "floats": floats, "units": units, "typed": digits, "posed": posed,
-    "seconds": seconds,
+    "seconds": seconds, "reading": reading,
 }  # fmt: skip
 
 

@@ -9,5 +9,17 @@ importing the package is fast and loads no large libraries.
 
 import lazy_loader
 
+from mcexact.errors import examine_rounded_by
+
 __version__ = "0.1.0"
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def _doubts(system):
+    # Only when a plant is made of floats: it loads flint and the questions.
+    from mcexact.analysis.analyze import rounding_doubts
+
+    return rounding_doubts(system)
+
+
+examine_rounded_by(_doubts)

@@ -138,6 +138,7 @@ from .errors import MissingExtra as MissingExtra
 from .errors import NotWritten as NotWritten
 from .errors import OtherFormat as OtherFormat
 from .errors import OutOfReach as OutOfReach
+from .errors import RoundingWarning as RoundingWarning
 from .errors import UsageError as UsageError
 from .exact.matrix import Matrix as Matrix
 from .exact.polynomial import Polynomial as Polynomial

@@ -1,15 +1,19 @@
-"""Errors with exit statuses, and the checks of arguments that raise them."""
+"""Errors with exit statuses, the checks of arguments, and a warning of rounding."""
 
 from __future__ import annotations
 
 import os
+import sys
+import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from fractions import Fraction
 from importlib.util import find_spec
 from math import inf
 from numbers import Real
-from typing import Any
+from typing import Any, TypeVar
+
+Plant = TypeVar("Plant")
 
 # The errors that this package raises, each with the exit status of the command line.
 
@@ -237,6 +241,63 @@ class InternalError(McexactError):
     """A check inside this package failed, which is a bug in it."""
 
     exit_status = 70
+
+
+# The warning of plants whose answers depend on rounding errors.
+
+
+class RoundingWarning(UserWarning):
+    """A plant was made of floats, and rounding errors alone decide an answer about it.
+
+    `MultiChannelSystem.from_float`, `from_stacked`, `from_statespace` and `load_system` warn with
+    it.  It says which plant nearby, with the same zeros, has another answer.  Nothing is looked for
+    where the category is ignored: ``warnings.simplefilter("ignore", mcexact.RoundingWarning)``.
+    """
+
+
+_examine: Callable[[Any], tuple[str, ...]] | None = None
+
+
+def examine_rounded_by(examine: Callable[[Any], tuple[str, ...]]) -> None:
+    """Set what says of a plant in floats how its answers depend on rounding errors.
+
+    The package sets it: those who read plants stand below those who examine them.
+    """
+    global _examine
+    _examine = examine
+
+
+def warn_of_rounding(system: Plant) -> Plant:
+    """Warn the caller of the package where a plant has other answers but for rounding errors.
+
+    Returns
+    -------
+    MultiChannelSystem
+        The same plant.
+    """
+    if _examine is None or _ignores(RoundingWarning):
+        return system
+    for text in _examine(system):
+        message = f"an answer depends on rounding errors: {text}"
+        warnings.warn(message, RoundingWarning, stacklevel=_callers_level())
+    return system
+
+
+def _ignores(category: type[Warning]) -> bool:
+    """Whether the first filter that is about a category ignores it, wherever it is warned of."""
+    for action, message, of, module, line in warnings.filters:
+        if issubclass(category, of):
+            return action == "ignore" and message is None and module is None and not line
+    return False
+
+
+def _callers_level() -> int:
+    """How far above `warn_of_rounding` the first function outside of the package is."""
+    frame, level = sys._getframe(1), 1
+    package = __name__.partition(".")[0]
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == package:
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 # Checks of callers' arguments, and how messages show values.

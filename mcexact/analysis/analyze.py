@@ -29,6 +29,7 @@ from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from mcexact.analysis.blocks import bounded_blocks, modes_left
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.nearby.allowances import counts_as_exact
 from mcexact.analysis.nearby.plants import Nearby
@@ -122,6 +123,8 @@ _AS_LONG = 3
 """To say why modes are fixed takes about as many times as long as to decide which are."""
 _MOST_STATES_NEARBY = 300
 """Plants nearby are searched for at most so many states by default: of more that takes seconds."""
+_MOST_STATES_READ = 100
+"""Readers of floats warn of plants with at most so many states: they are to be quick."""
 _MOST_STATES = 60
 """Plants within the radii that fail are searched for at most so many states: that takes seconds."""
 
@@ -911,6 +914,27 @@ def analyze(
     )
     analysis.also(also)
     return analysis
+
+
+def rounding_doubts(system: MultiChannelSystem) -> tuple[str, ...]:
+    """Return how answers about a plant that was read from floats depend on rounding errors.
+
+    It is quick rather than complete: a plant with more than 100 states, or one of whose modes some
+    may be fixed by themselves, is not looked at.
+
+    Returns
+    -------
+    tuple of str
+        One text for each plant nearby, as `Nearby.doubts`.
+    """
+    if system.rounding is None or system.n > _MOST_STATES_READ or counts_as_exact(system):
+        return ()
+    if modes_left(bounded_blocks(system)):
+        return ()
+    # It computes in floating point, and the other questions load no numpy.
+    from mcexact.analysis.nearby.search import nearby_plants
+
+    return nearby_plants(system).doubts
 
 
 # The answers of `mcexact allocate` with their sentences.

@@ -169,8 +169,7 @@ def _warnings(system: MultiChannelSystem | ParametricSystem) -> list[str]:
     analysis = analyze(system, _ASKED)
     if analysis.nearby_left_out:
         return []
-    near = [each for each in analysis.nearby.leading if each.within == "rounding"]
-    return [f"an answer depends on rounding errors: {each.explain()}" for each in near]
+    return [f"an answer depends on rounding errors: {text}" for text in analysis.nearby.doubts]
 
 
 def _used(rounding: Rounding | None, target: str) -> Rounding | None:

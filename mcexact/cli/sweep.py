@@ -48,8 +48,9 @@ from mcexact.derived.variants import (
 )
 from mcexact.errors import InputError, LimitReached, McexactError, MissingExtra, place_of
 from mcexact.exact.rational import Limits
-from mcexact.model.arrays import MARK
-from mcexact.model.files import load_parametric_system, load_system, read_input
+from mcexact.model.arrays import MARK, Reading
+from mcexact.model.files import load_parametric_system, read_any, read_input
+from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import write_text
 from mcexact.report.sweep import (
     nearby_tables,
@@ -208,14 +209,20 @@ class Families:
             with InputError.inside(place_of(path)):
                 variants = parameter_grid(plant, self._grid)
         elif self._parts:
-            variants = tolerance_variants(load_system(path, limits=limits), self._parts)
+            variants = tolerance_variants(_system(path, limits), self._parts)
         elif self._graphs:
             variants = neighbor_graph_variants(
-                load_system(path, limits=limits), information="outputs", **self._kinds
+                _system(path, limits), information="outputs", **self._kinds
             )
         else:
-            variants = sensor_variants(load_system(path, limits=limits))
+            variants = sensor_variants(_system(path, limits))
         return (replace(each, name=f"{path}: {each.name}") for each in variants)
+
+
+def _system(path: str, limits: Limits) -> MultiChannelSystem:
+    """Read a system; a sweep says itself which answers depend on rounding errors."""
+    with InputError.inside(place_of(path)):
+        return read_any(read_input(path, limits), path, Reading(limits))
 
 
 def _failing(path: str, error: Exception) -> Variant:

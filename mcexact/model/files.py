@@ -21,7 +21,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mcexact.errors import InputError, MissingExtra, UsageError, place_of
+from mcexact.errors import InputError, MissingExtra, UsageError, place_of, warn_of_rounding
 from mcexact.exact.matrix import Rounding
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model import arrays, gallery
@@ -388,7 +388,8 @@ def load_system(
     made_by = "; matrices make a system with MultiChannelSystem(A, B, C)"
     with InputError.inside(place_of(path, made_by)):
         reading = Reading(limits, rounding, inputs, outputs)
-        return read_any(read_input(path, limits), os.fspath(path), reading)
+        system = read_any(read_input(path, limits), os.fspath(path), reading)
+    return warn_of_rounding(system)
 
 
 def load_parametric_system(

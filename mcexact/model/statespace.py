@@ -14,7 +14,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from mcexact.errors import FloatRefused, InputError, MissingExtra, UsageError, several
+from mcexact.errors import (
+    FloatRefused,
+    InputError,
+    MissingExtra,
+    UsageError,
+    several,
+    warn_of_rounding,
+)
 from mcexact.exact.balls import exponential
 from mcexact.exact.matrix import (
     BINARY,
@@ -119,7 +126,7 @@ def from_statespace(
         neighbors=neighbors,
         sample_time=sample_time,
     )
-    return read_by(rounding, made, _tables(statespace, "ABC"))
+    return warn_of_rounding(read_by(rounding, made, _tables(statespace, "ABC")))
 
 
 def loop_from_statespace(statespace: Any, *, rounding: Rounding = BINARY) -> MultiChannelSystem:

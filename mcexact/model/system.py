@@ -28,7 +28,14 @@ from math import lcm
 from typing import Any, ClassVar, Generic, Self, SupportsIndex, TypeVar, overload
 
 from mcexact import shown
-from mcexact.errors import FloatRefused, InputError, UsageError, several, shown_value
+from mcexact.errors import (
+    FloatRefused,
+    InputError,
+    UsageError,
+    several,
+    shown_value,
+    warn_of_rounding,
+)
 from mcexact.exact.matrix import (
     BINARY,
     Matrix,
@@ -725,7 +732,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             [exact(c, f"C[{i}]") for i, c in enumerate(outputs)],
             **options,
         )
-        return read_by(rounding, made, (A, *inputs, *outputs))
+        return warn_of_rounding(read_by(rounding, made, (A, *inputs, *outputs)))
 
     @property
     def plant(self) -> MultiChannelSystem:
@@ -1077,7 +1084,7 @@ def from_stacked(
     made = MultiChannelSystem(
         state, *split_by_sizes(stacked_B, stacked_C, inputs, outputs), **options
     )
-    return read_by(rounding or BINARY, made, (A, B, C))
+    return warn_of_rounding(read_by(rounding or BINARY, made, (A, B, C)))
 
 
 def split_by_sizes(

@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mcexact.analysis.fixed_modes import fixed_spectrum
@@ -219,6 +220,16 @@ def test_a_folder_without_any_system_file_is_bad_input(call: Call, tmp_path: Pat
     status, _, err = call(str(tmp_path))
     assert status == 3
     assert f"{tmp_path}: found no system file" in err
+
+
+def test_variants_of_a_plant_in_floats_are_made_without_a_warning(
+    call: Call, tmp_path: Path
+) -> None:
+    plant = str(tmp_path / "rounded.npz")
+    A, B, C = [[-0.30000000000000004, 0.7], [0.3, -0.7]], [[0.1], [-0.1]], [[1.0, 0.0]]
+    np.savez(plant, A=A, B_1=B, C_1=C, rounding="decimal")
+    status, out, err = call(plant, "--all-sensors")
+    assert status == 0 and "depends on rounding errors" in out and not err
 
 
 def test_a_system_of_which_the_data_allow_another_answer_is_marked(

@@ -169,6 +169,11 @@ class Nearby(Shown):
         return tuple(each for each in self.plants if each.within is not None)
 
     @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is said of the plants that differ by rounding errors alone, one text for each."""
+        return tuple(each.explain() for each in self.plants if each.within == "rounding")
+
+    @property
     def answers(self) -> dict[str, PencilRank]:
         """The proofs, by the names of their certificates."""
         return {f"nearby_{each.lost}": each.proof for each in self.plants}

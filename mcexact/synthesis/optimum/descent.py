@@ -29,7 +29,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mcexact.exact.matrix import to_float
+from mcexact.exact.matrix import matrix_from_float, to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.floating.margins import is_within, spectral_bound
 from mcexact.model.system import MultiChannelSystem
@@ -596,9 +596,8 @@ def _searched(model: Model, order: int, target: Target, effort: Effort) -> Reali
     """The best of a few drawn starts, followed for a while."""
     if not (model.B.any() and model.C.any()):
         return None
-    plant = MultiChannelSystem.from_float(
-        model.A, [model.B], [model.C], rounding="dyadic", time=target.region.time
-    )
+    A, B, C = (matrix_from_float(M, "dyadic") for M in (model.A, model.B, model.C))
+    plant = MultiChannelSystem(A, [B], [C], time=target.region.time)
     weights = Weights(model.Q, model.R, model.W, model.V, model.bandwidth)
     problem = FeedbackProblem.of(single_channel(plant), (order,), weights)
     best, least = None, np.inf
