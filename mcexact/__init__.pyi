@@ -124,6 +124,8 @@ from .derived.constructions import setpoint_system as setpoint_system
 from .derived.constructions import slow_system as slow_system
 from .derived.constructions import union_graph as union_graph
 from .derived.drawn.systems import Draw as Draw
+from .derived.sampling import c2d as c2d
+from .derived.sampling import sampled_system as sampled_system
 from .derived.variants import Variant as Variant
 from .derived.variants import neighbor_graph_variants as neighbor_graph_variants
 from .derived.variants import parameter_grid as parameter_grid
@@ -158,7 +160,6 @@ from .model.graph import NeighborGraph as NeighborGraph
 from .model.parametric import ParametricSystem as ParametricSystem
 from .model.radii import Radii as Radii
 from .model.sizes import TypicalSizes as TypicalSizes
-from .model.statespace import c2d as c2d
 from .model.statespace import from_statespace as from_statespace
 from .model.statespace import local_controllers as local_controllers
 from .model.statespace import loop_from_statespace as loop_from_statespace

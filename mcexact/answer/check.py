@@ -48,6 +48,7 @@ from mcexact.derived.constructions import (
     setpoint_system,
     slow_system,
 )
+from mcexact.derived.sampling import sampled_system
 from mcexact.errors import InputError, InternalError, place_of, require_seconds, telling
 from mcexact.exact.linear_algebra import PolynomialMatrix
 from mcexact.exact.matrix import Matrix
@@ -529,6 +530,9 @@ _CONSTRUCTIONS: Mapping[
         system, _gains(data, [system.q(i) for i in range(system.m)])
     ),
     "restricted": lambda system, data: restricted(system, data["channels"]),
+    "sampled": lambda system, data: sampled_system(
+        system, Fraction(data["step"]), data["late"], decimals=data["decimals"]
+    ),
     "servo": lambda system, data: servo_system(
         system, _gains(data, [system.q(i) for i in range(system.m)])
     ),

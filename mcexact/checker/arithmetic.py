@@ -322,6 +322,13 @@ def diagonal(A: Matrix, B: Matrix) -> Matrix:
     return stack([top, bottom], A.ncols + B.ncols)
 
 
+def absolute(M: Matrix) -> Matrix:
+    """The absolute values of all entries."""
+    spend(budget.table(M.nrows, M.ncols, M.limbs))
+    rows = [[abs(entry) for entry in row] for row in M.rows]
+    return Matrix(rows, M.ncols, M.denominator)
+
+
 def product(A: Rows, B: Rows, ncols: int, ell: int = 0) -> Rows:
     """A·B over the integers, or modulo ℓ ≠ 0, which reduces the factors."""
     if ell:

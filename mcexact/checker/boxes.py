@@ -18,14 +18,13 @@ from itertools import pairwise
 from operator import mul
 
 from . import budget, loops
-from .arithmetic import Matrix, beside, diagonal, stack
+from .arithmetic import Matrix, absolute, beside, diagonal, stack
 from .cells import FunctionLoop, boxes_of_cells, ranges_text
 from .constructions import ports_of
 from .discs import (
     Box,
     Pencil,
     Regular,
-    absolute,
     complex_matrix,
     discs_of_gains,
     inverse_multiplied,

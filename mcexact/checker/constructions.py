@@ -8,6 +8,7 @@ linear map of signals, which `discs` uses again to bound loops of uncertain plan
 """
 
 import json
+from dataclasses import replace
 from typing import NamedTuple
 
 from . import evidence
@@ -24,16 +25,19 @@ from .reading import (
     matrices,
     matrix,
     names,
+    rational,
     require,
     shown,
     string,
 )
+from .sampling import enclosure
 from .system import (
     MAPS,
     System,
     by_channel,
     canonical_json,
     channel_set,
+    counted,
     digest_of,
     edge_set,
     prefixed,
@@ -45,6 +49,7 @@ from .system import (
 # Construction ``closed_loop``: the plant and the programs of its agents, as one matrix.
 
 STATES = (("x", "shared"), ("z", "private"))
+MOST_DECIMALS = 1000
 Signal = tuple[str, int, int]
 """(signal, j, age): signal is "X" for the plant's state, "x", "y" or "z" for x_j, y_j, z_j."""
 Terms = list[tuple[Signal, Matrix]]
@@ -372,6 +377,63 @@ def slow(system: System, step: dict[str, Json], place: str) -> System:
     )
 
 
+# Construction ``sampled``: a plant in continuous time at the samples, with its inputs held.
+
+
+def sampled(system: System, step: dict[str, Json], place: str) -> System:
+    """A_h, B_h to some decimals, and registers of the inputs that are not in use yet.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    certain = [Matrix.zeros(system.n, B_i.ncols) for B_i in system.B]
+    D = replace(system, A=Matrix.zeros(system.n, system.n), B=certain)
+    return sampled_within(system, D, step, place)[0]
+
+
+def sampled_within(
+    system: System, radii: System, step: dict[str, Json], place: str
+) -> tuple[System, System]:
+    """The sampled system, and the radii for all systems within radii of the one in continuous time.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    length, waits, digits = fields(step, place, "step", "late", "decimals")
+    h, late = rational(length, f"{place}.step"), integer(waits, f"{place}.late")
+    decimals = integer(digits, f"{place}.decimals")
+    require(system.time == "continuous", "subject", place, "expected a plant in continuous time")
+    require(h > 0, "subject", place, "expected a step above 0")
+    require(decimals <= MOST_DECIMALS, "subject", place, f"expected at most {MOST_DECIMALS}")
+    n = system.n
+    M, D = (beside([each.A, *each.B], n) for each in (system, radii))
+    center, missed = enclosure(M, D, h, decimals)
+    delay = f" and {counted(late, 'step')} late" if late else ""
+    words = f"sampled every {h} with its inputs held{delay}, to {counted(decimals, 'decimal')}"
+    made = suffixed(system, words, time="discrete")
+    return _registered(made, center, late, 1), _registered(radii, missed, late, 0)
+
+
+def _registered(system: System, M: Matrix, late: int, one: int) -> System:
+    """State (x, v_1, …, v_late), x(t+1) = M (x, v_1), v_k(t+1) = v_(k+1), and the last one is u.
+
+    The entries of registers are ``one``: with 0, only those that can be uncertain are left.
+    """
+    n, widths = system.n, [B_i.ncols for B_i in system.B]
+    p = sum(widths)
+    starts = [sum(widths[:i]) for i in range(system.m)]
+    parts = [*zip(starts, widths, strict=True)]
+    if not late:
+        B = [M.take(None, range(n + start, n + start + p_i)) for start, p_i in parts]
+        return replace(system, A=M.take(None, range(n)), B=B)
+    N = n + late * p
+    spend(table(N, N))
+    x, after = Matrix.unit_rows(N, 0, n), Matrix.unit_rows(N, n + p, N - n - p).times(one)
+    A = stack([M @ Matrix.unit_rows(N, 0, n + p), after, Matrix.zeros(p, N)], N)
+    last = [Matrix.unit_rows(N, N - p + start, p_i) for start, p_i in parts]
+    return replace(
+        system, A=A, B=[rows.T.times(one) for rows in last], C=[C_i @ x for C_i in system.C]
+    )
+
+
 # Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``restricted`` and others.
 
 
@@ -535,7 +597,7 @@ def error(system: System, step: dict[str, Json], place: str) -> System:
 LINE = "line"
 """The construction that only plants with parameters have, and before all others."""
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
-LAST = (regulated, restricted, servo, slow)
+LAST = (regulated, restricted, sampled, servo, slow)
 CONSTRUCTIONS = {
     rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, *LAST)
 }

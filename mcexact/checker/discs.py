@@ -24,7 +24,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from . import budget, reading
-from .arithmetic import Matrix, entries_of, stack
+from .arithmetic import Matrix, absolute, entries_of, stack
 from .constructions import (
     Signal,
     Terms,
@@ -33,6 +33,7 @@ from .constructions import (
     read_subject,
     rows_of_states,
     rows_that_read,
+    sampled_within,
     signals_of,
 )
 from .evidence import closed_loop, read_gains
@@ -305,7 +306,7 @@ def require_covered(
 
 # Boxes of plants, and constructions applied to them.
 
-LOOP = "closed_loop"
+LOOP, SAMPLED = "closed_loop", "sampled"
 NONE = System("", [], Matrix.zeros(0, 0), [], [])
 
 
@@ -364,6 +365,8 @@ def box_of(steps: Json, plant: System, kind: str) -> Box:
             message = "a closed loop is the last construction, for the kind box_stable alone"
             incomplete("construction", f"subject[{k}]", message)
     radii, members = _radii(computed, plant), members_in_words(plant)
+    if any(step["construction"] == SAMPLED for step in steps):
+        members += ", sampled without rounding"
     if not looped:
         return Box(**vars(center), radii=radii, members=members)
     inside = Box(**vars(read_subject(computed, plant)), radii=radii)
@@ -386,7 +389,7 @@ def _radii(steps: Json, plant: System) -> System:
     """The radii after constructions: how much larger absolute values can make the results.
 
     Each construction adds and multiplies; it is applied to absolute values, those of gains too,
-    and to the same with the radii added.
+    and to the same with the radii added.  What is sampled has radii by a rule of its own.
     """
     radii = read_radii(plant.uncertainty, plant.names, [plant.A, *plant.B, *plant.C])
     A, *ports = radii
@@ -394,9 +397,15 @@ def _radii(steps: Json, plant: System) -> System:
     if not steps:
         return D
     low, high = ends(plant, D)
-    for step in steps:
-        sizes = [_of_sizes(step)]
-        low, high = (_sizes(read_subject(sizes, each)) for each in (low, high))
+    for k, step in enumerate(steps):
+        if step["construction"] == SAMPLED:
+            held, parameters = read_subject(steps[:k], plant), {**step}
+            del parameters["construction"]
+            spread = _combined(high, low, -1)
+            low, high = ends(*sampled_within(held, spread, parameters, f"subject[{k}]"))
+        else:
+            sizes = [_of_sizes(step)]
+            low, high = (_sizes(read_subject(sizes, each)) for each in (low, high))
     return _combined(high, low, -1)
 
 
@@ -429,13 +438,6 @@ def _of_parts(system: System, parts: list[Matrix]) -> System:
     """The system with these matrices A, B_1, …, C_1, … in place of its own."""
     A, *ports = parts
     return replace(system, A=A, B=ports[: len(system.B)], C=ports[len(system.B) :])
-
-
-def absolute(M: Matrix) -> Matrix:
-    """The absolute values of all entries."""
-    budget.spend(budget.table(M.nrows, M.ncols, M.limbs))
-    rows = [[abs(entry) for entry in row] for row in M.rows]
-    return Matrix(rows, M.ncols, M.denominator)
 
 
 # Discs that contain the spectrum of every member of a box, with gains; ``proofs/boxes.md``.

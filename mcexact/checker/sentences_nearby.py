@@ -20,8 +20,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from . import budget
-from .arithmetic import FIRST, Matrix, coprime, entries_of, poly_modulo
-from .discs import absolute
+from .arithmetic import FIRST, Matrix, absolute, coprime, entries_of, poly_modulo
 from .reading import Json, polynomial
 from .roots import in_stability_region
 from .sentences import DUAL, PLANT, Premise, Role, everywhere, rule

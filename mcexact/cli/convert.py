@@ -30,7 +30,7 @@ from mcexact.cli.files import (
 )
 from mcexact.cli.options import FOLDER, as_json
 from mcexact.cli.output import emit, emit_json
-from mcexact.cli.results import Converted, Sampled
+from mcexact.cli.results import Converted
 from mcexact.cli.running import Run, supervised
 from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import InputError
@@ -183,11 +183,24 @@ def _used(rounding: Rounding | None, target: str) -> Rounding | None:
     "--step", type=options.rational, required=True, help="The time between samples, such as 1/10."
 )
 @click.option(
+    "--late",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    metavar="STEPS",
+    help="Apply every input so many steps late: inputs under way become states.",
+)
+@click.option(
     "--decimals",
     type=click.IntRange(min=0, max=1000),
     default=12,
     show_default=True,
     help="Decimals to which the matrix exponential is rounded.",
+)
+@click.option(
+    "--enclose",
+    is_flag=True,
+    help="Give the file radii that contain the exact samples, also where FILE has none.",
 )
 @click.option(
     "-o",
@@ -200,45 +213,43 @@ def _used(rounding: Rounding | None, target: str) -> Rounding | None:
 @options.work_limits
 @options.file_limits
 def c2d_command(
-    file: str, step: Fraction, decimals: int, output: Path | None, **values: Any
+    file: str,
+    step: Fraction,
+    late: int,
+    decimals: int,
+    enclose: bool,
+    output: Path | None,
+    **values: Any,
 ) -> None:
     """Sample the system in FILE, whose inputs are held between samples (- for standard input).
 
     The system file that is written has exact data, and its "source" states by how much they differ
-    from the matrix exponential at most. Later answers are about the rounded plant. The output is
-    JSON with and without --json, since a system file is JSON.
+    from the matrix exponential at most. The output is JSON with and without --json, since a system
+    file is JSON.
 
-    Of a file with "uncertainty" the values are sampled, and not the radii: every entry of the
-    sampled A and B depends on many of the entries that are uncertain. Decide about the plant in
-    continuous time, or give the sampled file an "uncertainty" of its own.
+    If FILE has an "uncertainty", so has the sampled file: it contains the exact samples of every
+    plant within the radii of FILE. What is proved for every plant within these radii is proved for
+    the exact samples; all other answers are about the rounded values. The radii are as small as
+    independent entries allow, and grow with the step.
     """
     run = Run(values)
     require_other(output, file)
     require_writable(output)
     plant = run.read(file)
-    sampled = run.result(_sampled, plant, run.limits, step, decimals, doing=f"sampling {plant[0]}")
-    if sampled.drops_radii:
-        click.echo(
-            "mcexact: warning: the values are sampled, and the radii of the file are not carried "
-            "over: answers about the sampled plant hold for the values alone",
-            err=True,
-        )
+    how = {"step": step, "late": late, "decimals": decimals, "enclosed": enclose}
+    sampled = run.result(_sampled, plant, run.limits, how, doing=f"sampling {plant[0]}")
     if output is None:
-        emit(sampled.text)
+        emit(sampled)
     else:
-        write_result(output, sampled.text)
+        write_result(output, sampled)
 
 
-def _sampled(
-    plant: tuple[str, bytes], limits: dict[str, int], step: Fraction, decimals: int
-) -> Sampled:
+def _sampled(plant: tuple[str, bytes], limits: dict[str, int], how: dict[str, Any]) -> str:
     """Sample a system, in the child process."""
-    # Only there: sampling needs numpy, whose threads forbid that this process is forked.
-    from mcexact.model.statespace import c2d
+    # Only there: the command line starts without what samples.
+    from mcexact.derived.sampling import c2d
 
-    system = system_in(*plant, limits)
-    text = system_text(c2d(system, step, decimals=decimals))
-    return Sampled(text, drops_radii=system.uncertainty is not None)
+    return system_text(c2d(system_in(*plant, limits), **how))
 
 
 @click.command(name="export", short_help="Write a controller as C or Structured Text.")

@@ -265,19 +265,3 @@ class Converted:
 
     content: bytes | dict[str, str]
     warnings: Sequence[str]
-
-
-@dataclass(frozen=True)
-class Sampled:
-    """A sampled plant.
-
-    Attributes
-    ----------
-    text : str
-        Its system file.
-    drops_radii : bool
-        Whether the plant that was sampled has radii, which its samples do not have.
-    """
-
-    text: str
-    drops_radii: bool

@@ -1,13 +1,12 @@
-"""Ball arithmetic: the matrix exponential, trajectories and responses, with errors proved.
+"""Ball arithmetic: exponentials, trajectories and responses, with errors proved.
 
 A ball is a number with a radius that bounds its error; flint's operations on balls enlarge the
 radius so that the exact result stays inside.
 
-`exponential` takes more and more bits until its entries are known to the decimals asked for, and
-raises `LimitReached` if 65,536 bits do not suffice.  `exponential_above` and `power_above` round
-up to floats, so that bounds on decay remain bounds.  `states_at_doubling_steps` and
-`even_powers`, again with more and more bits, and `response`, with a fixed number, give floats
-that are accurate to 1e-9 for the curves of a loop, and None if their bits do not suffice.
+`exponential_above` and `power_above` round up to floats, so that bounds on decay remain bounds.
+`states_at_doubling_steps` and `even_powers`, with more and more bits, and `response`, with a fixed
+number, give floats that are accurate to 1e-9 for the curves of a loop, and None if their bits do
+not suffice.
 """
 
 from __future__ import annotations
@@ -19,63 +18,14 @@ import flint
 import numpy as np
 import numpy.typing as npt
 
-from mcexact.errors import LimitReached
 from mcexact.exact.matrix import Matrix, float_above
 from mcexact.exact.roots import PRECISION
 
-# The matrix exponential with a proved error, and powers and exponentials rounded up to floats.
+# Powers and exponentials rounded up to floats.
 
-_BITS, _MOST_BITS = 128, 1 << 16
-_SPARE = 100
 _SCALAR_BITS = 80
 _LEAST = -1074
 """The exponent of the least float above 0."""
-
-
-def exponential(M: Matrix, decimals: int) -> Matrix:
-    """Compute exp(M) with every entry rounded to a number of decimals.
-
-    Parameters
-    ----------
-    M : Matrix, n × n
-    decimals : int
-        The number of digits after the decimal point.
-
-    Returns
-    -------
-    Matrix
-        Every entry differs from that of exp(M) by at most 0.51·10^−decimals.
-
-    Raises
-    ------
-    LimitReached
-        If 65,536 bits do not suffice.
-
-    Notes
-    -----
-    Ball arithmetic encloses exp(M) with more and more bits, until every radius is below 1/100 of
-    the last decimal.
-
-    Examples
-    --------
-    >>> exponential(Matrix.from_rows([[0, "1/10"], [0, 0]]), 6).rows()[0]
-    (Fraction(1, 1), Fraction(1, 10))
-    >>> exponential(Matrix.from_rows([[1]]), 6)[0, 0]
-    Fraction(1359141, 500000)
-    """
-    unit = Fraction(1, 10**decimals)
-    if not M.nrows:
-        return M
-    entries = [[flint.fmpq(x.numerator, x.denominator) for x in row] for row in M.rows()]
-    bits = _BITS
-    while bits <= _MOST_BITS:
-        balls = [x for row in _enclosed(entries, bits) for x in row]
-        if all(x.is_finite() and _exact(x.rad()) * _SPARE <= unit for x in balls):
-            numbers = [round(_exact(x.mid()) / unit) * unit for x in balls]
-            n = M.ncols
-            return Matrix.from_rows([numbers[n * i : n * (i + 1)] for i in range(n)])
-        bits *= 2
-    raise LimitReached(f"{_MOST_BITS} bits do not suffice for {decimals} decimals of exp(M)")
 
 
 def exponential_above(x: Fraction) -> float:
@@ -113,18 +63,6 @@ def _above(ball: flint.arb) -> float:
         return 0.0
     # The exponent of a tiny number may be too long to be written as a fraction.
     return float_above(Fraction(2) ** _LEAST if upper < flint.arb(2) ** _LEAST else _exact(upper))
-
-
-def _enclosed(entries: list[list[flint.fmpq]], bits: int) -> list[list[flint.arb]]:
-    """Balls that contain the entries of the exponential, computed with some bits."""
-    with PRECISION:
-        before = flint.ctx.prec
-        flint.ctx.prec = bits
-        try:
-            balls = flint.arb_mat([[flint.arb(x) for x in row] for row in entries]).exp()
-            return [[balls[i, j] for j in range(len(entries))] for i in range(len(entries))]
-        finally:
-            flint.ctx.prec = before
 
 
 def _exact(x: flint.arb) -> Fraction:

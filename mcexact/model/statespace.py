@@ -1,11 +1,10 @@
-"""Conversion from and to python-control, and sampling.
+"""Conversion from and to python-control.
 
 A state-space system of python-control is one matrix of inputs and one of outputs in floats, so
 `from_statespace` needs to know which signals belong to which channel, and how floats become
 exact.  `to_statespace` converts a plant, a controller or a closed loop to floats.
 `local_controllers` makes one decentralized controller of matrices or systems of python-control,
-one for each channel.  `c2d` samples a plant whose inputs are held between samples; it rounds the
-matrix exponential to decimals, with a proved error.
+one for each channel.
 """
 
 from __future__ import annotations
@@ -22,12 +21,10 @@ from mcexact.errors import (
     several,
     warn_of_rounding,
 )
-from mcexact.exact.balls import exponential
 from mcexact.exact.matrix import (
     BINARY,
     Matrix,
     Rounding,
-    as_requested,
     from_float,
     hstack,
     matrix_from_float,
@@ -35,7 +32,6 @@ from mcexact.exact.matrix import (
     to_float,
     vstack,
 )
-from mcexact.exact.rational import Entry, rational_text
 from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.entries import as_matrix, require_shape, require_square
@@ -508,86 +504,4 @@ def _program(
         k,
         private_update=LinearMap({i: B}, private=A).without_zeros(),
         input=LinearMap({i: D}, private=C).without_zeros(),
-    )
-
-
-# Sampling of plants in continuous time.
-
-DECIMALS = 12
-
-
-def c2d(system: MultiChannelSystem, step: Entry, *, decimals: int = DECIMALS) -> MultiChannelSystem:
-    """Sample a plant whose inputs are held between samples.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-        A plant in continuous time.
-    step : rational or float
-        The time h between samples; 0.1 stands for 1/10.
-    decimals : int
-        The number of decimals to which the matrix exponential is rounded.
-
-    Returns
-    -------
-    MultiChannelSystem
-        x(t+h) = A_h x + Σ B_{i,h} u_i with exact data, which are the rounded entries of::
-
-                ⎡ A  B ⎤     ⎡ A_h  B_h ⎤
-            exp ⎣ 0  0 ⎦ h = ⎣ 0     I  ⎦
-
-        Outputs, names and neighbors stay.  ``source`` states the rounding.  Every decision about
-        the result is about the rounded plant.  Radii of entries are not carried over, which
-        ``source`` states, too: every entry of A_h and B_h depends on many of A and B.
-
-    Raises
-    ------
-    UsageError
-        If the system is in discrete time or no plant, the step is not above 0, or the number of
-        decimals is not from 0 to 1000.
-
-    Examples
-    --------
-    >>> plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
-    >>> sampled = c2d(plant, "1/10")
-    >>> sampled.A.rows()[0], sampled.B(0).rows()
-    ((Fraction(1, 1), Fraction(1, 10)), ((Fraction(1, 200),), (Fraction(1, 10),)))
-    >>> print(sampled.source)
-    sampled every 1/10 with inputs held; every entry of A and B differs from the exact one by at \
-most 0.51e-12
-    """
-    InputError.require(system, MultiChannelSystem, "system")
-    if is_discrete(system.time):
-        raise UsageError("the system is in discrete time already", where="system")
-    if system.subject:
-        raise UsageError("expected a plant, found a derived system", where="system")
-    h = as_requested(step, where="step")
-    if h <= 0:
-        raise UsageError(f"expected a time above 0, found {rational_text(h)}", where="step")
-    if type(decimals) is not int or not 0 <= decimals <= 1000:
-        raise UsageError(f"expected 0 to 1000 decimals, found {decimals!r}", where="decimals")
-    n, B = system.n, system.input_matrix()
-    upper = hstack([system.A, B]) * h
-    sampled = exponential(vstack([upper, Matrix.zeros(B.ncols, n + B.ncols)]), decimals)
-    rows, inputs, start = range(n), list[Matrix](), n
-    for i in range(system.m):
-        inputs.append(sampled.take(rows=rows, cols=range(start, start + system.p(i))))
-        start += system.p(i)
-    note = (
-        f"sampled every {rational_text(h)} with inputs held; every entry of A and B differs from "
-        f"the exact one by at most 0.51e-{decimals}"
-    )
-    if system.uncertainty is not None:
-        note += "; the values were sampled, and the radii of uncertain entries not carried over"
-    return MultiChannelSystem(
-        sampled.take(rows=rows, cols=range(n)),
-        inputs,
-        [system.C(i) for i in range(system.m)],
-        time="discrete",
-        names=system.names,
-        neighbors=system.neighbors,
-        sample_time=h if system.sample_time is None else system.sample_time,
-        typical_sizes=system.typical_sizes,
-        name=system.name,
-        source=note if system.source is None else f"{system.source}; {note}",
     )

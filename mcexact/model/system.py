@@ -355,6 +355,9 @@ class ByChannel(Shown, Generic[M]):
     def digest_of_values(self: Any) -> str:
         """Return the digest of the plant without radii, by which a controller names its plant.
 
+        A controller of a sampled plant runs at its samples: it names the sampled plant, so that
+        the digest contains the step and the delay.
+
         Examples
         --------
         >>> from mcexact import Box, MultiChannelSystem
@@ -362,7 +365,11 @@ class ByChannel(Shown, Generic[M]):
         >>> Box.relative(plant, "1/100").system.digest_of_values() == plant.digest()
         True
         """
-        plant = self.plant
+        held = getattr(self, "_sampled", None) or self
+        if getattr(held, "_is_sampled", False):
+            plant = as_plant(held)
+        else:
+            plant = self.plant
         digest: str = (
             plant if plant.uncertainty is None else plant.with_uncertainty(None)
         ).digest()
@@ -606,6 +613,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
     subject: tuple[Construction, ...] = field(hash=False)
     rounding: Rounding | None = field(compare=False)
     _plant: MultiChannelSystem | None
+    _sampled: MultiChannelSystem | None = field(compare=False)
+    """The sampled plant from which a system was derived by further constructions."""
 
     def __init__(
         self,
@@ -642,6 +651,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             subject=(),
             rounding=None,
             _plant=None,
+            _sampled=None,
         )
         if regulated is not None:
             counts = [channel.C.nrows for channel in channels]
@@ -788,6 +798,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
         *,
         neighbors: NeighborGraph | None = None,
         names: Sequence[str] | None = None,
+        **others: Any,
     ) -> MultiChannelSystem:
         """Return a system constructed from this one, which records the plant and the construction.
 
@@ -802,6 +813,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
             The neighbor graph of the result.
         names : sequence of str, optional
             The channels of the result, by default those of this system.
+        **others
+            Other fields in which the result differs from this system, such as its ``time``.
         """
         if names is None:
             names = self.names if B else ()
@@ -820,8 +833,15 @@ class MultiChannelSystem(ByChannel[Matrix]):
             subject=(*self.subject, dict(construction)),
             rounding=self.rounding,
             _plant=self.plant,
+            _sampled=self if self._is_sampled else self._sampled,
         )
+        system._fill(**others)
         return system
+
+    @property
+    def _is_sampled(self) -> bool:
+        """Whether sampling alone made the system from its plant."""
+        return [each["construction"] for each in self.subject] == ["sampled"]
 
     def with_neighbors(self, graph: NeighborGraph | Mapping[str, Iterable[str]]) -> Self:
         """Return the same system with another neighbor graph, which its plant gets as well.

@@ -29,6 +29,9 @@ PLANT = MultiChannelSystem(
     names=["a", "b"],
     neighbors=GRAPH,
 )
+CONTINUOUS = MultiChannelSystem(
+    [["-1/2", 1], [0, 2]], [[[1, 0], [0, 0]], [[], []]], [[[1, 1]], [[0, 1]]], names=["a", "b"]
+)
 ONE_WAY = PLANT.with_neighbors(NeighborGraph(("a", "b"), [[], [0]]))
 GAINS = [[["1/3"], [2]], []]
 FEEDBACK = [[["1/3", 0], [2, -1]], []]
@@ -47,6 +50,7 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "slow": lambda: mcexact.slow_system(PLANT, 2 * PLANT.n),
     "integrators": lambda: mcexact.setpoint_system(PLANT),
     "regulated": lambda: regulated_outputs(PLANT, [[[2]], [["1/2", 1]]]),
+    "sampled": lambda: mcexact.sampled_system(CONTINUOUS, "1/10", 1),
     "servo": lambda: servo_system(PLANT, [[], [[0, 1]]]),
     "merged": lambda: mcexact.merged(PLANT, [["a", "b"]]),
     "restricted": lambda: mcexact.restricted(PLANT, ["b"]),

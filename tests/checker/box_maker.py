@@ -12,7 +12,7 @@ from fractions import Fraction
 from operator import mul
 from typing import Any
 
-from mcexact.checker.arithmetic import Matrix, beside
+from mcexact.checker.arithmetic import Matrix, absolute, beside
 from mcexact.checker.boxes import augmented, segments_of
 from mcexact.checker.cells import cells_of, members_of_cell
 from mcexact.checker.cells import subject_of as read_subject
@@ -22,7 +22,6 @@ from mcexact.checker.discs import (
     Cell,
     Pencil,
     Regular,
-    absolute,
     left_inverse,
     loop_pencil,
     right_inverse,

@@ -10,10 +10,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.arithmetic import Matrix, absolute
 from mcexact.checker.constructions import CONSTRUCTIONS, read_subject
 from mcexact.checker.discs import LOOP as CLOSED
-from mcexact.checker.discs import absolute
 from mcexact.checker.reading import Refused
 from tests.checker.box_maker import fractions, subject_of
 from tests.checker.box_plants import CALM, CERTAIN, DAMPED, LOOP, PAIR, uncertain
@@ -33,6 +32,7 @@ STEPS: dict[str, Any] = {
     "merged": {"parts": [["1", "2"]]},
     "regulated": {"gains": [matrix([-2], [1], denominator=3), matrix([1])]},
     "restricted": {"channels": ["2"]},
+    "sampled": {"step": "1/10", "late": 1, "decimals": 12},
     "servo": {"gains": [matrix([-3], denominator=2), {"denominator": 1, "entries": []}]},
     "slow": {"window": 4},
 }
@@ -46,7 +46,7 @@ def nonzero(M: Any) -> list[tuple[int, int, Any]]:
 
 
 @pytest.mark.parametrize(
-    "name", sorted({*STEPS} - {"error", "feedback", "regulated", "servo", "slow"})
+    "name", sorted({*STEPS} - {"error", "feedback", "regulated", "sampled", "servo", "slow"})
 )
 def test_a_copy_of_an_entry_has_its_radius_and_all_else_is_certain(name: str) -> None:
     start = DAMPED if name in DISCRETE else CALM

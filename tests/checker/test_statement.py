@@ -37,7 +37,7 @@ from tests.checker.handmade import (
 from tests.checker.manifests import places, replaced
 from tests.checker.parameter_plants import ALL as ABOUT_RANGES
 from tests.checker.test_closed_loop_spectrum import LOOP
-from tests.checker.test_subject import BUILDS, drawn_plant
+from tests.checker.test_subject import BUILDS, TIMES, drawn_plant
 from tests.oracle.certificates.statement import statement as second
 from tests.oracle.certificates.statement import system_words as second_words
 from tests.oracle.drawn.certificates import some_certificate
@@ -69,7 +69,7 @@ def test_the_statement_is_the_one_that_the_format_describes(kind: str) -> None:
 def test_the_system_is_named_as_the_format_describes(name: str) -> None:
     rng = random.Random(name)
     for build in BUILDS[name] * 5:
-        derived = build(rng, drawn_plant(rng, "discrete"))
+        derived = build(rng, drawn_plant(rng, TIMES.get(name, "discrete")))
         document = certificate("x", derived.canonical_document(), {}, {}, *plain(derived.subject))
         assert subject_of(document).words == second_words(document)
 
@@ -208,9 +208,10 @@ THREE = plant([[0, 1], [0, 0]], *PORTS, time="discrete", neighbors=GRAPH, delays
 @pytest.mark.parametrize("name", sorted(CONSTRUCTIONS))
 def test_no_parameter_of_a_construction_is_lost(name: str) -> None:
     """Two systems have the same words exactly if their parameters mean the same."""
+    start = {**THREE, "time": TIMES.get(name, "discrete")}
     rng, base = (
         random.Random(name),
-        read_system(json.dumps({"format": "mcexact-system/1", **THREE})),
+        read_system(json.dumps({"format": "mcexact-system/1", **start})),
     )
     words: dict[str, Any] = {}
     for build in BUILDS[name] * 6:
@@ -219,7 +220,7 @@ def test_no_parameter_of_a_construction_is_lost(name: str) -> None:
         for _, parameters in [((), own), *mutants(own, list(base.names))]:
             written = {"construction": name, **parameters}
             try:
-                system = subject_of(certificate("x", THREE, {}, {}, written))
+                system = subject_of(certificate("x", start, {}, {}, written))
             except Refused:
                 continue
             assert words.setdefault(system.words, meaning(parameters)) == meaning(parameters)

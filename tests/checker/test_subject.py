@@ -30,6 +30,7 @@ from mcexact.derived.constructions import (
     setpoint_system,
     slow_system,
 )
+from mcexact.derived.sampling import sampled_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
@@ -105,6 +106,8 @@ def selection(rng: random.Random, s: MultiChannelSystem) -> list[Matrix]:
     return [drawn(rng, rng.randint(0, 2), s.q(i)) for i in range(s.m)]
 
 
+TIMES = dict.fromkeys(("held", "lifted", "slow"), "discrete") | {"sampled": "continuous"}
+"""The constructions of plants in one time domain alone."""
 Build = Callable[[random.Random, MultiChannelSystem], MultiChannelSystem]
 
 BUILDS: dict[str, list[Build]] = {
@@ -127,6 +130,10 @@ BUILDS: dict[str, list[Build]] = {
     ],
     "regulated": [lambda rng, s: regulated_outputs(s, selection(rng, s))],
     "servo": [lambda rng, s: servo_system(s, selection(rng, s))],
+    "sampled": [
+        lambda rng, s: sampled_system(s, Fraction(1, rng.choice((1, 3, 10))), rng.randint(0, 2)),
+        lambda rng, s: sampled_system(s, Fraction(1, 2), decimals=rng.choice((0, 1, 30))),
+    ],
     "merged": [lambda rng, s: merged(s, drawn_parts(rng, s))],
     "slow": [lambda rng, s: slow_system(s, max(2 * s.n, 1) + rng.randint(0, 2))],
     "restricted": [lambda rng, s: restricted(s, rng.sample(s.names, rng.randint(1, s.m)))],
@@ -160,10 +167,9 @@ def test_a_plant_without_parameters_has_no_line() -> None:
 @pytest.mark.parametrize("name", sorted(CONSTRUCTIONS))
 def test_every_construction_is_built_as_the_finder_builds_it(name: str) -> None:
     rng = random.Random(name)
-    delayed = name in ("held", "lifted", "slow")
     for _ in range(25):
         for build in BUILDS[name]:
-            domain = "discrete" if delayed else rng.choice(["continuous", "discrete"])
+            domain = TIMES.get(name, rng.choice(["continuous", "discrete"]))
             derived = build(rng, drawn_plant(rng, domain))
             document = derived.canonical_document()
             assert_same(read_subject(plain(derived.subject), read_plant(document)), derived)
@@ -172,7 +178,8 @@ def test_every_construction_is_built_as_the_finder_builds_it(name: str) -> None:
 @pytest.mark.parametrize("name", sorted(CONSTRUCTIONS))
 def test_a_construction_has_its_own_arguments_and_no_others(name: str) -> None:
     for build in BUILDS[name]:
-        derived = build(random.Random(name), drawn_plant(random.Random(name), "discrete"))
+        plant = drawn_plant(random.Random(name), TIMES.get(name, "discrete"))
+        derived = build(random.Random(name), plant)
         document = derived.canonical_document()
         (step,) = plain(derived.subject)
         read_subject([step], read_plant(document))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 from mcexact import (
     Box,
     MultiChannelSystem,
+    c2d,
     fixed_spectrum,
     local_controllers,
     save_controller,
@@ -415,12 +417,18 @@ def test_a_plant_that_fails_has_a_certificate(plant: str, tmp_path: Path) -> Non
     assert status == 0 and "0 not" in out
 
 
-def test_a_sampled_plant_has_no_radii_and_says_so(tmp_path: Path) -> None:
+def test_a_sampled_plant_has_the_radii_of_all_members_or_those_of_rounding(tmp_path: Path) -> None:
     save_system(Box.relative(PLANT, "1/100").system, tmp_path / "box.json")
-    status, out, said = call("c2d", str(tmp_path / "box.json"), "--step", "1/10")
-    assert status == 0 and "uncertainty" not in json.loads(out)
-    assert "the radii of the file are not carried over: answers about the sampled plant" in said
-    assert "and the radii of uncertain entries not carried over" in json.loads(out)["source"]
+    status, out, said = call("c2d", str(tmp_path / "box.json"), "--step", "1/10", "--late", "1")
+    assert status == 0 and not said
+    document = json.loads(out)
+    assert "applied 1 step late" in document["source"] and "radii contain" in document["source"]
+    box, rng = Box(read_system(out)), random.Random(5)
+    for _ in range(20):
+        member = Box.relative(PLANT, "1/100").member(rng, vertex=True)
+        assert box.contains(c2d(member, "1/10", 1, decimals=40))
     save_system(PLANT, tmp_path / "plant.json")
     status, out, said = call("c2d", str(tmp_path / "plant.json"), "--step", "1/10")
-    assert status == 0 and "radii" not in said + out
+    assert status == 0 and "radii" not in said + out and "uncertainty" not in json.loads(out)
+    status, out, said = call("c2d", str(tmp_path / "plant.json"), "--step", "1/10", "--enclose")
+    assert Box(read_system(out)).contains(c2d(PLANT, "1/10", decimals=40))

@@ -27,6 +27,7 @@ from mcexact.derived.constructions import (
     setpoint_system,
     slow_system,
 )
+from mcexact.derived.sampling import sampled_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.loop import closed_loop
 from mcexact.model.text import text_of
@@ -90,6 +91,17 @@ def test_checker_and_package_build_the_same_subjects(drawn, seed):
 @given(testing.systems_on_graphs(testing.systems(max_states=3, max_channels=3, time="continuous")))
 def test_they_agree_on_integrators_in_continuous_time_too(drawn):
     rebuilt(setpoint_system(drawn.system))
+
+
+@given(
+    testing.systems_on_graphs(testing.systems(max_states=3, max_channels=3, time="continuous")),
+    st.integers(0, 2),
+    st.sampled_from(["1/10", "1/3", "2"]),
+)
+def test_they_sample_the_same_plants(drawn, late, step):
+    sampled = sampled_system(drawn.system, step, late)
+    rebuilt(sampled)
+    rebuilt(dual(setpoint_system(sampled)))
 
 
 @given(plants, st.integers(0, 10**6), st.booleans())

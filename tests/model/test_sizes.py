@@ -13,10 +13,11 @@ from hypothesis import strategies as st
 from mcexact.analysis.performance import default_weights, weights_in
 from mcexact.checker.reading import Limits, Refused
 from mcexact.checker.system import digest, read_system_file
+from mcexact.derived.sampling import c2d
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.model.loop import closed_loop
 from mcexact.model.sizes import TypicalSizes
-from mcexact.model.statespace import c2d, local_controllers
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system, system_text
 from mcexact.model.units import Units, controller_in, loop_in, power_of_ten, system_in

@@ -39,6 +39,7 @@ from threadpoolctl import threadpool_limits
 
 from mcexact.answer.check import constructed
 from mcexact.answer.evidence import ComplexMatrix
+from mcexact.derived.sampling import sampled_within
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float, vstack
 from mcexact.model.box import Box
@@ -676,6 +677,7 @@ def radii_of(system: MultiChannelSystem) -> Radii:
     multiply entries, with gains replaced by their moduli.  Then every T(S') is within
     T(|S| + D) − T(|S|) of T(S).  A copied entry keeps its radius.  The radius of a sum, such as
     A + Σ B_i F_i C_i, may be larger than any member attains, since its terms count as independent.
+    What is sampled has the radii of `sampled_within`.
 
     Examples
     --------
@@ -692,15 +694,45 @@ def radii_of(system: MultiChannelSystem) -> Radii:
     require_float_range(_matrices(system), (D for _, D in radii.matrices()))
     if not system.subject:
         return radii
-    low = _with_entries(system.plant, map(moduli, _matrices(system.plant)))
-    both = zip(_matrices(low), radii.matrices(), strict=True)
-    high = _with_entries(low, (M + D for M, (_, D) in both))
-    for each in system.subject:
+    low, high = _ends(system.plant, radii)
+    for k, each in enumerate(system.subject):
         if each["construction"] == "closed_loop":
             raise UsageError("radii of a closed loop are a matter of box_stability")
-        low, high = (_moduli_constructed(each, moduli_of) for moduli_of in (low, high))
+        if each["construction"] == "sampled":
+            before = constructed(system.plant, _records(system.subject[:k]))
+            how = Fraction(each["step"]), each["late"], each["decimals"]
+            spread = sampled_within(before, _difference(high, low), *how)
+            low, high = _ends(constructed(before, [each]), spread)
+        else:
+            low, high = (_moduli_constructed(each, moduli_of) for moduli_of in (low, high))
+    return _difference(high, low)
+
+
+def _ends(
+    system: MultiChannelSystem, radii: Radii
+) -> tuple[MultiChannelSystem, MultiChannelSystem]:
+    """The moduli of all entries, and the largest ones within the radii."""
+    low = _with_entries(system, map(moduli, _matrices(system)))
+    both = zip(_matrices(low), radii.matrices(), strict=True)
+    return low, _with_entries(low, (M + D for M, (_, D) in both))
+
+
+def _difference(high: MultiChannelSystem, low: MultiChannelSystem) -> Radii:
+    """By how much entries are larger."""
     A, *ports = (M - N for M, N in zip(_matrices(high), _matrices(low), strict=True))
     return Radii(A, ports[: high.m], ports[high.m :])
+
+
+def _records(subject: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Constructions as in certificates."""
+    records = [dict(each) for each in subject]
+    for record in records:
+        if "gains" in record:
+            gains = record["gains"]
+            record["gains"] = [
+                {"denominator": F.denominator, "entries": F.numerators} for F in gains
+            ]
+    return records
 
 
 def _moduli_constructed(
@@ -709,9 +741,8 @@ def _moduli_constructed(
     """Apply a construction, with its gains replaced by their moduli, and return the moduli."""
     record = dict(construction)
     if "gains" in record:
-        sizes = [moduli(F) for F in record["gains"]]
-        record["gains"] = [{"denominator": F.denominator, "entries": F.numerators} for F in sizes]
-    result: MultiChannelSystem = constructed(system, [record])
+        record["gains"] = [moduli(F) for F in record["gains"]]
+    result: MultiChannelSystem = constructed(system, _records([record]))
     return _with_entries(result, map(moduli, _matrices(result)))
 
 

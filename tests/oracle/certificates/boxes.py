@@ -23,6 +23,7 @@ from .modes import fixed_modes
 from .performance import disturbed_loop
 from .reading import demand, listed, positions, rational, record
 from .roots import inside
+from .sampling import sharpened
 from .several_parameters import read_several
 from .systems import System, read_plant
 
@@ -71,6 +72,7 @@ def members(document: Mapping[str, Any], gain_radii: Any = None) -> Iterator[Sys
 
 def with_gains(plant: System, steps: Sequence[Any], radii: Any, parts: Shares) -> System:
     """The subject of a plant, with gains of its controller within their radii, if there are any."""
+    steps = sharpened(steps)
     if radii is None:
         return built(plant, steps)
     named = [step.get("construction") for step in steps[-1:]]

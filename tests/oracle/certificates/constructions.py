@@ -14,6 +14,7 @@ from .networks import held, lifted
 from .one_parameter import along, read_parametric
 from .reading import demand, integer, listed, matrix, place, positions, record
 from .rearranged import REARRANGING, rearranged
+from .sampling import sampled
 from .several_parameters import read_several
 from .systems import System, read_plant
 
@@ -293,6 +294,7 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "merged": (("parts",), merged),
     "regulated": (("gains",), regulated),
     "restricted": (("channels",), restricted),
+    "sampled": (("step", "late", "decimals"), sampled),
     "servo": (("gains",), servo),
     "closed_loop": (("controller",), lambda system, g: closed_loop(system, g["controller"])),
 }

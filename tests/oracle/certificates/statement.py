@@ -47,15 +47,17 @@ def statement(document: Mapping[str, Any]) -> str:
 def members(document: Mapping[str, Any]) -> str:
     """All plants of the box."""
     plant = read_plant(document["system"])
+    sampled = any(step["construction"] == "sampled" for step in document["subject"])
+    behind = ", sampled without rounding" if sampled else ""
     if plant.radii is None:
-        return "for this plant alone, as none of its entries has a radius"
+        return f"for this plant alone, as none of its entries has a radius{behind}"
     certain = {key: part for key, part in document["system"].items() if key != "uncertainty"}
     pairs = []
     for M, D in zip((plant.A, *plant.B, *plant.C), _flat(plant.radii), strict=True):
         pairs += zip(D.entries(), M.entries(), strict=True)
     how = near(pairs, f"the radii of the plant {plant_digest(document)}")
     values = plant_digest({**document, "system": certain})
-    return f"for all plants whose entries differ from those of the plant {values} {how}"
+    return f"for all plants whose entries differ from those of the plant {values} {how}{behind}"
 
 
 def _flat(radii: Any) -> list[Any]:
@@ -208,6 +210,12 @@ def _words(step: Mapping[str, Any], system: System) -> str:
     if kind == "closed_loop":
         shown = digested(_controller(step["controller"], system))
         return f"the closed loop with the controller with {shown} of: "
+    if kind == "sampled":
+        late = step["late"]
+        delay = f" and {late} step{'s' * (late != 1)} late" if late else ""
+        k = step["decimals"]
+        digits = f"{k} decimal{'s' * (k != 1)}"
+        return f"sampled every {rational(step['step'])} with its inputs held{delay}, to {digits}"
     if kind == "slow":
         return f"the system in windows of {step['window']} steps of: "
     if kind in ("extended", "lifted", "held"):

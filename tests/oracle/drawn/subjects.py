@@ -13,8 +13,8 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "slow", "integrators", "error", "merged", "regulated", "restricted", "servo", "closed_loop",
-    "line",
+    "slow", "integrators", "error", "merged", "regulated", "restricted", "sampled", "servo",
+    "closed_loop", "line",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "slow", "error")
 LARGEST = 12
@@ -32,6 +32,8 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
     if system.neighborhoods is None and name in NEEDS_GRAPH:
         return None
     if system.time == "continuous" and name in ("lifted", "held", "slow"):
+        return None
+    if system.time == "discrete" and name == "sampled":
         return None
     if name == "line":  # only of plants with parameters, which `drawn_on_a_line` draws
         return None
@@ -58,6 +60,9 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
         if name != "held":
             step["share"] = rng.choice(("outputs+states", "states"))
         step["dimensions"] = [rng.choice((0, 1, 1, 2)) for _ in range(m)]
+    elif name == "sampled":
+        step["step"] = rng.choice((1, "1/2", "1/10", "1/3"))
+        step |= {"late": rng.choice((0, 0, 1, 2)), "decimals": rng.choice((3, 12, 12))}
     elif name == "slow":
         step["window"] = max(2 * system.n, 1) + rng.choice((0, 0, 1, 2, -1))
     elif name == "merged":
