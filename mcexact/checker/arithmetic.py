@@ -94,12 +94,13 @@ def by_coefficient_units(rows: int, ncols: int, ell: int) -> int:
 
 def byte_sum(rows: Iterable[bytes], ncols: int, ell: int) -> bytes:
     """The sum modulo ℓ of rows of residues, which are added as long integers."""
-    most, table, total = most_addends(ell), multiples(ell)[1], 0
-    for k, row in enumerate(rows, start=1):
-        total += int.from_bytes(row, "little")
-        if k % (most - 1) == 0:
-            total = int.from_bytes(total.to_bytes(ncols, "little").translate(table), "little")
-    return total.to_bytes(ncols, "little").translate(table)
+    most, table = most_addends(ell), multiples(ell)[1]
+    numbers = [int.from_bytes(row, "little") for row in rows]
+    total = sum(numbers[:most]).to_bytes(ncols, "little").translate(table)
+    for k in range(most, len(numbers), most - 1):
+        more = int.from_bytes(total, "little") + sum(numbers[k : k + most - 1])
+        total = more.to_bytes(ncols, "little").translate(table)
+    return total
 
 
 def most_addends(ell: int) -> int:
@@ -111,6 +112,42 @@ def most_addends(ell: int) -> int:
 def multiples(ell: int) -> list[bytes]:
     """The multiples of all bytes modulo ℓ, by the factor."""
     return [bytes(factor * byte % ell for byte in range(256)) for factor in range(ell)]
+
+
+class Logarithms:
+    """Products of residues modulo a small prime, byte by byte, as sums of logarithms.
+
+    Attributes
+    ----------
+    of : bytes
+        The logarithms of the residues, as a table.
+    zero : int
+        That of 0: more than the sum of two others, and twice as much still is a byte.
+    """
+
+    def __init__(self, ell: int, root: int) -> None:
+        self.zero = 2 * ell - 3
+        powers = [pow(root, k, ell) for k in range(self.zero)]
+        self.of = bytes([self.zero, *map(powers.index, range(1, ell))]).ljust(256, b"\0")
+        self._powers = bytes(powers).ljust(256, b"\0")
+
+    def packed(self, residues: Iterable[int]) -> int:
+        """The logarithms of some residues, as one long integer."""
+        return int.from_bytes(bytes(residues).translate(self.of), "little")
+
+    def products(self, sums: int, many: int) -> bytes:
+        """So many products, by the sums of the logarithms of their factors."""
+        return sums.to_bytes(many, "little").translate(self._powers)
+
+
+@cache
+def logarithms(ell: int) -> Logarithms | None:
+    """The logarithms modulo ℓ ≤ ``SMALL``, to the least primitive root; None if ℓ is not prime."""
+    if ell > SMALL:
+        return None
+    orders = ((root, {pow(root, k, ell) for k in range(ell - 1)}) for root in range(1, ell))
+    root = next((root for root, powers in orders if powers == set(range(1, ell))), None)
+    return None if root is None else Logarithms(ell, root)
 
 
 class Combination:

@@ -17,6 +17,7 @@
 """
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from itertools import accumulate, chain, zip_longest
@@ -25,9 +26,9 @@ from typing import Any
 
 from . import arithmetic, budget, reading
 from .arithmetic import (
-    SMALL,
     Combination,
     Entry,
+    Logarithms,
     Matrix,
     PackedRows,
     Polynomial,
@@ -41,6 +42,7 @@ from .arithmetic import (
     convolution,
     coprime,
     entries_of,
+    logarithms,
     multiples,
     poly_modulo,
     rank,
@@ -400,7 +402,7 @@ def _products(
             pairs = ((x, numbers[j]) for j, x in line)
             made.append(byte_sum(by_coefficient(pairs, width, ell), width, ell))
             continue
-        parts = [power[j].translate(tables[x]) for j, x in line if power[j]]
+        parts = [power[j] if x == 1 else power[j].translate(tables[x]) for j, x in line if power[j]]
         made.append(byte_sum(parts, width, ell) if parts else b"")
     return made
 
@@ -409,64 +411,91 @@ def _products(
 
 LONG = 32
 """Columns of more entries are added up one by one."""
+FULL = 5
+"""A diagonal of at least n / 5 entries is multiplied as a whole."""
 
 
 class SparseStep:
     """u ↦ uM modulo ℓ for an n × n matrix M, given by its residues that are not 0.
 
-    The entries of u are in another ``order``: first the columns of at most ``LONG`` entries, those
-    with the most entries first.  So the first entries of all columns are added to the second ones
-    of the first columns, which have two, and so on.
+    Modulo a small prime, diagonals of many entries are multiplied by the whole of u, by logarithms.
+    The other entries come in layers: of the columns of at most ``LONG`` of them, those with the
+    most first, all first entries, then the second ones of those columns that have two, and so on.
+    Without diagonals the entries of u are in that ``order`` of the columns.
     """
 
     def __init__(self, entries: Sequence[Entry], n: int, ell: int) -> None:
-        self.ell = ell
+        self.ell, self.n = ell, n
         spend(300 * (len(entries) + n))
+        self.tables = logarithms(ell)
+        full: dict[int, bytearray] = {}
+        if self.tables:
+            often = Counter(i - j for i, j, _ in entries)
+            zeros = bytes([self.tables.zero]) * n
+            full = {k: bytearray(zeros) for k, many in often.items() if FULL * many >= n}
+        self.mask = (1 << 8 * n) - 1
         columns: list[list[tuple[int, int]]] = [[] for _ in range(n)]
         for i, j, x in entries:
-            columns[j].append((i, x))
+            if self.tables and i - j in full:
+                full[i - j][j] = self.tables.of[x]
+            else:
+                columns[j].append((i, x))
+        self.diagonals = [(8 * k, int.from_bytes(row, "little")) for k, row in full.items()]
         sizes = [(len(column) > LONG, -len(column), j) for j, column in enumerate(columns)]
-        self.order = [j for _, _, j in sorted(sizes)]
+        self.columns = [j for _, many, j in sorted(sizes) if many or not full]
+        self.order = list(range(n)) if full else self.columns
         place = {j: k for k, j in enumerate(self.order)}
-        ordered = [[(place[i], x) for i, x in columns[j]] for j in self.order]
+        ordered = [[(place[i], x) for i, x in columns[j]] for j in self.columns]
         short = [column for column in ordered if len(column) <= LONG]
-        self.short, self.n = len(short), n
-        self.values = sorted({x for _, _, x in entries}) if ell <= SMALL else []
-        slot = {x: k * n for k, x in enumerate(self.values)}
-        self.layers: list[tuple[Any, list[int]]] = []
+        self.short = len(short)
+        self.layers: list[tuple[Any, int, Any]] = []
         for e in range(len(short[0]) if short else 0):
             layer = [column[e] for column in short if len(column) > e]
-            places = [i + slot.get(x, 0) for i, x in layer]
             # of two places or more a tuple is made; those at the end are not looked at
-            self.layers.append((itemgetter(*places, 0, 0), [x for _, x in layer]))
+            gather = itemgetter(*(i for i, _ in layer), 0, 0)
+            xs = [x for _, x in layer]
+            factors = self.tables.packed(xs) if self.tables else xs
+            self.layers.append((gather, len(layer), factors))
         self.long = [
             (itemgetter(*(i for i, _ in column)), [x for _, x in column])
             for column in ordered[self.short :]
         ]
-        self.units = 1000 + len(entries) * (1 if self.values else 4) + n * len(self.values) // 32
+        one_by_one = sum(map(len, columns)) * (1 if self.tables else 4)
+        self.units = 1000 + one_by_one + n * len(self.diagonals) // 8
 
     def start(self, row: Sequence[int]) -> Sequence[int]:
         """A row with its entries in ``order``, as `__call__` takes it."""
         placed = [row[j] for j in self.order]
-        return bytes(placed) if self.ell <= SMALL else placed
+        return bytes(placed) if self.tables else placed
 
     def __call__(self, u: Sequence[int]) -> Sequence[int]:
         """The product of a row with M; it takes ``units`` of work, which the caller charges."""
         long = [sum(map(mul, gather(u), xs)) % self.ell for gather, xs in self.long]
-        if isinstance(u, bytes):
-            return self._added(u) + bytes(long)
+        if self.tables:
+            return self._added(bytes(u), bytes(long), self.tables)
         total = [0] * self.short
-        for gather, xs in self.layers:
-            part = list(map(mul, gather(u), xs))
-            total[: len(part)] = map(add, total, part)
+        for gather, many, xs in self.layers:
+            total[:many] = map(add, total, map(mul, gather(u), xs))
         return [x % self.ell for x in total] + long
 
-    def _added(self, u: bytes) -> bytes:
-        """The product with the short columns, if ℓ is small: a sum of multiples of u."""
-        tables = multiples(self.ell)
-        products = b"".join(u.translate(tables[x]) for x in self.values)
-        layers = (bytes(gather(products)[: len(xs)]) for gather, xs in self.layers)
-        return byte_sum(layers, self.short, self.ell)
+    def _added(self, u: bytes, long: bytes, tables: Logarithms) -> bytes:
+        """The same of bytes: sums of logarithms are products."""
+        logs, n = u.translate(tables.of), self.n
+        layers = (
+            tables.products(int.from_bytes(bytes(gather(logs)[:many]), "little") + of, many)
+            for gather, many, of in self.layers
+        )
+        rest = byte_sum(layers, self.short, self.ell) + long
+        if not self.diagonals:
+            return rest
+        row, whole = bytearray(n), int.from_bytes(logs, "little")
+        for j, x in zip(self.columns, rest, strict=True):
+            row[j] = x
+        shifted = (
+            (whole >> k if k >= 0 else whole << -k & self.mask, of) for k, of in self.diagonals
+        )
+        full = (tables.products(moved + of, n) for moved, of in shifted)
+        return byte_sum(chain([bytes(row)], full), n, self.ell)
 
 
 def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entry] | None:
