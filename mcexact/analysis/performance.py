@@ -983,7 +983,7 @@ class PortResponse:
         self.poles = np.linalg.eigvals(self.m)
         edge = np.abs(self.poles) >= 1 if discrete else self.poles.real >= 0
         self.unstable = bool(np.any(edge))
-        self._modal = _modal_form(self.m, self.e, self.y)
+        self._modal = modal_form(self.m, self.e, self.y)
 
     def _points(self) -> npt.NDArray[np.complex128]:
         """Points of the border of the stable region, close to each other near the poles."""
@@ -1043,17 +1043,7 @@ class PortResponse:
             return float(np.max(np.abs(self._samples[:, places[0], places[0]]))), np.ones(1)
         whole = places == list(range(self.ports))
         samples = self._samples if whole else self._samples[:, places][:, :, places]
-        moduli = np.abs(samples)
-        best, worst = _largest_gain(samples, moduli, np.ones(len(places)))
-        theta = chosen = np.ones(len(places))
-        for _ in range(6):
-            target = np.clip(_osborne(worst), 1 / _SCALINGS, _SCALINGS)
-            theta = np.exp((np.log(theta) + np.log(target)) / 2)
-            rounded = np.exp2(np.round(np.log2(theta)))
-            value, worst = _largest_gain(samples, moduli, rounded)
-            if value < best:
-                best, chosen = value, rounded
-        return best, chosen
+        return scaled_norm(samples)
 
     def proved(self, ports: Sequence[int], alpha: Fraction) -> MarginPart | None:
         """A matrix that proves the margin of these ports together; None if none holds."""
@@ -1126,7 +1116,7 @@ class PortResponse:
         return P
 
 
-def _modal_form(m: Floats, e: Floats, y: Floats) -> tuple[Complexes, Complexes, Complexes] | None:
+def modal_form(m: Floats, e: Floats, y: Floats) -> tuple[Complexes, Complexes, Complexes] | None:
     """λ, yV and V⁻¹e of m = V diag(λ) V⁻¹; None if the eigenvectors are too ill-conditioned."""
     values, V = np.linalg.eig(m)
     try:
@@ -1137,6 +1127,24 @@ def _modal_form(m: Floats, e: Floats, y: Floats) -> tuple[Complexes, Complexes, 
     if len(m) and np.linalg.cond(V) > _CONDITION:
         return None
     return np.asarray(values, dtype=np.complex128), np.asarray(y @ V), np.asarray(right)
+
+
+def scaled_norm(samples: Complexes) -> tuple[float, Floats]:
+    """The largest norm of Θ^½ G Θ^−½ among samples G, for a diagonal Θ that makes it small.
+
+    The entries of Θ are powers of 2.
+    """
+    moduli = np.abs(samples)
+    theta = chosen = np.ones(samples.shape[-1])
+    best, worst = _largest_gain(samples, moduli, chosen)
+    for _ in range(6):
+        target = np.clip(_osborne(worst), 1 / _SCALINGS, _SCALINGS)
+        theta = np.exp((np.log(theta) + np.log(target)) / 2)
+        rounded = np.exp2(np.round(np.log2(theta)))
+        value, worst = _largest_gain(samples, moduli, rounded)
+        if value < best:
+            best, chosen = value, rounded
+    return best, chosen
 
 
 def _largest_gain(samples: Complexes, moduli: Floats, scaling: Floats) -> tuple[float, Complexes]:

@@ -37,19 +37,21 @@ from mcexact.model.regulated import positions_of, selection_in_words
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import parse
 from mcexact.report.text import Table, measured, tables
-from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.assessment import Assessment, assess
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Warned
 from mcexact.synthesis.optimum.figures import Aims
-from mcexact.synthesis.performance import Performance, performance_of
+from mcexact.synthesis.performance import NO_TIME, Performance, PerformanceSearch
 from mcexact.synthesis.robustness import EveryLoop
 from mcexact.synthesis.setpoint import design_setpoint, held_together, selected
 from mcexact.synthesis.state_feedback import require_numbers
 
 _PROVING = 0.5
 """The part of the rest of the time after which no further proof of the performance is begun."""
+_SHOWING = 0.2
+"""The part of the rest of the time that is left for showing the result."""
 _NOTHING_ELSE = (
     "the time limit ended the proofs of the cost and of the margins, whose figures are computed, "
     "and no box of plants was sought"
@@ -175,35 +177,46 @@ class _Shaped:
             The time of `time.monotonic` at which the time limit ends this process.
         report : Reporting
         """
-        closed, proved, every_loop = self.design.loop.closed, None, None
-        if not self.design.stable:
-            return self.shown(None, None)
-        if end is not None:
-            report.keep(DESIGNED, self.shown(None, None, _NOTHING_ELSE))
-        report.step("proofs of the cost and of the margins")
+        design = self.design
+        every_loop: EveryLoop | None = None
+        if not design.stable:
+            return self._shown(assess(design, self.aims), None, None)
+        search = PerformanceSearch(design.loop.closed, self.weights)
+        computed = search.computed
+        assessment = assess(design, self.aims, performance=computed)
+
+        def shown(proved: Performance, note: str | None = None) -> Loop:
+            known = assessment.with_proofs(design, every_loop, proved)
+            return self._shown(known, proved, every_loop, note)
+
         deadline = None
         if end is not None:
+            computed = replace(computed, left_out=dict.fromkeys(computed.left_out, NO_TIME))
+            report.keep(DESIGNED, shown(computed, _NOTHING_ELSE))
             deadline = time.monotonic() + _PROVING * (end - time.monotonic())
-        proved = performance_of(
-            closed, weights=self.weights, prove_all=self.prove_all, deadline=deadline
-        )
+        report.step("proofs of the cost and of the margins")
+        proved = search.proved(prove_all=self.prove_all, deadline=deadline)
         if self.with_box:
             if end is not None:
-                report.keep(DESIGNED, self.shown(proved, None, _NO_BOX))
+                report.keep(DESIGNED, shown(proved, _NO_BOX))
             report.step("a proof for a box of plants")
-            effort = self.aims.effort
-            every_loop = self.design.every_loop(**({"effort": effort} if effort else {}))
-        return self.shown(proved, every_loop)
+            effort = {"effort": self.aims.effort} if self.aims.effort else {}
+            rest = None if end is None else end - _SHOWING * (end - time.monotonic())
+            every_loop = design.every_loop(**effort, deadline=rest)
+        return shown(proved)
 
-    def shown(
-        self, proved: Performance | None, every_loop: EveryLoop | None, note: str | None = None
+    def _shown(
+        self,
+        assessment: Assessment,
+        proved: Performance | None,
+        every_loop: EveryLoop | None,
+        note: str | None = None,
     ) -> Loop:
         """The design with what is proved of it, and a note of what is left out."""
         design = self.design
         if note is not None:
-            design = replace(design, notes=(*design.notes, note))
+            assessment = replace(assessment, notes=(*assessment.notes, note))
         account = design.account_with(every_loop, proved)
-        assessment = assess(design, self.aims, every_loop, proved)
         rows = [*unproved(proved), *assessment.rows()]
         figures = measured(design.measures(), rows, account.sentences, design.region.discrete)
         listed = tables(account.sentences, note=account.reading)

@@ -176,7 +176,7 @@ def distance_at(
 
 def _obstruction(
     A: Array, B: Sequence[Array], C: Sequence[Array], T: frozenset[int], value: complex
-) -> tuple[NDArray[np.complex128], int]:
+) -> tuple[Array | NDArray[np.complex128], int]:
     """Return M = [Π(λI − A); C_s] and the required number of columns of U."""
     n = A.shape[0]
     inputs = np.hstack([np.zeros((n, 0)), *(B[i] for i in sorted(T))])
@@ -185,7 +185,8 @@ def _obstruction(
     image = basis[:, :rank]
     project = np.eye(n) - image @ image.T
     rest = [C[i] for i in range(len(C)) if i not in T]
-    return np.vstack([project @ (value * np.eye(n) - A), *rest]).astype(np.complex128), rank + 1
+    at = value if value.imag else value.real
+    return np.vstack([project @ (at * np.eye(n) - A), *rest]), rank + 1
 
 
 def _size(
@@ -203,16 +204,20 @@ def _best_channels(
     A: Array, B: Sequence[Array], C: Sequence[Array], value: complex
 ) -> tuple[frozenset[int], float]:
     """Find the best of a few sets T, then improve it one channel at a time."""
-    T = min(few_subsets(len(B)), key=lambda each: (_size(A, B, C, each, value), sorted(each)))
-    size = _size(A, B, C, T, value)
+    known = dict[frozenset[int], float]()
+
+    def size_of(each: frozenset[int]) -> float:
+        if each not in known:
+            known[each] = _size(A, B, C, each, value)
+        return known[each]
+
+    T = min(few_subsets(len(B)), key=lambda each: (size_of(each), sorted(each)))
     for _ in range(_ROUNDS):
-        near = [T ^ {i} for i in range(len(B))]
-        sizes = [_size(A, B, C, each, value) for each in near]
-        k = int(np.argmin(sizes))
-        if not sizes[k] < size:
+        near = min((T ^ {i} for i in range(len(B))), key=size_of, default=T)
+        if not size_of(near) < size_of(T):
             break
-        T, size = near[k], sizes[k]
-    return T, size
+        T = near
+    return T, size_of(T)
 
 
 # Controllability of a pair by the numerical rank of its controllability matrix.

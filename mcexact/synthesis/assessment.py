@@ -57,6 +57,7 @@ from mcexact.synthesis.optimum.figures import (
     DISK,
     MARGIN,
     NO_LIMITS,
+    TOGETHER,
     Aims,
     Figures,
     Shape,
@@ -78,7 +79,7 @@ BASIS = "computed in floating point, not certified"
 _COMPUTED = " (computed)"
 LONGEST = 160
 """The characters of the first line."""
-_NO_DISK, _TOGETHER, _TIMES_THE_BOUND = 0.1, 0.2, 3.0
+_NO_DISK, _TIMES_THE_BOUND = 0.1, 3.0
 _FAILS, _FAILS_AT_ONCE = Fraction(1, 100), Fraction(1, 1000)
 _DAMPING, _SLOWER = 0.05, 0.99
 _STEP_PEAK, _DIGITS = 2.0, 4
@@ -170,6 +171,28 @@ class Assessment(Shown):
     def _labeled(self) -> list[tuple[str, str]]:
         """Return the verdict and the figures as labels and texts."""
         return [("verdict", self.verdict), *self.rows()]
+
+    def with_proofs(
+        self,
+        design: Design,
+        every_loop: EveryLoop | None = None,
+        performance: Performance | None = None,
+    ) -> Assessment:
+        """Return the assessment of the same design with what else is proved of it.
+
+        Parameters
+        ----------
+        design : Design
+        every_loop, performance : optional
+            As for `assess`; a performance that is left out stays as it was.
+        """
+        known = self if performance is None else replace(self, performance=performance)
+        if design.loop.closed.plant.uncertainty is None:
+            failing = None if every_loop is None else every_loop.failing
+            return replace(known, fails_within=None if failing is None else failing.distance)
+        return replace(
+            known, within_radii="open" if every_loop is None else every_loop.within_radii
+        )
 
     @property
     def central(self) -> Figures | None:
@@ -302,7 +325,7 @@ class Assessment(Shown):
             return
         if _NO_DISK <= known.least_margin < DISK:
             yield self._weak(known)
-        if known.joint_margin < _TOGETHER:
+        if known.joint_margin < TOGETHER:
             margin = shown(known.joint_margin)
             text = f"the disk margin of all inputs, or of all outputs, together is {margin}"
             yield f"joint margin {margin}", text
@@ -537,12 +560,7 @@ def assess(
     optimum = parts.get("optimum")
     if optimum is not None:
         assessment = replace(assessment, asked=optimum.asked)
-    if design.loop.closed.plant.uncertainty is None:
-        failing = None if every_loop is None else every_loop.failing
-        return replace(assessment, fails_within=None if failing is None else failing.distance)
-    return replace(
-        assessment, within_radii="open" if every_loop is None else every_loop.within_radii
-    )
+    return assessment.with_proofs(design, every_loop, performance)
 
 
 def assessed_loop(

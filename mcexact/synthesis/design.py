@@ -119,13 +119,15 @@ class Design(ShownByAccount):
         """The certificates, with the sentences that follow from them."""
         return self.account_with(None)
 
-    def every_loop(self, effort: float = 5.0) -> EveryLoop:
+    def every_loop(self, effort: float = 5.0, deadline: float | None = None) -> EveryLoop:
         """Search a proof for all loops in a box around the plant, and a plant whose loop fails.
 
         Parameters
         ----------
         effort : float
             About the seconds that the search of a proof may take.
+        deadline : float, optional
+            The time of `time.monotonic` after which no further work is begun.
 
         Returns
         -------
@@ -133,7 +135,7 @@ class Design(ShownByAccount):
             If the plant has radii, the box has these.  Otherwise each radius is the same part of
             its entry, which the search chooses.
         """
-        return every_loop(self.loop.closed, self.region, effort)
+        return every_loop(self.loop.closed, self.region, effort, deadline)
 
     def account_with(
         self, around: EveryLoop | None, performance: Performance | None = None

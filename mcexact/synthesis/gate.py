@@ -68,6 +68,8 @@ class Request:
         where a search starts, too.
     deadline : float or None
         The time of `time.monotonic` at which a search ends with the best controller so far.
+    sensible : StabilityRegion or None
+        The fastest region that one controller for all agents can afford, where it was searched.
     """
 
     region: StabilityRegion
@@ -78,6 +80,7 @@ class Request:
     notes: tuple[str, ...] = ()
     brisk: StabilityRegion | None = None
     deadline: float | None = None
+    sensible: StabilityRegion | None = None
 
     @classmethod
     def of(

@@ -91,6 +91,8 @@ _BARS = {
 }
 _MOST_CURVES = 4
 """The single loops whose curves are kept."""
+NO_TIME = "the time limit left no time for it"
+"""Why a proof was not sought before a deadline."""
 
 
 @dataclass(frozen=True)
@@ -302,7 +304,6 @@ def performance_of(
     weights: CostWeights | Mapping[str, Any] | None = None,
     prove_all: bool = False,
     proofs: bool = True,
-    deadline: float | None = None,
 ) -> Performance:
     """Prove the cost of a loop, a bound for every controller, and disk margins.
 
@@ -315,58 +316,99 @@ def performance_of(
         As for `loop_performance`.
     proofs : bool
         Whether anything is proved; otherwise all figures are computed alone.
-    deadline : float, optional
-        The time of `time.monotonic` after which no further proof is begun.
+    """
+    search = PerformanceSearch(loop, weights)
+    return search.proved(prove_all=prove_all) if proofs else search.computed
+
+
+class PerformanceSearch:
+    """The search for proofs of how well a loop performs, whose figures are computed first.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    weights : CostWeights, or mapping, optional
+        As for `performance_of`.
+
+    Attributes
+    ----------
+    computed : Performance
+        All figures, of which nothing is proved; no figures of a loop that is not stable.
 
     Notes
     -----
     All is calculated in units near the sizes of the plant; proofs are about the loop of the file.
     """
-    left_out = dict[str, str]()
-    if not isinstance(weights, CostWeights):
-        try:
-            weights = cost_weights(loop.plant, weights)
-        except UsageError as unproved:
-            weights, left_out = default_weights(loop.plant), {"loop_cost": unproved.message}
-    units = Units.of(loop.plant)
-    inner, weighed = loop, weights
-    if units is not None:
-        inner, weighed = loop_in(units, loop), weights_in(units, weights)
-    responses = {side: response_of(inner, side) for side in SIDES}
-    if any(each.unstable for each in responses.values()):
-        return Performance(weights)
-    margins = {side: computed_margins(each) for side, each in responses.items()}
-    seen, weakest = _computed(inner, weighed, margins), _weakest(loop.plant, margins)
-    loops = _single_loops(loop.plant, margins, responses)
-    asked = _proofs(inner, weighed, responses)
-    if left_out:
-        asked = {name: each for name, each in asked.items() if name in MARGINS}
-        seen = {name: value for name, value in seen.items() if name in MARGINS}
-    if not proofs:
-        return Performance(weights, {}, seen, dict.fromkeys(seen, "not tried"), weakest, loops)
-    work = _Work(prove_all=prove_all)
-    answers = dict[str, Answer]()
-    for name, each in asked.items():
-        if deadline is not None and time.monotonic() >= deadline:
-            left_out[name] = "the time limit left no time for it"
-            continue
-        if not work.allows(each):
-            size = f"about {each.bytes / 1e6:.1f} MB, and takes {each.seconds:.0f} s to check"
-            left_out[name] = f"a proof has {size} (--prove-all)"
-            continue
-        try:
-            proved = each.prove()
-            if proved is not None and units is not None:
-                proved = in_file_units(proved, loop, units)
-        except (LimitReached, UsageError) as reached:
-            left_out[name] = reached.message
-            continue
-        if proved is None:
-            left_out[name] = "no proof was found"
-        else:
-            answers[name] = proved
-            work.done(each, len(encode(proved)))
-    return Performance(weights, answers, seen, left_out, weakest, loops)
+
+    def __init__(
+        self, loop: ClosedLoop, weights: CostWeights | Mapping[str, Any] | None = None
+    ) -> None:
+        self._loop, self._left_out = loop, dict[str, str]()
+        if not isinstance(weights, CostWeights):
+            try:
+                weights = cost_weights(loop.plant, weights)
+            except UsageError as unproved:
+                weights = default_weights(loop.plant)
+                self._left_out = {"loop_cost": unproved.message}
+        self._units = Units.of(loop.plant)
+        inner, weighed = loop, weights
+        if self._units is not None:
+            inner, weighed = loop_in(self._units, loop), weights_in(self._units, weights)
+        responses = {side: response_of(inner, side) for side in SIDES}
+        self._asked: dict[str, _Proof] = {}
+        if any(each.unstable for each in responses.values()):
+            self.computed = Performance(weights)
+            return
+        margins = {side: computed_margins(each) for side, each in responses.items()}
+        seen, self._asked = (
+            _computed(inner, weighed, margins),
+            _proofs(inner, weighed, responses),
+        )
+        if self._left_out:
+            self._asked = {name: each for name, each in self._asked.items() if name in MARGINS}
+            seen = {name: value for name, value in seen.items() if name in MARGINS}
+        self.computed = Performance(
+            weights,
+            {},
+            seen,
+            dict.fromkeys(seen, "not tried"),
+            _weakest(loop.plant, margins),
+            _single_loops(loop.plant, margins, responses),
+        )
+
+    def proved(self, *, prove_all: bool = False, deadline: float | None = None) -> Performance:
+        """Prove what certificates of a limited size prove, the most important first.
+
+        Parameters
+        ----------
+        prove_all : bool
+            As for `loop_performance`.
+        deadline : float, optional
+            The time of `time.monotonic` after which no further proof is begun.
+        """
+        work, left_out = _Work(prove_all=prove_all), dict(self._left_out)
+        answers = dict[str, Answer]()
+        for name, each in self._asked.items():
+            if deadline is not None and time.monotonic() >= deadline:
+                left_out[name] = NO_TIME
+                continue
+            if not work.allows(each):
+                size = f"about {each.bytes / 1e6:.1f} MB, and takes {each.seconds:.0f} s to check"
+                left_out[name] = f"a proof has {size} (--prove-all)"
+                continue
+            try:
+                proof = each.prove()
+                if proof is not None and self._units is not None:
+                    proof = in_file_units(proof, self._loop, self._units)
+            except (LimitReached, UsageError) as reached:
+                left_out[name] = reached.message
+                continue
+            if proof is None:
+                left_out[name] = "no proof was found"
+            else:
+                answers[name] = proof
+                work.done(each, len(encode(proof)))
+        return replace(self.computed, answers=answers, left_out=left_out)
 
 
 Responses = Mapping[Side, PortResponse]

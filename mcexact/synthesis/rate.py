@@ -86,9 +86,11 @@ since all agents together have no optimal controller
     """
     aims = Aims() if aims is None else aims
     InputError.require(aims, Aims, "aims")
+    # The choice of a rate counts, too.
+    deadline = None if aims.seconds is None else time.monotonic() + aims.seconds
     if spectrum is not None or rate is not None or radius is not None:
         request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
-        return _limited(request, aims)
+        return _limited(replace(request, deadline=deadline), aims)
     telling(progress)("the sensible rate")
     about, weights = in_own_units(system), Weights.of(system, aims.weights, Units.of(system))
     if selection is not None:
@@ -112,13 +114,13 @@ since all agents together have no optimal controller
         note = f"no {region.word} was given: {sought}, {reason}"
     asked: dict[str, Any] = {region.word: region.edge}
     request = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **asked)
-    return _limited(replace(request, notes=(note,), brisk=brisk), aims)
+    sensible = None if chosen is None else chosen.sensible
+    chosen_for = replace(request, notes=(note,), brisk=brisk, deadline=deadline, sensible=sensible)
+    return _limited(chosen_for, aims)
 
 
 def _limited(request: Request, aims: Aims) -> Request:
-    """Add the deadline, and the limits of the aims that are proved in continuous time."""
-    if aims.seconds is not None:
-        request = replace(request, deadline=time.monotonic() + aims.seconds)
+    """Add the limits of the aims that are proved in continuous time."""
     if request.region.discrete:
         return request
     region = request.region.limited(damping=aims.damping, largest_modulus=aims.largest_modulus)

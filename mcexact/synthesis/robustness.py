@@ -10,6 +10,7 @@ finds larger boxes and nearer plants with more work.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -47,6 +48,7 @@ _LEFT, _FEWEST = 800, 10
 """The parts of the border that are tried for disk margins, and the fewest for one side."""
 _LITTLE = 300
 """With fewer parts of the border than these, only the boxes that likely have a proof are tried."""
+_LATE = "the time limit ended the search of a proof"
 _ASK = "; `mcexact certify --uncertainty 0.1%` asks about one box with more work"
 _ASK_OWN = "; `mcexact certify` asks about them with more work"
 
@@ -132,34 +134,44 @@ class _Work:
     each, left : int
     parts : tuple of float
         The parts of what seems to be the largest box that are tried.
+    deadline : float or None
+        The time of `time.monotonic` after which nothing else is tried.
     """
 
     each: int
     left: int
     parts: tuple[float, ...]
+    deadline: float | None = None
 
     @classmethod
-    def of(cls, effort: float, size: int) -> _Work:
+    def of(cls, effort: float, size: int, deadline: float | None = None) -> _Work:
         """The work of some seconds for a loop with some number of signals."""
         total = int(min(effort * _PER_SECOND * (_USUAL / max(size, 1)) ** 2, 1e6))
         if total < _LITTLE:
-            return cls(2 * total // 3, total, _SURE)
-        return cls(min(total // 3, _MOST_SEGMENTS), total, _PARTS)
+            return cls(2 * total // 3, total, _SURE, deadline)
+        return cls(min(total // 3, _MOST_SEGMENTS), total, _PARTS, deadline)
+
+    @property
+    def late(self) -> bool:
+        """Whether the deadline has passed."""
+        return self.deadline is not None and time.monotonic() >= self.deadline
 
     def proof(
         self, loop: ClosedLoop, region: StabilityRegion, gains: Fraction | None
     ) -> BoxStability | None:
         """A proof for the box of the plant, if it is found soon."""
-        if self.left < self.each or not self.each:
+        if self.left < self.each or not self.each or self.late:
             return None
         radii = None if gains is None else gain_radii(loop.controller, gains)
-        search = StabilitySearch(loop, region, radii, self.each)
+        search = StabilitySearch(loop, region, radii, self.each, deadline=self.deadline)
         border = search.border(Fraction(1))
         self.left -= search.tested
         return border
 
 
-def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -> EveryLoop:
+def every_loop(
+    loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0, deadline: float | None = None
+) -> EveryLoop:
     """Search a proof for all loops in a box around one loop, and a plant whose loop fails.
 
     Parameters
@@ -172,6 +184,8 @@ def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -
         Where the eigenvalues of the loop are.
     effort : float
         About the seconds that the search of a proof may take; its work is counted and not timed.
+    deadline : float, optional
+        The time of `time.monotonic` after which no further work is begun.
 
     Notes
     -----
@@ -198,18 +212,20 @@ def every_loop(loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0) -
         return EveryLoop(
             whole, None, None, None, f"not tried, as the loop has {size} signals{_ASK}"
         )
-    units = Units.of(loop.plant)
+    units, work = Units.of(loop.plant), _Work.of(effort, size, deadline)
     try:
         if units is None:
-            return _searched(loop, region, _Work.of(effort, size))
-        found = _searched(loop_in(units, loop), region, _Work.of(effort, size))
-        moved = _in_file_units(found, loop, units)
-        return moved or _searched(loop, region, _Work.of(effort, size))
+            return _searched(loop, region, work)
+        found = _searched(loop_in(units, loop), region, work)
+        moved = _in_file_units(found, loop, units, deadline)
+        return moved or _searched(loop, region, _Work.of(effort, size, deadline))
     except LimitReached as reached:
         return EveryLoop(whole, None, None, None, f"not tried: {reached.message}")
 
 
-def _in_file_units(found: EveryLoop, loop: ClosedLoop, units: Units) -> EveryLoop | None:
+def _in_file_units(
+    found: EveryLoop, loop: ClosedLoop, units: Units, deadline: float | None
+) -> EveryLoop | None:
     """The same box and the same failing plant in the units of the file; None without a proof."""
     back, failing, proof = units.inverse(), found.failing, found.proof
     if failing is not None:
@@ -225,12 +241,14 @@ def _in_file_units(found: EveryLoop, loop: ClosedLoop, units: Units) -> EveryLoo
         box = replace(loop, plant=system_in(back, proof.about.plant))
         gains = None if found.gains is None else gain_radii(loop.controller, found.gains)
         with one_thread():
-            proof = StabilitySearch(box, found.region, gains, _MOST_SEGMENTS).border(Fraction(1))
+            again = StabilitySearch(box, found.region, gains, _MOST_SEGMENTS, deadline=deadline)
+            proof = again.border(Fraction(1))
         if proof is None:
             return None
     margins = dict[str, BoxStability]()
     if proof is not None and found.margins:
-        margins = margins_within(_for_margins(replace(loop, plant=proof.about.plant), loop))
+        about = _for_margins(replace(loop, plant=proof.about.plant), loop)
+        margins = margins_within(about, deadline=deadline)
     return replace(found, proof=proof, failing=failing, margins=margins)
 
 
@@ -263,7 +281,9 @@ def margin_answers(margins: Mapping[str, BoxStability]) -> dict[str, BoxStabilit
     return {f"box_{at.removesuffix('s')}_margin": each for at, each in margins.items()}
 
 
-def margins_within(loop: ClosedLoop, left: int = _LEFT) -> dict[str, BoxStability]:
+def margins_within(
+    loop: ClosedLoop, left: int = _LEFT, deadline: float | None = None
+) -> dict[str, BoxStability]:
     """Search disk margins of single inputs and outputs for all plants of a box, with little work.
 
     Parameters
@@ -272,6 +292,8 @@ def margins_within(loop: ClosedLoop, left: int = _LEFT) -> dict[str, BoxStabilit
         Of a plant with radii.
     left : int
         How many parts of the border may be tried, times the number of ports.
+    deadline : float, optional
+        The time of `time.monotonic` after which no further work is begun.
     """
     found: dict[str, BoxStability] = {}
     plant = loop.plant
@@ -279,7 +301,10 @@ def margins_within(loop: ClosedLoop, left: int = _LEFT) -> dict[str, BoxStabilit
     for at in SIDES:
         ports = sum(sizes[at](i) for i in range(plant.m))
         most = min(left // max(2 * ports, 1), _MOST_SEGMENTS)
-        proof = margin_in_box(loop, at, most=most) if most >= _FEWEST else None
+        late = deadline is not None and time.monotonic() >= deadline
+        if most < _FEWEST or late:
+            continue
+        proof = margin_in_box(loop, at, most=most, deadline=deadline)
         if proof is not None:
             found[at] = proof
     return found
@@ -322,7 +347,7 @@ def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLo
     unit = loop.plant if own else Box.relative(loop.plant, 1).system
     with one_thread():
         search = StabilitySearch(replace(loop, plant=unit), whole)
-        failing = _failing(search)
+        failing = None if work.late else _failing(search)
         if own:
             boxes = [(loop, each) for each in (StabilityRegion(whole.time, region.bound), whole)]
             tried = [(*each, gains) for each in boxes for gains in (SIX_DIGITS, None)]
@@ -333,8 +358,11 @@ def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLo
         for about, wanted, gains in dict.fromkeys(tried):
             proof = work.proof(about, wanted, gains)
             if proof is not None:
-                margins = margins_within(_for_margins(about, loop), work.left)
+                narrow = _for_margins(about, loop)
+                margins = margins_within(narrow, work.left, work.deadline)
                 return EveryLoop(wanted, proof, gains, failing, margins=margins)
+    if work.late:
+        return EveryLoop(whole, None, None, failing, _LATE)
     box = f"every plant within the radii{_ASK_OWN}" if own else f"any box{_ASK}"
     return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import time
 from fractions import Fraction
 
 import pytest
@@ -87,6 +89,16 @@ def test_little_work_proves_a_smaller_box_and_no_work_none() -> None:
     assert "asks about one box with more work" in none.reason
     with pytest.raises(UsageError):
         every_loop(loop(), WHOLE, effort=-1)
+
+
+def test_after_its_deadline_a_search_begins_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    late = every_loop(loop(), WHOLE, deadline=time.monotonic())
+    assert late.proof is None and late.failing is None and not late.margins
+    assert dict(late.rows())["eigenvalues of every loop"].startswith("the time limit ended")
+    ticks = itertools.count()
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(ticks)))
+    short = every_loop(loop(), WHOLE, deadline=3.0)
+    assert short.proof is None and short.failing is not None and next(ticks) < 20
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])

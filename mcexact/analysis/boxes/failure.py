@@ -41,7 +41,7 @@ Freedom = Literal["plane", "line", "circle"]
 """Where λ may move: anywhere, parallel to the imaginary axis, or on a circle around 0."""
 
 _PROGRAMS = 12
-_SINGULAR = 1e-10
+_SINGULAR, _ALIKE = 1e-10, 1e-12
 _TOO_FAR = 5.0
 _BITS = 24
 _CHOICES = 8
@@ -255,8 +255,6 @@ def _program(
     entries: Any, directions: list[Any], base: Any, real: bool
 ) -> tuple[Floats, Floats] | None:
     """Minimize the largest |part| subject to entries · part + directions · steps + base = 0."""
-    from scipy.optimize import linprog
-
     columns = [entries, *(each[:, None] for each in directions)]
     equations, right = np.hstack(columns), -base
     if real:
@@ -268,7 +266,37 @@ def _program(
     equations, right = equations / size[:, None], right / size
     if not (np.all(np.isfinite(equations)) and np.all(np.isfinite(right))):
         return None
-    count, free = entries.shape[1], len(directions)
+    if len(equations) == len(directions) + 1:
+        found = _least_part(equations, right, entries.shape[1])
+        if found is not None:
+            return found
+    return _optimum(equations, right, entries.shape[1])
+
+
+def _least_part(equations: Floats, right: Floats, count: int) -> tuple[Floats, Floats] | None:
+    """The optimum where steps leave one equation: all parts that matter have the same modulus.
+
+    None where the steps leave none, or more than one.
+    """
+    entries, along = equations[:, :count], equations[:, count:]
+    y = np.ones(1) if not along.shape[1] else np.linalg.svd(along)[0][:, -1]
+    if along.shape[1] and np.linalg.matrix_rank(along) < along.shape[1]:
+        return None
+    left = y @ entries
+    size = float(np.abs(left).sum())
+    if not size > _SINGULAR:
+        return None
+    part = float(y @ right) / size * np.sign(np.where(np.abs(left) > _ALIKE * size, left, 0.0))
+    if not along.shape[1]:
+        return part, np.zeros(0)
+    return part, np.linalg.lstsq(along, right - entries @ part, rcond=None)[0]
+
+
+def _optimum(equations: Floats, right: Floats, count: int) -> tuple[Floats, Floats] | None:
+    """The optimum by a linear program."""
+    from scipy.optimize import linprog
+
+    free = equations.shape[1] - count
     eye, none, one = np.eye(count), np.zeros((count, free)), np.ones((count, 1))
     limits = np.vstack([np.hstack([eye, none, -one]), np.hstack([-eye, none, -one])])
     cost = np.zeros(count + free + 1)

@@ -20,6 +20,7 @@ test of `boxes.pencils`, in integers.  The lower half follows by symmetry.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -188,6 +189,8 @@ class StabilitySearch:
         The number of segments tested so far.
     disk : SingleDisk, optional
         What single inputs or outputs are multiplied by (`boxes.margins`).
+    deadline : float, optional
+        The time of `time.monotonic` after which no further segment is tested.
     """
 
     loop: ClosedLoop
@@ -197,6 +200,7 @@ class StabilitySearch:
     members: Members | None = None
     tested: int = 0
     disk: SingleDisk | None = None
+    deadline: float | None = None
 
     def __post_init__(self) -> None:
         from scipy.linalg import matrix_balance
@@ -212,12 +216,20 @@ class StabilitySearch:
         require_float_range([Z0], [D, *generators])
         _, (s, _) = matrix_balance(matrix_to_float(Z0), permute=False, separate=True)
         self.pencil = Pencil(Z0, D, signals.states, s, generators)
+        self._margins: list[tuple[float, complex]] | None = None
 
     def margins(self) -> list[tuple[float, complex]]:
         """About how far the radii can grow at points of the border, the least first.
 
         The least is an upper limit of what can be proved, and itself proves nothing.
         """
+        if self._margins is None:
+            margins = ((self.pencil.margin(point), point) for point in self.points())
+            self._margins = sorted(margins, key=lambda each: each[0])
+        return self._margins
+
+    def points(self) -> list[complex]:
+        """Points of the upper half of the border, near eigenvalues and between them."""
         Z0, _, _ = self.pencil.balanced
         N, edge = self.pencil.n, to_float(self.region.edge)
         S = Z0[N:, N:]
@@ -225,16 +237,11 @@ class StabilitySearch:
         values = np.linalg.eigvals(M)
         if self.region.discrete:
             angles = np.concatenate([np.abs(np.angle(values)), np.linspace(0, np.pi, 100)])
-            points = [edge * np.exp(1j * angle) for angle in angles]
-        else:
-            top = max(np.abs(values).max(initial=1e-6), 1e-12)
-            spread = np.geomspace(
-                max(np.abs(values).min(initial=top), 1e-6 * top) / 10, 10 * top, 100
-            )
-            heights = np.concatenate([[0.0], np.abs(values), np.abs(values.imag), spread])
-            points = [complex(-edge, height) for height in heights]
-        margins = ((self.pencil.margin(complex(point)), complex(point)) for point in points)
-        return sorted(margins, key=lambda each: each[0])
+            return [complex(edge * np.exp(1j * angle)) for angle in np.unique(angles)]
+        top = max(np.abs(values).max(initial=1e-6), 1e-12)
+        spread = np.geomspace(max(np.abs(values).min(initial=top), 1e-6 * top) / 10, 10 * top, 100)
+        heights = np.concatenate([[0.0], np.abs(values), np.abs(values.imag), spread])
+        return [complex(-edge, height) for height in np.unique(heights)]
 
     def border(self, factor: Fraction) -> BoxStability | None:
         """The answer for radii that are multiplied by a factor; None if no proof is found."""
@@ -271,7 +278,7 @@ class StabilitySearch:
             proposed = self.pencil.proposal(near, to_float(rho), factor)
             return None if proposed is None else frames.added(proposed, c, rho)
 
-        segments = _segments(test, last, self.most)
+        segments = _segments(test, last, self.most, self._late)
         if segments is None:
             return None
         ends = [b for _, b, _ in segments]
@@ -283,6 +290,9 @@ class StabilitySearch:
             tuple(k for _, _, k in segments),
             tuple(InverseFrame(V.evidence(), w) for V, w in frames.evidence),
         )
+
+    def _late(self) -> bool:
+        return self.deadline is not None and time.monotonic() >= self.deadline
 
     def _about(self, factor: Fraction) -> MultiChannelSystem:
         """The loop of the box whose radii are multiplied by a factor."""
@@ -296,13 +306,21 @@ def _scaled(radii: Controller, factor: Fraction) -> Controller:
 
 
 def _segments(
-    test: Callable[[Fraction, Fraction], int | None], last: Fraction, most: int
+    test: Callable[[Fraction, Fraction], int | None],
+    last: Fraction,
+    most: int,
+    late: Callable[[], bool],
 ) -> list[tuple[Fraction, Fraction, int]] | None:
-    """Cut [0, last] into intervals that pass a test, each with what the test returns."""
+    """Cut [0, last] into intervals that pass a test, each with what the test returns.
+
+    None after ``most`` failures, or once it is late.
+    """
     left = [(Fraction(0), last)]
     segments: list[tuple[Fraction, Fraction, int]] = []
     tested = 0
     while left:
+        if late():
+            return None
         a, b = left.pop()
         tested += 1
         k = test(a, b)

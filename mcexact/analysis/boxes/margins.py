@@ -26,6 +26,7 @@ from mcexact.analysis.boxes.loops import StabilitySearch
 from mcexact.analysis.boxes.pencils import (
     Complex,
     ComplexRows,
+    Floats,
     Pencil,
     Point,
     RegularDiscs,
@@ -108,12 +109,14 @@ class PortPencil(Pencil):
         return Pencil(Z0, D, self.n, scale)
 
     def margin(self, c: complex) -> float:
-        """The largest α for which the pencils of all ports seem regular at a point."""
+        """The largest α for which the pencils of the ports that matter seem regular at a point."""
         V = self.inverse(c)
         if V is None:
             return 0.0
-        least = inf
-        for k, part in zip(self.ports, self.parts, strict=True):
+        least, gains = inf, self._gains(V)
+        for k, part, gain in zip(self.ports, self.parts, gains, strict=True):
+            if gain < _MATTERS * np.max(gains):
+                continue
             wide, D, N = extended(V, k), part.balanced[1].copy(), len(V)
             D[N, k] = 0.0
             spread = np.abs(wide) @ D
@@ -123,6 +126,15 @@ class PortPencil(Pencil):
             gain = np.linalg.solve(np.eye(N + 2) - spread, np.abs(wide[:, N]))[k]
             least = min(least, 1 / gain if gain > 0 else inf)
         return float(least)
+
+    def _gains(self, V: Complex) -> Floats:
+        """|T_kk + ½| of each port, for the nominal plant."""
+        return np.asarray(np.abs(np.diag(V)[list(self.ports)] - 0.5), dtype=np.float64)
+
+    def gain(self, c: complex) -> float:
+        """The largest |T_kk + ½| of a port at a point, for the nominal plant."""
+        V = self.inverse(c)
+        return inf if V is None else float(np.max(self._gains(V), initial=0.0))
 
     def proposal(self, c: complex, rho: float, factor: Fraction) -> Any:
         """Propose one V, and weights for each port; None without a proposal."""
@@ -192,18 +204,31 @@ class MarginSearch(StabilitySearch):
         self.disk = SingleDisk(at, alpha)
 
     def largest(self) -> float:
-        """About the largest margin of which a proof can be found."""
-        return min((each for each, _ in self.margins()), default=0.0)
+        """About the largest margin of which a proof can be found.
+
+        What radii take away is looked at where the nominal margins are least.
+        """
+        pencil = self.pencil
+        if not isinstance(pencil, PortPencil):
+            return 0.0
+        points = sorted(self.points(), key=pencil.gain, reverse=True)
+        return min(map(pencil.margin, points[:_LOOKED_AT]), default=0.0)
 
 
 SIDES: tuple[Side, ...] = ("inputs", "outputs")
 PARTS = (0.95, 0.8, 0.5)
 """The parts of what seems to be the largest margin that are tried."""
 _LARGEST = 1.9
+_LOOKED_AT, _MATTERS = 20, 0.5
+"""The points at which radii are looked at, and the part of the largest gain that matters there."""
 
 
 def margin_in_box(
-    loop: ClosedLoop, at: Side, alpha: Fraction | None = None, most: int = 4000
+    loop: ClosedLoop,
+    at: Side,
+    alpha: Fraction | None = None,
+    most: int = 4000,
+    deadline: float | None = None,
 ) -> BoxStability | None:
     """Search a proof that every loop within the radii of the plant keeps a disk margin.
 
@@ -217,28 +242,35 @@ def margin_in_box(
         The margin; by default a large part of what seems to be possible.
     most : int
         The largest number of segments of the border that are tested for one margin.
+    deadline : float, optional
+        The time of `time.monotonic` after which no further segment is tested.
     """
     region = StabilityRegion(loop.plant.time)
     if not sum((loop.plant.p if at == "inputs" else loop.plant.q)(i) for i in range(loop.plant.m)):
         return None
     with one_thread():
         if alpha is not None:
-            return _proof(loop, region, at, alpha, most)
+            return _proof(loop, region, at, alpha, most, deadline)
         search = MarginSearch(loop, region, most=most)
         search.with_disk(at, Fraction(0))
         limit = min(search.largest(), _LARGEST)
         tried = [Fraction(floor(part * limit * 100), 100) for part in PARTS]
         for size in dict.fromkeys(tried):
-            proof = _proof(loop, region, at, size, most) if size > 0 else None
+            proof = _proof(loop, region, at, size, most, deadline) if size > 0 else None
             if proof is not None:
                 return proof
     return None
 
 
 def _proof(
-    loop: ClosedLoop, region: StabilityRegion, at: Side, alpha: Fraction, most: int
+    loop: ClosedLoop,
+    region: StabilityRegion,
+    at: Side,
+    alpha: Fraction,
+    most: int,
+    deadline: float | None,
 ) -> BoxStability | None:
-    search = MarginSearch(loop, region, most=most)
+    search = MarginSearch(loop, region, most=most, deadline=deadline)
     search.with_disk(at, alpha)
     return search.border(Fraction(1))
 

@@ -4,6 +4,8 @@ The structure stays, and each step starts from the end of the one before it, whi
 than another search:
 
 - `with_margins` insists on margins that a search did not reach;
+- `sounder` asks for a margin of all inputs and of all outputs together, and for a loop that is not
+  slower than the plant alone;
 - `more_damped` asks for a damping ratio, and `with_larger_box` for a box of plants around the given
   one within which every loop seems stable, by faster and faster loops;
 - `fastest` looks for the fastest rate at which a loop still keeps its margins: by factors of 1.5,
@@ -24,12 +26,13 @@ from mcexact.analysis.boxes.loops import StabilitySearch
 from mcexact.errors import McexactError
 from mcexact.exact.rational import percent
 from mcexact.exact.roots import StabilityRegion, is_discrete
+from mcexact.floating.margins import spectral_bound
 from mcexact.model.box import Box
 from mcexact.model.loop import closed_loop
 from mcexact.synthesis.optimum.descent import Target, inside, polished
 from mcexact.synthesis.optimum.diagnosis import pace_of, region_of_pace, rounded_region
-from mcexact.synthesis.optimum.figures import Figures, Shape
-from mcexact.synthesis.optimum.problem import Effort, controller_of
+from mcexact.synthesis.optimum.figures import TOGETHER, Figures, Shape
+from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, controller_of
 from mcexact.synthesis.optimum.search import Candidate, Ladder, candidate_of, ranked
 
 DAMPING, BOX = 0.07, Fraction(1, 100)
@@ -42,6 +45,8 @@ _FASTER, _NARROW, _WALK = 1.5, 1.05, 6
 _MOST_SIGNALS = 120
 _SHARE = 0.3
 _INSISTING, _HEAVY = 3, 10.0
+_NEARLY = 0.99
+"""The part of the pace of the plant alone at which a loop does not count as slower."""
 _FURTHER = (1.0, 1.1, 1.2, 1.35, 1.6, 2.2)
 
 
@@ -108,6 +113,101 @@ def with_margins(ladder: Ladder, candidates: Sequence[Candidate]) -> list[Candid
         if any(each.peaks.keep(ladder.target.limits) for each in found):
             break
     return found
+
+
+@dataclass(frozen=True)
+class _Wish:
+    """What is asked of a loop besides its target, in words."""
+
+    told: str
+    target: Target
+
+
+def sounder(ladder: Ladder, best: Candidate) -> tuple[Improved, Ladder]:
+    """Ask for a margin of all ports together, and for a loop that is not slower than the plant.
+
+    Parameters
+    ----------
+    ladder : Ladder
+    best : Candidate
+
+    Returns
+    -------
+    Improved
+        The cheapest loop that was found with both, or with one of them; ``best`` if it has both, or
+        if none is affordable.
+    Ladder
+        With this as its target, for what follows.
+
+    Notes
+    -----
+    The verdict on a design looks at both (`assessment`).  A plant that is not stable has no pace.
+    """
+    limits = replace(ladder.target.limits, together=TOGETHER)
+    joint = replace(ladder, target=replace(ladder.target, limits=limits))
+    seen = candidate_of(joint, best.step, best.problem, best.K)
+    if seen is None:
+        return Improved(best), ladder
+    ladder = joint if seen.peaks.together >= TOGETHER else ladder
+    wishes, notes = _wishes(ladder.target, seen), list[str]()
+    for wish in wishes:
+        aimed = replace(ladder, target=wish.target)
+        if best.figures.damping >= DAMPING and wish.target.shape.free:
+            aimed = replace(ladder, target=replace(wish.target, shape=Shape(DAMPING)))
+        found = _insisted(aimed, best)
+        if found is not None and found.figures.cost <= AFFORDABLE * best.figures.cost:
+            return Improved(found, tuple(notes)), replace(ladder, target=wish.target)
+        told = f"{wish.told} was not found (computed)"
+        if found is not None:
+            told = f"{wish.told} would cost {_dearer(found.figures, best.figures)} more (computed)"
+        notes.append(told)
+    return Improved(seen if ladder is joint else best, tuple(notes[-2:])), ladder
+
+
+def _wishes(target: Target, seen: Candidate) -> list[_Wish]:
+    """What a loop lacks: all of it at first, then each alone."""
+    wishes, limits = list[_Wish](), replace(target.limits, together=TOGETHER)
+    if seen.peaks.together < TOGETHER:
+        told = f"a disk margin of {TOGETHER:g} of all inputs, and of all outputs, together"
+        wishes.append(_Wish(told, replace(target, limits=limits)))
+    time, own = target.region.time, _pace_alone(seen.problem)
+    if _pace(seen, time) < _NEARLY * own:
+        told = "a loop that is not slower than the plant without a controller"
+        region = replace(target.region, bound=region_of_pace(time, own).bound)
+        wishes.append(_Wish(told, replace(target, region=region)))
+    if len(wishes) == 2:
+        both = replace(wishes[1].target, limits=limits)
+        wishes.insert(0, _Wish(" and ".join(each.told for each in wishes), both))
+    return wishes
+
+
+def _insisted(ladder: Ladder, start: Candidate) -> Candidate | None:
+    """The cheapest loop with a target that is found from another loop; None if none is found."""
+    problem, target, effort = start.problem, ladder.target, ladder.effort.part(_SHARE)
+    x = inside(problem, problem.entries(start.K), target, effort.part(0.5))
+    if x is None:
+        return None
+    made = (
+        candidate_of(ladder, start.step, problem, problem.gain(each))
+        for each in polished(problem, x, target, effort, 1.0)
+    )
+    able = [
+        each
+        for each in made
+        if each is not None
+        and each.peaks.keep(target.limits)
+        and target.shape.met(each.figures.damping, each.figures.fastest)
+    ]
+    return min(able, key=lambda each: each.figures.cost, default=None)
+
+
+def _pace_alone(problem: FeedbackProblem) -> float:
+    """The rate of the plant without a controller, or −log of its radius; 0 if it is not stable."""
+    n, plant = problem.n, problem.network.plant
+    bound = spectral_bound(problem.A[:n, :n], plant.time)
+    if not n:
+        return 0.0
+    return max(-log(max(bound, 1e-300)) if problem.discrete else -bound, 0.0)
 
 
 def more_damped(ladder: Ladder, best: Candidate, damping: float = DAMPING) -> Improved:

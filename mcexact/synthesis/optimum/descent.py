@@ -43,6 +43,7 @@ from mcexact.synthesis.optimum.figures import (
     Eigenvalues,
     Limits,
     Margins,
+    Scalings,
     Shape,
     Valued,
     quadratic_costs,
@@ -90,6 +91,8 @@ class Objective:
     points : ndarray of complex
         The frequencies at which they are penalized.
     shape : Shape
+    scalings : pair of ndarray or None
+        Those of the margins of all inputs and of all outputs together.
     """
 
     problem: FeedbackProblem
@@ -100,6 +103,7 @@ class Objective:
     limits: Limits = NO_MARGINS
     points: Complexes = field(default_factory=lambda: _NO_POINTS)
     shape: Shape = NO_LIMITS
+    scalings: Scalings | None = None
 
     def __call__(self, x: Floats) -> Valued:
         """Compute the objective and its gradient in the free entries of K.
@@ -117,7 +121,7 @@ class Objective:
         value = (plain + SHARE_OF_SHIFTED * shifted) / self.least
         G = (G0 + SHARE_OF_SHIFTED * Ga) / self.least
         if self.points.size and self.weight:
-            excess, Gm = Margins(problem, K).excess(self.points, self.limits)
+            excess, Gm = Margins(problem, K).excess(self.points, self.limits, self.scalings)
             if not np.isfinite(excess):
                 return INFINITE
             value, G = value + self.weight * excess, G + self.weight * Gm
@@ -523,7 +527,9 @@ def polished(
         if effort.over or peaks.keep(target.limits.tightened(_NEARLY)):
             return
         points = np.unique(np.concatenate([points, peaks.points]))
-        penalized = replace(objective, weight=weight, limits=limits, points=points)
+        penalized = replace(
+            objective, weight=weight, limits=limits, points=points, scalings=peaks.scalings
+        )
         x, _ = minimize(
             _counted(penalized, effort),
             x,

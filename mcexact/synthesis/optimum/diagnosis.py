@@ -32,6 +32,7 @@ from math import isnan
 import numpy as np
 from scipy.linalg import eig, expm, matrix_balance
 
+from mcexact.analysis.performance import modal_form
 from mcexact.analysis.stability import POLYNOMIAL_LIMIT, closed_loop_spectrum
 from mcexact.errors import LimitReached
 from mcexact.exact.balls import even_powers, response, states_at_doubling_steps
@@ -391,24 +392,25 @@ def least_disk_margin(loop: ClosedLoop) -> float:
 
     Notes
     -----
-    1/max |T_ii + ½| on a grid of frequencies, one linear system for each; 2 at most.
+    1/max |T_ii + ½| on a grid of frequencies; 2 at most.  One eigendecomposition serves all; where
+    the eigenvectors are too ill-conditioned, there is one linear system for each frequency.
     """
     seen, discrete = loop.disturbed, is_discrete(loop.plant.time)
     M = matrix_to_float(seen.M)
-    points = boundary_points(np.linalg.eigvals(M).astype(np.complex128), discrete=discrete)
-    E, U, G, Y = map(matrix_to_float, (seen.E, seen.U, seen.G, seen.Y))
-    worst, entering = 0.5, np.hstack([E, G]).astype(np.complex128)
+    entering = np.hstack([matrix_to_float(seen.E), matrix_to_float(seen.G)])
+    leaving = np.vstack([matrix_to_float(seen.U), matrix_to_float(seen.Y)])
     with quiet_floats():
-        for z in points:
-            X = solved_or_nan(z * np.eye(len(M)) - M, entering)
-            T = np.concatenate(
-                [
-                    np.einsum("ik,ki->i", U, X[:, : E.shape[1]]),
-                    np.einsum("ik,ki->i", Y, X[:, E.shape[1] :]),
-                ]
-            )
-            worst = max(worst, float(np.max(np.abs(T + 0.5), initial=0.0)))
-    return 1 / worst
+        modal = modal_form(M, entering, leaving)
+        values = np.linalg.eigvals(M).astype(np.complex128) if modal is None else modal[0]
+        points = boundary_points(values, discrete=discrete)
+        if modal is not None:
+            _, left, right = modal
+            T = (1 / (points[:, None] - values)) @ (left * right.T).T
+        else:
+            eye, columns = np.eye(len(M)), entering.astype(np.complex128)
+            solved = (solved_or_nan(z * eye - M, columns) for z in points)
+            T = np.array([np.einsum("ik,ki->i", leaving, X) for X in solved])
+    return 1 / max(float(np.nanmax(np.abs(T + 0.5), initial=0.0)), 0.5)
 
 
 def boundary_points(values: Complexes, *, discrete: bool) -> Complexes:
@@ -809,7 +811,7 @@ def _steps(
 TIMES_THE_COST, MARGIN = 10.0, 0.3
 TIMES_OUT_OF_REACH, OUT_OF_REACH_MARGIN = 1000.0, 0.05
 _STEPS_OF_RATE, _STEPS_IF_LARGE, _LARGE = 14, 4, 100
-_FEWEST_MODES, _WORK = 3, 20_000_000
+_FEWEST_MODES, _WORK, _EQUAL = 3, 20_000_000, 1e-9
 _FASTER = (2.0, 4.0, 8.0)
 _WIDTH, _FACTOR, _FASTEST = 1.02, 4.0, 64.0
 _FAST_ENOUGH = 2.3026
@@ -934,6 +936,7 @@ def diagnosed(
     region: StabilityRegion,
     weights: Weights | None = None,
     controlled: MultiChannelSystem | None = None,
+    sensible: StabilityRegion | None = None,
 ) -> Diagnosis:
     """Compute what a region costs, and which modes outside it are nearly fixed.
 
@@ -945,6 +948,8 @@ def diagnosed(
     weights : Weights, optional
     controlled : MultiChannelSystem, optional
         The system whose decentralized controllers are sought; by default the first one.
+    sensible : StabilityRegion, optional
+        The sensible region, where it is known already.
 
     Notes
     -----
@@ -961,14 +966,15 @@ def diagnosed(
     """
     weights = weights or Weights.unit(system)
     with quiet_floats():
-        central = central_optimum(system, weights, region)
+        central = central_optimum(system, weights, region, peak=True)
         unhurried = central_optimum(system, weights, StabilityRegion(system.time))
-        start, optimum = region, central
-        if region.edge == StabilityRegion(system.time).edge and unhurried:
-            # The sensible rate is searched around a rate, of which stability alone gives none.
-            start = _own_region(system.time, unhurried) or region
-            optimum = central_optimum(system, weights, start)
-        sensible = _sensible(system, weights, start, optimum, unhurried)
+        if sensible is None:
+            start, optimum = region, central
+            if region.edge == StabilityRegion(system.time).edge and unhurried:
+                # It is searched around a rate, of which stability alone gives none.
+                start = _own_region(system.time, unhurried) or region
+                optimum = central_optimum(system, weights, start)
+            sensible = _sensible(system, weights, start, optimum, unhurried)
         modes = slow_modes(controlled or system, region)
     return Diagnosis(region, central, unhurried, sensible, modes)
 
@@ -1012,12 +1018,15 @@ class ChosenRegions:
         That of half the sensible rate, or of the root of the sensible radius; where this is not
         sensible, that of the sensible one.
     brisk_reason : str
+    sensible : StabilityRegion or None
+        The sensible region, if there is one.
     """
 
     slowest: StabilityRegion
     reason: str
     brisk: StabilityRegion
     brisk_reason: str
+    sensible: StabilityRegion | None = None
 
 
 def chosen_regions(
@@ -1076,6 +1085,7 @@ def chosen_regions(
         reason,
         rounded_region(system.time, brisk),
         brisk_reason,
+        sensible,
     )
 
 
@@ -1104,7 +1114,7 @@ def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[Slo
     Notes
     -----
     The distance is searched for the modes that agents control or observe least, in terms of their
-    eigenvectors: for all of a small plant, and for a few of a large one.
+    eigenvectors: for all of a small plant, and for a few of a large one, of equal modes for one.
     """
     if not system.n:
         return ()  # SciPy 1.11 refuses a matrix without entries
@@ -1123,8 +1133,11 @@ def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[Slo
         slow.append((max(map(min, reached, seen), default=0.0), value))
     slow.sort(key=lambda each: (each[0], each[1].real, each[1].imag))
     count = max(_FEWEST_MODES, _WORK // max(system.n**3 * system.m, 1))
-    modes = []
+    modes, distinct = list[SlowMode](), list[complex]()
     for _, value in slow[:count]:
+        if any(abs(value - other) <= _EQUAL * size for other in distinct):
+            continue
+        distinct.append(value)
         change, channels = distance_at(A, B, C, value)
         modes.append(SlowMode(value, change / size, system.named(channels)))
     return tuple(sorted(modes, key=lambda each: each.change))

@@ -29,7 +29,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import eig, expm, lapack, rsf2csf
 
-from mcexact.analysis.performance import riccati_solutions
+from mcexact.analysis.performance import riccati_solutions, scaled_norm
 from mcexact.derived.constructions import merged
 from mcexact.errors import UsageError, require_seconds, shown_value
 from mcexact.exact.matrix import as_requested, matrix_to_float, to_float
@@ -291,19 +291,23 @@ class Limits:
         α: a disk margin of this size in every single loop is |T_ii + ½| ≤ 1/α.
     margin : float
         The margin of all inputs together: σ_max(T) ≤ 1/margin.
+    together : float
+        β: a disk margin of this size of all inputs together, and of all outputs together, is
+        σ_max(Θ^½ (T + ½I) Θ^−½) ≤ 1/β for a diagonal Θ > 0; 0 if it is not looked at.
     """
 
     disk: float
     margin: float
+    together: float = 0.0
 
     def tightened(self, factor: float) -> Limits:
         """Return the limits for margins that are larger by a factor."""
-        return Limits(factor * self.disk, factor * self.margin)
+        return Limits(factor * self.disk, factor * self.margin, factor * self.together)
 
 
-MARGIN, DISK = 0.3, 0.4
+MARGIN, DISK, TOGETHER = 0.3, 0.4, 0.2
 MARGINS = Limits(DISK, MARGIN)
-"""The margins that designs aim at."""
+"""The margins that designs aim at; `TOGETHER` where it costs little."""
 NO_MARGINS = Limits(0.0, 0.0)
 
 
@@ -369,6 +373,12 @@ class Margins:
         at_outputs = np.einsum("zjk,kj->zj", H[:, seen], K[:, seen]) + 0.5
         return T, np.einsum("zii->zi", T) + 0.5, at_outputs
 
+    def _together(self, H: Complexes) -> tuple[Complexes, Complexes]:
+        """T + ½I at all inputs, and at all outputs."""
+        p, K, seen = self._problem.p, self._K, self._seen
+        at_inputs = K[:p] @ H[:, :, :p] + 0.5 * np.eye(p)
+        return at_inputs, H[:, seen] @ K[:, seen] + 0.5 * np.eye(len(seen))
+
     def curves(self, points: Complexes) -> tuple[Floats, Floats]:
         """Return |T_ii + ½| of every input and output, and σ_max(T), at some points.
 
@@ -380,13 +390,21 @@ class Margins:
         sizes = np.linalg.norm(T, 2, axis=(1, 2)) if T.size else np.zeros(len(points))
         return np.abs(np.hstack([inputs, outputs])), np.asarray(sizes, dtype=np.float64)
 
-    def excess(self, points: Complexes, limits: Limits) -> Valued:
+    def excess(self, points: Complexes, limits: Limits, scalings: Scalings | None = None) -> Valued:
         """Compute the excess of all peaks over their limits, and its gradient in K.
+
+        Parameters
+        ----------
+        points : ndarray of complex
+        limits : Limits
+        scalings : pair of ndarray, optional
+            Those of `Peaks`, without which the margins together are not looked at.
 
         Returns
         -------
         float, ndarray
-            Σ_z [Σ_i max(0, α|T_ii + ½| − 1)² + max(0, mσ_max(T) − 1)²] for the limits α and m.
+            Σ_z [Σ_i max(0, α|T_ii + ½| − 1)² + max(0, mσ_max(T) − 1)²] for the limits α and m; with
+            scalings also max(0, βσ_max(Θ^½(T + ½I)Θ^−½) − 1)² at the inputs and at the outputs.
         """
         K, p, seen, G = self._K, self._problem.p, self._seen, np.zeros(self._K.shape)
         if not self.valid:
@@ -419,6 +437,37 @@ class Margins:
             after[:, seen, np.arange(len(seen))] += 1
             slopes = 2 * limits.disk * _slopes(beyond[active], outputs[active])
             G += np.real(np.tensordot(after * slopes[:, None], h[:, seen], ([0, 2], [0, 1]))).T
+        if scalings is not None and limits.together:
+            size, slope = self._excess_together(H, limits.together, scalings)
+            total, G = total + size, G + slope
+        return total, G
+
+    def _excess_together(self, H: Complexes, limit: float, scalings: Scalings) -> Valued:
+        """The excess of the margins of all inputs and of all outputs together, and its gradient."""
+        K, p, seen = self._K, self._problem.p, self._seen
+        total, G = 0.0, np.zeros(K.shape)
+        for side, (T, theta) in enumerate(zip(self._together(H), scalings, strict=True)):
+            if not T.shape[1]:
+                continue
+            h = np.sqrt(theta)
+            left, values, right = np.linalg.svd(h[:, None] * T / h)
+            over = np.maximum(limit * values[:, 0] - 1, 0)
+            active = np.flatnonzero(over > 0)
+            if not active.size:
+                continue
+            total += float(np.sum(over**2))
+            # The differential is Re tr(D dT).
+            u, v = left[active, :, 0].conj() * h, right[active, 0, :].conj() / h
+            D = (2 * limit * over[active])[:, None, None] * v[:, :, None] * u[:, None, :]
+            seen_at = H[active]
+            if side == 0:
+                before = self._driving + K[:p] @ seen_at
+                slope = np.tensordot(seen_at[:, :, :p] @ D, before, ([0, 2], [0, 1]))
+            else:
+                after = seen_at @ K[:, seen]
+                after[:, seen, np.arange(len(seen))] += 1
+                slope = np.tensordot(after @ D, seen_at[:, seen], ([0, 2], [0, 1]))
+            G += np.real(slope).T
         return total, G
 
     def peaks(self, limits: Limits) -> Peaks:
@@ -429,7 +478,16 @@ class Margins:
         place = np.angle(points) if self._problem.discrete else points.imag
         points = points[np.unique(place, return_index=True)[1]]
         single, together = self.curves(points)
-        scaled = np.hstack([limits.disk * single, (limits.margin * together)[:, None]])
+        curves, margin, scalings = (
+            [limits.disk * single, (limits.margin * together)[:, None]],
+            np.inf,
+            None,
+        )
+        if limits.together:
+            joint, scalings = self._joint_curves(points)
+            curves.append(limits.together * joint)
+            margin = 1 / max(float(np.max(joint, initial=0.0)), 0.5)
+        scaled = np.hstack(curves)
         border = np.full((1, scaled.shape[1]), -1.0)
         tops = (scaled >= np.vstack([border, scaled[:-1]])) & (
             scaled >= np.vstack([scaled[1:], border])
@@ -442,7 +500,28 @@ class Margins:
         # Far from all eigenvalues T is 0.
         worst = max(float(np.max(single, initial=0.0)), 0.5)
         largest = float(np.max(together, initial=0.0))
-        return Peaks(points[sorted(chosen)], 1 / worst, 1 / largest if largest else np.inf)
+        return Peaks(
+            points[sorted(chosen)],
+            1 / worst,
+            1 / largest if largest else np.inf,
+            margin,
+            scalings,
+        )
+
+    def _joint_curves(self, points: Complexes) -> tuple[Floats, Scalings]:
+        """σ_max(Θ^½(T + ½I)Θ^−½) at all inputs and at all outputs, and the Θ, at some points."""
+        columns, scalings = list[Floats](), list[Floats]()
+        for T in self._together(self._responses(points)):
+            theta = scaled_norm(T)[1] if T.shape[1] else np.ones(0)
+            h = np.sqrt(theta)
+            sizes = np.linalg.norm(h[:, None] * T / h, 2, axis=(1, 2)) if T.shape[1] else 0.0
+            columns.append(np.broadcast_to(sizes, len(points)))
+            scalings.append(theta)
+        return np.column_stack(columns), (scalings[0], scalings[1])
+
+
+Scalings = tuple[Floats, Floats]
+"""The diagonals Θ of the margins of all inputs, and of all outputs, together."""
 
 
 def _slopes(over: Floats, values: Complexes) -> Complexes:
@@ -463,15 +542,23 @@ class Peaks:
         The least disk margin of a single loop; see python-control's ``disk_margins``, skew 0.
     margin : float
         That of all inputs together, 1/max σ_max(T).
+    together : float
+        The smaller disk margin of all inputs together and of all outputs together; infinite if it
+        was not looked at.
+    scalings : pair of ndarray or None
+        With which this margin was found.
     """
 
     points: Complexes
     disk: float
     margin: float
+    together: float = np.inf
+    scalings: Scalings | None = None
 
     def keep(self, limits: Limits) -> bool:
-        """Whether both margins are as large as limits ask."""
-        return self.disk >= limits.disk and self.margin >= limits.margin
+        """Whether all margins are as large as limits ask."""
+        single = self.disk >= limits.disk and self.margin >= limits.margin
+        return single and self.together >= limits.together
 
 
 # The eigenvalues of a loop, and their derivatives in the gains.
@@ -908,7 +995,7 @@ class CentralOptimum:
 
 
 def central_optimum(
-    system: MultiChannelSystem, weights: Weights, region: StabilityRegion
+    system: MultiChannelSystem, weights: Weights, region: StabilityRegion, *, peak: bool = False
 ) -> CentralOptimum | None:
     """Compute the optimal controller that all agents together would have.
 
@@ -918,6 +1005,8 @@ def central_optimum(
     weights : Weights
     region : StabilityRegion
         The controller is the optimal one of the shifted plant, and its cost is that of the plant.
+    peak : bool
+        Whether the peak of the state is computed, too; else it is NaN.
 
     Returns
     -------
@@ -949,7 +1038,7 @@ def central_optimum(
         return None
     A_k, B_k, C_k, D_k = controller
     K = balanced(problem, np.block([[D_k, C_k], [B_k, A_k]]))
-    figures = figures_of(problem, K)
+    figures = figures_of(problem, K, peak=peak)
     return CentralOptimum(figures, _sizes(problem, K, region))
 
 

@@ -34,6 +34,7 @@ from mcexact.synthesis.networks import DerivedNetwork, decentralized_network, sh
 from mcexact.synthesis.optimum.continuation import (
     fastest,
     more_damped,
+    sounder,
     with_larger_box,
     with_margins,
 )
@@ -375,7 +376,10 @@ def _improved(ladder: Ladder, request: Request, aims: Aims, result: _Result) -> 
 
     What a user asked for is kept whatever it costs.
     """
-    best, notes, further = result.candidates[0], result.notes, _more(ladder)
+    best, notes = result.candidates[0], result.notes
+    ladder.tell("margins together")
+    step, further = sounder(_more(ladder), best)
+    best, notes = step.candidate, (*notes, *step.notes)
     if request.brisk is not None:
         ladder.tell("damping")
         step = more_damped(further, best)
@@ -387,7 +391,8 @@ def _improved(ladder: Ladder, request: Request, aims: Aims, result: _Result) -> 
         part = None if aims.box is None else Fraction(aims.box)
         step = with_larger_box(further, best, part, np.inf)
     best, notes = step.candidate, (*notes, *step.notes)
-    return replace(result, candidates=(best, *result.candidates), notes=notes)
+    target = replace(result.target, limits=further.target.limits)
+    return _Result((best, *result.candidates), target, notes)
 
 
 def _slower(
@@ -568,7 +573,7 @@ def searched_proposals(
     fixed = fixed_spectrum(network.system)
     require_fast(network, fixed, request.region)
     request.tell("diagnosis")
-    known = diagnosed(*about)
+    known = diagnosed(*about, request.sensible)
     if known.is_out_of_reach and aims.effort is None:
         raise OutOfReach(
             f"{request.region} is out of reach, even for all agents together: {known}; ask for "

@@ -225,6 +225,7 @@ def _price(ladder: Ladder, candidate: Candidate) -> float:
     for size, limit in (
         (candidate.peaks.disk, target.limits.disk),
         (candidate.peaks.margin, target.limits.margin),
+        (candidate.peaks.together, target.limits.together),
     ):
         if size < limit:
             lacking = max(lacking, _FRAGILE * limit / max(size, 1e-9))

@@ -18,11 +18,19 @@ from mcexact.synthesis.optimum.continuation import (
     box_part,
     fastest,
     more_damped,
+    sounder,
     with_larger_box,
     with_margins,
 )
 from mcexact.synthesis.optimum.descent import Target
-from mcexact.synthesis.optimum.figures import MARGINS, Aims, Limits, figures_of, least_cost
+from mcexact.synthesis.optimum.figures import (
+    MARGINS,
+    Aims,
+    Limits,
+    Margins,
+    figures_of,
+    least_cost,
+)
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
 from mcexact.synthesis.optimum.search import Candidate, Ladder, candidate_of
 from mcexact.synthesis.robustness import every_loop
@@ -67,6 +75,45 @@ def test_a_damped_loop_is_left_alone() -> None:
     before = ladder.effort.spent
     assert calm.figures.damping >= 0.07
     assert more_damped(ladder, calm).candidate is calm and ladder.effort.spent == before
+
+
+TWICE = MultiChannelSystem([[1]], [[[1]]], [[[1], [1]]])
+"""Two sensors of the same state, whose gains can nearly cancel."""
+STABLE = MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
+
+
+def test_all_outputs_together_get_a_margin_and_what_costs_much_is_told() -> None:
+    ladder, weak = found(TWICE, [[-5.0, 3.0]])
+    limits = replace(MARGINS, together=0.2)
+    assert Margins(weak.problem, weak.K).peaks(limits).together < 0.2
+    taken, then = sounder(ladder, weak)
+    assert taken.candidate.peaks.together >= 0.2 and not taken.notes
+    assert then.target.limits == limits
+    cheap = replace(weak, figures=replace(weak.figures, cost=weak.figures.cost / 100))
+    kept, then = sounder(ladder, cheap)
+    assert kept.candidate is cheap and then is ladder
+    [note] = kept.notes
+    told = "a disk margin of 0.2 of all inputs, and of all outputs, together would cost "
+    assert note.startswith(told) and note.endswith(" % more (computed)")
+
+
+def test_a_loop_is_made_no_slower_than_the_plant() -> None:
+    ladder, slow = found(STABLE, [[0.5]])
+    assert slow.figures.bound > -0.99
+    taken, then = sounder(ladder, slow)
+    assert taken.candidate.figures.bound <= -0.99 and str(then.target.region) == "Re λ < -1"
+    assert taken.candidate.figures.cost <= 1.15 * slow.figures.cost
+    cheap = replace(slow, figures=replace(slow.figures, cost=slow.figures.cost / 100))
+    [note] = sounder(ladder, cheap)[0].notes
+    assert note.startswith("a loop that is not slower than the plant without a controller would")
+
+
+def test_a_sound_loop_is_left_alone() -> None:
+    for plant, K in ((STABLE, [[-0.4]]), (TWICE, [[-2.0, -2.0]])):
+        ladder, sound = found(plant, K)
+        kept, then = sounder(ladder, sound)
+        assert np.array_equal(kept.candidate.K, sound.K) and not kept.notes
+        assert then.target.limits.together == 0.2 and ladder.effort.spent == 0
 
 
 def test_the_seeming_box_is_one_that_can_be_proved() -> None:

@@ -68,7 +68,9 @@ def differences(function, x: np.ndarray, step: float = 1e-5) -> np.ndarray:
 
 
 @pytest.mark.parametrize("kind", NETWORKS)
-@pytest.mark.parametrize("part", ["cost", "single loops", "all inputs", "gains", "shape"])
+@pytest.mark.parametrize(
+    "part", ["cost", "single loops", "all inputs", "all ports", "gains", "shape"]
+)
 def test_the_gradient_agrees_with_finite_differences(kind, part):
     of, x = stable(kind)
     shift = 0.9 if of.discrete else 0.5
@@ -80,6 +82,13 @@ def test_the_gradient_agrees_with_finite_differences(kind, part):
         half = 2 / float(np.max(single)), 2 / float(np.max(together))
         limits = Limits(half[0], 0.0) if part == "single loops" else Limits(0.0, half[1])
         objective = replace(objective, weight=10.0, limits=limits, points=points)
+    elif part == "all ports":
+        seen = Margins(of, of.gain(x)).peaks(Limits(0.0, 0.0, 0.5))
+        limits = Limits(0.0, 0.0, 1.1 * seen.together)
+        modes = np.linalg.eigvals(of.loop(x)).astype(complex)
+        points = frequencies(modes, discrete=of.discrete, count=5)
+        scalings = tuple(np.arange(1.0, len(each) + 1) for each in seen.scalings)
+        objective = replace(objective, weight=10.0, limits=limits, points=points, scalings=scalings)
     elif part == "gains":
         objective = replace(objective, largest_gain=0.02)
     elif part == "shape":
@@ -279,3 +288,5 @@ def test_the_search_has_the_bound_the_cost_and_the_margins_of_certificates(time:
     assert optimum.peaks.disk == pytest.approx(least_disk_margin(loop), rel=1e-2)
     assert optimum.peaks.margin == pytest.approx(margin_of(loop), rel=1e-2)
     assert optimum.peaks.disk >= 0.4 and optimum.peaks.margin >= 0.3
+    together = [computed_margins(response_of(loop, side))[1] for side in ("inputs", "outputs")]
+    assert optimum.peaks.together == pytest.approx(min(together), rel=2e-2)
