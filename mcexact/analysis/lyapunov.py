@@ -293,10 +293,8 @@ def scaled(M: Matrix, left: list[Fraction], right: list[Fraction]) -> Matrix:
 
 
 def _diagonal(entries: list[Fraction]) -> Matrix:
-    size = len(entries)
-    return Matrix.from_rows(
-        [[entries[i] if i == j else 0 for j in range(size)] for i in range(size)], ncols=size
-    )
+    cells = [(i, i, entry) for i, entry in enumerate(entries)]
+    return Matrix.from_entries((len(entries), len(entries)), cells)
 
 
 def _balancing(D: Matrix) -> list[Fraction]:

@@ -234,7 +234,8 @@ def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
         solver = solve_discrete_lyapunov if discrete else solve_continuous_lyapunov
         return _solved(lambda: solver(m.T, right if discrete else -right))
 
-    P0 = equation(matrix_to_float(spent))
+    at_once = matrix_to_float(spent)
+    P0 = equation(at_once)
     if P0 is None or np.any(np.diag(P0) < 0) or np.max(P0, initial=0) > _HUGE:
         return None
     W, V = (diagonal_matrix(d) for d in (weights.disturbances, weights.noise))
@@ -243,10 +244,40 @@ def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
     for more in _additions(m, P0, noise, equation, discrete=discrete):
         for room, bits in product(_ROOM, BITS[2:]):
             form = rounded_form(P0 + room * more, bits)
-            cost = None if form is None else cost_by(loop, weights, form)
-            if form is not None and cost is not None:
+            if form is None:
+                continue
+            if bits <= _SURE_BITS and not _seems_strict(form, m, at_once, discrete=discrete):
+                continue
+            cost = cost_by(loop, weights, form)
+            if cost is not None:
                 return LoopCost(loop.system, weights, _decimal_above(cost), form)
     return None
+
+
+_SURE_BITS = 34
+"""Beyond so many bits floating point does not say whether a rounded inequality is strict."""
+
+
+def _seems_strict(form: Symmetric, m: Floats, spent: Floats, *, discrete: bool) -> bool:
+    """Whether rounding seems to leave the inequality of a cost strict, which proves nothing."""
+    P = _in_floats(form)
+    half = P @ m
+    S = (P - m.T @ half if discrete else -(half + half.T)) - spent
+    d = np.diag(S)
+    if not np.all(d > 0):
+        return False
+    scale = 1 / np.sqrt(d)
+    return not len(d) or bool(np.linalg.eigvalsh(S * scale[:, None] * scale)[0] > 0)
+
+
+def _in_floats(form: Symmetric) -> Floats:
+    """A rounded matrix in floating point."""
+    n = len(form.exponents)
+    P = np.zeros((n, n))
+    P[np.tril_indices(n)] = form.entries
+    scale = np.exp2(np.array(form.exponents, dtype=np.float64))
+    whole: Floats = (P + np.tril(P, -1).T) * scale[:, None] * scale
+    return whole
 
 
 def _additions(
@@ -302,10 +333,9 @@ def _modal_weight(m: Floats, noise: Floats, cost: float, *, discrete: bool) -> F
 def cost_by(loop: ClosedLoop, weights: CostWeights, form: Symmetric) -> Fraction | None:
     """The bound on the cost that a matrix proves; None if its inequality is not strict."""
     P, discrete, n = form.matrix(), is_discrete(loop.plant.time), loop.plant.n
-    if not is_positive(P):
-        return None
     M, entering, spent = _spent(loop, weights)
-    if not is_positive(lyapunov_difference(P, M, discrete) - spent):
+    # The second one hardly ever fails alone.
+    if not is_positive(lyapunov_difference(P, M, discrete) - spent) or not is_positive(P):
         return None
     _, R, W, V = (diagonal_matrix(d) for d in _diagonals(weights))
     K = loop.disturbed.K
@@ -769,7 +799,8 @@ def bound_by(
     """The bound that P, S, F and s prove; None unless both inequalities are strict."""
     P, S = proof[0].matrix(), proof[1].matrix()
     first, second, bound = inequalities(plant, weights, time, (P, S, *proof[2:]))
-    strict = all(is_positive(each) for each in (P, S, first, second))
+    # The last two hardly ever fail alone.
+    strict = all(is_positive(each) for each in (first, second, P, S))
     return bound if strict else None
 
 
@@ -809,6 +840,8 @@ _EXTRA = (1e-3, 1e-5, 1e-7)
 """What is added to the weight of the states, as a part, so that the inequality is strict."""
 _SCALINGS = 2.0**6
 """The largest factor by which a scaling departs from 1."""
+_FEW_POLES = 80
+"""The poles around which gains are looked at densely; around more of them other poles are near."""
 _CONDITION, _AT_ONCE = 1e8, 16
 """The largest condition number of eigenvectors that are used, and the norms computed at once."""
 
@@ -989,7 +1022,7 @@ class PortResponse:
         """Points of the border of the stable region, close to each other near the poles."""
         # conjugate poles have the same points
         poles = np.unique(self.poles.real + 1j * np.abs(self.poles.imag))
-        spread = np.linspace(-2, 2, 9)
+        spread = np.linspace(-2, 2, 9 if len(poles) <= _FEW_POLES else 3)
         if self.discrete:
             around = np.abs(np.angle(poles))[:, None]
             widths = np.log(np.maximum(np.abs(poles), 1e-3))[:, None]
@@ -1197,7 +1230,7 @@ def part_holds(
     chosen = M, enter.take(cols=part.ports), leave.take(rows=part.ports)
     P, Theta = part.P.matrix(), diagonal_matrix(part.scaling)
     gain = bounded_real(P, chosen, Theta, 1 / alpha**2, discrete, direct)
-    return is_positive(P) and is_positive(gain)
+    return is_positive(gain) and is_positive(P)
 
 
 def bounded_real(

@@ -47,13 +47,13 @@ class Symmetric(Part):
 
     def matrix(self) -> Matrix:
         """Return the matrix, n × n."""
-        n, e = len(self.exponents), self.exponents
-        s = {(i, j): self.entries[i * (i + 1) // 2 + j] for i in range(n) for j in range(i + 1)}
-        unit = Fraction(2)
-        return Matrix.from_rows(
-            [[s[max(i, j), min(i, j)] * unit ** (e[i] + e[j]) for j in range(n)] for i in range(n)],
-            ncols=n,
-        )
+        n, least = len(self.exponents), min(self.exponents, default=0)
+        e, rows = [each - least for each in self.exponents], [[0] * n for _ in range(n)]
+        entries = iter(self.entries)
+        for i in range(n):
+            for j in range(i + 1):
+                rows[i][j] = rows[j][i] = next(entries) << (e[i] + e[j])
+        return Matrix.from_integers(rows, 1, n) * Fraction(2) ** (2 * least)
 
 
 @dataclass(frozen=True)

@@ -373,6 +373,16 @@ class Margins:
         at_outputs = np.einsum("zjk,kj->zj", H[:, seen], K[:, seen]) + 0.5
         return T, np.einsum("zii->zi", T) + 0.5, at_outputs
 
+    def _seen_loops(self, points: Complexes) -> tuple[Complexes, Complexes, Complexes]:
+        """As `_loops`, without H where there are eigenvectors: O(N p²) for each point."""
+        if self._left is None:
+            return self._loops(self._responses(points))
+        p, K, seen = self._problem.p, self._K, self._seen
+        poles = 1 / (points[:, None] - self.eigenvalues)
+        T = ((K[:p] @ self._left)[None] * poles[:, None]) @ self._right[:, :p]
+        at_outputs = poles @ (self._left[seen].T * (self._right @ K[:, seen]))
+        return T, np.einsum("zii->zi", T) + 0.5, at_outputs + 0.5
+
     def _together(self, H: Complexes) -> tuple[Complexes, Complexes]:
         """T + ½I at all inputs, and at all outputs."""
         p, K, seen = self._problem.p, self._K, self._seen
@@ -386,7 +396,7 @@ class Margins:
         -------
         single, together : ndarray, Z × (p + q) and Z
         """
-        T, inputs, outputs = self._loops(self._responses(points))
+        T, inputs, outputs = self._seen_loops(points)
         sizes = np.linalg.norm(T, 2, axis=(1, 2)) if T.size else np.zeros(len(points))
         return np.abs(np.hstack([inputs, outputs])), np.asarray(sizes, dtype=np.float64)
 
