@@ -261,6 +261,7 @@ def test_a_search_whose_time_is_over_gives_the_best_so_far(plant: str) -> None:
     assert any("the best controller so far" in line for line in made.verdict)
     assert "stability.json" in made.evidence.certificates
     assert any("the time limit left no time for it" in str(table) for table in made.tables)
+    assert any("the time limit ended the search of a proof" in str(each) for each in made.tables)
 
 
 def test_what_is_certified_when_the_time_limit_comes_is_the_result(
@@ -280,6 +281,6 @@ def test_what_is_certified_when_the_time_limit_comes_is_the_result(
 def test_a_time_limit_before_anything_is_certified_is_one(
     plant: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(designs, "assess", lambda *_: time.sleep(600))
+    monkeypatch.setattr(designs, "assess", lambda *_, **__: time.sleep(600))
     status, _, err = call("design", "decentralized", plant, "--timeout", "3")
     assert status == 4 and "nothing has been decided" in err

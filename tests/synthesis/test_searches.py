@@ -19,7 +19,7 @@ from mcexact.exact.matrix import matrix_to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis import distributed_observer, setpoint
+from mcexact.synthesis import distributed_observer, rate, setpoint
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Proposal, Warned
@@ -268,6 +268,19 @@ def test_a_search_whose_time_is_over_ends_with_the_best_controller_so_far(monkey
     assert design.stable and "optimum" in design.parts
     searched = [each for each in short if each in whole and each.startswith(("static", "order"))]
     assert 0 < len(searched) < len([each for each in whole if each.startswith(("static", "order"))])
+
+
+def test_the_choice_of_a_rate_takes_from_the_time_of_a_search(monkeypatch) -> None:
+    ticks = itertools.count()
+
+    def slowly(*_: Any) -> None:
+        for _ in range(100):
+            next(ticks)
+
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(ticks)))
+    monkeypatch.setattr(rate, "chosen_regions", slowly)
+    asked = request_for(gallery.load("compleib-dis2"), aims=Aims(seconds=150))
+    assert asked.deadline is not None and asked.deadline <= 151 < next(ticks) + 150
 
 
 def test_progress_says_what_the_best_controller_costs_and_its_margins() -> None:

@@ -85,6 +85,8 @@ _SAME = 0.005
 _MOST_EXACT_RESPONSES = 24
 """The most states of a loop whose response is computed in ball arithmetic at all frequencies."""
 MOST_DIGITS = 16
+_MANY, _NEAR_WORST = 60, 0.7
+"""The states of a large loop, and the part of the worst gain at which a frequency matters."""
 _NEARLY = 0.9
 
 
@@ -395,22 +397,30 @@ def least_disk_margin(loop: ClosedLoop) -> float:
     1/max |T_ii + ½| on a grid of frequencies; 2 at most.  One eigendecomposition serves all; where
     the eigenvectors are too ill-conditioned, there is one linear system for each frequency.
     """
+    return _disk_margins(loop)[0]
+
+
+def _disk_margins(loop: ClosedLoop, points: Complexes | None = None) -> tuple[float, Complexes]:
+    """The least disk margin at some frequencies, by default all, and those where it is near."""
     seen, discrete = loop.disturbed, is_discrete(loop.plant.time)
     M = matrix_to_float(seen.M)
     entering = np.hstack([matrix_to_float(seen.E), matrix_to_float(seen.G)])
     leaving = np.vstack([matrix_to_float(seen.U), matrix_to_float(seen.Y)])
     with quiet_floats():
         modal = modal_form(M, entering, leaving)
-        values = np.linalg.eigvals(M).astype(np.complex128) if modal is None else modal[0]
-        points = boundary_points(values, discrete=discrete)
+        if points is None:
+            values = np.linalg.eigvals(M).astype(np.complex128) if modal is None else modal[0]
+            points = boundary_points(values, discrete=discrete)
         if modal is not None:
-            _, left, right = modal
+            values, left, right = modal
             T = (1 / (points[:, None] - values)) @ (left * right.T).T
         else:
             eye, columns = np.eye(len(M)), entering.astype(np.complex128)
             solved = (solved_or_nan(z * eye - M, columns) for z in points)
             T = np.array([np.einsum("ik,ki->i", leaving, X) for X in solved])
-    return 1 / max(float(np.nanmax(np.abs(T + 0.5), initial=0.0)), 0.5)
+        sizes = np.nanmax(np.abs(T + 0.5), axis=1, initial=0.0)
+    largest = max(float(np.max(sizes, initial=0.0)), 0.5)
+    return 1 / largest, points[sizes >= _NEAR_WORST * largest]
 
 
 def boundary_points(values: Complexes, *, discrete: bool) -> Complexes:
@@ -592,26 +602,30 @@ def digits_that_suffice(loop: ClosedLoop, region: StabilityRegion) -> int | None
     Notes
     -----
     The least disk margin of a single input or output is to stay above 0.4, or above nine tenths of
-    a smaller one.  It is a ratio, which does not depend on units.
+    a smaller one.  It is a ratio, which does not depend on units.  For large loops the bisection
+    looks at the frequencies where the margin is small, and all of them confirm its result.
     """
-    margin = least_disk_margin(loop)
+    margin, near = _disk_margins(loop)
     kept = 0.0 if isnan(margin) else DISK if margin >= DISK else _NEARLY * margin
 
-    def holds(digits: int) -> bool:
+    def holds(digits: int, points: Complexes | None) -> bool:
         rounded = closed_loop(loop.plant, rounded_controller(loop.controller, digits), loop.graph)
         if not _is_inside(rounded.matrix, region):
             return False
-        return kept <= 0 or least_disk_margin(rounded) >= kept
+        return kept <= 0 or _disk_margins(rounded, points)[0] >= kept
 
+    some = near if loop.dimension > _MANY else None
     fails, suffice = 0, MOST_DIGITS
-    if not holds(suffice):
+    if not holds(suffice, None):
         return None
     while suffice - fails > 1:
         middle = (suffice + fails) // 2
-        if holds(middle):
+        if holds(middle, some):
             suffice = middle
         else:
             fails = middle
+    while some is not None and suffice < MOST_DIGITS and not holds(suffice, None):
+        suffice += 1
     return suffice
 
 
@@ -811,7 +825,7 @@ def _steps(
 TIMES_THE_COST, MARGIN = 10.0, 0.3
 TIMES_OUT_OF_REACH, OUT_OF_REACH_MARGIN = 1000.0, 0.05
 _STEPS_OF_RATE, _STEPS_IF_LARGE, _LARGE = 14, 4, 100
-_FEWEST_MODES, _WORK, _EQUAL = 3, 20_000_000, 1e-9
+_FEWEST_MODES, _WORK, _EQUAL = 3, 8_000_000, 1e-9
 _FASTER = (2.0, 4.0, 8.0)
 _WIDTH, _FACTOR, _FASTEST = 1.02, 4.0, 64.0
 _FAST_ENOUGH = 2.3026
@@ -1132,7 +1146,8 @@ def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[Slo
         seen = [norm(each @ right[:, k]) for each in C]
         slow.append((max(map(min, reached, seen), default=0.0), value))
     slow.sort(key=lambda each: (each[0], each[1].real, each[1].imag))
-    count = max(_FEWEST_MODES, _WORK // max(system.n**3 * system.m, 1))
+    fewest = _FEWEST_MODES if system.n <= _LARGE else 1
+    count = max(fewest, _WORK // max(system.n**3 * system.m, 1))
     modes, distinct = list[SlowMode](), list[complex]()
     for _, value in slow[:count]:
         if any(abs(value - other) <= _EQUAL * size for other in distinct):
