@@ -1022,7 +1022,7 @@ class PortResponse:
         """Points of the border of the stable region, close to each other near the poles."""
         # conjugate poles have the same points
         poles = np.unique(self.poles.real + 1j * np.abs(self.poles.imag))
-        spread = np.linspace(-2, 2, 9 if len(poles) <= _FEW_POLES else 3)
+        spread = np.linspace(-2, 2, 9) if len(poles) <= _FEW_POLES else np.zeros(1)
         if self.discrete:
             around = np.abs(np.angle(poles))[:, None]
             widths = np.log(np.maximum(np.abs(poles), 1e-3))[:, None]
