@@ -274,8 +274,7 @@ def test_the_choice_of_a_rate_takes_from_the_time_of_a_search(monkeypatch) -> No
     ticks = itertools.count()
 
     def slowly(*_: Any) -> None:
-        for _ in range(100):
-            next(ticks)
+        next(itertools.islice(ticks, 100, None))
 
     monkeypatch.setattr(time, "monotonic", lambda: float(next(ticks)))
     monkeypatch.setattr(rate, "chosen_regions", slowly)

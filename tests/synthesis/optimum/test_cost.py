@@ -87,8 +87,11 @@ def test_the_gradient_agrees_with_finite_differences(kind, part):
         limits = Limits(0.0, 0.0, 1.1 * seen.together)
         modes = np.linalg.eigvals(of.loop(x)).astype(complex)
         points = frequencies(modes, discrete=of.discrete, count=5)
-        scalings = tuple(np.arange(1.0, len(each) + 1) for each in seen.scalings)
-        objective = replace(objective, weight=10.0, limits=limits, points=points, scalings=scalings)
+        assert seen.scalings is not None
+        first, second = (np.arange(1.0, len(each) + 1) for each in seen.scalings)
+        objective = replace(
+            objective, weight=10.0, limits=limits, points=points, scalings=(first, second)
+        )
     elif part == "gains":
         objective = replace(objective, largest_gain=0.02)
     elif part == "shape":
