@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast, overload
 
 from mcexact.analysis.blocks import (
@@ -51,7 +52,7 @@ from mcexact.analysis.structure import (
     zero_transfer,
 )
 from mcexact.analysis.subspaces import Decision, Obstruction, decide, evidence
-from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
+from mcexact.answer.evidence import Block, KrylovSequence, RateInterval, RootDisc, ShrunkSubspace
 from mcexact.answer.loops import ClosedLoopSpectrum
 from mcexact.answer.modes import (
     Assignability,
@@ -84,7 +85,7 @@ from mcexact.derived.modular import (
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.krylov import controllable_subspace, stays_sparse
 from mcexact.exact.linear_algebra import PolynomialMatrix, inflate, nullspace_at
-from mcexact.exact.matrix import Matrix, block, vstack
+from mcexact.exact.matrix import Matrix, block, block_diagonal, vstack
 from mcexact.exact.modular import polynomial_residues, primes, random_matrix, residues
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.rational import as_fraction
@@ -547,11 +548,21 @@ def _degree(
     """
     A, B, C = system.A, system.input_matrix(c), system.output_matrix(c)
     states = _on_paths(A, B, C) if apart or A.is_sparse else None
+    parts = MultiChannelSystem(
+        A, [system.B(i) for i in c], [system.C(i) for i in c], time=system.time
+    )
     if states is not None:
         A, B, C = A.take(states, states), B.take(rows=states), C.take(cols=states)
+        inputs = [M.take(rows=states) for M in parts.B]
+        outputs = [M.take(cols=states) for M in parts.C]
+        parts = MultiChannelSystem(A, inputs, outputs, time=system.time)
     n = A.nrows
     merged = MultiChannelSystem(A, [B], [C], time=system.time)
-    best = max(best_sequences(merged, system.denominator), key=lambda each: each.degree)
+    # Gains of the channels alone leave a sparse loop sparse.
+    drawn = best_sequences(parts if A.is_sparse else merged, system.denominator)
+    best = max(drawn, key=lambda each: each.degree)
+    if A.is_sparse:
+        best = _of_all_channels(best, parts)
     if best.degree == n:
         return Degree(states, Matrix.zeros(0, n), (), Matrix.zeros(0, n), (), best if n else None)
     reached = controllable_subspace(A, B, rng)
@@ -565,6 +576,24 @@ def _degree(
     kernel = observed.annihilator()
     sequence = best if degree else None
     return Degree(states, W, reached.free, kernel, observed.free, sequence)
+
+
+def _of_all_channels(sequence: KrylovSequence, parts: MultiChannelSystem) -> KrylovSequence:
+    """The same numbers by all channels taken as one, with the name "1"."""
+    q = parts.index(sequence.channel)
+    before = parts.channels[:q]
+    p, r = sum(c.B.ncols for c in before), sum(c.C.nrows for c in before)
+    return replace(
+        sequence,
+        gains=(block_diagonal(sequence.gains),),
+        channel="1",
+        inputs=_padded(sequence.inputs, p, sum(c.B.ncols for c in parts.channels)),
+        outputs=_padded(sequence.outputs, r, sum(c.C.nrows for c in parts.channels)),
+    )
+
+
+def _padded(numbers: Sequence[int], start: int, size: int) -> tuple[int, ...]:
+    return (*(0,) * start, *numbers, *(0,) * (size - start - len(numbers)))
 
 
 def _on_paths(A: Matrix, B: Matrix, C: Matrix) -> tuple[int, ...] | None:

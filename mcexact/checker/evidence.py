@@ -510,10 +510,12 @@ def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entr
     spend(200 * (most + system.m))
     entries = {(i, j): x for i, j, x in residues(A, ell)}
     for B, F, C in zip(system.B, gains, system.C, strict=True):
-        inputs, outputs, gain = residues(B, ell), residues(C, ell), F.modulo(ell)
+        seen, inputs = _lines(residues(C, ell), C.nrows), residues(B, ell)
+        gain = [[(h, f) for h, f in enumerate(row) if f] for row in F.modulo(ell)]
         for a, g, x in inputs:
-            for h, b, y in outputs:
-                entries[a, b] = (entries.get((a, b), 0) + x * gain[g][h] * y) % ell
+            for h, f in gain[g]:
+                for b, y in seen[h]:
+                    entries[a, b] = (entries.get((a, b), 0) + x * f * y) % ell
     return [(i, j, x) for (i, j), x in entries.items() if x]
 
 
