@@ -760,16 +760,20 @@ class Analysis(ShownByAccount):
 
         Such a plant is searched for each question of `PROPERTIES` that was asked and is open, if
         the system has at most 60 states and no parameters.  If the search fails, this proves
-        nothing.
+        nothing.  One plant often lacks several properties: what is not controllable has a fixed
+        mode.
         """
         system, asked = self.system, PROPERTIES.keys() & (self.open().keys() - self._ended)
         if self.parameters or system.subject or system.n > _MOST_STATES or self._left == 0:
             return {}
-        for name in asked - self._refuted.keys():
+        for name in reversed(PROPERTIES):  # what implies others comes last
+            if name not in asked or name in self._refuted:
+                continue
             # Few plants have radii, and this loads all that searches in boxes.
             from mcexact.analysis.boxes.largest import failing_member
 
-            self._refuted[name] = failing_member(system, PROPERTIES[name])
+            known = [each.about.plant for each in self._refuted.values() if each is not None]
+            self._refuted[name] = failing_member(system, PROPERTIES[name], known=known)
         searched = {name: self._refuted[name] for name in sorted(asked)}
         return {name: answer for name, answer in searched.items() if answer is not None}
 

@@ -8,7 +8,9 @@ is cut into such parts.
 A box is one part.  Ranges are cut into cells, which have an interval for each parameter: a proof is
 tried for the whole ranges first, and a cell without a proof is cut in half, in the parameter that
 changes the entries most.  The plant in its middle is decided exactly: if it fails, the search ends
-with these values.  It also ends after a number of cells or cuts; then nothing is proved.
+with these values.  So are those at the corners of the whole ranges before the first cut: properties
+often fail at the ends, where a connection is 0, and cells beside such a corner are never proved.
+The search also ends after a number of cells or cuts; then nothing is proved.
 
 The members of a cell are fewer than those of a box with independent radii would be, since all
 entries depend on the same parameters.  On a cell with the middle p0 and the half widths r an entry
@@ -48,7 +50,7 @@ P = TypeVar("P")
 _CELLS, _DEEPEST = 64, 5
 """The most cells, and how often one is cut for each parameter."""
 _MOST_CORNERS = 16
-"""How many corners are decided of a cell that is cut no more."""
+"""How many corners are decided of the whole ranges, and of a cell that is cut no more."""
 
 
 def proofs(
@@ -116,9 +118,11 @@ def _proofs_of_cells(
             continue
         middle = tuple(map(_middle, cell))
         _require_holds(plant, middle, fails, failure)
-        if len(parts) + len(left) + 2 > _CELLS or depth == _DEEPEST * len(cell):
+        last = len(parts) + len(left) + 2 > _CELLS or depth == _DEEPEST * len(cell)
+        if last or not depth:
             for corner in itertools.islice(itertools.product(*cell), _MOST_CORNERS):
                 _require_holds(plant, corner, fails, failure)
+        if last:
             where = values_in_words(plant.parameters, middle)
             raise LimitReached(f"no proof was found near {where}; perhaps {failure} there")
         k = _widest(plant, cell)

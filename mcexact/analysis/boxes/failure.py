@@ -43,6 +43,8 @@ Freedom = Literal["plane", "line", "circle"]
 _PROGRAMS = 12
 _SINGULAR, _ALIKE = 1e-10, 1e-12
 _TOO_FAR = 5.0
+_ROUND_OFF = 0.9
+"""An exact change may be larger than the one in floating point near which it is."""
 _BITS = 24
 _CHOICES = 8
 
@@ -76,12 +78,15 @@ class Uncertain:
     states : int
     rank : int
         The rank to which the pencil shall drop.
+    enough : Fraction, optional
+        A change of at most this size ends the search; by default the smallest one is wanted.
     """
 
     Z: Matrix
     D: Matrix
     states: int
     rank: int
+    enough: Fraction = Fraction(0)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_Z", matrix_to_float(self.Z))
@@ -121,6 +126,8 @@ class Uncertain:
                 change = np.zeros(Z.shape)
                 change[I, J] = part * D[I, J]
                 best = Drop(size, point, change)
+                if size < _ROUND_OFF * float(self.enough):
+                    return best
             L = U[:, self.rank :].conj() / rows[:, None]
             R = Vh[self.rank :].conj().T / cols[:, None]
             directions = _directions(point, freedom, real)
@@ -146,9 +153,14 @@ class Uncertain:
         """
         point = rational_point(near.point, freedom)
         change = _rounded(near.change)
-        exact = (self._by_rows(change, point, transposed) for transposed in (False, True))
-        changes = [each for each in exact if each is not None]
-        return min(changes, key=lambda each: each[1], default=None)
+        best: tuple[Matrix, Fraction] | None = None
+        for transposed in (False, True):
+            made = self._by_rows(change, point, transposed)
+            if made is not None and (best is None or made[1] < best[1]):
+                best = made
+            if best is not None and best[1] <= self.enough:
+                break
+        return best
 
     def _by_rows(
         self, change: Matrix, point: tuple[Fraction, Fraction], transposed: bool
@@ -168,6 +180,8 @@ class Uncertain:
                 size = max(sizes, default=Fraction(0))
                 if best is None or size < best[1]:
                     best = (total.T if transposed else total), size
+                if size <= self.enough:
+                    break
         return best
 
 
@@ -405,6 +419,7 @@ def failing_plant(
     sets: Iterable[tuple[int, ...]],
     tries: int,
     region: StabilityRegion | None = None,
+    enough: Fraction = Fraction(0),
 ) -> FailingPlant | None:
     """Search a plant near a system with a fixed mode, the pencil of a set s of which loses rank.
 
@@ -419,9 +434,12 @@ def failing_plant(
         How many sets and modes are tried, those that seem nearest first.
     region : StabilityRegion, optional
         The fixed mode is to be on its border, or outside.
+    enough : Fraction, optional
+        A plant at most so far away ends the search; by default the nearest one is wanted.
     """
-    starts = (
-        [] if tries < 1 else sorted(_starts(system, radii, sets, region), key=lambda each: each[0])
+    starts = sorted(
+        _starts(system, radii, sets, region, enough) if tries >= 1 else (),
+        key=lambda each: each[0],
     )
     best: FailingPlant | None = None
     for _, s, pencil, point, freedom in starts[:tries]:
@@ -437,6 +455,8 @@ def failing_plant(
         change, size = exact
         plant = changed(system, s, change)
         best = FailingPlant(plant, size, near.point, system.named(s))
+        if size <= enough:
+            break
     return best
 
 
@@ -464,6 +484,7 @@ def _starts(
     radii: Radii,
     sets: Iterable[tuple[int, ...]],
     region: StabilityRegion | None,
+    enough: Fraction,
 ) -> Iterator[tuple[float, tuple[int, ...], Uncertain, complex, Freedom]]:
     """For each set and starting point the singular value, and the pencil to search with."""
     values = np.linalg.eigvals(matrix_to_float(system.A)) if system.n else np.zeros(0)
@@ -475,6 +496,7 @@ def _starts(
             pencil_matrix(radii.A, [radii.B[i] for i in T], [radii.C[i] for i in s]),
             system.n,
             system.n - 1,
+            enough,
         )
         for point, freedom in points:
             yield pencil.smallest(point), s, pencil, point, freedom

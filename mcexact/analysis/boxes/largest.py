@@ -417,7 +417,11 @@ def nearest_fixed(system: MultiChannelSystem, tries: int) -> FailingPlant | None
 
 
 def failing_member(
-    system: MultiChannelSystem, wanted: Property = "no fixed mode", tries: int = 8
+    system: MultiChannelSystem,
+    wanted: Property = "no fixed mode",
+    tries: int = 8,
+    *,
+    known: Iterable[MultiChannelSystem] = (),
 ) -> Answer | None:
     """Search a plant within the radii of a system that lacks a property.
 
@@ -428,6 +432,8 @@ def failing_member(
     wanted : {"no fixed mode", "stabilizable", "controllable", "observable"}
     tries : int
         How many sets of channels and modes are tried.
+    known : iterable of MultiChannelSystem
+        Plants within the radii, which are decided before others are searched.
 
     Returns
     -------
@@ -444,10 +450,11 @@ def failing_member(
     True
     """
     with one_thread():
-        failures = _failures(system, wanted)
-        refuted = failures.refuted(Box(system).nominal)
-        if refuted is not None:
-            return refuted
+        failures = _failures(system, wanted, Fraction(1))
+        for member in (Box(system).nominal, *known):
+            refuted = failures.refuted(member)
+            if refuted is not None:
+                return refuted
         near, refutation = nearest(failures, tries)
     return refutation if near is not None and near.distance <= 1 else None
 
@@ -510,8 +517,8 @@ def _proofs(unit: MultiChannelSystem, wanted: str) -> Proofs:
     )
 
 
-def _failures(unit: MultiChannelSystem, wanted: str) -> Failures:
-    """The search for a plant that lacks one property."""
+def _failures(unit: MultiChannelSystem, wanted: str, enough: Fraction = Fraction(0)) -> Failures:
+    """The search for a plant that lacks one property; one at most so far away ends it."""
     system, region = _decided(unit, wanted), _region(unit, wanted)
     radii = radii_of(system)
     if wanted not in ("controllable", "observable"):
@@ -522,7 +529,7 @@ def _failures(unit: MultiChannelSystem, wanted: str) -> Failures:
             return None if spectrum.empty or allowed else spectrum
 
         return Failures(
-            lambda tries: failing_plant(unit, radii, tried_sets(unit.m), tries, region),
+            lambda tries: failing_plant(unit, radii, tried_sets(unit.m), tries, region, enough),
             lambda: severed_plants(unit, radii),
             fixed,
         )
@@ -538,7 +545,7 @@ def _failures(unit: MultiChannelSystem, wanted: str) -> Failures:
         return replace(near, plant=plant)
 
     def proposed(tries: int) -> FailingPlant | None:
-        near = failing_plant(system, radii, [()], tries)
+        near = failing_plant(system, radii, [()], tries, enough=enough)
         return None if near is None else near_unit(near)
 
     def uncontrollable(plant: MultiChannelSystem) -> Answer | None:

@@ -620,6 +620,8 @@ def box_stabilizability(
 _REWEIGHTINGS, _FEW = 40, 10
 _SMALL = 0.9
 """A right inverse with so small a norm is used as it is."""
+_LITTLE = 0.01
+"""A norm below 1 that falls by less is as good as one that falls further."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -683,7 +685,7 @@ class WidePencil:
         n, width = self.near.shape
         E = np.hstack([np.eye(n), np.zeros((n, width - n))])
         Z, D = c * E - self.near, float(factor) * self.near_D + rho * E
-        R = _right_inverse(Z, D, _FEW)
+        R = _right_inverse(Z, D, _FEW, below_one=True)
         part = float(factor)
         w = None if R is None else weights(part * self.deviation(R) + rho * E @ np.abs(R))
         if R is None or w is None:
@@ -721,11 +723,12 @@ class WidePencil:
         )
 
 
-def _right_inverse(Z: Any, D: Floats, rounds: int) -> Any:
+def _right_inverse(Z: Any, D: Floats, rounds: int, *, below_one: bool = False) -> Any:
     """A right inverse R of Z for which the spectral radius of D |R| is small.
 
     Among all right inverses G Zᴴ (Z G Zᴴ)⁻¹ the positive diagonal G is changed so that it weighs
-    each row of R by what it contributes, in the positive vectors of D |R|.
+    each row of R by what it contributes, in the positive vectors of D |R|.  If any radius
+    ``below_one`` serves, the search ends with one that hardly falls any more.
     """
     g, least, best = np.ones(Z.shape[1]), np.inf, None
     for _ in range(rounds):
@@ -737,9 +740,10 @@ def _right_inverse(Z: Any, D: Floats, rounds: int) -> Any:
         if not np.all(np.isfinite(R)):
             return best
         size, right, left = perron(D @ np.abs(R))
-        if size < least:
+        fall = least - size
+        if fall > 0:
             least, best = size, R
-        if least < _SMALL:
+        if least < _SMALL or (below_one and least < 1 and fall < _LITTLE):
             return best
         cost, used = left @ D, np.abs(R) @ right
         g = np.sqrt(g * (used + 1e-9 * used.max()) / (cost + 1e-9 * cost.max()))

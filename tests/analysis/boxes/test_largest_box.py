@@ -23,7 +23,7 @@ from mcexact import (
     testing,
 )
 from mcexact.analysis.boxes.failure import failing_plant, rational_point, severed_plants, tried_sets
-from mcexact.analysis.boxes.largest import Proofs, largest_factor
+from mcexact.analysis.boxes.largest import Proofs, failing_member, largest_factor
 from mcexact.analysis.boxes.pencils import one_thread
 from mcexact.answer.boxes import BoxFixedModes
 from mcexact.errors import UsageError
@@ -132,6 +132,31 @@ def test_a_plant_that_fails_is_exactly_at_its_distance(drawn: testing.Drawn) -> 
     assert not found.distance or not unit.scaled(found.distance * Fraction(99, 100)).contains(
         found.plant
     )
+
+
+def test_the_search_ends_with_a_plant_that_is_near_enough() -> None:
+    """The nearest is at a third; a change of at most 1/2 is enough, and of 1/10 there is none."""
+    plant, unit = TWO_MODES, Box.relative(TWO_MODES, 1)
+    tries = tried_sets(plant.m)
+    nearest = failing_plant(plant, unit.radii, tries, 8)
+    for enough in (Fraction(1, 2), Fraction(1, 10)):
+        near = failing_plant(plant, unit.radii, tries, 8, enough=enough)
+        assert nearest is not None and near is not None
+        assert nearest.distance <= near.distance <= max(enough, nearest.distance)
+        assert not fixed_spectrum(near.plant).empty
+
+
+def test_a_plant_that_is_known_to_fail_is_not_searched(monkeypatch: pytest.MonkeyPatch) -> None:
+    box = Box.relative(TWO_MODES, 1).system
+    uncontrollable = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]]], [[[1, 1]]])
+    calls: list[str] = []
+    monkeypatch.setattr(
+        "mcexact.analysis.boxes.largest.failing_plant", lambda *_, **__: calls.append("searched")
+    )
+    failing = failing_member(box, "no fixed mode", known=[TWO_MODES, uncontrollable])
+    assert failing is not None and failing.about.plant == uncontrollable and not calls
+    failing_member(Box.relative(TWO_MODES, "1/10").system, "no fixed mode", known=[TWO_MODES])
+    assert calls
 
 
 def test_few_channels_have_all_sets_and_many_the_simplest() -> None:

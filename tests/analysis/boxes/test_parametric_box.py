@@ -23,7 +23,8 @@ from mcexact import (
     load_certificate,
     save_certificate,
 )
-from mcexact.analysis.boxes.cells import members_of_cell, whole_cell
+from mcexact.analysis.boxes.cells import members_of_cell, proofs, whole_cell
+from mcexact.analysis.boxes.pencils import Members
 from mcexact.checker.cells import box_of_cell as checked_box
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.errors import LimitReached, UsageError
@@ -188,3 +189,28 @@ def test_a_region_and_the_subject_are_those_of_the_claim() -> None:
         box_fixed_modes(plant)
     control = box_controllability(plant, bound="3/4")
     assert control.region == proof.region and check(control).verdict == "VALID"
+
+
+def test_what_fails_at_a_corner_is_found_before_ranges_are_cut() -> None:
+    """The channel does nothing at b = 1, next to which no cell is ever proved."""
+    tried: list[Members] = []
+
+    def nothing(members: Members) -> None:
+        tried.append(members)
+
+    plant = ParametricSystem(
+        [["a"]],
+        [[["b - 1"]]],
+        [[[1]]],
+        parameters=["a", "b"],
+        assume={"a": (1, 3), "b": ("1/3", 1)},
+    )
+    with pytest.raises(LimitReached, match=r"a mode is fixed at a = 1, b = 1$"):
+        proofs(
+            plant,
+            nothing,
+            lambda at: not fixed_spectrum(at).empty,
+            claim="",
+            failure="a mode is fixed",
+        )
+    assert len(tried) == 1
