@@ -2,7 +2,8 @@
 
    A shrunk subspace (T, U, V) of deficiency d for p: modulo p, (xI - A) U = B_T V and C_i U = 0
    for i outside T; some rows of U are an identity modulo p; the columns of U number at least
-   rank B_T + d (rank over the field of the data). *)
+   rank B_T + d (rank over the field of the data).  In place of B_T there may be any matrix Y whose image contains
+   that of B_T, with the number of its columns for the rank: local_subspace.v needs this. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -74,70 +75,88 @@ Variables (S : multichannel L n p q) (lambda : L) (T : {set 'I_m}).
 Definition shrunk u (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)) :=
   (lambda%:M - mcA S) *m U = inputs S T *m V /\ (forall i, i \notin T -> mcC S i *m U = 0).
 
-Variables (u : nat) (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)).
-Hypotheses (sh : shrunk U V) (fU : \rank U = u).
+(* The same with a matrix Y whose image contains that of B_T. *)
+Definition shrunk_into r u (Y : 'M[L]_(n, r)) (U : 'M[L]_(n, u)) (V : 'M[L]_(r, u)) :=
+  [/\ (lambda%:M - mcA S) *m U = Y *m V, forall i, i \notin T -> mcC S i *m U = 0 &
+      exists X, inputs S T = Y *m X].
 
-Lemma shrunk_image (F : gains L p q) :
-  (lambda%:M - closed_loop S F) *m U =
-  inputs S T *m (V - \mxcol_i (F i *m mcC S i *m U)).
+Lemma shrunk_base u (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)) : shrunk U V ->
+  shrunk_into (col_base (inputs S T)) U (row_base (inputs S T) *m V).
 Proof.
-have [e z] := sh; rewrite /closed_loop opprD addrA mulmxDl e mulmxBr; congr (_ + _).
-rewrite mulNmx mulmx_suml; congr (- _).
+by case=> e z; split=> //; [rewrite mulmxA mulmx_base | exists (row_base (inputs S T)); rewrite mulmx_base].
+Qed.
+
+Section Into.
+Variables (r u : nat) (Y : 'M[L]_(n, r)) (U : 'M[L]_(n, u)) (V : 'M[L]_(r, u)).
+Hypotheses (sh : shrunk_into Y U V) (fU : \rank U = u).
+
+Lemma shrunk_image (F : gains L p q) : exists W, (lambda%:M - closed_loop S F) *m U = Y *m W.
+Proof.
+have [e z [X eX]] := sh; exists (V - X *m \mxcol_i (F i *m mcC S i *m U)).
+rewrite /closed_loop opprD addrA mulmxDl e mulmxBr; congr (_ + _).
+rewrite mulNmx mulmx_suml mulmxA -eX; congr (- _).
 rewrite -(@inputsE _ _ _ _ _ S T u (fun i => F i *m mcC S i *m U)).
   by apply: eq_bigr => i _; rewrite !mulmxA.
 by move=> i /z e'; rewrite -mulmxA e' mulmx0.
 Qed.
 
 (* Rule "shrunk subspace": for every F, rank (lambda I - A_F) <= n - d. *)
-Theorem shrunk_rank d (F : gains L p q) : (\rank (inputs S T) + d <= u)%N ->
+Theorem shrunk_into_rank d (F : gains L p q) : (r + d <= u)%N ->
   (\rank (lambda%:M - closed_loop S F)%R + d <= n)%N.
 Proof.
 have := mxrank_mul_min (lambda%:M - closed_loop S F) U.
-rewrite shrunk_image fU => h1.
-by move=> h; apply: rank_count (leq_trans h1 (mxrankM_maxl _ _)) h.
+have [W ->] := shrunk_image F; rewrite fU => h1.
+by apply: rank_count (leq_trans h1 (leq_trans (mxrankM_maxl _ _) (rank_leq_col _))).
 Qed.
 
 (* The pencil of the paper's subset s, the complement of T, loses rank as well. *)
-Theorem shrunk_pencil_rank d : (\rank (inputs S T) + d <= u)%N ->
+Theorem shrunk_into_pencil_rank d : (r + d <= u)%N ->
   (\rank (pencil S (~: T) lambda) + d <= n)%N.
 Proof.
-have [e z] := sh; move=> h.
+have [e z [X eX]] := sh.
 have z' : outputs S (~: T) *m U = 0 by apply/outputs_eq0 => i; rewrite inE => /z.
-pose N := block_mx U 0 (- V) 1%:M : 'M_(n + \sum_i p i, u + \sum_i p i).
-have eN : pencil S (~: T) lambda *m N = block_mx 0 (inputs S T) 0 0.
-  by rewrite mulmx_block setCK e z' !mulmx0 !mul0mx mulmxN subrr !addr0 mulmx1 add0r.
-have rN : (u + \sum_i p i <= \rank N)%N.
-  rewrite -{1}fU -[X in (_ + X)%N](mxrank1 L) -rank_diag_block_mx.
-  apply: leq_trans (mxrankM_maxl _ (block_mx 1%:M 0 V 1%:M)).
-  by rewrite mulmx_block !mulmx1 !mul1mx !mulmx0 !mul0mx !addr0 add0r addNr.
+pose N := block_mx U 0 0 1%:M : 'M_(n + \sum_i p i, u + \sum_i p i).
+have eN : pencil S (~: T) lambda *m N = block_mx Y 0 0 0 *m block_mx V X 0 (0 : 'M_(0, _)).
+  by rewrite !mulmx_block setCK e z' eX !(mulmx0, mul0mx, addr0, add0r, mulmx1).
 have := mxrank_mul_min (pencil S (~: T) lambda) N.
-rewrite eN block_mxEv row_mx0 rank_col_mx0 rank_row_0mx => h1.
-apply: rank_count h; apply: leq_trans h1; rewrite -(subnDr (\sum_i p i)%N) leq_sub2r//.
-by rewrite -addnA leq_add2l.
+rewrite {1}rank_diag_block_mx fU mxrank1 addnA subnDr eN => h.
+apply: rank_count (leq_trans h (leq_trans (mxrankM_maxl _ _) _)).
+by rewrite rank_diag_block_mx mxrank0 addn0 rank_leq_col.
 Qed.
+End Into.
+
+(* With Y a base of im B_T. *)
+Variables (u : nat) (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)).
+Hypotheses (sh : shrunk U V) (fU : \rank U = u).
+
+Theorem shrunk_rank d (F : gains L p q) : (\rank (inputs S T) + d <= u)%N ->
+  (\rank (lambda%:M - closed_loop S F)%R + d <= n)%N.
+Proof. exact: (shrunk_into_rank (shrunk_base sh) fU F). Qed.
+
+Theorem shrunk_pencil_rank d : (\rank (inputs S T) + d <= u)%N ->
+  (\rank (pencil S (~: T) lambda) + d <= n)%N.
+Proof. exact: (shrunk_into_pencil_rank (shrunk_base sh) fU). Qed.
 End Shrunk.
 
 Section Dynamic.
 Variables (L : fieldType) (n m : nat) (p q k : 'I_m -> nat).
 Variables (S : multichannel L n p q) (lambda : L) (T : {set 'I_m}).
-Variables (u : nat) (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)).
 
 (* The same evidence for every dynamic linear time-invariant channel controller.  U is enlarged by all
    states z_i, i in T; nothing is assumed of the K_i, so lambda may be a pole of the controller. *)
-Theorem shrunk_dynamic_rank d (D : controllers L p q k) :
-  shrunk S lambda T U V -> \rank U = u -> (\rank (inputs S T) + d <= u)%N ->
+Theorem shrunk_into_dynamic_rank r u (Y : 'M[L]_(n, r)) (U : 'M[L]_(n, u)) V d (D : controllers L p q k) :
+  shrunk_into S lambda T Y U V -> \rank U = u -> (r + d <= u)%N ->
   (\rank (lambda%:M - dynamic_loop S D)%R + d <= n + \sum_i k i)%N.
 Proof.
-move=> sh fU h; have [_ z] := sh.
+move=> sh fU h; have [_ z [X eX]] := sh; have [W eW] := shrunk_image sh (ctF D).
 pose Z : 'M[L]_(\sum_i k i) := \mxdiag_i (if i \in T then 1%:M else 0).
-pose Y12 : 'M[L]_(\sum_i p i, \sum_i k i) := \mxrow_j (submxrow 1%:M j *m ctG D j).
-pose Y : 'M_(\sum_i p i + \sum_i k i, u + \sum_i k i) :=
-  block_mx (V - \mxcol_i (ctF D i *m mcC S i *m U)) (- Y12)
-           (- \mxcol_i (ctL D i *m mcC S i *m U)) (lambda%:M - \mxdiag_i ctK D i).
-have e : (lambda%:M - dynamic_loop S D) *m block_mx U 0 0 Z = block_mx (inputs S T) 0 0 Z *m Y.
+pose X12 : 'M[L]_(\sum_i p i, \sum_i k i) := \mxrow_j (submxrow 1%:M j *m ctG D j).
+pose X' : 'M_(r + \sum_i k i, u + \sum_i k i) :=
+  block_mx W (- (X *m X12)) (- \mxcol_i (ctL D i *m mcC S i *m U)) (lambda%:M - \mxdiag_i ctK D i).
+have e : (lambda%:M - dynamic_loop S D) *m block_mx U 0 0 Z = block_mx Y 0 0 Z *m X'.
   rewrite /dynamic_loop scalar_mx_block opp_block_mx add_block_mx !mulmx_block.
-  rewrite !mulmx0 !mul0mx !addr0 !add0r (shrunk_image sh); congr block_mx.
-  - rewrite mulNmx mulmxN; congr (- _); rewrite mul_mxrow_mxdiag mul_mxrow; apply: eq_mxrow => j.
+  rewrite !mulmx0 !mul0mx !addr0 !add0r eW; congr block_mx.
+  - rewrite mulNmx mulmxN mulmxA -eX; congr (- _); rewrite mul_mxrow_mxdiag mul_mxrow; apply: eq_mxrow => j.
     rewrite mulmxA mul_submxrow mulmx1 mxrowK.
     by case: ifP => _; rewrite ?mulmx1 ?mulmx0 ?mul0mx.
   - rewrite mulNmx mulmxN; congr (- _); rewrite mxcol_mul mul_mxdiag_mxcol; apply: eq_mxcol => j.
@@ -149,8 +168,13 @@ have e : (lambda%:M - dynamic_loop S D) *m block_mx U 0 0 Z = block_mx (inputs S
 have := mxrank_mul_min (lambda%:M - dynamic_loop S D) (block_mx U 0 0 Z).
 rewrite e rank_diag_block_mx fU => h1.
 apply: rank_count (leq_trans h1 (mxrankM_maxl _ _)) _.
-by rewrite rank_diag_block_mx addnAC leq_add2r.
+by rewrite rank_diag_block_mx addnAC leq_add// (leq_trans _ h)// leq_add2r rank_leq_col.
 Qed.
+
+Theorem shrunk_dynamic_rank u (U : 'M[L]_(n, u)) V d (D : controllers L p q k) :
+  shrunk S lambda T U V -> \rank U = u -> (\rank (inputs S T) + d <= u)%N ->
+  (\rank (lambda%:M - dynamic_loop S D)%R + d <= n + \sum_i k i)%N.
+Proof. by move=> /shrunk_base sh fU h; apply: (shrunk_into_dynamic_rank D sh fU h). Qed.
 End Dynamic.
 
 Section ModuloPolynomial.
@@ -185,61 +209,61 @@ End ModuloPolynomial.
 Section Certificate.
 Variables (K : fieldType) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
 
-(* The certificate: polynomial matrices U, V over K, and the rows `pivots`. *)
+(* The certificate: polynomial matrices U, V over K, the rows `pivots`, and Y, whose image contains that of B_T. *)
 Record shrunk_subspace (P : {poly K}) (T : {set 'I_m}) (d : nat) := ShrunkSubspace {
+  sh_r : nat;
   sh_u : nat;
+  sh_Y : 'M[K]_(n, sh_r);
   sh_U : 'M[{poly K}]_(n, sh_u);
-  sh_V : 'M[{poly K}]_(\sum_i p i, sh_u);
+  sh_V : 'M[{poly K}]_(sh_r, sh_u);
   sh_pivots : 'I_sh_u -> 'I_n;
-  sh_state : zero_modulo P (('X%:M - map_mx polyC (mcA S)) *m sh_U - map_mx polyC (inputs S T) *m sh_V);
+  sh_inputs : exists X, inputs S T = sh_Y *m X;
+  sh_state : zero_modulo P (('X%:M - map_mx polyC (mcA S)) *m sh_U - map_mx polyC sh_Y *m sh_V);
   sh_output : forall i, i \notin T -> zero_modulo P (map_mx polyC (mcC S i) *m sh_U);
   sh_identity : zero_modulo P (rowsub sh_pivots sh_U - 1%:M);
-  sh_count : (\rank (inputs S T) + d <= sh_u)%N }.
-
-Arguments sh_state {P T d} _ _ _.
-Arguments sh_output {P T d} _ _ _ _ _.
-Arguments sh_identity {P T d} _ _ _.
+  sh_count : (sh_r + d <= sh_u)%N }.
 
 Variables (P : {poly K}) (T : {set 'I_m}) (d : nat) (E : shrunk_subspace P T d).
 Variables (L : fieldType) (f : {rmorphism K -> L}) (lambda : L).
 Hypothesis root_lambda : root (map_poly f P) lambda.
 
+Let Y := map_mx f (sh_Y E).
 Let U := map_mx (value f lambda) (sh_U E).
 Let V := map_mx (value f lambda) (sh_V E).
 
-Lemma certificate_shrunk : shrunk (map_system f S) lambda T U V.
+Lemma certificate_inputs : exists X, inputs (map_system f S) T = Y *m X.
+Proof. by have [X e] := sh_inputs E; exists (map_mx f X); rewrite -map_inputs e map_mxM. Qed.
+
+Lemma certificate_shrunk : shrunk_into (map_system f S) lambda T Y U V.
 Proof.
-split=> [|i iT].
-  have := value_zero root_lambda (sh_state E).
-  rewrite map_mxB !map_mxM map_mxB map_scalar_mx /= valueX !value_const map_inputs => /eqP.
+split=> [|i iT|]; last exact: certificate_inputs.
+  have := value_zero root_lambda (@sh_state _ _ _ E).
+  rewrite map_mxB !map_mxM map_mxB map_scalar_mx /= valueX !value_const => /eqP.
   by rewrite subr_eq0 => /eqP.
-by have := value_zero root_lambda (sh_output E i iT); rewrite map_mxM value_const.
+by have := value_zero root_lambda (@sh_output _ _ _ E i iT); rewrite map_mxM value_const.
 Qed.
 
 Lemma certificate_free : \rank U = sh_u E.
 Proof.
-have := value_zero root_lambda (sh_identity E); rewrite map_mxB map_mx1 => /eqP.
+have := value_zero root_lambda (@sh_identity _ _ _ E); rewrite map_mxB map_mx1 => /eqP.
 rewrite subr_eq0 => /eqP e; apply/eqP; rewrite eqn_leq rank_leq_col /=.
 rewrite -[X in (X <= _)%N](mxrank1 L) -e map_mxsub mxrankS//; exact: rowsub_sub.
 Qed.
 
-Lemma certificate_count : (\rank (inputs (map_system f S) T) + d <= sh_u E)%N.
-Proof. by rewrite -map_inputs mxrank_map sh_count. Qed.
-
 (* Rule "shrunk subspace": static gains over every extension field L of the field of the data. *)
 Theorem shrunk_subspace_rank (F : gains L p q) :
   (\rank (lambda%:M - closed_loop (map_system f S) F)%R + d <= n)%N.
-Proof. exact: (shrunk_rank certificate_shrunk certificate_free F certificate_count). Qed.
+Proof. exact: (shrunk_into_rank certificate_shrunk certificate_free F (sh_count E)). Qed.
 
 (* The same rule for the paper's pencil, s the complement of T. *)
 Theorem shrunk_subspace_pencil :
   (\rank (pencil (map_system f S) (~: T) lambda) + d <= n)%N.
-Proof. exact: (shrunk_pencil_rank certificate_shrunk certificate_free certificate_count). Qed.
+Proof. exact: (shrunk_into_pencil_rank certificate_shrunk certificate_free (sh_count E)). Qed.
 
 (* The same rule for dynamic channel controllers. *)
 Theorem shrunk_subspace_dynamic k (D : controllers L p q k) :
   (\rank (lambda%:M - dynamic_loop (map_system f S) D)%R + d <= n + \sum_i k i)%N.
-Proof. exact: shrunk_dynamic_rank certificate_shrunk certificate_free certificate_count. Qed.
+Proof. exact: (shrunk_into_dynamic_rank D certificate_shrunk certificate_free (sh_count E)). Qed.
 
 Lemma eigenvalue_rank a (M : 'M[L]_a) : eigenvalue M lambda = (\rank (lambda%:M - M)%R < a)%N.
 Proof.
@@ -261,6 +285,22 @@ move=> d0; rewrite eigenvalue_rank (leq_trans _ (shrunk_subspace_dynamic D))//.
 by rewrite -[X in (X < _)%N]addn0 ltn_add2l.
 Qed.
 End Certificate.
+
+Section Inputs.
+Variables (K : fieldType) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
+
+(* With V for all inputs: Y is a base of im B_T. *)
+Lemma shrunk_by_inputs P T d u (U : 'M[{poly K}]_(n, u)) (V : 'M[{poly K}]_(\sum_i p i, u)) (pivots : 'I_u -> 'I_n) :
+  zero_modulo P (('X%:M - map_mx polyC (mcA S)) *m U - map_mx polyC (inputs S T) *m V) ->
+  (forall i, i \notin T -> zero_modulo P (map_mx polyC (mcC S i) *m U)) ->
+  zero_modulo P (rowsub pivots U - 1%:M) -> (\rank (inputs S T) + d <= u)%N -> shrunk_subspace S P T d.
+Proof.
+move=> state output identity count.
+apply: (@ShrunkSubspace _ _ _ _ _ S P T d _ _ (col_base (inputs S T)) U (map_mx polyC (row_base (inputs S T)) *m V) pivots) => //.
+  by exists (row_base (inputs S T)); rewrite mulmx_base.
+by rewrite mulmxA -map_mxM mulmx_base.
+Qed.
+End Inputs.
 
 (* The easy half of Anderson-Clements (Proposition 2): no gains exceed the rank of a pencil. *)
 Section Easy.

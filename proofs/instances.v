@@ -44,7 +44,7 @@ Qed.
 (* A shrunk subspace of deficiency 1 for p = x in the stuck system. *)
 Lemma evidence_stuck P : P = 'X -> shrunk_subspace (Q stuck) P setT 1.
 Proof.
-move=> ->; apply: (@ShrunkSubspace _ _ _ _ _ _ _ _ _ 1 1%:M 0 id).
+move=> ->; apply: (@shrunk_by_inputs _ _ _ _ _ _ _ _ _ 1 1%:M 0 id).
 - rewrite mulmx0 subr0 mulmx1 => i j; rewrite !mxE rmorph0 subr0 !ord1 eqxx; exact: dvdpp.
 - by move=> i; rewrite inE.
 - move=> i j; rewrite !mxE subrr; exact: dvdp0.
@@ -67,12 +67,26 @@ Definition inst_shrunk_fixed_dynamic (k : 'I_1 -> nat) (D : controllers algCfiel
 Definition inst_loop_rank := loop_rank_pencil (map_system h (Q free)) setT 0 (fun=> 1%:M).
 
 (* The same at one point of the larger field. *)
-Definition inst_shrunk_point (F : gains algCfield one one) :=
-  shrunk_rank (certificate_shrunk E root0) (certificate_free E root0) F (certificate_count E h).
-Definition inst_shrunk_pencil_point :=
-  shrunk_pencil_rank (certificate_shrunk E root0) (certificate_free E root0) (certificate_count E h).
+Definition inst_shrunk_into_point (F : gains algCfield one one) :=
+  shrunk_into_rank (certificate_shrunk E root0) (certificate_free E root0) F (sh_count E).
+Definition inst_shrunk_into_pencil_point :=
+  shrunk_into_pencil_rank (certificate_shrunk E root0) (certificate_free E root0) (sh_count E).
+Definition inst_shrunk_into_dynamic_point (k : 'I_1 -> nat) (D : controllers algCfield one one k) :=
+  shrunk_into_dynamic_rank D (certificate_shrunk E root0) (certificate_free E root0) (sh_count E).
+
+(* And with the inputs themselves: (0 I - A) 1 = B_T 0. *)
+Lemma shrunk_stuck : shrunk (map_system h (Q stuck)) 0 setT (1%:M : 'M[algC]_1) 0.
+Proof. by split=> [|i]; rewrite ?inE// mulmx0 mulmx1 raddf0 sub0r; apply/matrixP=> i j; rewrite !mxE !rmorph0 oppr0. Qed.
+Lemma few_stuck : (\rank (inputs (map_system h (Q stuck)) setT) + 1 <= 1)%N.
+Proof.
+suff -> : inputs (map_system h (Q stuck)) setT = 0 by rewrite mxrank0.
+apply/mxrowP=> i; rewrite mxrowK submxrow0 inE /=.
+by apply/matrixP=> a b; rewrite !mxE mul0rn !rmorph0.
+Qed.
+Definition inst_shrunk_point (F : gains algCfield one one) := shrunk_rank shrunk_stuck (mxrank1 _ _) F few_stuck.
+Definition inst_shrunk_pencil_point := shrunk_pencil_rank shrunk_stuck (mxrank1 _ _) few_stuck.
 Definition inst_shrunk_dynamic_point (k : 'I_1 -> nat) (D : controllers algCfield one one k) :=
-  shrunk_dynamic_rank D (certificate_shrunk E root0) (certificate_free E root0) (certificate_count E h).
+  shrunk_dynamic_rank D shrunk_stuck (mxrank1 _ _) few_stuck.
 
 Lemma inst_fixed_spectrum (lambda : algC) :
   fixed (map_system h (Q stuck)) lambda <-> root (map_poly h (\prod_(i < 1) 'X)) lambda.

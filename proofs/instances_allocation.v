@@ -64,7 +64,7 @@ Qed.
 Lemma shrunk_other q (C : forall i : 'I_2, 'M_(q i, 1)) : C b = 0 ->
   shrunk_subspace (Multichannel 0 (mcB cut_off) C) 'X (~: [set b]) 1.
 Proof.
-move=> Cb; apply: (@ShrunkSubspace _ _ _ _ _ _ _ _ _ 1 1%:M 0 id).
+move=> Cb; apply: (@shrunk_by_inputs _ _ _ _ _ _ _ _ _ 1 1%:M 0 id).
 - rewrite mulmx0 subr0 mulmx1 => i j; rewrite !mxE rmorph0 subr0 !ord1 eqxx; exact: dvdpp.
 - by move=> i; rewrite !inE negbK => /eqP-> /= j l; rewrite Cb map_mx0 mul0mx mxE dvdp0.
 - move=> i j; rewrite !mxE subrr; exact: dvdp0.
@@ -163,7 +163,7 @@ Qed.
 Lemma shrunk_far q (C : forall i : 'I_3, 'M_(q i, 1)) : C far = 0 ->
   shrunk_subspace (Multichannel 0 (mcB relay) C) 'X (~: [set far]) 1.
 Proof.
-move=> Cb; apply: (@ShrunkSubspace _ _ _ _ _ _ _ _ _ 1 1%:M 0 id).
+move=> Cb; apply: (@shrunk_by_inputs _ _ _ _ _ _ _ _ _ 1 1%:M 0 id).
 - rewrite mulmx0 subr0 mulmx1 => i j; rewrite !mxE rmorph0 subr0 !ord1 eqxx; exact: dvdpp.
 - by move=> i; rewrite !inE negbK => /eqP-> /= j l; rewrite Cb map_mx0 mul0mx mxE dvdp0.
 - move=> i j; rewrite !mxE subrr; exact: dvdp0.

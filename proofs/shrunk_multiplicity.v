@@ -116,34 +116,34 @@ Proof. by apply/matrixP=> i j; rewrite !mxE map_polyC. Qed.
 (* Rule "shrunk subspace", with multiplicities: p^d divides det(xI - A_F) for all F over all extensions. *)
 Theorem shrunk_subspace_divides (F : gains L p q) : P != 0 -> up P ^+ d %| char_poly (closed_loop SL F).
 Proof.
-move=> P0; pose U := map_mx up (sh_U E); pose V := map_mx up (sh_V E).
+move=> P0; pose U := map_mx up (sh_U E); pose V := map_mx up (sh_V E); pose Y := map_mx f (sh_Y E).
+have [X eX] := certificate_inputs E f; rewrite -/Y in eX.
 have [W state] := multiple (@sh_state _ _ _ _ _ _ _ _ _ E).
 have [Z id] := multiple (@sh_identity _ _ _ _ _ _ _ _ _ E).
 have out i : exists W, i \notin T -> constant (mcC SL i) *m U = up P *: W.
   have [|iT] := boolP (i \in T); first by exists 0.
   by have [W' e] := multiple (@sh_output _ _ _ _ _ _ _ _ _ E i iT); exists W' => _; rewrite -e map_mxM up_constant.
 have [Wo output] := fin_all_exists out.
-pose X i := if i \in T then constant (F i) *m constant (mcC SL i) *m U else 0.
-have mid : \sum_i constant (mcB SL i) *m X i = constant (inputs SL T) *m \mxcol_i X i.
-  rewrite (map_inputs [rmorphism of polyC] SL) -(@inputsE _ _ _ _ _ (map_system polyC SL))// => i iT.
-  by rewrite /X (negPf iT).
+pose G i := if i \in T then constant (F i) *m constant (mcC SL i) *m U else 0.
+have mid : \sum_i constant (mcB SL i) *m G i = constant Y *m (constant X *m \mxcol_i G i).
+  rewrite mulmxA -map_mxM -eX (map_inputs [rmorphism of polyC] SL) -(@inputsE _ _ _ _ _ (map_system polyC SL))//.
+  by move=> i iT; rewrite /G (negPf iT).
 pose W' := \sum_(i | i \notin T) constant (mcB SL i) *m constant (F i) *m Wo i.
-have state' : ('X%:M - constant (mcA SL)) *m U = constant (inputs SL T) *m V + up P *: W.
-  rewrite -state map_mxB !map_mxM map_mxB map_scalar_mx /= map_polyX !up_constant.
-  by rewrite -(map_inputs f) [RHS]addrC subrK.
+have state' : ('X%:M - constant (mcA SL)) *m U = constant Y *m V + up P *: W.
+  by rewrite -state map_mxB !map_mxM map_mxB map_scalar_mx /= map_polyX !up_constant [RHS]addrC subrK.
 have loop : char_poly_mx (closed_loop SL F) *m U =
-    constant (inputs SL T) *m (V - \mxcol_i X i) + up P *: (W - W').
+    constant Y *m (V - constant X *m \mxcol_i G i) + up P *: (W - W').
   rewrite /char_poly_mx /closed_loop map_mxD map_mx_sum opprD addrA mulmxBl state' mulmxBr -mid scalerBr.
   rewrite addrACA -opprD mulmx_suml [X in _ - X = _](bigID (mem T)) /=; congr (_ - (_ + _)).
-    rewrite big_mkcond; apply: eq_bigr => i _; rewrite /X; case: ifP => _; last by rewrite mulmx0.
+    rewrite big_mkcond; apply: eq_bigr => i _; rewrite /G; case: ifP => _; last by rewrite mulmx0.
     by rewrite !map_mxM !mulmxA.
   rewrite scaler_sumr; apply: eq_bigr => i iT.
   by rewrite !map_mxM -!mulmxA output// -!scalemxAr.
-rewrite /char_poly; apply: (@power_divides L (up P) n (\rank (inputs SL T)) (sh_u E) d _ U (W - W')
-  (constant (col_base (inputs SL T))) (constant (row_base (inputs SL T)) *m (V - \mxcol_i X i)) (@sh_pivots _ _ _ _ _ _ _ _ _ E) Z).
+rewrite /char_poly; apply: (@power_divides L (up P) n (sh_r E) (sh_u E) d _ U (W - W')
+  (constant Y) (V - constant X *m \mxcol_i G i) (@sh_pivots _ _ _ _ _ _ _ _ _ E) Z).
 - by rewrite map_poly_eq0.
-- by rewrite mulmxA -map_mxM mulmx_base.
+- exact: loop.
 - by rewrite -id map_mxB map_mx1 map_mxsub addrC subrK.
-exact: certificate_count.
+exact: (@sh_count _ _ _ _ _ _ _ _ _ E).
 Qed.
 End Certificate.

@@ -206,7 +206,7 @@ class Losses:
         With D the other states that Z drives, the columns of U and of the identity for D are mapped
         by xI − A into the span of the latter and of the rows of B_T for Z.
 
-        Open: see ``proofs/OPEN.md``.
+        Theorem ``local_subspace.shrunk_subspace_local``.
         """
         chosen, listed, inner = fields(value, place, "states", "channels_T", "subspace")
         states = positions(chosen, f"{place}.states", self.system.n)
@@ -220,19 +220,15 @@ class Losses:
 
     def _channels(self, states: set[int], place: str) -> tuple[set[int], list[int]]:
         """The channels that see the states or what these drive, and those that act within them."""
-        found, rest, seeing = set[int](), [*states], set[int]()
+        found, rest, seeing = {*states}, [*states], set[int]()
         while rest:
             b = rest.pop()
             spend(20 + 4 * len(self._driven[b]))
             heard = self._heard[b] - seeing
             seeing |= heard
             new = self._driven[b].union(*(self._entered[i] for i in heard))
-            if b in states:
-                new = new - states
-            returns = not states.isdisjoint(new)
-            returns = returns or any(
-                not states.isdisjoint(self._entered[i]) for i in self._heard[b]
-            )
+            within = any(not states.isdisjoint(self._entered[i]) for i in self._heard[b])
+            returns = within or not states.isdisjoint(new)
             require(b in states or not returns, "path", place, "what the states drive acts on them")
             rest += new - found
             found |= new
