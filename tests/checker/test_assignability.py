@@ -107,6 +107,24 @@ UNUSED = certificate(
         "degrees": [degree(None, [])],
     },
 )
+FOUR = certificate(
+    "assignability",
+    plant(
+        [[0, 0, 0, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]],
+        ([[1], [0], [0], [0]], [[0, 0, 0, 1]]),
+    ),
+    {"blocks": [{"channels": ["1"], "dimension": 4}], "fixed_degree": 0},
+    {
+        "transfer_graph": {
+            "claim": {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
+            "witness": {"modulus": 7, "powers": [3], "zeros": []},
+        },
+        "degrees": [degree(sequence([0, 0, 0, 0, 1]))],
+    },
+)
+"""A chain of four states, the first of which is driven and the last measured."""
+NO_DEGREE = (("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 4))
+
 NOT_SEEN = degree(None, kernel=matrix([1, 0], [0, 1]), kernel_pivots=[0, 1])
 NOT_MOVED = degree(None, [0, 2], annihilator=matrix([1, 0], [0, 1]), pivots=[0, 1])
 SMALLER = (("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 2))
@@ -126,6 +144,7 @@ WRITTEN = [
     ("more states than are on paths", changed(
         FIXED_MODE, ("witness.degrees.0.states", [0, 1]),
     )),
+    ("a chain of four states", FOUR),
     ("a channel without inputs", UNUSED),
     ("a channel without inputs, by rows", changed(UNUSED, (
         "witness.degrees.0", degree(None, annihilator=matrix([1]), pivots=[0]),
@@ -153,6 +172,18 @@ FALSE = [
     ("a degree too low, by no states", FIXED_MODE, (
         *SMALLER, ("witness.degrees.0", degree(None, [])),
     ), "INVALID"),
+    ("a chain without a state between its ends", FOUR, (*NO_DEGREE, (
+        "witness.degrees.0", degree(
+            None, [0, 1, 3], annihilator=matrix([0, 0, 1]), pivots=[2],
+            kernel=matrix([1, 0, 0], [0, 1, 0]), kernel_pivots=[0, 1],
+        ),
+    )), "INVALID"),
+    ("a chain without all states between its ends", FOUR, (*NO_DEGREE, (
+        "witness.degrees.0", degree(
+            None, [0, 3], annihilator=matrix([0, 1]), pivots=[1],
+            kernel=matrix([1, 0]), kernel_pivots=[0],
+        ),
+    )), "INVALID"),
     ("a state that counts twice, for rows and for columns", FIXED_MODE, (
         *SMALLER, ("witness.degrees.0.sequence", None),
         ("witness.degrees.0.kernel", matrix([0, 1])), ("witness.degrees.0.kernel_pivots", [1]),

@@ -191,7 +191,14 @@ OTHERS_STATE = changed(
     ("witness.measured", [[0], [1]]),
 )
 
-FORGED = [("a state that the input drives on", FIRST), ("a W of zeros", ZEROS)]
+FORGED = [
+    ("a state that the input drives on", FIRST),
+    ("a W of zeros", ZEROS),
+    (
+        "a dimension that W does not bound",
+        changed(CONTROLLABLE, ("claim.dimension", 1), ("claim.controllable", False)),
+    ),
+]
 
 ACCEPTED = [
     ("two states that nothing moves", STILL),

@@ -68,6 +68,15 @@ DRIVEN: Document = {
         "pivots": [0, 1],
     },
 }
+# State 0 drives state 1, channel 1 measures that and drives state 2, which drives state 0.
+AROUND = plant([[0, 0, 1], [1, 0, 0], [0, 0, 0]], ([[0], [0], [1]], [[0, 1, 0]]))
+# Channel 1 measures state 1, which it does not see move, and state 2, which state 0 drives; it
+# drives state 0.
+BOTH_SIDES = plant(
+    [[0, 0, 0], [0, 0, 0], [1, 0, 0]],
+    ([[1], [0], [0]], [[0, 1, 1]]),
+    ([[0], [1], [0]], [[0, 1, 0]]),
+)
 
 CHAINED = {
     "channels_T": [],
@@ -101,6 +110,20 @@ INVALID: list[Row] = [
         1,
     ),
     ("a channel leads back", RETURNED, changed(SEVEN, ("channels_T", ["1", "2"])), [-7, 1], 1),
+    (
+        "a channel leads to a state that leads back",
+        AROUND,
+        changed(SEVEN, ("states", [0]), ("channels_T", ["1"])),
+        [0, 1],
+        1,
+    ),
+    (
+        "a channel of the states measures what they drive",
+        BOTH_SIDES,
+        changed(MEASURED, ("channels_T", [])),
+        [0, 1],
+        1,
+    ),
     ("a channel acts on the state", DIRECT, changed(SEVEN, ("states", [0])), [-7, 1], 1),
     ("T too small", BETWEEN, changed(SEVEN, ("channels_T", [])), [-7, 1], 1),
     ("T too large", BETWEEN, changed(SEVEN, ("channels_T", ["1", "2"])), [-7, 1], 1),

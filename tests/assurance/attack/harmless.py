@@ -21,6 +21,9 @@ HARMLESS: dict[str, str] = {
     "evidence.py: _channels: max(driven) <= min(seen)": (
         "a channel that leads to a later block acts within none, and leaving out a channel proves less"
     ),
+    "evidence.py: _local_subspace: names(listed, f'{place}.channels_T', self.system.names) == T": (
+        "T is computed, and the claimed one only compared"
+    ),
     "boxes.py: check_box_fixed: number is not None and integer(number, where) >= len(pencils)": RAISES,
     "boxes.py: check_box_stable: growth is None": UNREAD,
     "boxes.py: check_box_stable: integer(number, where) >= len(regular)": RAISES,
@@ -82,6 +85,8 @@ HARMLESS: dict[str, str] = {
         "in a certificate each matrix has the shape that the plant needs"
     ),
     "system.py: read_controller_file: version != FORMAT": USERS,
+    "kinds.py: _read: len(data) > limits.bytes or hashlib.sha256(data).hexdigest() == value": USERS,
+    "system.py: parse_canonical: canonical_json(value).encode('ascii') != data": USERS,
     "kinds.py: saying: not line or not text.isascii() or len(text.splitlines()) != 1": USERS,
     "kinds.py: saying: line[1] not in (None, digest)": USERS,
     "kinds.py: _claiming: 'claim' not in value": USERS,

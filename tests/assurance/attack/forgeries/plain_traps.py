@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from tests.checker.handmade import (
+    CHAIN,
     CUT,
     FREE,
+    GENERIC,
     INTEGRATOR,
     OSCILLATION,
     PAIR,
@@ -148,6 +150,40 @@ TRAPS: dict[str, Document] = {
         },
     ),
     "a cut that a channel sees through": changed(CUT, ("system.channels.0.C", [[1, 1]])),
+    "a mode of states on which what they drive acts": certificate(
+        "completeness",
+        plant([[0, 1], [1, 0]], ([[0], [1]], [[0, 1]])),
+        {"complete": False},
+        {
+            "polynomial": [0, 1],
+            "subspace": {
+                "channels_T": ["1"],
+                "states": [0],
+                "subspace": {
+                    "channels_T": [],
+                    "U": layers([[1]]),
+                    "V": layers([]),
+                    "pivots": [0],
+                },
+            },
+        },
+    ),
+    "ranks that stop too soon": certificate(
+        "controllability_indices",
+        CHAIN,
+        {"channels": ["1"], "ranks": [1], "index": None, "indices": [1]},
+        GENERIC,
+    ),
+    "an edge against the direction of a chain, by a large modulus": certificate(
+        "transfer_graph",
+        CHAIN,
+        {
+            "arcs": [["1", "1"], ["1", "2"], ["2", "1"], ["2", "2"]],
+            "components": [["1", "2"]],
+            "strongly_connected": True,
+        },
+        {"modulus": 101, "powers": [0, 1, 0, 0], "zeros": []},
+    ),
     "a path that leaves the states and comes back": certificate(
         "assignability",
         plant([[0, 0, 0], [1, 0, 0], [0, 1, 0]], ([[1], [0], [0]], [[0, 0, 1]])),
