@@ -96,7 +96,7 @@ def trace(S: Matrix) -> Fraction:
     return sum((S[i, i] for i in range(S.nrows)), Fraction(0))
 
 
-def _solved(solve: Callable[[], Any]) -> Floats | None:
+def solved(solve: Callable[[], Any]) -> Floats | None:
     """What a solver of scipy returns, made symmetric; None if it fails."""
     with warnings.catch_warnings():
         # An ill-conditioned equation may still give a matrix that passes the exact test.
@@ -232,7 +232,7 @@ def cost_of(loop: ClosedLoop, weights: CostWeights) -> LoopCost | None:
         if not N:
             return right
         solver = solve_discrete_lyapunov if discrete else solve_continuous_lyapunov
-        return _solved(lambda: solver(m.T, right if discrete else -right))
+        return solved(lambda: solver(m.T, right if discrete else -right))
 
     at_once = matrix_to_float(spent)
     P0 = equation(at_once)
@@ -369,7 +369,7 @@ def computed_cost(loop: ClosedLoop, weights: CostWeights) -> float:
     noise = entering @ V @ entering.T
     noise[:n, :n] += W
     solver = solve_discrete_lyapunov if discrete else solve_continuous_lyapunov
-    X = _solved(lambda: solver(M, noise if discrete else -noise)) if N else noise
+    X = solved(lambda: solver(M, noise if discrete else -noise)) if N else noise
     if X is None:
         return float("nan")
     K = matrix_to_float(loop.disturbed.K)
@@ -588,25 +588,25 @@ class Group:
         R = _diagonal_floats([weights.inputs[k] for k in self.inputs])
         outputs, V = len(V), V if len(V) else np.ones(1)
         if discrete:
-            P = _solved(lambda: solve_discrete_are(a, b, Q, R))
-            S = _solved(lambda: solve_discrete_are(a.T, c.T, np.diag(W), np.diag(V)))
+            P = solved(lambda: solve_discrete_are(a, b, Q, R))
+            S = solved(lambda: solve_discrete_are(a.T, c.T, np.diag(W), np.diag(V)))
             if P is None or S is None:
                 return None
             spent = R + b.T @ P @ b
             F = np.linalg.solve(spent, b.T @ P @ a)
             L = S @ c.T @ np.linalg.inv(c @ S @ c.T + np.diag(V))
             kept = np.eye(len(a)) - L @ c
-            Y = _solved(lambda: solve_discrete_lyapunov((kept @ a).T, F.T @ spent @ F))
+            Y = solved(lambda: solve_discrete_lyapunov((kept @ a).T, F.T @ spent @ F))
             if Y is None:
                 return None
             return np.diag(P + kept.T @ Y @ kept), np.diag(L.T @ Y @ L)[:outputs]
-        P = _solved(lambda: solve_continuous_are(a, b, Q, R))
-        S = _solved(lambda: solve_continuous_are(a.T, c.T, np.diag(W), np.diag(V)))
+        P = solved(lambda: solve_continuous_are(a, b, Q, R))
+        S = solved(lambda: solve_continuous_are(a.T, c.T, np.diag(W), np.diag(V)))
         if P is None or S is None:
             return None
         F = np.linalg.solve(R, b.T @ P)
         L = S @ c.T / V
-        Y = _solved(lambda: solve_continuous_lyapunov((a - L @ c).T, -F.T @ R @ F))
+        Y = solved(lambda: solve_continuous_lyapunov((a - L @ c).T, -F.T @ R @ F))
         return None if Y is None else (np.diag(P + Y), np.diag(L.T @ Y @ L)[:outputs])
 
 
@@ -755,18 +755,18 @@ def riccati_solutions(
 
     (a, b, c), (Q, R, W, V) = plant, weights
     if discrete:
-        P = _solved(lambda: solve_discrete_are(a, b, Q, R))
-        ahead = _solved(lambda: solve_discrete_are(a.T, c.T, W, V))
+        P = solved(lambda: solve_discrete_are(a, b, Q, R))
+        ahead = solved(lambda: solve_discrete_are(a.T, c.T, W, V))
         if P is None or ahead is None:
             return None
         F = np.asarray(-np.linalg.solve(R + b.T @ P @ b, b.T @ P @ a), dtype=np.float64)
         S: Floats = ahead - ahead @ c.T @ np.linalg.solve(c @ ahead @ c.T + V, c @ ahead)
         return P, (S + S.T) / 2, F
-    P = _solved(lambda: solve_continuous_are(a, b, Q, R))
+    P = solved(lambda: solve_continuous_are(a, b, Q, R))
     slow = 0.0 if bandwidth is None else 1 / bandwidth
     H = c @ (a * slow + np.eye(len(a)))
     N = c @ W @ c.T * slow**2 + V
-    S_ = _solved(lambda: solve_continuous_are(a.T, H.T, W, N, s=W @ c.T * slow))
+    S_ = solved(lambda: solve_continuous_are(a.T, H.T, W, N, s=W @ c.T * slow))
     if P is None or S_ is None:
         return None
     return P, S_, np.asarray(-np.linalg.solve(R, b.T @ P), dtype=np.float64)
@@ -1119,7 +1119,7 @@ class PortResponse:
 
         def lyapunov(M: Floats, right: Floats) -> Floats | None:
             solver = solve_discrete_lyapunov if self.discrete else solve_continuous_lyapunov
-            return _solved(lambda: solver(M.T, right if self.discrete else -right))
+            return solved(lambda: solver(M.T, right if self.discrete else -right))
 
         seen, cross = y.T @ y, self._through * y.T
         X0, X1 = lyapunov(self.m, seen), lyapunov(self.m, eye)

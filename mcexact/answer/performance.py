@@ -219,6 +219,57 @@ class SectorStability(Answer):
     P: Symmetric = witness()
 
 
+@dataclass(frozen=True)
+class StepResponse(Part):
+    """How the response to a step is computed in integers, with a bound of all that is neglected.
+
+    Attributes
+    ----------
+    P : Symmetric
+        In its norm abs(v)² = v'Pv every error of a response falls.
+    rate : Fraction
+        a > 0: it falls as exp(−at) or faster, in discrete time as (1 − 2a)^(t/2).
+    sizes : tuple of Fraction
+        Of each input, then of each output: how large it is at most for states of the norm 1.
+    bits, unit : int
+        Integers have so many bits, and one of them has the norm 2^unit.
+    times : int
+        The number of steps of time, after which nothing larger follows.
+    step : Fraction or None
+        In continuous time the length of these steps.
+    """
+
+    P: Symmetric
+    rate: Fraction
+    sizes: tuple[Fraction, ...]
+    bits: int
+    unit: int
+    times: int
+    step: Fraction | None = field(default=None, kw_only=True, metadata=LEFT_OUT)
+
+
+@answer("step_peaks")
+class StepPeaks(Answer):
+    """How large inputs and outputs become after a step, for a loop that was at rest.
+
+    A constant 1 is added to one of the inputs, or to one of the outputs as agents receive them, or
+    one of the set-points changes from 0 to 1.  Each row is about one such step, in the order of the
+    channels, and bounds the absolute values of all inputs that agents compute, or of all outputs.
+
+    Attributes
+    ----------
+    at : {"inputs", "outputs", "setpoints"}
+    inputs : tuple of tuple of Fraction
+    outputs : tuple of tuple of Fraction
+    response : StepResponse
+    """
+
+    at: Literal["inputs", "outputs", "setpoints"] = claim()
+    inputs: tuple[tuple[Fraction, ...], ...] = claim()
+    outputs: tuple[tuple[Fraction, ...], ...] = claim()
+    response: StepResponse = witness(whole=True)
+
+
 # Templates.
 
 COST = Template("performance-cost", "at most {cost:digits_above}, {weights:weights}", label="cost")

@@ -78,16 +78,20 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     alone = System(system.time, [], A, [], [], words=system.words)
     own = f"{system.n} of the controlled system and {A.nrows - system.n} added by the controller"
     ports = f"{own} of the channels {channel_set(system.names)}"
-    made = Loop(system, programs, order)
+    made = Loop(system, programs, order, agents)
     return prefixed(words, alone, blocks, ports, made, controller=digest_of(text))
 
 
 class Loop(NamedTuple):
-    """What a loop was made from: the system, the programs of its agents, and the loop's states."""
+    """What a loop was made from: the system, the programs of its agents, and the loop's states.
+
+    ``programs`` are the signals that the agents use, and ``agents`` their programs as documents.
+    """
 
     system: System
     programs: list[list[Terms]]
     order: list[tuple[Signal, int]]
+    agents: list[Json]
 
 
 class Disturbed(NamedTuple):
@@ -112,7 +116,7 @@ def disturbed(loop: Loop) -> Disturbed:
 
     Open: see ``proofs/OPEN.md``.
     """
-    system, programs, order = loop
+    system, programs, order, _ = loop
     N, p, q = sum(width for _, width in order), *ports_of(system)
     total = N + p + q
     wide = rows_that_read([*order, (("d", 0, 0), p), (("e", 0, 0), q)])
@@ -131,6 +135,29 @@ def disturbed(loop: Loop) -> Disturbed:
     inputs, outputs_ = stack(u, total), stack(y, total)
     M, E, G = (after.take(cols=part) for part in (z, ds, es))
     return Disturbed(M, E, G, inputs.take(cols=z), inputs.take(cols=es), outputs_.take(cols=z))
+
+
+def references(loop: Loop) -> tuple[Matrix, Matrix]:
+    """R and J of z' = M z + R r, u = U z + J r, with r the set-points of all outputs.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    system, _, order, agents = loop
+    q = [C_j.nrows for C_j in system.C]
+    total = sum(q)
+
+    def wanted(i: int, label: str, nrows: int) -> Matrix:
+        M = agents[i].get(label, {}).get("reference")
+        own = Matrix.unit_rows(total, sum(q[:i]), q[i])
+        return Matrix.zeros(nrows, total) if M is None else M @ own
+
+    J = [wanted(i, "input", B_i.ncols) for i, B_i in enumerate(system.B)]
+    acting = (B_i @ J_i for B_i, J_i in zip(system.B, J, strict=True))
+    rows = [sum(acting, Matrix.zeros(system.n, total))]
+    for (what, j, age), width in order[1:]:
+        label = MAPS["xz".index(what)] if not age else ""
+        rows.append(wanted(j, label, width))
+    return stack(rows, total), stack(J, total)
 
 
 def ports_of(system: System) -> tuple[int, int]:

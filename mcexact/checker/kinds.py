@@ -30,6 +30,7 @@ from . import (
     performance,
     sharing,
     sharing_gap,
+    steps,
     structure,
 )
 from .arithmetic import NotAUnit
@@ -318,6 +319,7 @@ KINDS = {
         structure.check_single_channel_gains, structure.single_channel_gains_statement
     ),
     "stability": Rule(loops.check_stability, loops.stability_statement),
+    "step_peaks": Rule(steps.check_step_peaks, steps.step_peaks_statement),
     "transfer_graph": Rule(structure.check_transfer_graph, structure.transfer_graph_statement),
 }
 """The rule of each kind."""

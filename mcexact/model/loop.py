@@ -125,24 +125,27 @@ class ClosedLoop:
     @cached_property
     def reference(self) -> Matrix:
         """The matrix by which the set-points (r_1, …, r_m) act on the loop, N×Σ q_i."""
-        counts = [self.plant.q(i) for i in range(self.plant.m)]
-
-        def spread(each: LinearMap, i: int, nrows: int) -> Matrix:
-            parts = [Matrix.zeros(nrows, count) for count in counts]
-            if each.reference is not None:
-                parts[i] = each.reference
-            return hstack(parts, nrows=nrows)
-
-        state = Matrix.zeros(self.plant.n, sum(counts))
+        rows = [self.plant.input_matrix() @ self.reference_at_once]
         for i, agent in enumerate(self.controller.agents):
-            state = state + self.plant.B(i) @ spread(agent.input, i, self.plant.p(i))
-        rows = [state]
-        for i, agent in enumerate(self.controller.agents):
-            rows.append(spread(agent.shared_update, i, agent.shared))
-            rows.append(spread(agent.private_update, i, agent.private))
-        known = sum(M.nrows for M in rows)
-        rows.append(Matrix.zeros(self.dimension - known, sum(counts)))
-        return vstack(rows, ncols=sum(counts))
+            rows.append(self._references(agent.shared_update, i, agent.shared))
+            rows.append(self._references(agent.private_update, i, agent.private))
+        known, count = sum(M.nrows for M in rows), rows[0].ncols
+        rows.append(Matrix.zeros(self.dimension - known, count))
+        return vstack(rows, ncols=count)
+
+    @cached_property
+    def reference_at_once(self) -> Matrix:
+        """The matrix by which the set-points act on the inputs at once, Σ p_i × Σ q_i."""
+        agents, m = self.controller.agents, self.plant.m
+        rows = [self._references(agents[i].input, i, self.plant.p(i)) for i in range(m)]
+        return vstack(rows, ncols=sum(self.plant.q(i) for i in range(m)))
+
+    def _references(self, each: LinearMap, i: int, nrows: int) -> Matrix:
+        """What a map of agent i does with all set-points."""
+        parts = [Matrix.zeros(nrows, self.plant.q(j)) for j in range(self.plant.m)]
+        if each.reference is not None:
+            parts[i] = each.reference
+        return hstack(parts, nrows=nrows)
 
     @cached_property
     def disturbed(self) -> DisturbedLoop:

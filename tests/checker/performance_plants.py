@@ -1,4 +1,4 @@
-"""Certificates about costs, bounds, margins and sectors, written by hand."""
+"""Certificates about costs, bounds, margins, sectors and steps, written by hand."""
 
 from __future__ import annotations
 
@@ -194,6 +194,39 @@ ONE_WAY_COST = certificate(
     static(ONE_WAY, 0, 0),
 )
 
+# x(t+1) = x + u, u = -x: after a step at the input x = 1 and u = -1 from the time 1 on.
+STEPPED = certificate(
+    "step_peaks",
+    STEP,
+    {"at": "inputs", "inputs": [["1001/1000"]], "outputs": [["1001/1000"]]},
+    {"P": form([3]), "rate": "1/4", "sizes": [1, 1], "bits": 24, "unit": -18, "times": 1},
+    DEADBEAT,
+)
+# An error of the sensor passes to the input at once.
+SENSED = changed(STEPPED, ("claim.at", "outputs"))
+# u = -x + r: x = 1 after one step, and u = 1 before.
+FOLLOWING = changed(
+    STEPPED,
+    ("claim.at", "setpoints"),
+    ("subject.0.controller.agents.0.input.reference", [[1]]),
+)
+# x' = -2x + 1, u = -3x: x tends to 1/2.
+CONTINUOUS_STEP = certificate(
+    "step_peaks",
+    DRIVEN,
+    {"at": "inputs", "inputs": [["1501/1000"]], "outputs": [["501/1000"]]},
+    {
+        "P": form([4]),
+        "rate": 1,
+        "sizes": [2, 1],
+        "bits": 30,
+        "unit": -24,
+        "times": 6,
+        "step": 1,
+    },
+    static(DRIVEN, -3),
+)
+
 ALL = {
     "a bound above 1": STEP_BOUND,
     "a cost of two agents": ONE_WAY_COST,
@@ -208,5 +241,9 @@ ALL = {
     "a margin of each output by itself": EACH,
     "a sector in discrete time": SECTOR,
     "a sector in continuous time": CONTINUOUS_SECTOR,
+    "a step at an input in discrete time": STEPPED,
+    "an error of a sensor": SENSED,
+    "a step of a set-point": FOLLOWING,
+    "a step at an input in continuous time": CONTINUOUS_STEP,
 }
 """Every one of them is VALID, and says something true."""

@@ -14,6 +14,7 @@ from . import (
     ranges,
     segments,
     sharing,
+    steps,
     structure,
 )
 from .constructions import is_ranged, subject_of
@@ -31,6 +32,7 @@ _TOPICS = (
     ranges,
     segments,
     sharing,
+    steps,
     structure,
 )
 KINDS: dict[str, Callable[[Any, Any, Any], bool]] = {
@@ -38,7 +40,7 @@ KINDS: dict[str, Callable[[Any, Any, Any], bool]] = {
 }
 """The judge of each kind, which the module of its topic names."""
 MOST_STATES = 30
-ABOUT_THE_DOCUMENT = {"distributed_observer", *performance.JUDGES}
+ABOUT_THE_DOCUMENT = {"distributed_observer", *performance.JUDGES, *steps.JUDGES}
 """The kinds, besides those about boxes, that are judged with the whole document."""
 
 

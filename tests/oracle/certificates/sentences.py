@@ -204,6 +204,24 @@ def _disk_margin(claim: Any, system: System) -> str:
     )
 
 
+def _step_peaks(claim: Any, system: System) -> str:
+    added = "a constant 1 is added to the {} k"
+    step = {"inputs": added.format("input"), "outputs": added.format("output")}.get(
+        claim["at"], "the set-point of the output k is 1"
+    )
+
+    def row(values: Any) -> str:
+        return f"({', '.join(number(rational(x)) for x in values)})"
+
+    pairs = zip(claim["inputs"], claim["outputs"], strict=True)
+    bounds = [f"k = {k}: {row(u)} and {row(y)}" for k, (u, y) in enumerate(pairs, 1)]
+    return (
+        f"the loop is stable, and if it is at rest and from then on {step}, the absolute values of "
+        "all inputs that the agents compute, and of all outputs, never exceed the following "
+        f"bounds, in the order of the channels: {'; '.join(bounds) or 'none'}"
+    )
+
+
 def _sector(claim: Any, system: System) -> str:
     pairs = ((number(rational(a)), number(rational(b))) for a, b in claim["sectors"])
     sectors = ", ".join(f"[{a}, {b}]" for a, b in pairs)
@@ -409,5 +427,6 @@ SENTENCES: dict[str, Any] = {
             if key in claim
         )
     ),
+    "step_peaks": _step_peaks,
     "transfer_graph": _transfer_graph,
 }

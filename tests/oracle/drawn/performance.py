@@ -1,4 +1,4 @@
-"""True certificates about costs, margins and sectors of drawn loops, and about drawn plants."""
+"""True certificates about costs, margins, sectors and steps of loops, and about drawn plants."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from mcexact.analysis.performance import bound_of, cost_of, influences, margin_of, sectors_of
+from mcexact.analysis.steps import steps_of
 from mcexact.answer import protocol
 from mcexact.answer.performance import CostWeights
 from mcexact.errors import McexactError
@@ -23,7 +24,7 @@ from tests.oracle.certificates.systems import read_plant
 from .plants import Document, drawn_plant, number, rows_of, table
 from .subjects import drawn_controller
 
-KINDS = ("loop_cost", "cost_bound", "disk_margin", "sector")
+KINDS = ("loop_cost", "cost_bound", "disk_margin", "sector", "step_peaks")
 
 
 def damped_plant(rng: random.Random) -> Document:
@@ -105,6 +106,9 @@ def _about_loop(rng: random.Random, kind: str) -> Document | None:
         at: Any = rng.choice(("inputs", "outputs"))
         margin = rng.choice((None, None, Fraction(1, 10), Fraction(2, 5)))
         answer = margin_of(loop, at, together=rng.random() < 0.5, margin=margin)
+    elif kind == "step_peaks":
+        sides: Any = ("inputs", "outputs", "setpoints")
+        answer = steps_of(loop, rng.choice(sides), most=400)
     else:
         ends = [(Fraction(1, 2), Fraction(2)), (Fraction(9, 10), Fraction(11, 10))]
         ends += [(Fraction(0), Fraction(1)), (Fraction(1, 4), Fraction(3, 2))]

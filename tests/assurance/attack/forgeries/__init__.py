@@ -60,6 +60,7 @@ FORGERS = {
     "sharing_gap": structure.GAP,
     "single_channel_gains": gains.SINGLE,
     "stability": loops.STABILITY,
+    "step_peaks": performance.STEPS,
     "transfer_graph": structure.GRAPH,
 }
 

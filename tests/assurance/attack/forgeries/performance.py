@@ -1,4 +1,4 @@
-"""Forgeries about costs, bounds for every controller, disk margins and sectors."""
+"""Forgeries about costs, bounds for every controller, disk margins, sectors and steps."""
 
 from __future__ import annotations
 
@@ -24,6 +24,10 @@ def better(rng: random.Random, document: Document) -> Forged:
     elif claim.get("sectors"):
         pair = rng.choice(claim["sectors"])
         pair[1] = _scaled(pair[1], by)
+    elif "at" in claim and any(claim.get("inputs", ())):
+        row = rng.choice([row for key in ("inputs", "outputs") for row in claim[key] if row])
+        k = rng.randrange(len(row))
+        row[k] = _scaled(row[k], 1 / by)
     elif "cost" in claim:
         claim["cost"] = _scaled(claim["cost"], by if document["kind"] == "cost_bound" else 1 / by)
     return document
@@ -154,7 +158,33 @@ def other_gain(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def other_response(rng: random.Random, document: Document) -> Forged:
+    """A response that ends too early, falls faster or is too coarse, and lower peaks."""
+    witness, claim = document["witness"], document["claim"]
+    what = rng.randrange(8)
+    if what == 0:
+        witness["times"] = rng.choice((0, 1, witness["times"] // 2, witness["times"] + 1))
+    elif what == 1:
+        witness["rate"] = rng.choice((0, -1, 10, 1000, _scaled(witness["rate"], Fraction(3, 2))))
+    elif what == 2:
+        witness["sizes"] = [
+            _scaled(x, Fraction(1, rng.choice((2, 1000)))) for x in witness["sizes"]
+        ]
+    elif what == 3:
+        witness["bits"] = rng.choice((0, 1, 8, 16, 17, 20, 1001))
+    elif what == 4:
+        witness["unit"] += rng.choice((-40, -12, -2, 2, 12, 40))
+    elif what == 5 and "step" in witness:
+        witness["step"] = _scaled(witness["step"], Fraction(rng.choice((-1, 0, 2, 10, 100))))
+    elif what == 6:
+        claim["at"] = rng.choice(("inputs", "outputs", "setpoints"))
+    else:
+        claim["inputs"], claim["outputs"] = claim["outputs"], claim["inputs"]
+    return better(rng, document) if rng.random() < 0.7 else document
+
+
 COSTS = (better, other_weights, other_form, other_gain)
 BOUNDS = (better, other_weights, other_form, other_group)
 MARGINS = (better, other_ports, other_form, other_gain)
 SECTORS = (better, other_sector, other_ports, other_form, other_gain)
+STEPS = (better, other_response, other_form, other_gain)

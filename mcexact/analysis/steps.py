@@ -1,0 +1,361 @@
+"""Peaks of inputs and outputs after a step, proposed in floating point, verified by the checker.
+
+A constant 1 is added to an input or an output of a loop at rest, or a set-point changes from 0 to
+1.  The proof is a response in integers that begins at rest, and a matrix P in whose norm every
+error falls; `mcexact.checker.steps` has the rule.  What is proposed here is how it is computed:
+
+- P solves a Lyapunov equation of a loop that is slower, so that its norm falls at nearly the rate
+  of the slowest mode;
+- in continuous time the steps of time are a few radians of the fastest mode, for Taylor
+  polynomials of some 20 to 50 terms, which describe the response between the steps as well;
+- it ends where the derivative is so small that nothing larger can follow;
+- integers have so many bits that rounding is negligible.
+
+Peaks are computed in the same steps and rounded up.  The checker itself verifies the proof, as the
+response in integers is all that there is to verify; this takes as long as any other check of it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from itertools import product
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from mcexact.analysis.lyapunov import is_positive
+from mcexact.analysis.performance import (
+    BITS,
+    diagonal_matrix,
+    lyapunov_difference,
+    rounded_form,
+    solved,
+)
+from mcexact.answer.check import checked
+from mcexact.answer.performance import StepPeaks, StepResponse, Symmetric
+from mcexact.answer.protocol import encode
+from mcexact.exact.matrix import Matrix, matrix_to_float, to_float, vstack
+from mcexact.exact.roots import is_discrete
+from mcexact.model.loop import ClosedLoop
+
+Floats = npt.NDArray[np.float64]
+Steps = Literal["inputs", "outputs", "setpoints"]
+"""Where a step enters."""
+_ANGLE = 8.0
+"""The radians of the fastest mode in one step of time."""
+_SLOWER = (0.7, 0.4, 0.15, 0.05)
+"""Parts of the rate of the slowest mode at which the norm of P falls, best first."""
+_TERMS = 60
+"""The terms of Taylor polynomials in floating point."""
+_POINTS = 256
+"""The points within a step of time where signals are computed."""
+_SLACK = 5e-4
+"""What may follow after the last step is above the peak by at most this part of it."""
+_ROUNDING = 1e-6
+"""The part of a peak that rounding to integers may add."""
+_REST = 256
+"""The first term that is left out of a Taylor polynomial is below so many units (the checker)."""
+_NEGLIGIBLE = 1e-7
+"""A response is small if it is below this part of that of the same signal to another step."""
+_NOTHING = 1e-9
+"""A signal is nothing if it is below this part of what a state of the same norm could have."""
+
+
+@dataclass(frozen=True)
+class Peaks:
+    """Peaks of signals in floating point; they prove nothing.
+
+    Attributes
+    ----------
+    inputs, outputs : array
+        The largest absolute value of each signal, one row for each step.
+    """
+
+    inputs: Floats
+    outputs: Floats
+
+
+class StepLoop:
+    """The responses of a loop to steps: z' = M z + b, signals s = S z + d, or z(t+1).
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    at : {"inputs", "outputs", "setpoints"}
+    """
+
+    def __init__(self, loop: ClosedLoop, at: Steps) -> None:
+        disturbed = loop.disturbed
+        p = disturbed.U.nrows
+        b, through = {
+            "inputs": lambda: (disturbed.E, Matrix.zeros(p, p)),
+            "outputs": lambda: (disturbed.G, disturbed.K),
+            "setpoints": lambda: (loop.reference, loop.reference_at_once),
+        }[at]()
+        N, k = disturbed.M.nrows, b.ncols
+        S = vstack([disturbed.U, disturbed.Y], ncols=N)
+        d = vstack([through, Matrix.zeros(S.nrows - p, k)], ncols=k)
+        self.exact = disturbed.M, b, S, d
+        self.at, self.loop, self.discrete, self.p = at, loop, is_discrete(loop.plant.time), p
+        self.m, self.b, self.s, self.d = map(matrix_to_float, self.exact)
+        self.poles = np.linalg.eigvals(self.m)
+
+    @property
+    def decay(self) -> float:
+        """The rate of the slowest mode: −Re λ, in discrete time 1 − |λ|; at most 0 if unstable."""
+        if self.discrete:
+            return float(np.min(1 - np.abs(self.poles), initial=1.0))
+        return float(np.min(-self.poles.real, initial=1.0))
+
+    @property
+    def fastest(self) -> float:
+        """The largest modulus of an eigenvalue."""
+        return float(np.max(np.abs(self.poles), initial=0.0)) or 1.0
+
+
+def computed_steps(loop: ClosedLoop, at: Steps) -> Peaks | None:
+    """Compute the peaks after each step in floating point; None for a loop that is not stable.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    at : {"inputs", "outputs", "setpoints"}
+
+    Notes
+    -----
+    The response at 128 times in each octave of time, from a tenth of a radian of the fastest mode
+    on; in discrete time at all of the first 256 instants, then at every second, every fourth, ….
+    """
+    from scipy.linalg import expm
+
+    steps = StepLoop(loop, at)
+    if not 0 < steps.decay:
+        return None
+    N, k = steps.b.shape
+    whole = np.block([[steps.m, steps.b], [np.zeros((k, N)), np.eye(k) * steps.discrete]])
+    span = 1.0 if steps.discrete else 0.1 / steps.fastest
+    E = whole if steps.discrete else expm(span * whole)
+    seen = np.hstack([steps.s, steps.d])
+    state = np.vstack([np.zeros((N, k)), np.eye(k)])
+    peaks, time, last = np.abs(seen @ state), 0.0, 16 / steps.decay
+    while time < last:
+        for _ in range(256 if not time else 128):
+            state = E @ state
+            peaks = np.maximum(peaks, np.abs(seen @ state))
+            time += span
+        span, E = 2 * span, E @ E
+    return Peaks(peaks[: steps.p].T, peaks[steps.p :].T)
+
+
+@dataclass(frozen=True)
+class _Run:
+    """A response in floating point in steps of time, in coordinates scaled by P.
+
+    ``peaks`` and ``last`` are the signals' peaks and last values, ``after`` what may follow,
+    ``largest`` the largest number, ``times`` the steps of time.
+    """
+
+    peaks: Floats
+    last: Floats
+    after: Floats
+    largest: float
+    times: int
+
+
+@dataclass(frozen=True)
+class _Norm:
+    """P with the rate at which its norm falls, and the sizes of signals."""
+
+    P: Symmetric
+    rate: Fraction
+    sizes: tuple[Fraction, ...]
+
+    def scales(self) -> Floats:
+        """The powers 2^f of the checker, 4^f ≥ P_ii."""
+        diagonal = np.diag(matrix_to_float(self.P.matrix()))
+        return np.exp2(np.ceil(np.log2(diagonal) / 2))
+
+
+def steps_of(loop: ClosedLoop, at: Steps, *, most: int = 20_000) -> StepPeaks | None:
+    """Prove how large inputs and outputs become after a step.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    at : {"inputs", "outputs", "setpoints"}
+    most : int
+        The largest number of steps of time.
+
+    Returns
+    -------
+    StepPeaks or None
+        Bounds that exceed the peaks by some 0.05 % at most; None where none were found, as for
+        loops that are not stable, or so stiff that more steps are needed.
+
+    Notes
+    -----
+    The checker's time is about that of N² products of long integers for each of some 20 to 50 terms
+    of each step of time, and the number of steps grows with the ratio of the fastest mode to the
+    slowest one.
+    """
+    steps = StepLoop(loop, at)
+    if not 0 < steps.decay or not steps.b.shape[1]:
+        return None
+    norm = _norm_of(steps)
+    if norm is None:
+        return None
+    h = None if steps.discrete else _dyadic(_ANGLE / steps.fastest)
+    run = _run(steps, norm, h, most)
+    if run is None:
+        return None
+    found = _proposal(steps, norm, h, run)
+    verdict = checked(encode(found).encode())
+    return found if verdict.verdict == "VALID" else None
+
+
+def _dyadic(x: float, bits: int = 6) -> Fraction:
+    """A number x > 0, rounded down to a few bits."""
+    mantissa, exponent = math.frexp(x)
+    return Fraction(math.floor(math.ldexp(mantissa, bits))) * Fraction(2) ** (exponent - bits)
+
+
+def _norm_of(steps: StepLoop) -> _Norm | None:
+    """P of a Lyapunov equation, with fewest bits."""
+    M, _, S, _ = steps.exact
+    N, count = M.nrows, S.nrows
+    for P, rate in _forms(steps):
+        inverse = np.linalg.inv(P)
+        square = np.einsum("ik,kj,ij->i", steps.s, inverse, steps.s) * max(count, 1) * 1.05
+        sizes = tuple(_above(math.sqrt(max(x, 1e-60))) for x in square)
+        squares = S.T @ (diagonal_matrix([1 / size**2 for size in sizes]) @ S)
+        for bits in BITS:
+            form = rounded_form(P, bits)
+            if form is None:
+                break
+            exact = form.matrix()
+            falls = lyapunov_difference(exact, M, steps.discrete) - exact * (2 * rate)
+            if is_positive(exact - squares) and is_positive(falls):
+                return _Norm(form, rate, sizes)
+    return _Norm(Symmetric((), ()), Fraction(1, 4), (Fraction(1),) * count) if not N else None
+
+
+def _forms(steps: StepLoop) -> Any:
+    """Matrices whose norm falls, with a rate."""
+    from scipy.linalg import matrix_balance, solve_continuous_lyapunov, solve_discrete_lyapunov
+
+    N = len(steps.m)
+    if not N:
+        return
+    _, (scales, _) = matrix_balance(steps.m, permute=False, separate=True)
+    m, seen = steps.m / scales[:, None] * scales, steps.s * scales
+    sizes = np.sqrt(np.sum(seen**2, axis=1))
+    seen = seen / np.where(sizes > 0, sizes, 1)[:, None]
+    for part, more in product(_SLOWER, (0.1, 1.0)):
+        Q = seen.T @ seen + more * np.eye(N)
+        if steps.discrete:
+            radius = 1 - part * steps.decay
+            rate, slower = (1 - radius**2) / 2, (m / radius).T
+            P = solved(partial(solve_discrete_lyapunov, slower, Q))
+        else:
+            rate = part * steps.decay
+            P = solved(partial(solve_continuous_lyapunov, (m + rate * np.eye(N)).T, -Q))
+        if P is not None and np.all(np.linalg.eigvalsh(P) > 0):
+            yield P / scales[:, None] / scales, _dyadic(rate * 0.99, 10)
+
+
+def _above(x: float) -> Fraction:
+    """A number with few bits from x on."""
+    return _dyadic(x) + Fraction(2) ** (math.frexp(x)[1] - 6)
+
+
+def _run(steps: StepLoop, norm: _Norm, h: Fraction | None, most: int) -> _Run | None:
+    """Compute a response until nothing larger follows, None after too many steps of time."""
+    f = norm.scales()
+    sizes = np.array([to_float(size) for size in norm.sizes])
+    span = 1.0 if h is None else to_float(h)
+    m, b = steps.m * f[:, None] / f * span, steps.b * f[:, None] * span
+    s, falling = steps.s / f, to_float(norm.rate) * span
+    z, peaks, largest = np.zeros_like(b), np.abs(steps.d), float(np.max(np.abs(b), initial=0.0))
+    points, norms = np.linspace(0, 1, _POINTS + 1), float(np.max(np.sum(np.abs(b), axis=0)))
+    for times in range(most + 1):
+        terms = [m @ z + b - (z if h is None else 0)]
+        after = np.sum(np.abs(terms[0]), axis=0) / falling * sizes[:, None]
+        last = s @ z + steps.d
+        peaks = np.maximum(peaks, np.abs(last))
+        norms = max(norms, float(np.max(np.sum(np.abs(z), axis=0), initial=0.0)))
+        small = _NEGLIGIBLE * np.max(peaks, axis=1, initial=0.0)[:, None]
+        small = np.maximum(small, _NOTHING * sizes[:, None] * norms)
+        if np.all(np.abs(last) + after <= peaks * (1 + _SLACK) + small):
+            return _Run(peaks, last, after, largest, times)
+        if h is not None:
+            size = float(np.max(np.abs(z), initial=0.0)) + float(np.max(np.abs(terms[0])))
+            while len(terms) < _TERMS and np.max(np.abs(terms[-1])) > 1e-16 * size:
+                terms.append(m @ terms[-1] / (len(terms) + 1))
+            between = np.stack([last, *(s @ term for term in terms)])
+            peaks = np.maximum(peaks, _largest(between, peaks, points))
+        largest = max(largest, *(float(np.max(np.abs(term))) for term in [z, *terms]))
+        z = z + sum(terms)
+        largest = max(largest, float(np.max(np.abs(z))))
+    return None
+
+
+def _largest(c: Floats, peaks: Floats, points: Floats) -> Floats:
+    """Bounds of polynomials from 0 to 1, from their values and second derivatives at points."""
+    size = np.maximum(np.abs(c[0]), np.abs(c[0] + c[1])) + np.sum(np.abs(c[2:]), axis=0)
+    result = peaks.copy()
+    i, k = np.nonzero(size > peaks)
+    if len(i):
+        chosen = c[:, i, k]
+        orders = np.arange(len(c))
+        values = np.abs(chosen.T @ points ** orders[:, None])
+        bends = np.zeros_like(values)
+        if len(c) > 2:
+            factors = (orders * (orders - 1))[2:, None]
+            bends = np.abs((chosen[2:] * factors).T @ points ** (orders[2:, None] - 2))
+        result[i, k] = np.max(values + bends / (8 * (len(points) - 1) ** 2), axis=1)
+    return result
+
+
+def _proposal(steps: StepLoop, norm: _Norm, h: Fraction | None, run: _Run) -> StepPeaks:
+    """The bounds with the bits that make rounding negligible."""
+    N = len(steps.m)
+    sizes = np.array([to_float(size) for size in norm.sizes])[:, None]
+    row = np.max(run.peaks, axis=1, initial=0.0)[:, None]
+    wanted = np.maximum(run.peaks, _NEGLIGIBLE * row) / sizes
+    wanted = np.min(wanted[wanted > _NOTHING * run.largest], initial=np.inf)
+    rounding = _unit_errors(N, run.times, h, norm.rate)
+    # the largest number keeps two bits below the limit
+    top = math.frexp(run.largest or 1.0)[1] + 2
+    unit = top - 40
+    if np.isfinite(wanted):
+        unit = min(unit, math.frexp(float(wanted) * _ROUNDING / rounding)[1] - 1)
+    bits = min(max(top - unit, 24), 900)
+    slack = sizes * math.ldexp(rounding, unit)
+    bound = np.maximum(run.peaks * (1 + 1e-5), np.abs(run.last) + run.after * (1 + 1e-6)) + slack
+    claimed = [tuple(_decimal_above(float(x)) for x in column) for column in bound.T]
+    response = StepResponse(norm.P, norm.rate, norm.sizes, bits, unit, run.times)
+    if h is not None:
+        response = replace(response, step=h)
+    inputs, outputs = (
+        tuple(row[a:b] for row in claimed) for a, b in ((0, steps.p), (steps.p, None))
+    )
+    return StepPeaks(steps.loop.system, steps.at, inputs, outputs, response)
+
+
+def _unit_errors(N: int, times: int, h: Fraction | None, rate: Fraction) -> float:
+    """The units by which rounding changes signals at most, as the checker adds them up."""
+    each = N * (N + 2) if h is None else N * ((_TERMS + 1) * (N + 1) + 1 + _REST)
+    after = N * (N + 2) / to_float(rate * (h or 1))
+    return (times + 1) * each + (_TERMS + 2) * (N + 2) + after
+
+
+def _decimal_above(x: float, digits: int = 5) -> Fraction:
+    """A decimal of so many significant digits above x ≥ 0."""
+    if not x:
+        return Fraction(0)
+    power = digits - 1 - math.floor(math.log10(x))
+    return Fraction(math.floor(Fraction(x) * Fraction(10) ** power) + 1) / Fraction(10) ** power

@@ -1,0 +1,150 @@
+"""The rule of ``step_peaks``."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+import pytest
+
+from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.steps import Lanes, exponents_of, scaled, stays_within
+from tests.checker.handmade import changed, checked, without
+from tests.checker.performance_plants import (
+    CONTINUOUS_STEP,
+    FOLLOWING,
+    SENSED,
+    STEP,
+    STEPPED,
+    form,
+    static,
+)
+from tests.checker.tables import accepts, rejects
+
+ACCEPTED = [
+    ("a step at an input", STEPPED),
+    ("an error of a sensor", SENSED),
+    ("a step of a set-point", FOLLOWING),
+    ("a step in continuous time", CONTINUOUS_STEP),
+    ("bounds that are larger", changed(STEPPED, ("claim.inputs", [[5]]))),
+    ("no set-point is used", changed(STEPPED, ("claim", {
+        "at": "setpoints", "inputs": [["1/1000"]], "outputs": [["1/1000"]],
+    }))),
+    ("more times", changed(STEPPED, ("witness.times", 20))),
+    ("shorter steps", changed(CONTINUOUS_STEP, ("witness.step", "1/2"), ("witness.times", 12))),
+    ("more bits", changed(CONTINUOUS_STEP, ("witness.bits", 90), ("witness.unit", -80))),
+]  # fmt: skip
+
+FAR = ("claim.inputs", [[1000]]), ("claim.outputs", [[1000]])
+REJECTED = [
+    ("an input above its bound", STEPPED, ("claim.inputs", [["999/1000"]]), "INVALID"),
+    ("an output above its bound", STEPPED, ("claim.outputs", [["999/1000"]]), "INVALID"),
+    ("what is at once above its bound", SENSED, ("claim.inputs", [["999/1000"]]), "INVALID"),
+    ("a set-point above its bound", FOLLOWING, ("claim.outputs", [["999/1000"]]), "INVALID"),
+    ("bounds without room for rounding", STEPPED, ("claim.inputs", [[1]]), "INVALID"),
+    ("the limit above its bound", CONTINUOUS_STEP, ("claim.outputs", [["499/1000"]]), "INVALID"),
+    ("bounds that are only reached later", CONTINUOUS_STEP, (
+        ("witness.times", 0), ("claim.inputs", [["1/2"]]), ("claim.outputs", [["1/4"]])
+    ), "INVALID"),
+    ("an end too early", CONTINUOUS_STEP, ("witness.times", 1), "INVALID"),
+    ("another side", STEPPED, (("claim.at", "disturbances"),), "MALFORMED"),
+    ("a bound below 0", STEPPED, ("claim.inputs", [[-1]]), "MALFORMED"),
+    ("a row too many", STEPPED, ("claim.inputs", [[5], [5]]), "MALFORMED"),
+    ("an entry too many", STEPPED, ("claim.outputs", [[5, 5]]), "MALFORMED"),
+    ("no row", STEPPED, ("claim.inputs", []), "MALFORMED"),
+    ("a rate of 0", STEPPED, ("witness.rate", 0), "INVALID"),
+    ("a negative rate", STEPPED, ("witness.rate", -1), "INVALID"),
+    ("a rate that is too large", STEPPED, ("witness.rate", "1/2"), "INVALID"),
+    ("a rate that the loop has not", CONTINUOUS_STEP, ("witness.rate", 2), "INVALID"),
+    ("a size that is too small", STEPPED, ("witness.sizes", ["1/2", 1]), "INVALID"),
+    ("a size of 0", STEPPED, ("witness.sizes", [0, 1]), "INVALID"),
+    ("a size left out", STEPPED, ("witness.sizes", [1]), "MALFORMED"),
+    ("an indefinite matrix", STEPPED, (("witness.P", form([-3])), *FAR), "INVALID"),
+    ("a matrix below the signals", STEPPED, ("witness.P", form([1])), "INVALID"),
+    ("a loop that grows", STEPPED, (("subject", [static(STEP, 1)]), *FAR), "INVALID"),
+    ("a loop that does not move", STEPPED, (("subject", [static(STEP, 0)]), *FAR), "INVALID"),
+    ("no loop", STEPPED, ("subject", []), "INVALID"),
+    ("15 bits", STEPPED, (("witness.bits", 15), ("witness.unit", -8), *FAR), "MALFORMED"),
+    ("1001 bits", STEPPED, ("witness.bits", 1001), "MALFORMED"),
+    ("a step that is longer than its lane", STEPPED, ("witness.unit", -24), "INVALID"),
+    ("a unit that is far away", STEPPED, ("witness.unit", -12001), "MALFORMED"),
+    ("a unit that is far above", STEPPED, ("witness.unit", 12001), "MALFORMED"),
+    ("a unit that hides everything", STEPPED, ("witness.unit", 10), "INVALID"),
+    ("a number of times below 0", STEPPED, ("witness.times", -1), "MALFORMED"),
+    ("a step in discrete time", STEPPED, ("witness.step", 1), "MALFORMED"),
+    ("a step of 0", CONTINUOUS_STEP, ("witness.step", 0), "INVALID"),
+    ("a negative step", CONTINUOUS_STEP, ("witness.step", -1), "INVALID"),
+    ("numbers that become too large", CONTINUOUS_STEP, ("witness.step", 100), "INVALID"),
+    ("a series that is too long", CONTINUOUS_STEP, (
+        ("witness.step", 300), ("witness.bits", 1000), ("witness.unit", -24)
+    ), "INVALID"),
+]  # fmt: skip
+
+test_these_are_valid = accepts(ACCEPTED)
+test_these_are_not = rejects(REJECTED)
+
+
+def test_the_words_name_the_step_and_its_bounds() -> None:
+    assert "1 is added to the input k" in checked(STEPPED).statement
+    assert "set-point of the output k is 1" in checked(FOLLOWING).statement
+    assert checked(CONTINUOUS_STEP).statement.endswith("k = 1: (1501/1000) and (501/1000)")
+
+
+def test_continuous_time_needs_a_step() -> None:
+    verdict = checked(without(CONTINUOUS_STEP, "witness.step"))
+    assert (verdict.verdict, verdict.place) == ("MALFORMED", "witness.step")
+
+
+def test_a_polynomial_is_bounded_between_its_ends() -> None:
+    # 4s(1 - s) reaches 1 in the middle, and both ends are 0
+    assert stays_within([0, 400, -400], 101) and not stays_within([0, 400, -400], 99)
+    assert not stays_within([0, -400, 400], 99)
+    # -1 + 2s vanishes in the middle
+    assert stays_within([-7, 14], 7) and not stays_within([-7, 14], 6)
+    assert stays_within([3], 3) and not stays_within([-4], 3) and stays_within([0], 0)
+    # s^3 is 1 at the end alone
+    assert stays_within([0, 0, 0, 8], 8) and not stays_within([0, 0, 0, 8], 7)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_no_drawn_polynomial_leaves_its_bound(seed: int) -> None:
+    rng = random.Random(seed)
+    c = [rng.randrange(-50, 51) for _ in range(rng.randrange(1, 8))]
+    values = [
+        abs(sum((x * Fraction(s, 64) ** j for j, x in enumerate(c)), Fraction(0)))
+        for s in range(65)
+    ]
+    least = next(bound for bound in range(400) if stays_within(c, bound))
+    assert max(values) <= least <= max(values) * Fraction(11, 10) + 1
+
+
+def test_products_in_lanes_are_those_of_each_vector() -> None:
+    rng = random.Random(1)
+    rows = [([0, 2], [rng.randrange(-(2**20), 2**20) for _ in range(2)]), ([], []), ([1], [-1])]
+    lanes = Lanes(5, 20, rows)
+    vectors = [[rng.randrange(-(2**19), 2**19) for _ in range(5)] for _ in range(3)]
+    got = lanes.products(rows, [lanes.packed(vector) for vector in vectors])
+    for (places, entries), packed in zip(rows, got, strict=True):
+        wanted = [
+            sum(e * vectors[k][lane] for k, e in zip(places, entries, strict=True)) >> 20
+            for lane in range(5)
+        ]
+        assert lanes.numbers(packed) == wanted
+
+
+@pytest.mark.parametrize("outside", [256, -257, 2**19, -(2**19)])
+@pytest.mark.parametrize("lane", range(3))
+def test_a_number_outside_of_its_range_is_seen_in_every_lane(outside: int, lane: int) -> None:
+    lanes = Lanes(3, 20, [])
+    inside = [[255, -256, 0], [-256, -256, -256], [255, 255, 255]]
+    assert lanes.is_within([lanes.packed(vector) for vector in inside], 8)
+    for vector in inside:
+        numbers = [*vector]
+        numbers[lane] = outside
+        assert not lanes.is_within([0, lanes.packed(numbers)], 8)
+
+
+def test_exponents_bound_the_norm_of_each_coordinate() -> None:
+    P = Matrix([[4**5, 0, 0, 0], [0, 4**5 + 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 4**9]], 4, 4**3)
+    assert exponents_of(P) == [2, 3, -3, 6]
+    assert [scaled(Fraction(-7, 3), 1, 0), scaled(Fraction(7, 3), 0, 1)] == [-5, 1]
