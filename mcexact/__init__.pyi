@@ -31,6 +31,7 @@ from .analysis.in_units import cost_bound as cost_bound
 from .analysis.in_units import disk_margin as disk_margin
 from .analysis.in_units import loop_cost as loop_cost
 from .analysis.in_units import sector_stability as sector_stability
+from .analysis.in_units import step_peaks as step_peaks
 from .analysis.parameters.hypersurfaces import ParametricCompleteness as ParametricCompleteness
 from .analysis.parameters.hypersurfaces import ParametricTransferGraph as ParametricTransferGraph
 from .analysis.parameters.hypersurfaces import (
@@ -88,6 +89,7 @@ from .answer.performance import CostWeights as CostWeights
 from .answer.performance import DiskMargin as DiskMargin
 from .answer.performance import LoopCost as LoopCost
 from .answer.performance import SectorStability as SectorStability
+from .answer.performance import StepPeaks as StepPeaks
 from .answer.protocol import Answer as Answer
 from .answer.protocol import save_certificate as save_certificate
 from .answer.several_parameters import ExceptionalHypersurfaces as ExceptionalHypersurfaces

@@ -38,6 +38,7 @@ from mcexact.analysis.performance import (
 from mcexact.answer.check import checked
 from mcexact.answer.performance import StepPeaks, StepResponse, Symmetric
 from mcexact.answer.protocol import encode
+from mcexact.errors import LimitReached
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float, vstack
 from mcexact.exact.roots import is_discrete
 from mcexact.model.loop import ClosedLoop
@@ -57,11 +58,11 @@ _SLACK = 5e-4
 """What may follow after the last step is above the peak by at most this part of it."""
 _ROUNDING = 1e-6
 """The part of a peak that rounding to integers may add."""
+SECONDS = 1.5e-8
+"""Of a unit of work of the checker, on a processor of 2025, in long products as here."""
 _REST = 256
 """The first term that is left out of a Taylor polynomial is below so many units (the checker)."""
-_NEGLIGIBLE = 1e-7
-"""A response is small if it is below this part of that of the same signal to another step."""
-_NOTHING = 1e-9
+_NOTHING = 1e-8
 """A signal is nothing if it is below this part of what a state of the same norm could have."""
 
 
@@ -155,15 +156,18 @@ def computed_steps(loop: ClosedLoop, at: Steps) -> Peaks | None:
 class _Run:
     """A response in floating point in steps of time, in coordinates scaled by P.
 
-    ``peaks`` and ``last`` are the signals' peaks and last values, ``after`` what may follow,
-    ``largest`` the largest number, ``times`` the steps of time.
+    ``peaks`` and ``last`` are the signals' peaks and last values, ``after`` is what may follow, and
+    peaks up to ``least`` need not be accurate; ``largest`` is the largest number of all states,
+    ``terms`` the number of all terms.
     """
 
     peaks: Floats
     last: Floats
     after: Floats
+    least: Floats
     largest: float
     times: int
+    terms: int
 
 
 @dataclass(frozen=True)
@@ -180,7 +184,9 @@ class _Norm:
         return np.exp2(np.ceil(np.log2(diagonal) / 2))
 
 
-def steps_of(loop: ClosedLoop, at: Steps, *, most: int = 20_000) -> StepPeaks | None:
+def steps_of(
+    loop: ClosedLoop, at: Steps, *, most: int = 20_000, work: float = math.inf
+) -> StepPeaks | None:
     """Prove how large inputs and outputs become after a step.
 
     Parameters
@@ -189,12 +195,19 @@ def steps_of(loop: ClosedLoop, at: Steps, *, most: int = 20_000) -> StepPeaks | 
     at : {"inputs", "outputs", "setpoints"}
     most : int
         The largest number of steps of time.
+    work : float
+        The units of work that the checker may take at most.
 
     Returns
     -------
     StepPeaks or None
         Bounds that exceed the peaks by some 0.05 % at most; None where none were found, as for
         loops that are not stable, or so stiff that more steps are needed.
+
+    Raises
+    ------
+    LimitReached
+        If the checker would take more work.
 
     Notes
     -----
@@ -205,6 +218,8 @@ def steps_of(loop: ClosedLoop, at: Steps, *, most: int = 20_000) -> StepPeaks | 
     steps = StepLoop(loop, at)
     if not 0 < steps.decay or not steps.b.shape[1]:
         return None
+    # what is far too long is not begun
+    _allow(_work_before(steps) / 4, work)
     norm = _norm_of(steps)
     if norm is None:
         return None
@@ -213,8 +228,32 @@ def steps_of(loop: ClosedLoop, at: Steps, *, most: int = 20_000) -> StepPeaks | 
     if run is None:
         return None
     found = _proposal(steps, norm, h, run)
+    _allow(_units(steps, found.response.bits, run.terms), work)
     verdict = checked(encode(found).encode())
     return found if verdict.verdict == "VALID" else None
+
+
+def _allow(units: float, work: float) -> None:
+    if units > work:
+        took = f"{units * SECONDS:.0f} s" if units * SECONDS > 1 else "long"
+        raise LimitReached(f"a proof takes {took} to check (--prove-all)")
+
+
+def _work_before(steps: StepLoop) -> float:
+    """The units of work that a response may take, before anything is computed."""
+    if steps.discrete:
+        return _units(steps, 60, 12 / steps.decay)
+    return _units(steps, 60, 25 * (1 + 2 * steps.fastest / steps.decay))
+
+
+def _units(steps: StepLoop, bits: int, terms: float) -> float:
+    """The units of the checker for products of the matrices with so many terms."""
+    M, b, S, _ = steps.exact
+    entries = sum(1 for _ in M.nonzero()) + sum(1 for _ in S.nonzero())
+    limbs = b.ncols * (2 * bits + 12) / 30 + 1
+    short = bits / 30 + 2
+    each = 2 + short * limbs / 20 * 8 / max(8.0, math.sqrt(min(short, limbs)))
+    return terms * entries * each
 
 
 def _dyadic(x: float, bits: int = 6) -> Fraction:
@@ -280,23 +319,25 @@ def _run(steps: StepLoop, norm: _Norm, h: Fraction | None, most: int) -> _Run | 
     m, b = steps.m * f[:, None] / f * span, steps.b * f[:, None] * span
     s, falling = steps.s / f, to_float(norm.rate) * span
     z, peaks, largest = np.zeros_like(b), np.abs(steps.d), float(np.max(np.abs(b), initial=0.0))
-    points, norms = np.linspace(0, 1, _POINTS + 1), float(np.max(np.sum(np.abs(b), axis=0)))
+    points, norms = np.linspace(0, 1, _POINTS + 1), np.sum(np.abs(b), axis=0)
+    count, moves = 0, np.any(steps.s != 0, axis=1)
     for times in range(most + 1):
         terms = [m @ z + b - (z if h is None else 0)]
         after = np.sum(np.abs(terms[0]), axis=0) / falling * sizes[:, None]
         last = s @ z + steps.d
         peaks = np.maximum(peaks, np.abs(last))
-        norms = max(norms, float(np.max(np.sum(np.abs(z), axis=0), initial=0.0)))
-        small = _NEGLIGIBLE * np.max(peaks, axis=1, initial=0.0)[:, None]
-        small = np.maximum(small, _NOTHING * sizes[:, None] * norms)
-        if np.all(np.abs(last) + after <= peaks * (1 + _SLACK) + small):
-            return _Run(peaks, last, after, largest, times)
+        norms = np.maximum(norms, np.sum(np.abs(z), axis=0))
+        least = _NOTHING * sizes[:, None] * norms
+        ends = np.abs(last) + after <= peaks * (1 + _SLACK) + least
+        if np.all(ends[moves]):
+            return _Run(peaks, last, after, least, largest, times, count)
         if h is not None:
             size = float(np.max(np.abs(z), initial=0.0)) + float(np.max(np.abs(terms[0])))
             while len(terms) < _TERMS and np.max(np.abs(terms[-1])) > 1e-16 * size:
                 terms.append(m @ terms[-1] / (len(terms) + 1))
             between = np.stack([last, *(s @ term for term in terms)])
             peaks = np.maximum(peaks, _largest(between, peaks, points))
+        count += len(terms)
         largest = max(largest, *(float(np.max(np.abs(term))) for term in [z, *terms]))
         z = z + sum(terms)
         largest = max(largest, float(np.max(np.abs(z))))
@@ -324,9 +365,7 @@ def _proposal(steps: StepLoop, norm: _Norm, h: Fraction | None, run: _Run) -> St
     """The bounds with the bits that make rounding negligible."""
     N = len(steps.m)
     sizes = np.array([to_float(size) for size in norm.sizes])[:, None]
-    row = np.max(run.peaks, axis=1, initial=0.0)[:, None]
-    wanted = np.maximum(run.peaks, _NEGLIGIBLE * row) / sizes
-    wanted = np.min(wanted[wanted > _NOTHING * run.largest], initial=np.inf)
+    wanted = np.min((run.peaks / sizes)[run.peaks > run.least], initial=np.inf)
     rounding = _unit_errors(N, run.times, h, norm.rate)
     # the largest number keeps two bits below the limit
     top = math.frexp(run.largest or 1.0)[1] + 2
@@ -349,7 +388,8 @@ def _proposal(steps: StepLoop, norm: _Norm, h: Fraction | None, run: _Run) -> St
 def _unit_errors(N: int, times: int, h: Fraction | None, rate: Fraction) -> float:
     """The units by which rounding changes signals at most, as the checker adds them up."""
     each = N * (N + 2) if h is None else N * ((_TERMS + 1) * (N + 1) + 1 + _REST)
-    after = N * (N + 2) / to_float(rate * (h or 1))
+    # rounding down shifts the limit, where the terms of a step of time add up to nothing
+    after = N * (N + 2 + 2 * _TERMS) / to_float(rate * (h or 1))
     return (times + 1) * each + (_TERMS + 2) * (N + 2) + after
 
 

@@ -1,4 +1,4 @@
-"""The performance of loops: answers about cost, margins and sectors.
+"""The performance of loops: answers about cost, margins, sectors and steps.
 
 Each answer is proved by a few symmetric matrices, one for each inequality (`Symmetric`), which are
 proposed in floating point, rounded to few bits, and verified exactly.
@@ -9,6 +9,8 @@ proposed in floating point, rounded to few bits, and verified exactly.
 - `DiskMargin`: the loop is stable while its inputs or outputs are multiplied by complex numbers
   near 1.
 - `SectorStability`: it is stable while its inputs pass through nonlinearities within sectors.
+- `StepPeaks`: how large its inputs and outputs become after a step, which a response in integers
+  proves beside the matrix.
 
 The sentences name the weights, and say for which controllers a bound holds.  The first line of
 `design` and `certify` consists of short ones: the cost of the loop beside a bound of the same
@@ -17,7 +19,7 @@ weights, the least disk margin of a single input or output, and the plants with 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Literal
@@ -313,6 +315,24 @@ SECTORS = Template(
     "its agent computes, between the multiples {sectors:sectors} of this value",
     label="loop with nonlinear inputs",
 )
+STEPS = {
+    "input_steps": Template(
+        "performance-input-steps",
+        "inputs within {inputs:digits_above}, outputs within {outputs:digits_above}",
+        label="peaks after 1 is added to an input",
+    ),
+    "output_steps": Template(
+        "performance-output-steps",
+        "inputs within {inputs:digits_above}, outputs within {outputs:digits_above}",
+        label="peaks after 1 is added to an output",
+    ),
+    "setpoint_steps": Template(
+        "performance-setpoint-steps",
+        "its output within {own:digits_above}, all outputs within {outputs:digits_above}, inputs "
+        "within {inputs:digits_above}",
+        label="peaks after a set-point steps to 1",
+    ),
+}
 FIRST_COST = Template(
     "first-cost", "cost ≤ {ratio:digits_above} × any LTI controller's{proper:proper}"
 )
@@ -411,6 +431,31 @@ def _margin_rule(name: str) -> None:
 
 for _name in MARGINS:
     _margin_rule(_name)
+
+
+def _step_rule(name: str, at: str) -> None:
+    """Make the rule about the peaks after steps at inputs, at outputs, or of set-points."""
+    template = STEPS[name]
+
+    @RULES.rule("table", template, premises=(name,))
+    def _peaks(steps: Claim, context: Context) -> Said:
+        if steps.at == at:
+            inputs, outputs = steps.inputs, steps.outputs
+            values = {"inputs": _largest(inputs), "outputs": _largest(outputs)}
+            if at == "setpoints":
+                own = [row[k] for k, row in enumerate(outputs)]
+                values["own"] = max(own, default=Fraction(0))
+            if len(inputs):
+                yield template(**values)
+
+
+def _largest(rows: Sequence[Sequence[Fraction]]) -> Fraction:
+    """The largest entry; 0 if there is none."""
+    return max((x for row in rows for x in row), default=Fraction(0))
+
+
+for _name, _at in zip(STEPS, ("inputs", "outputs", "setpoints"), strict=True):
+    _step_rule(_name, _at)
 
 
 @RULES.rule("table", SECTORS, premises=("sector",))

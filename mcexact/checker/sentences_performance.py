@@ -1,4 +1,4 @@
-"""Rules of sentences about the cost of a loop, bounds for every controller, margins and sectors.
+"""Rules of sentences about costs, bounds for every controller, margins, sectors and steps.
 
 Most repeat one claim.  The cost of a loop is set beside a bound only where both certificates have
 the same weights: then the ratio of the two claims is at least that of the loop's cost and the cost
@@ -6,7 +6,10 @@ of any controller that the bound is about.  The first line of ``design`` and ``c
 short sentences with rules of their own, since they say less than the rows of the table.
 """
 
+from fractions import Fraction
+
 from . import budget
+from .budget import spend
 from .kinds import same
 from .reading import rational
 from .sentences import PLANT, Premise, Role, restate, rule
@@ -14,7 +17,7 @@ from .sentences_loops import CLOSED, LOOPS, within
 
 COST, BOUND = Role(("loop_cost",), CLOSED), Role(("cost_bound",), PLANT)
 MARGIN, MARGINS = (Role(("disk_margin",), CLOSED, many=many) for many in (False, True))
-SECTOR = Role(("sector",), CLOSED)
+SECTOR, STEPS = Role(("sector",), CLOSED), Role(("step_peaks",), CLOSED)
 
 restate("performance-cost", COST, lambda c: True)
 
@@ -37,7 +40,7 @@ def beside(cost: Premise, bounds: list[Premise], *, graph: bool) -> str:
     bound.expect(same(bound["weights"], cost["weights"]), "other weights")
     most, least = (rational(each["cost"], each.file) for each in (cost, bound))
     bound.expect(least > 0, "the bound is not above 0")
-    budget.spend(budget.fractions(1, budget.limbs_of([most, least])))
+    spend(budget.fractions(1, budget.limbs_of([most, least])))
     return (
         f"{cost.statement}; {bound.statement}: the former is at most {most / least} of the latter"
     )
@@ -83,6 +86,29 @@ def _every_loop(margins: list[Premise], _: list[Premise]) -> str:
     return f"{both}: each input and each output by itself has a disk margin of at least {least}"
 
 
+def largest(peaks: Premise) -> str:
+    """The claim, and the largest bounds of inputs and of outputs."""
+    tables = [
+        [[rational(x, peaks.file) for x in row] for row in peaks[key]]
+        for key in ("inputs", "outputs")
+    ]
+    every = [[x for row in table for x in row] or [Fraction(0)] for table in tables]
+    spend(budget.fractions(2 * sum(map(len, every)), max(map(budget.limbs_of, every))))
+    said = f"the largest bound of an input is {max(every[0])}, of an output {max(every[1])}"
+    if peaks["at"] == "setpoints":
+        own = max(row[k] for k, row in enumerate(tables[1]))
+        said += f", and of the output whose set-point is 1 {own}"
+    return f"{peaks.statement}: {said}"
+
+
+def of_steps(key: str, at: str) -> None:
+    """Enter the rule about steps at inputs, at outputs, or of set-points."""
+    restate(key, STEPS, lambda c: c["at"] == at and len(c["inputs"]) > 0, words=largest)
+
+
+of_steps("performance-input-steps", "inputs")
+of_steps("performance-output-steps", "outputs")
+of_steps("performance-setpoint-steps", "setpoints")
 restate("performance-sectors", SECTOR, lambda c: True)
 restate("first-box", LOOPS, lambda c: True, words=within)
 restate("first-radii", LOOPS, lambda c: True)

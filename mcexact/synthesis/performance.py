@@ -4,7 +4,8 @@
 
 - its cost, a lower bound on the cost of every linear time-invariant controller, and where the plant
   and the controller act along the edges of a graph alone, a bound for controllers of that graph;
-- the disk margin of every single input and output, and those of all inputs and all outputs at once.
+- the disk margin of every single input and output, and those of all inputs and all outputs at once;
+- how large inputs and outputs become after a step at an input, or of a set-point.
 
 One symmetric matrix of the size of the loop proves each of these, and for single margins one for
 each port.  Together they may have two megabytes and take the checker about five seconds, unless all
@@ -16,11 +17,11 @@ floating point, and said to be.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from math import isfinite, isnan, nan
+from math import inf, isfinite, isnan, nan
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,8 @@ from mcexact.analysis.performance import (
     response_of,
     weights_in,
 )
-from mcexact.answer.performance import CostBound, CostWeights, DiskMargin, LoopCost
+from mcexact.analysis.steps import SECONDS, Steps, computed_steps, steps_of
+from mcexact.answer.performance import CostBound, CostWeights, DiskMargin, LoopCost, StepPeaks
 from mcexact.answer.protocol import Answer, encode
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.matrix import Matrix, finite, matrix_from_float, to_float
@@ -72,6 +74,10 @@ MARGINS: Mapping[str, tuple[Side, bool]] = {
 }
 """The names of answers about disk margins: of each port by itself, or of all together."""
 SIDES: tuple[Side, ...] = ("inputs", "outputs")
+STEPS: Mapping[str, Steps] = {"input_steps": "inputs", "setpoint_steps": "setpoints"}
+"""The names of answers about peaks after steps."""
+_WORK = 30_000_000, 4000
+"""The units of work that the checker grants, and for each byte; the rest is for other steps."""
 _LABELS = {
     "loop_cost": "cost",
     "cost_bound": "cost of the best controller",
@@ -80,6 +86,8 @@ _LABELS = {
     "output_margin": "disk margin of each output by itself",
     "all_inputs_margin": "disk margin of all inputs together",
     "all_outputs_margin": "disk margin of all outputs together",
+    "input_steps": "peaks after 1 is added to an input",
+    "setpoint_steps": "peaks after a set-point steps to 1",
 }
 
 
@@ -121,9 +129,12 @@ class Performance(Shown):
     weights : CostWeights
         Of the cost and of the bounds.
     answers : mapping of str to answer
-        By the names ``loop_cost``, ``cost_bound``, ``graph_cost_bound`` and those of `MARGINS`.
+        By the names ``loop_cost``, ``cost_bound``, ``graph_cost_bound`` and those of `MARGINS` and
+        `STEPS`.
     computed : mapping of str to float
-        The same figures in floating point, by the same names; they prove nothing.
+        The same figures in floating point, by the same names; they prove nothing.  Of peaks the
+        largest one of an input and of an output, as ``input_steps_inputs``, and of the output whose
+        set-point steps, as ``setpoint_steps_own``.
     left_out : mapping of str to str
         Why there is no proof, by the same names.
     weakest : str
@@ -212,9 +223,17 @@ class Performance(Shown):
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield a label and a text for each figure that is computed and not proved."""
         for name, reason in self.left_out.items():
-            value = self._seen(name)
-            known = f"{value:.3g}; " if isfinite(value) else ""
-            yield _LABELS[name], f"{known}not proved: {reason}"
+            yield _LABELS[name], f"{self._known(name)}not proved: {reason}"
+
+    def _known(self, name: str) -> str:
+        """What is computed, in words."""
+        if name in STEPS:
+            words = {"own": "its output", "outputs": "outputs", "inputs": "inputs"}
+            known = {word: self._seen(f"{name}_{key}") for key, word in words.items()}
+            parts = [f"{word} {x:.3g}" for word, x in known.items() if isfinite(x)]
+            return f"computed: {', '.join(parts)}; " if parts else ""
+        value = self._seen(name)
+        return f"{value:.3g}; " if isfinite(value) else ""
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         yield from self.answers.items()
@@ -254,7 +273,7 @@ def loop_performance(
     weights: CostWeights | None = None,
     prove_all: bool = False,
 ) -> Performance:
-    """Prove the cost of a loop, a bound for every controller, and disk margins.
+    """Prove the cost of a loop, a bound for every controller, disk margins, and peaks after steps.
 
     Parameters
     ----------
@@ -305,7 +324,7 @@ def performance_of(
     prove_all: bool = False,
     proofs: bool = True,
 ) -> Performance:
-    """Prove the cost of a loop, a bound for every controller, and disk margins.
+    """Prove the cost of a loop, a bound for every controller, disk margins, and peaks after steps.
 
     Parameters
     ----------
@@ -387,8 +406,10 @@ class PerformanceSearch:
             The time of `time.monotonic` after which no further proof is begun.
         """
         work, left_out = _Work(prove_all=prove_all), dict(self._left_out)
-        answers = dict[str, Answer]()
-        for name, each in self._asked.items():
+        answers, asked = dict[str, Answer](), self._asked
+        if asked:
+            asked = asked | _step_proofs(self._loop, work)
+        for name, each in asked.items():
             if deadline is not None and time.monotonic() >= deadline:
                 left_out[name] = NO_TIME
                 continue
@@ -398,7 +419,7 @@ class PerformanceSearch:
                 continue
             try:
                 proof = each.prove()
-                if proof is not None and self._units is not None:
+                if self._units is not None and isinstance(proof, LoopCost | CostBound | DiskMargin):
                     proof = in_file_units(proof, self._loop, self._units)
             except (LimitReached, UsageError) as reached:
                 left_out[name] = reached.message
@@ -408,7 +429,9 @@ class PerformanceSearch:
             else:
                 answers[name] = proof
                 work.done(each, len(encode(proof)))
-        return replace(self.computed, answers=answers, left_out=left_out)
+        more = _computed_steps(self._loop, [name for name in STEPS if name in left_out])
+        computed = {**self.computed.computed, **more}
+        return replace(self.computed, answers=answers, computed=computed, left_out=left_out)
 
 
 Responses = Mapping[Side, PortResponse]
@@ -423,6 +446,19 @@ def _computed(loop: ClosedLoop, weights: CostWeights, margins: Margins) -> dict[
     for side, (single, together) in margins.items():
         seen[f"{side.removesuffix('s')}_margin"] = min(single, default=2.0)
         seen[f"all_{side}_margin"] = together
+    return seen
+
+
+def _computed_steps(loop: ClosedLoop, names: Sequence[str]) -> dict[str, float]:
+    """The largest peaks in floating point, of what is not proved."""
+    seen = dict[str, float]()
+    for name in names:
+        peaks = computed_steps(loop, STEPS[name])
+        if peaks is not None:
+            seen[f"{name}_inputs"] = float(np.max(peaks.inputs, initial=0.0))
+            seen[f"{name}_outputs"] = float(np.max(peaks.outputs, initial=0.0))
+            if name == "setpoint_steps":
+                seen[f"{name}_own"] = float(np.max(np.diag(peaks.outputs), initial=0.0))
     return seen
 
 
@@ -458,7 +494,7 @@ def _names(plant: MultiChannelSystem, size: Callable[[int], int]) -> Iterator[st
             yield f" {k + 1} of agent {name}" if size(i) > 1 else f" of agent {name}"
 
 
-Proved = LoopCost | CostBound | DiskMargin
+Proved = LoopCost | CostBound | DiskMargin | StepPeaks
 
 
 @dataclass(frozen=True)
@@ -504,6 +540,26 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
             lambda: bound_of(plant, weights, graph), 2 * groups * [n], groups * of_plant
         )
     return proofs
+
+
+def _step_proofs(loop: ClosedLoop, work: _Work) -> dict[str, _Proof]:
+    """The peaks after steps, which take the checker what is left to it at most."""
+    N, plant = loop.dimension, loop.plant
+    p, q = (sum(map(ports, range(plant.m))) for ports in (plant.p, plant.q))
+    rows = {"inputs": p, "setpoints": 0 if loop.reference.is_zero() else q}
+    sides = {name: at for name, at in STEPS.items() if rows[at]}
+
+    def proof(at: Steps) -> _Proof:
+        size = _BYTES * (N * (N + 1) / 2 + rows[at] * (p + q))
+
+        def prove() -> Proved | None:
+            # how long it takes is known when the response is computed
+            most = min(_WORK[0] + _WORK[1] * size, work.seconds / SECONDS / len(sides))
+            return steps_of(loop, at, work=inf if work.all else most)
+
+        return _Proof(prove, size, 0.0)
+
+    return {name: proof(at) for name, at in sides.items()}
 
 
 _FIELDS = {"Q": "states", "R": "inputs", "W": "disturbances", "V": "noise"}

@@ -22,7 +22,7 @@ from tests.kernels import usable_kernels
 
 IN_FLOATING_POINT = {f"design-{design}-float" for design in DESIGNS}
 IN_FLOATING_POINT |= {"certify-lyapunov", "certify-instability"}
-ABOUT_PERFORMANCE = {"cost_bound", "disk_margin", "loop_cost", "sector"}
+ABOUT_PERFORMANCE = {"cost_bound", "disk_margin", "loop_cost", "sector", "step_peaks"}
 """Kinds whose matrices are proposed in floating point: their certificates are only valid."""
 ABOUT_BOXES = {"box_fixed", "box_controllable", "box_stable"}
 ABOUT_BOXES |= {"parametric_box_fixed", "parametric_box_controllable", "parametric_box_stable"}
@@ -95,7 +95,7 @@ def test_what_is_found_in_floating_point_is_valid_under_every_kernel(written: Wr
             assert verdict.verdict == "VALID", f"{place}: {verdict.line()}"
         kinds = {place: json.loads(data)["kind"] for place, data in proposed.items()}
         assert ABOUT_BOXES <= {*kinds.values()}
-        assert {"cost_bound", "disk_margin", "loop_cost"} <= {*kinds.values()}
+        assert {"cost_bound", "disk_margin", "loop_cost", "step_peaks"} <= {*kinds.values()}
         # Exact designs have a box around their loop, too, a plant near theirs whose loop fails, and
         # proofs of cost and margins.
         proposed_for_all = ABOUT_BOXES | ABOUT_PERFORMANCE

@@ -11,12 +11,15 @@ from tests.checker.box_plants import PART_CERTAIN, PART_STABLE
 from tests.checker.handmade import Document, changed
 from tests.checker.performance_plants import (
     COST,
+    FOLLOWING,
     GROUPS,
     MARGIN,
     ONE_WAY_COST,
     OUTPUT_MARGIN,
     SECTOR,
+    SENSED,
     STEP_BOUND,
+    STEPPED,
 )
 from tests.checker.recorded import compare, keys
 from tests.checker.test_sentences_design import STABLE, judged, rows
@@ -39,6 +42,9 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("first-margin", [MARGIN, OUTPUT_MARGIN]),
     ("first-margin", [ALL_OUTPUTS, MARGIN]),
     ("performance-sectors", [SECTOR]),
+    ("performance-input-steps", [STEPPED]),
+    ("performance-output-steps", [SENSED]),
+    ("performance-setpoint-steps", [FOLLOWING]),
     *(("first-box first-radii", [each]) for each in (PART_STABLE, PART_CERTAIN)),
 ]
 DENIED: list[tuple[str, list[Document]]] = [
@@ -59,6 +65,8 @@ DENIED: list[tuple[str, list[Document]]] = [
     ("first-margin", [MARGIN]),
     ("first-margin", [OUTPUT_MARGIN, ALL_OUTPUTS]),
     ("performance-sectors", [MARGIN]),
+    ("performance-input-steps performance-setpoint-steps", [SENSED]),
+    ("performance-output-steps", [STEPPED]),
     ("first-box first-radii", [STABLE]),
 ]
 
@@ -93,6 +101,13 @@ def test_the_least_of_two_margins_is_said(tmp_path: Path) -> None:
     less = changed(OUTPUT_MARGIN, ("claim.margin", "1/3"))
     said = judged(tmp_path, "first-margin", [MARGIN, less]).statement
     assert "each input and each output by itself has a disk margin of at least 1/3" in said
+
+
+def test_the_largest_peaks_are_said(tmp_path: Path) -> None:
+    wide = changed(FOLLOWING, ("claim.inputs", [[2]]))
+    said = judged(tmp_path, "performance-setpoint-steps", [wide]).statement
+    largest = "the largest bound of an input is 2, of an output 1001/1000"
+    assert f"{largest}, and of the output whose set-point is 1 1001/1000" in said
 
 
 @pytest.mark.parametrize("key", keys("performance"))

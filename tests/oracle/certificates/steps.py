@@ -41,14 +41,17 @@ def step_peaks(claim: Any, document: Mapping[str, Any], system: System) -> bool:
     demand(all(x >= 0 for table in tables for row in table for x in row), "expected none below 0")
     if not inside(loop.M.charpoly(), system.time, None):
         return False
-    peaks = seen_peaks(*signals(loop, document, found["at"]), system.time)
+    steps = document["subject"]
+    plant = subject_of(document, len(steps) - 1)
+    layout = Loop(plant, read_agents(plant, steps[-1]["controller"]))
+    peaks = seen_peaks(*signals(loop, layout, found["at"]), system.time)
     bounds = np.array(
         [[float(int(x.p) / int(x.q)) for x in u + y] for u, y in zip(*tables, strict=True)]
     ).reshape(count, p + q)
     return bool(np.all(bounds >= peaks.T * (1 - 1e-9) - 1e-12 * np.max(peaks, initial=0.0)))
 
 
-def signals(loop: Disturbed, document: Mapping[str, Any], at: str) -> tuple[Any, Any, Any, Any]:
+def signals(loop: Disturbed, layout: Loop, at: str) -> tuple[Any, Any, Any, Any]:
     """M, b, S and d of z' = M z + b, s = S z + d, in floating point."""
     p, q = loop.U.nrows(), loop.Y.nrows()
     if at == "inputs":
@@ -56,19 +59,16 @@ def signals(loop: Disturbed, document: Mapping[str, Any], at: str) -> tuple[Any,
     elif at == "outputs":
         b, through = loop.G, loop.K
     else:
-        b, through = set_points(document)
+        b, through = set_points(layout)
     S = below([loop.U, loop.Y], loop.M.nrows())
     d = below([through, fmpq_mat(q, b.ncols())], b.ncols())
     M, b, S, d = (_floats(X) for X in (loop.M, b, S, d))
     return M, b, S, d
 
 
-def set_points(document: Mapping[str, Any]) -> tuple[fmpq_mat, fmpq_mat]:
+def set_points(loop: Loop) -> tuple[fmpq_mat, fmpq_mat]:
     """What the set-points of all outputs do to the states, and to the inputs at once."""
-    steps = document["subject"]
-    plant = subject_of(document, len(steps) - 1)
-    agents = read_agents(plant, steps[-1]["controller"])
-    loop = Loop(plant, agents)
+    plant, agents = loop.system, loop.agents
     sizes = [C.nrows() for C in plant.C]
 
     def outside(i: int, label: str, nrows: int) -> fmpq_mat:

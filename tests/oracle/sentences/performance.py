@@ -1,4 +1,4 @@
-"""Judges of sentences about costs, bounds for every controller, disk margins and sectors.
+"""Judges of sentences about costs, bounds for every controller, disk margins, sectors and steps.
 
 The cost of a loop is an exact solution of a Lyapunov equation, and a bound for every controller is
 compared with the cost of the best one.  A margin of one input is decided by the eigenvalues of a
@@ -24,6 +24,8 @@ from tests.oracle.certificates.performance import (
     has_margin,
     least_cost,
 )
+from tests.oracle.certificates.roots import inside
+from tests.oracle.certificates.steps import seen_peaks, signals
 from tests.oracle.sentences.analysis import judge
 from tests.oracle.sentences.cases import Case, Region, Said, UnjudgedError, number
 from tests.oracle.sentences.designs import floats
@@ -217,6 +219,22 @@ def _sectors(said: Said, case: Case) -> bool:
         if not _is_stable(M + (E * more) @ U, case.plant.time):
             return False
     return True
+
+
+@judge("performance-input-steps", "performance-output-steps", "performance-setpoint-steps")
+def _steps(said: Said, case: Case) -> bool:
+    """The peaks that are seen at very many times."""
+    loop, at = _loop(case), f"{said.rule.split('-')[1]}s"
+    if not inside(loop.M.charpoly(), case.plant.time, None):
+        return False
+    peaks = seen_peaks(*signals(loop, case.loop, at), case.plant.time) * (1 - 1e-9)
+    p = loop.U.nrows()
+    told = {key: _float(number(said.values[key])) for key in said.values}
+    held = [np.max(peaks[:p], initial=0.0) <= told["inputs"] + 1e-12]
+    held.append(np.max(peaks[p:], initial=0.0) <= told["outputs"] + 1e-12)
+    if at == "setpoints":
+        held.append(np.max(np.diag(peaks[p:]), initial=0.0) <= told["own"] + 1e-12)
+    return peaks.shape[1] > 0 and all(held)
 
 
 @judge("first-box", "first-radii")
