@@ -19,7 +19,7 @@ weights, the least disk margin of a single input or output, and the plants with 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Literal
@@ -315,22 +315,18 @@ SECTORS = Template(
     "its agent computes, between the multiples {sectors:sectors} of this value",
     label="loop with nonlinear inputs",
 )
+_TIMES_THE_STEP = "at most {peak:digits_above} times the step"
 STEPS = {
     "input_steps": Template(
-        "performance-input-steps",
-        "inputs within {inputs:digits_above}, outputs within {outputs:digits_above}",
-        label="peaks after 1 is added to an input",
+        "performance-input-steps", _TIMES_THE_STEP, label="peak of an input after a step there"
     ),
     "output_steps": Template(
-        "performance-output-steps",
-        "inputs within {inputs:digits_above}, outputs within {outputs:digits_above}",
-        label="peaks after 1 is added to an output",
+        "performance-output-steps", _TIMES_THE_STEP, label="peak of an output after a step there"
     ),
     "setpoint_steps": Template(
         "performance-setpoint-steps",
-        "its output within {own:digits_above}, all outputs within {outputs:digits_above}, inputs "
-        "within {inputs:digits_above}",
-        label="peaks after a set-point steps to 1",
+        _TIMES_THE_STEP,
+        label="peak of an output after a step of its set-point",
     ),
 }
 FIRST_COST = Template(
@@ -434,24 +430,16 @@ for _name in MARGINS:
 
 
 def _step_rule(name: str, at: str) -> None:
-    """Make the rule about the peaks after steps at inputs, at outputs, or of set-points."""
+    """Make the rule about the peak where a step is, which is the same in all units."""
     template = STEPS[name]
 
     @RULES.rule("table", template, premises=(name,))
     def _peaks(steps: Claim, context: Context) -> Said:
         if steps.at == at:
-            inputs, outputs = steps.inputs, steps.outputs
-            values = {"inputs": _largest(inputs), "outputs": _largest(outputs)}
-            if at == "setpoints":
-                own = [row[k] for k, row in enumerate(outputs)]
-                values["own"] = max(own, default=Fraction(0))
-            if len(inputs):
-                yield template(**values)
-
-
-def _largest(rows: Sequence[Sequence[Fraction]]) -> Fraction:
-    """The largest entry; 0 if there is none."""
-    return max((x for row in rows for x in row), default=Fraction(0))
+            rows = steps.inputs if at == "inputs" else steps.outputs
+            own = [row[k] for k, row in enumerate(rows)]
+            if own:
+                yield template(peak=max(own))
 
 
 for _name, _at in zip(STEPS, ("inputs", "outputs", "setpoints"), strict=True):

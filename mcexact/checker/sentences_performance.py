@@ -6,8 +6,6 @@ of any controller that the bound is about.  The first line of ``design`` and ``c
 short sentences with rules of their own, since they say less than the rows of the table.
 """
 
-from fractions import Fraction
-
 from . import budget
 from .budget import spend
 from .kinds import same
@@ -86,24 +84,18 @@ def _every_loop(margins: list[Premise], _: list[Premise]) -> str:
     return f"{both}: each input and each output by itself has a disk margin of at least {least}"
 
 
-def largest(peaks: Premise) -> str:
-    """The claim, and the largest bounds of inputs and of outputs."""
-    tables = [
-        [[rational(x, peaks.file) for x in row] for row in peaks[key]]
-        for key in ("inputs", "outputs")
-    ]
-    every = [[x for row in table for x in row] or [Fraction(0)] for table in tables]
-    spend(budget.fractions(2 * sum(map(len, every)), max(map(budget.limbs_of, every))))
-    said = f"the largest bound of an input is {max(every[0])}, of an output {max(every[1])}"
-    if peaks["at"] == "setpoints":
-        own = max(row[k] for k, row in enumerate(tables[1]))
-        said += f", and of the output whose set-point is 1 {own}"
-    return f"{peaks.statement}: {said}"
+def own_peak(peaks: Premise) -> str:
+    """The claim, and the largest bound of a signal where a step is."""
+    rows = peaks["inputs" if peaks["at"] == "inputs" else "outputs"]
+    own = [rational(row[k], peaks.file) for k, row in enumerate(rows)]
+    spend(budget.fractions(len(own), budget.limbs_of(own)))
+    each = {"inputs": "input k", "outputs": "output k", "setpoints": "output k"}[peaks["at"]]
+    return f"{peaks.statement}: the largest bound of the {each} for some k is {max(own)}"
 
 
 def of_steps(key: str, at: str) -> None:
     """Enter the rule about steps at inputs, at outputs, or of set-points."""
-    restate(key, STEPS, lambda c: c["at"] == at and len(c["inputs"]) > 0, words=largest)
+    restate(key, STEPS, lambda c: c["at"] == at and len(c["inputs"]) > 0, words=own_peak)
 
 
 of_steps("performance-input-steps", "inputs")

@@ -86,8 +86,8 @@ _LABELS = {
     "output_margin": "disk margin of each output by itself",
     "all_inputs_margin": "disk margin of all inputs together",
     "all_outputs_margin": "disk margin of all outputs together",
-    "input_steps": "peaks after 1 is added to an input",
-    "setpoint_steps": "peaks after a set-point steps to 1",
+    "input_steps": "peak of an input after a step there",
+    "setpoint_steps": "peak of an output after a step of its set-point",
 }
 
 
@@ -132,9 +132,8 @@ class Performance(Shown):
         By the names ``loop_cost``, ``cost_bound``, ``graph_cost_bound`` and those of `MARGINS` and
         `STEPS`.
     computed : mapping of str to float
-        The same figures in floating point, by the same names; they prove nothing.  Of peaks the
-        largest one of an input and of an output, as ``input_steps_inputs``, and of the output whose
-        set-point steps, as ``setpoint_steps_own``.
+        The same figures in floating point, by the same names; they prove nothing.  Of peaks it is
+        the largest one where the step is.
     left_out : mapping of str to str
         Why there is no proof, by the same names.
     weakest : str
@@ -223,17 +222,9 @@ class Performance(Shown):
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield a label and a text for each figure that is computed and not proved."""
         for name, reason in self.left_out.items():
-            yield _LABELS[name], f"{self._known(name)}not proved: {reason}"
-
-    def _known(self, name: str) -> str:
-        """What is computed, in words."""
-        if name in STEPS:
-            words = {"own": "its output", "outputs": "outputs", "inputs": "inputs"}
-            known = {word: self._seen(f"{name}_{key}") for key, word in words.items()}
-            parts = [f"{word} {x:.3g}" for word, x in known.items() if isfinite(x)]
-            return f"computed: {', '.join(parts)}; " if parts else ""
-        value = self._seen(name)
-        return f"{value:.3g}; " if isfinite(value) else ""
+            value = self._seen(name)
+            known = f"{value:.3g}; " if isfinite(value) else ""
+            yield _LABELS[name], f"{known}not proved: {reason}"
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         yield from self.answers.items()
@@ -450,15 +441,13 @@ def _computed(loop: ClosedLoop, weights: CostWeights, margins: Margins) -> dict[
 
 
 def _computed_steps(loop: ClosedLoop, names: Sequence[str]) -> dict[str, float]:
-    """The largest peaks in floating point, of what is not proved."""
+    """The largest peak where a step is, in floating point, of what is not proved."""
     seen = dict[str, float]()
     for name in names:
         peaks = computed_steps(loop, STEPS[name])
         if peaks is not None:
-            seen[f"{name}_inputs"] = float(np.max(peaks.inputs, initial=0.0))
-            seen[f"{name}_outputs"] = float(np.max(peaks.outputs, initial=0.0))
-            if name == "setpoint_steps":
-                seen[f"{name}_own"] = float(np.max(np.diag(peaks.outputs), initial=0.0))
+            rows = peaks.inputs if STEPS[name] == "inputs" else peaks.outputs
+            seen[name] = float(np.max(np.diag(rows), initial=0.0))
     return seen
 
 

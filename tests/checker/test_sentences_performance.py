@@ -103,11 +103,13 @@ def test_the_least_of_two_margins_is_said(tmp_path: Path) -> None:
     assert "each input and each output by itself has a disk margin of at least 1/3" in said
 
 
-def test_the_largest_peaks_are_said(tmp_path: Path) -> None:
+def test_the_largest_peak_where_a_step_is_is_said(tmp_path: Path) -> None:
     wide = changed(FOLLOWING, ("claim.inputs", [[2]]))
     said = judged(tmp_path, "performance-setpoint-steps", [wide]).statement
-    largest = "the largest bound of an input is 2, of an output 1001/1000"
-    assert f"{largest}, and of the output whose set-point is 1 1001/1000" in said
+    assert "the largest bound of the output k for some k is 1001/1000" in said
+    wide = changed(STEPPED, ("claim.inputs", [[2]]))
+    said = judged(tmp_path, "performance-input-steps", [wide]).statement
+    assert "the largest bound of the input k for some k is 2" in said
 
 
 @pytest.mark.parametrize("key", keys("performance"))
