@@ -27,8 +27,8 @@ from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
-EFFORT, BOX = 2.5, 1.5
-"""Seconds for each search of a controller and of a box: all rows end in a quarter of an hour."""
+EFFORT, BOX = 12.0, 1.5
+"""Seconds for each search of a controller and of a box: all rows end in twenty minutes."""
 DESIGNS: dict[str, Any] = {
     "decentralized": design_decentralized,
     "extended": design_extended,

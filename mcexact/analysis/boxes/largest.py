@@ -26,6 +26,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, get_args
@@ -47,7 +48,7 @@ from mcexact.analysis.boxes.members import ControllabilitySearch, FixedModeSearc
 from mcexact.analysis.boxes.pencils import Floats, Members, one_thread, radii_of
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.analysis.stability import certify_stability
+from mcexact.analysis.stability import Method, certify_stability
 from mcexact.answer.boxes import BoxControllability, BoxFixedModes, ParametricBoxStability
 from mcexact.answer.check import constructed
 from mcexact.answer.loops import StabilityVerdict
@@ -55,7 +56,13 @@ from mcexact.answer.protocol import Answer
 from mcexact.answer.templates import blame
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError, LimitReached, UsageError, require_seconds
-from mcexact.exact.matrix import Matrix, largest_entry, matrix_to_float, to_float
+from mcexact.exact.matrix import (
+    Matrix,
+    largest_entry,
+    matrix_from_float,
+    matrix_to_float,
+    to_float,
+)
 from mcexact.exact.rational import percent, three_digits, written
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
@@ -632,16 +639,24 @@ def largest_loop_uncertainty(
 def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> StabilityVerdict | None:
     """The exact answer that the loop of a plant leaves the region; None if it does not."""
     loop = replace(search.loop, plant=plant).system
-    # With an eigenvalue on the border only the polynomial decides.
-    verdict = certify_stability(loop, search.region, method="polynomial")
-    return None if verdict.stable else verdict
+    # An eigenvalue on the border is for the polynomial alone, which takes long for many states.
+    method: Method = "polynomial" if loop.n <= _MOST_EXACT else "lyapunov"
+    with suppress(UsageError):
+        verdict = certify_stability(loop, search.region, method=method)
+        return None if verdict.stable else verdict
+    return None
+
+
+_MOST_EXACT = 60
+"""The most states, or signals of a loop, for which an eigenvalue may be on the border itself."""
 
 
 def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
     """A plant near the nominal one whose loop has an eigenvalue on the border, or just beyond.
 
     A plant exactly on the border can differ in numbers of thousands of digits; then one that is
-    1e-5 farther is given, which differs in numbers of six digits.
+    1e-5 farther is given, which differs in numbers of six digits.  Of large loops it is 1e-3
+    farther, and no plant on the border is computed.
 
     Parameters
     ----------
@@ -657,22 +672,33 @@ def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
     pencil = Uncertain(signals.matrix, D, signals.states, signals.dimension - 1)
     freedom: Freedom = "circle" if search.region.discrete else "line"
     best: tuple[Fraction, Matrix, complex] | None = None
+    beyond: FailingPlant | None = None
+
+    def farther(change: Matrix, times: float, point: complex) -> FailingPlant | None:
+        short = _farther(change, times)
+        member = _changed(nominal, signals, short)
+        if not _is_outside(replace(loop, plant=member).system.A, search.region):
+            return None
+        distance = max(abs(short[i, j]) / D[i, j] for i, j, _ in short.nonzero())
+        return FailingPlant(member, distance, point, ())
+
     for _, point in search.margins()[:tries]:
         near = pencil.drop(point, freedom)
         if near is None or (best is not None and near.size >= best[0]):
+            continue
+        if signals.dimension > _MOST_EXACT:
+            member = farther(matrix_from_float(near.change, "dyadic"), _FAR_BEYOND, near.point)
+            if beyond is None or (member is not None and member.distance < beyond.distance):
+                beyond = member
             continue
         found = pencil.exact(near, freedom)
         if found is not None and (best is None or found[1] < best[0]):
             best = found[1], found[0], near.point
     if best is None:
-        return None
+        return beyond
     distance, change, point = best
-    if _has_long_numbers(change):
-        beyond = _farther(change)
-        member = _changed(nominal, signals, beyond)
-        if _is_outside(replace(loop, plant=member).system.A, search.region):
-            distance = max(abs(beyond[i, j]) / D[i, j] for i, j, _ in beyond.nonzero())
-            return FailingPlant(member, distance, point, ())
+    if _has_long_numbers(change) and (member := farther(change, _BEYOND, point)) is not None:
+        return member
     return FailingPlant(_changed(nominal, signals, change), distance, point, ())
 
 
@@ -685,13 +711,13 @@ def _has_long_numbers(M: Matrix) -> bool:
     return any(x.numerator.bit_length() + x.denominator.bit_length() > _LONG for x in entries)
 
 
-_BEYOND = 1 + 1e-5
-"""How much farther a change goes, so that six digits do."""
+_BEYOND, _FAR_BEYOND = 1 + 1e-5, 1 + 1e-3
+"""How much farther a change goes, so that six digits do, and so that instability is soon proved."""
 
 
-def _farther(change: Matrix) -> Matrix:
+def _farther(change: Matrix, times: float) -> Matrix:
     """A change that is at least as large everywhere, in numbers of six digits."""
-    entries = ((i, j, to_float(change[i, j]) * _BEYOND) for i, j, _ in change.nonzero())
+    entries = ((i, j, to_float(change[i, j]) * times) for i, j, _ in change.nonzero())
     return Matrix.from_entries(change.shape, ((i, j, Fraction(f"{x:.5e}")) for i, j, x in entries))
 
 

@@ -95,7 +95,7 @@ def with_margins(ladder: Ladder, candidates: Sequence[Candidate]) -> list[Candid
     ----------
     ladder : Ladder
     candidates : sequence of Candidate
-        The best first, of which some are followed until one has the margins.
+        The best first; some that started apart are followed until one has the margins.
 
     Returns
     -------
@@ -103,11 +103,14 @@ def with_margins(ladder: Ladder, candidates: Sequence[Candidate]) -> list[Candid
         What was found on the way, not ranked.
     """
     found: list[Candidate] = []
-    for start in candidates[:_INSISTING]:
+    apart: dict[str, Candidate] = {}
+    for each in candidates:
+        apart.setdefault(each.step, each)
+    for start in [*apart.values()][:_INSISTING]:
         problem, part = start.problem, ladder.effort.part(1 / _INSISTING)
         x = problem.entries(start.K)
-        for each in polished(problem, x, ladder.target, part, _HEAVY):
-            other = candidate_of(ladder, start.step, problem, problem.gain(each))
+        for entries in polished(problem, x, ladder.target, part, _HEAVY):
+            other = candidate_of(ladder, start.step, problem, problem.gain(entries))
             if other is not None:
                 found.append(other)
         if any(each.peaks.keep(ladder.target.limits) for each in found):

@@ -749,8 +749,9 @@ class Aims:
     digits : int, optional
         The largest number of significant decimal digits of an entry.
     effort : float, optional
-        About how many seconds a processor of 2024 may search for each rate that is tried, and half
-        as many more for margins, damping or a box that were missed.  Work is counted, not timed, so
+        About how many seconds a processor of 2024 may search for each rate that is tried, one and a
+        half times as many more for margins that were missed, and half as many for what else is
+        asked of the best controller, such as damping or a box.  Work is counted, not timed, so
         that the result does not depend on the machine's load.  With 0 there is no search, but the
         controller of the theorem at once.
     seeds : int
@@ -887,24 +888,30 @@ class Figures:
     fastest: float = np.nan
 
 
-def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Figures:
-    """Compute the figures of a loop; without ``peak`` that one is not computed and is NaN."""
+def figures_of(
+    problem: FeedbackProblem, K: Floats, *, peak: bool = True, margin: float | None = None
+) -> Figures:
+    """Compute the figures of a loop; without ``peak`` that one is not computed and is NaN.
+
+    The margin is computed unless it is given.
+    """
     M = problem.closed(K)
-    seen = Sensitivity(problem, K)
     form = SchurForm.of(M, discrete=problem.discrete)
     bound, gain = np.inf if form is None else form.bound, float(np.max(np.abs(K), initial=0.0))
     if form is None or not bound < (1.0 if problem.discrete else 0.0):
         return unstable_figures(problem.order, gain, form)
-    points = frequencies(
-        form.eigenvalues, discrete=problem.discrete, count=GRID_OF_PEAKS, widen=10.0
-    )
     [(cost, _)] = quadratic_costs(problem.bare, K, (1.0 if problem.discrete else 0.0,))
-    largest = seen.peak(points)
+    if margin is None:
+        points = frequencies(
+            form.eigenvalues, discrete=problem.discrete, count=GRID_OF_PEAKS, widen=10.0
+        )
+        largest = Sensitivity(problem, K).peak(points)
+        margin = 1 / largest if largest else np.inf
     return Figures(
         problem.order,
         gain,
         bound,
-        1 / largest if largest else np.inf,
+        margin,
         peak_of_state(M, problem.n, form) if peak else np.nan,
         cost,
         *damping_and_fastest(form.eigenvalues, discrete=form.discrete),

@@ -139,7 +139,9 @@ _LATE = (
 )
 _LEAST_GAIN = 1.0
 _LARGEST_UNKNOWN = 1e3
-_LEAST_EFFORT, _LEAST_ENOUGH, _AFTERWARDS = 40_000.0, 1.05, 0.5
+_LEAST_EFFORT, _LEAST_ENOUGH = 40_000.0, 1.05
+_FOR_MARGINS, _AFTERWARDS = 1.5, 0.5
+"""How much more effort there is for margins that were missed, and for what else is asked then."""
 _EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE_SHARE = 60_000.0, 40, 5.0, 130, 0.25
 
 
@@ -355,7 +357,7 @@ def _completed(
     """Look for the margins where they are missed, and for damping and a box."""
     if result.candidates and not result.keeps_margins:
         ladder.tell("larger margins")
-        found = with_margins(_more(ladder), result.candidates)
+        found = with_margins(_more(ladder, _FOR_MARGINS), result.candidates)
         candidates = tuple(ranked(ladder, [*found, *result.candidates]))
         result = replace(result, candidates=candidates)
     if request.brisk is None and not result.keeps_margins:
@@ -365,9 +367,9 @@ def _completed(
     return result
 
 
-def _more(ladder: Ladder) -> Ladder:
+def _more(ladder: Ladder, times: float = _AFTERWARDS) -> Ladder:
     """The ladder with effort for what follows a search."""
-    more = Effort(_AFTERWARDS * ladder.effort.limit, deadline=ladder.effort.deadline)
+    more = Effort(times * ladder.effort.limit, deadline=ladder.effort.deadline)
     return replace(ladder, effort=more)
 
 

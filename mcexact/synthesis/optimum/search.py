@@ -576,7 +576,8 @@ def candidate_of(
 ) -> Candidate | None:
     """Compute the figures of a gain matrix; None if its loop lies outside the region."""
     K = balanced(problem, K)
-    figures = figures_of(problem, K, peak=False)
+    figures = figures_of(problem, K, peak=False, margin=np.nan)
     if not ladder.target.reached(figures.bound) or not np.isfinite(figures.cost):
         return None
-    return Candidate(step, problem, K, figures, Margins(problem, K).peaks(ladder.target.limits))
+    peaks = Margins(problem, K).peaks(ladder.target.limits)
+    return Candidate(step, problem, K, replace(figures, margin=peaks.margin), peaks)
