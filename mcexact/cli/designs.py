@@ -37,7 +37,7 @@ from mcexact.model.regulated import positions_of, selection_in_words
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import parse
 from mcexact.report.text import Table, measured, tables
-from mcexact.synthesis.assessment import Assessment, assess
+from mcexact.synthesis.assessment import Assessment, assess, assessed_by_search
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
@@ -181,6 +181,9 @@ class _Shaped:
         every_loop: EveryLoop | None = None
         if not design.stable:
             return self._shown(assess(design, self.aims), None, None)
+        if end is not None and (quick := assessed_by_search(design, self.aims)) is not None:
+            report.keep(DESIGNED, self._shown(quick, None, None, _NOTHING_ELSE))
+            report.step("figures of the loop")
         search = PerformanceSearch(design.loop.closed, self.weights)
         computed = search.computed
         assessment = assess(design, self.aims, performance=computed)

@@ -85,6 +85,7 @@ _DAMPING, _SLOWER = 0.05, 0.99
 _STEP_PEAK, _DIGITS = 2.0, 4
 _REFUTED = "within the given uncertainty there is a plant whose loop is not stable"
 _OPEN = "stability is not proved for everything within the given uncertainty"
+_NOT_EXAMINED = "the time limit left no time to compute its margins"
 
 
 @dataclass(frozen=True)
@@ -141,6 +142,8 @@ class Assessment(Shown):
         Where the weights of the cost come from.
     measured : bool
         Whether figures are in units near the typical sizes of the plant, not in those of the file.
+    examined : bool
+        Whether margins and rounded programs were looked at; else figures are those of a search.
     """
 
     orders: Mapping[str, int]
@@ -160,6 +163,7 @@ class Assessment(Shown):
     asked: StabilityRegion | None = None
     weighed_by: str = ""
     measured: bool = False
+    examined: bool = True
 
     def __repr__(self) -> str:
         return fitting(f"Assessment({self.verdict})")
@@ -222,7 +226,8 @@ class Assessment(Shown):
         """One line that says whether to install the controller, and why."""
         words, reason = _WORDS[self.install], (self.warnings or (self._strengths(),))[0]
         failing = () if self.fails_within is None else (self._fails(self.fails_within)[1],)
-        exact = not self.certified or reason in (_REFUTED, _OPEN, self._slower(), *failing)
+        sure = (_REFUTED, _OPEN, _NOT_EXAMINED, self._slower(), *failing)
+        exact = not self.certified or reason in sure
         return f"{words}: {reason}{'' if exact or reason.endswith(_COMPUTED) else _COMPUTED}"
 
     def first_line(self, proved: Sequence[str] = ()) -> str:
@@ -299,6 +304,8 @@ class Assessment(Shown):
                 "known: the loop is too sensitive for double precision"
             )
             cares.append(("too sensitive for double precision", text))
+        if not self.examined:
+            cares.append(("not examined", _NOT_EXAMINED))
         if self.within_radii == "open":
             cares.append(("not proved within the radii", _OPEN))
         if self.asked is not None:
@@ -533,8 +540,26 @@ def assess(
     InputError.require(design, Design, "design")
     aims = Aims() if aims is None else aims
     InputError.require(aims, Aims, "aims")
-    parts = design.parts.get("designed", design.parts)
-    notes = list(design.notes)
+    parts, notes = design.parts.get("designed", design.parts), _notes(design)
+    assessment = assessed_loop(
+        design.loop.closed,
+        design.region,
+        certified=design.stable,
+        weights=aims.weights,
+        notes=notes,
+        diagnosis=parts.get("diagnosis"),
+        shape=aims.shape,
+        performance=performance,
+    )
+    optimum = parts.get("optimum")
+    if optimum is not None:
+        assessment = replace(assessment, asked=optimum.asked)
+    return assessment.with_proofs(design, every_loop, performance)
+
+
+def _notes(design: Design) -> tuple[str, ...]:
+    """The notes of a design, and remarks about its method."""
+    parts, notes = design.parts.get("designed", design.parts), list(design.notes)
     if "blocks" in parts and "diagnosis" in parts:
         notes.append(
             "no search found a controller: this is the one of the theorem, whose dynamics are all "
@@ -547,20 +572,42 @@ def assess(
             f"{design.order} states together: where this is not wanted, {other} tries controllers "
             "of low order over the same links"
         )
-    assessment = assessed_loop(
-        design.loop.closed,
+    return tuple(notes)
+
+
+def assessed_by_search(design: Design, aims: Aims) -> Assessment | None:
+    """Assess a design by what its search knows, at once; None for a design without a search.
+
+    Parameters
+    ----------
+    design : Design
+    aims : Aims
+        Those of the design.
+
+    Returns
+    -------
+    Assessment or None
+        Never a recommendation without reserve: the margins of all ports are not looked at.
+    """
+    parts, loop = design.parts.get("designed", design.parts), design.loop.closed
+    optimum, diagnosis = parts.get("optimum"), parts.get("diagnosis")
+    if optimum is None or diagnosis is None:
+        return None
+    return Assessment(
+        _orders(loop.controller),
         design.region,
-        certified=design.stable,
-        weights=aims.weights,
-        notes=tuple(notes),
-        diagnosis=parts.get("diagnosis"),
+        design.stable,
+        optimum.figures,
+        diagnosis,
+        optimum.digits,
+        _links(loop.controller, loop.plant),
+        notes=_notes(design),
         shape=aims.shape,
-        performance=performance,
+        asked=optimum.asked,
+        weighed_by=_weighed_by(loop.plant, aims.weights),
+        measured=Units.of(loop.plant) is not None,
+        examined=False,
     )
-    optimum = parts.get("optimum")
-    if optimum is not None:
-        assessment = replace(assessment, asked=optimum.asked)
-    return assessment.with_proofs(design, every_loop, performance)
 
 
 def assessed_loop(
@@ -614,7 +661,7 @@ def assessed_loop(
         if performance is None and certified:
             performance = performance_of(typed, weights=weights, proofs=False)
         return Assessment(
-            {agent.name: agent.shared + agent.private for agent in loop.controller.agents},
+            _orders(loop.controller),
             region,
             certified,
             figures,
@@ -657,6 +704,11 @@ def _hardly(alone: Figures, figures: Figures, region: StabilityRegion) -> str:
         f"without a controller the plant has {shown(alone.cost / figures.cost)} times this cost; "
         f"{clause}"
     )
+
+
+def _orders(controller: Controller) -> dict[str, int]:
+    """The number of states of each agent."""
+    return {agent.name: agent.shared + agent.private for agent in controller.agents}
 
 
 def _links(controller: Controller, system: MultiChannelSystem) -> tuple[Link, ...]:

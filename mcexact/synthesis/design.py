@@ -105,6 +105,10 @@ class Design(ShownByAccount):
 
         See `LoopMargins`; ``largest_gain`` is the largest absolute entry of the programs.
         """
+        return dict(self._measures)
+
+    @cached_property
+    def _measures(self) -> dict[str, float | None]:
         M = matrix_to_float(self.loop.matrix)
         figures = {"largest_gain": to_float(self.controller.largest_entry())}
         if all(map(isfinite, M.ravel())):

@@ -68,8 +68,8 @@ class Request:
         where a search starts, too.
     deadline : float or None
         The time of `time.monotonic` at which a search ends with the best controller so far.
-    sensible : StabilityRegion or None
-        The fastest region that one controller for all agents can afford, where it was searched.
+    chosen : ChosenRegions or None
+        What the choice of a rate computed, where none was asked for (`optimum.diagnosis`).
     """
 
     region: StabilityRegion
@@ -80,7 +80,7 @@ class Request:
     notes: tuple[str, ...] = ()
     brisk: StabilityRegion | None = None
     deadline: float | None = None
-    sensible: StabilityRegion | None = None
+    chosen: Any = None
 
     @classmethod
     def of(

@@ -114,9 +114,8 @@ since all agents together have no optimal controller
         note = f"no {region.word} was given: {sought}, {reason}"
     asked: dict[str, Any] = {region.word: region.edge}
     request = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **asked)
-    sensible = None if chosen is None else chosen.sensible
-    chosen_for = replace(request, notes=(note,), brisk=brisk, deadline=deadline, sensible=sensible)
-    return _limited(chosen_for, aims)
+    request = replace(request, notes=(note,), brisk=brisk, deadline=deadline, chosen=chosen)
+    return _limited(request, aims)
 
 
 def _limited(request: Request, aims: Aims) -> Request:

@@ -247,11 +247,14 @@ def handed_over(plant: str, left: float | None) -> tuple[Loop, list[Loop]]:
 
 
 def test_with_a_time_limit_a_design_is_handed_over_before_each_further_proof(plant: str) -> None:
-    made, (certified, with_margins) = handed_over(plant, 600.0)
-    proved = [set(each.evidence.certificates) for each in (certified, with_margins, made)]
-    assert proved[0] < proved[1] < proved[2]
-    told = ["\n".join(each.verdict) for each in (certified, with_margins, made)]
-    assert ["time limit" in each for each in told] == [True, True, False]
+    made, (at_once, certified, with_margins) = handed_over(plant, 600.0)
+    steps = (at_once, certified, with_margins, made)
+    proved = [set(each.evidence.certificates) for each in steps]
+    assert proved[0] == proved[1] < proved[2] < proved[3]
+    told = ["\n".join(each.verdict) for each in steps]
+    assert ["time limit" in each for each in told] == [True, True, True, False]
+    care = "Install with care: the time limit left no time to compute its margins"
+    assert at_once.verdict[0].startswith(care)
     assert certified.verdict[0].startswith("Worth installing")
     assert handed_over(plant, None)[1] == []
 
@@ -281,6 +284,19 @@ def test_what_is_certified_when_the_time_limit_comes_is_the_result(
 def test_a_time_limit_before_anything_is_certified_is_one(
     plant: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(designs, "assess", lambda *_, **__: time.sleep(600))
+    monkeypatch.setattr(designs, "assessed_by_search", lambda *_, **__: time.sleep(600))
     status, _, err = call("design", "decentralized", plant, "--timeout", "3")
     assert status == 4 and "nothing has been decided" in err
+
+
+def test_a_certified_controller_is_the_result_before_its_figures_are_computed(
+    plant: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(designs, "assess", lambda *_, **__: time.sleep(600))
+    controller = tmp_path / "controller.json"
+    status, out, err = call(
+        "design", "decentralized", plant, "--timeout", "12", "-o", str(controller)
+    )
+    assert status == 0, err
+    assert out.startswith("Install with care: the time limit left no time to compute its margins\n")
+    assert "VALID" in out and run("certify", plant, str(controller)).status == 0

@@ -950,7 +950,7 @@ def diagnosed(
     region: StabilityRegion,
     weights: Weights | None = None,
     controlled: MultiChannelSystem | None = None,
-    sensible: StabilityRegion | None = None,
+    chosen: ChosenRegions | None = None,
 ) -> Diagnosis:
     """Compute what a region costs, and which modes outside it are nearly fixed.
 
@@ -962,8 +962,8 @@ def diagnosed(
     weights : Weights, optional
     controlled : MultiChannelSystem, optional
         The system whose decentralized controllers are sought; by default the first one.
-    sensible : StabilityRegion, optional
-        The sensible region, where it is known already.
+    chosen : ChosenRegions, optional
+        What `chosen_regions` has computed of the same system and weights.
 
     Notes
     -----
@@ -981,7 +981,10 @@ def diagnosed(
     weights = weights or Weights.unit(system)
     with quiet_floats():
         central = central_optimum(system, weights, region, peak=True)
-        unhurried = central_optimum(system, weights, StabilityRegion(system.time))
+        sensible = None if chosen is None else chosen.sensible
+        unhurried = None if chosen is None else chosen.unhurried
+        if unhurried is None:
+            unhurried = central_optimum(system, weights, StabilityRegion(system.time))
         if sensible is None:
             start, optimum = region, central
             if region.edge == StabilityRegion(system.time).edge and unhurried:
@@ -1032,6 +1035,8 @@ class ChosenRegions:
         That of half the sensible rate, or of the root of the sensible radius; where this is not
         sensible, that of the sensible one.
     brisk_reason : str
+    unhurried : CentralOptimum
+        Of the optimal controller of all agents together, for which no rate is asked.
     sensible : StabilityRegion or None
         The sensible region, if there is one.
     """
@@ -1040,7 +1045,8 @@ class ChosenRegions:
     reason: str
     brisk: StabilityRegion
     brisk_reason: str
-    sensible: StabilityRegion | None = None
+    unhurried: CentralOptimum
+    sensible: StabilityRegion | None
 
 
 def chosen_regions(
@@ -1099,6 +1105,7 @@ def chosen_regions(
         reason,
         rounded_region(system.time, brisk),
         brisk_reason,
+        unhurried,
         sensible,
     )
 

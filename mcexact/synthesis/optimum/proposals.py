@@ -575,7 +575,7 @@ def searched_proposals(
     fixed = fixed_spectrum(network.system)
     require_fast(network, fixed, request.region)
     request.tell("diagnosis")
-    known = diagnosed(*about, request.sensible)
+    known = diagnosed(*about, request.chosen)
     if known.is_out_of_reach and aims.effort is None:
         raise OutOfReach(
             f"{request.region} is out of reach, even for all agents together: {known}; ask for "
