@@ -19,8 +19,9 @@ from typing import Any, Literal
 
 from mcexact.answer.analysis import Said
 from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
-from mcexact.answer.sentence import Claim, Context, Rulebook
+from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
 from mcexact.answer.templates import Template
+from mcexact.derived.sampling import is_sampled
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -281,6 +282,36 @@ EVERY_LOOP_PART = Template(
     "{region:region} for every plant within {part:percent} of each entry{gains:gains}",
     label="every loop near this one",
 )
+EVERY_SAMPLED = Template(
+    "members-sampled-region",
+    "every eigenvalue of every loop satisfies {region:region}{gains:gains}, sampled exactly",
+    label="within the radii",
+)
+EVERY_SAMPLED_PART = Template(
+    "members-sampled-region-part",
+    "{region:region} for the exact samples of every plant within {part:percent} of each entry"
+    "{gains:gains}",
+    label="every loop near this one",
+)
+SAMPLED_EXACTLY = Template(
+    "members-sampled-exactly",
+    "{region:region} for the exact samples of the plant{gains:gains}",
+    label="sampled exactly",
+)
+ABOUT_EVERY_LOOP = (
+    EVERY_LOOP,
+    EVERY_LOOP_PART,
+    EVERY_SAMPLED,
+    EVERY_SAMPLED_PART,
+    SAMPLED_EXACTLY,
+)
+"""What is said of every loop in a box, which follows the first line of an answer."""
+SAMPLED = Template(
+    "sampled-loop",
+    "every {step:step} with inputs held{late:late}; what is said of one loop is about A and B "
+    "rounded to {decimals:count decimal}, at the samples",
+    label="the plant is sampled",
+)
 _EVERY_MARGIN = "at least {margin:digits_below} for every plant within the radii"
 _EVERY_MARGIN_PART = (
     "at least {margin:digits_below} for every plant within {part:percent} of each entry"
@@ -339,8 +370,23 @@ def about(loop: Claim, region: StabilityRegion) -> bool:
 EVERY_LOOP_RULES = Rulebook()
 
 
+@EVERY_LOOP_RULES.rule("table", SAMPLED, premises=("loop",))
+def _sampled(loop: Certified, context: Context) -> Said:
+    """How the plant was sampled, and which of its matrices the claims about one loop are about."""
+    if is_sampled(context.system):
+        how = loop.made_by(0)
+        yield SAMPLED(step=Fraction(how.step), late=how.late, decimals=how.decimals)
+
+
 @EVERY_LOOP_RULES.rule(
-    "table", EVERY_LOOP, EVERY_LOOP_PART, EVERY_VALUE, premises=("box_stability",)
+    "table",
+    EVERY_LOOP,
+    EVERY_LOOP_PART,
+    EVERY_SAMPLED,
+    EVERY_SAMPLED_PART,
+    SAMPLED_EXACTLY,
+    EVERY_VALUE,
+    premises=("box_stability",),
 )
 def _every_loop(box_stability: Claim, context: Context) -> Said:
     """The region of the eigenvalues of all loops: within the radii, or the ranges of parameters."""
@@ -348,10 +394,15 @@ def _every_loop(box_stability: Claim, context: Context) -> Said:
     gains = None if box_stability.gain_radii is None else context.part_of_gains
     if context.has("parameters"):
         yield EVERY_VALUE(region=region, parameters=context.parameters, gains=gains)
-    elif context.part_of_plant is None:
-        yield EVERY_LOOP(region=region, gains=gains)
+        return
+    part, sampled = context.part_of_plant, is_sampled(context.system)
+    if part is None:
+        yield (EVERY_SAMPLED if sampled else EVERY_LOOP)(region=region, gains=gains)
+    elif sampled and not part:
+        yield SAMPLED_EXACTLY(region=region, gains=gains)
     else:
-        yield EVERY_LOOP_PART(region=region, part=context.part_of_plant, gains=gains)
+        within = EVERY_SAMPLED_PART if sampled else EVERY_LOOP_PART
+        yield within(region=region, part=part, gains=gains)
 
 
 def _margin_rule(at: str) -> None:

@@ -26,8 +26,9 @@ from typing import Any, Literal
 
 from mcexact.answer.analysis import Said
 from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
-from mcexact.answer.sentence import Claim, Context, Rulebook
+from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
 from mcexact.answer.templates import Template
+from mcexact.derived.sampling import is_sampled
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.roots import is_discrete
 
@@ -334,6 +335,8 @@ FIRST_COST = Template(
 )
 FIRST_MARGIN = Template("first-margin", "disk margin ≥ {margin:digits_below} in every loop")
 FIRST_BOX = Template("first-box", "stable within {part:percent} of each entry")
+FIRST_SAMPLED = Template("first-sampled", "sampled every {step:step}{late:short late}")
+FIRST_EXACT = Template("first-exact", "stable for its exact samples")
 FIRST_RADII = Template("first-radii", "stable for all plants within the radii")
 
 # Rules.
@@ -371,13 +374,25 @@ def _first_margin(input_margin: Claim, output_margin: Claim, context: Context) -
     yield FIRST_MARGIN(margin=min(input_margin.margin, output_margin.margin))
 
 
-@RULES.rule("first", FIRST_BOX, FIRST_RADII, premises=("box_stability",))
+@RULES.rule("first", FIRST_BOX, FIRST_RADII, FIRST_EXACT, premises=("box_stability",))
 def _first_box(box_stability: Claim, context: Context) -> Said:
     """The plants whose loops are all stable."""
     _ = box_stability.bound
-    if not context.has("parameters"):
-        part = context.part_of_plant
-        yield FIRST_RADII() if part is None else FIRST_BOX(part=part)
+    if context.has("parameters"):
+        return
+    part = context.part_of_plant
+    if part is None:
+        yield FIRST_RADII()
+    else:
+        yield FIRST_BOX(part=part) if part or not is_sampled(context.system) else FIRST_EXACT()
+
+
+@RULES.rule("first", FIRST_SAMPLED, premises=("loop",))
+def _first_sampled(loop: Certified, context: Context) -> Said:
+    """The step, and how late inputs are applied."""
+    if is_sampled(context.system):
+        how = loop.made_by(0)
+        yield FIRST_SAMPLED(step=Fraction(how.step), late=how.late)
 
 
 @RULES.rule("table", COST, premises=("loop_cost",))

@@ -170,6 +170,10 @@ class Certified(Claim):
         self._read[self._file, "/subject"] = self._answer.subject
         return tuple(self._answer.subject)
 
+    def made_by(self, k: int) -> Claim:
+        """The construction at a place of the subject."""
+        return Claim(self._answer.subject[k], self._file, f"/subject/{k}", self._read)
+
     @property
     def proof(self) -> Claim:
         """The part of the witness that the checker verifies independently, such as cuts."""

@@ -18,6 +18,7 @@ from typing import Any
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import (
+    approximated,
     decimal_number,
     digits_outward,
     number,
@@ -487,6 +488,9 @@ FORMS: dict[str, Write] = {
     "weights": _weights,
     "proper": lambda only: " whose inputs do not depend on the outputs at once" if only else "",
     "sectors": _sectors,
+    "step": approximated,
+    "late": lambda steps: f" and applied {count(steps, 'step')} late" if steps else "",
+    "short late": lambda steps: f", {count(steps, 'step')} late" if steps else "",
     "gains": _gains,
 }
 

@@ -36,6 +36,8 @@ from . import (
 from .arithmetic import NotAUnit
 from .budget import MORE, Budget, current, kept, limited
 from .cells import subject_of
+from .constructions import read_subject
+from .discs import at_values
 from .parametric_system import FunctionSystem, digest_of_values, plant_of, plant_of_file
 from .reading import (
     Json,
@@ -58,6 +60,7 @@ from .system import (
     parse_canonical,
     read_controller_file,
 )
+from .system import digest as plant_digest
 
 # What is asked of a certificate: the plant, the controller, and the statement or the claim.
 
@@ -65,7 +68,7 @@ DIGEST = re.compile(r"[0-9a-f]{64}")
 LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
 """A statement, alone or in the line of its verdict."""
 CLAIM = 'a claim as a JSON object {"kind": ..., "subject": [...], "claim": {...}}'
-LOOP = "closed_loop"
+LOOP, SAMPLED = "closed_loop", "sampled"
 PLANT = ".plant"
 """The end of the name of a plant's file, behind its digest."""
 Plant = System | FunctionSystem
@@ -179,16 +182,16 @@ class Expectation:
         require(right, "digest", "system", f"not the bytes of {value}{PLANT}")
         return plant_of(parse_canonical(data, limits))
 
-    def require_plant(self, digest: str, values: str, ranged: bool = False) -> None:
+    def require_plant(self, digest: str, values: str, named: str, ranged: bool = False) -> None:
         """Stop unless the certificate is about the plant, or about a box around it.
 
         ``digest`` is the digest of the certificate's plant, ``values`` that of it without radii,
-        which is the one that controllers are made for; of a plant whose parameters are ``ranged``
-        they are made for some values.
+        and ``named`` the one that controllers are made for; of a plant whose parameters are
+        ``ranged`` they are made for some values.
         """
         self._require_system(digest, values)
-        message = f"about the system of digest {values}, the controller is for {self.made_for}"
-        fits = ranged or self.made_for in ("", values)
+        message = f"about the system of digest {named}, the controller is for {self.made_for}"
+        fits = ranged or self.made_for in ("", named)
         require(fits, "controller", "system", message)
 
     def _require_system(self, digest: str, values: str) -> None:
@@ -203,7 +206,8 @@ class Expectation:
             message = f"about another controller, of digest {digest}, not {self.controller}"
             require(digest == self.controller, "controller", "subject", message)
             if expected is None and not self.statement:
-                expected = []
+                # the digest that the controller names has the step
+                expected = sampling_of(steps) if self.made_for else []
             if expected is not None and made_by(expected)[-1:] != [LOOP]:
                 expected = [*expected, *(step for step in steps[-1:] if made_by([step]) == [LOOP])]
         if expected is not None:
@@ -232,6 +236,11 @@ def difference(claim: Json, asked: Json) -> str:
 def made_by(steps: Json) -> list[Json]:
     """The names of constructions."""
     return [step.get("construction") if isinstance(step, dict) else None for step in steps]
+
+
+def sampling_of(steps: Json) -> list[Json]:
+    """The first construction, if it samples the plant."""
+    return [step for step in steps[:1] if made_by([step]) == [SAMPLED]]
 
 
 def same(a: Json, b: Json) -> bool:
@@ -455,7 +464,7 @@ class Check:
             ranged = isinstance(self.plant, FunctionSystem)
             budget.times = MORE if ranged else budget.times
             values = digest_of_values(self.plant, self.digest)
-            wanted.require_plant(self.digest, values, ranged)
+            wanted.require_plant(self.digest, values, self._named(values), ranged)
             budget.builds = True
             self.build_subject()
             budget.builds = False
@@ -465,6 +474,14 @@ class Check:
             statement = f"For {described(self.system)}: {self.words}"
             wanted.require_statement(kind, claim, statement)
             return Verdict("VALID", statement, digest_of(statement))
+
+    def _named(self, values: str) -> str:
+        """The digest that controllers name: that of the sampled plant, if it is sampled first."""
+        steps = sampling_of(self.document["subject"]) if self.wanted.made_for else []
+        if not steps or isinstance(self.plant, FunctionSystem):
+            return values
+        held = read_subject(steps, at_values(self.plant))
+        return plant_digest(replace(held, uncertainty=None))
 
     def read_plant(self) -> None:
         """Read the plant of the certificate, whose words are its digest."""

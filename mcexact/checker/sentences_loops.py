@@ -410,6 +410,22 @@ restate("members-in-region", LOOPS, lambda c: True)
 restate("members-in-region-part", LOOPS, lambda c: True, words=within)
 
 
+def sampled(premise: Premise) -> bool:
+    """Whether the plant was sampled, before all other constructions."""
+    return bool(premise.document["subject"][0]["construction"] == "sampled")
+
+
+def alone(loops: Premise) -> bool:
+    """Whether the plant is sampled, and has no radii: the box is about its exact samples alone."""
+    return sampled(loops) and loops.plant.uncertainty is None
+
+
+restate("sampled-loop first-sampled", LOOP, sampled)
+restate("members-sampled-region", LOOPS, sampled)
+restate("members-sampled-region-part", LOOPS, sampled, words=within)
+restate("members-sampled-exactly", LOOPS, alone)
+
+
 def of_disk(key: str, at: str) -> None:
     """Enter the rules about the disk margin of single inputs or outputs for all members."""
 

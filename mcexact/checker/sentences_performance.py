@@ -11,7 +11,7 @@ from .budget import spend
 from .kinds import same
 from .reading import rational
 from .sentences import PLANT, Premise, Role, restate, rule
-from .sentences_loops import CLOSED, LOOPS, within
+from .sentences_loops import CLOSED, LOOPS, alone, within
 
 COST, BOUND = Role(("loop_cost",), CLOSED), Role(("cost_bound",), PLANT)
 MARGIN, MARGINS = (Role(("disk_margin",), CLOSED, many=many) for many in (False, True))
@@ -104,3 +104,4 @@ of_steps("performance-setpoint-steps", "setpoints")
 restate("performance-sectors", SECTOR, lambda c: True)
 restate("first-box", LOOPS, lambda c: True, words=within)
 restate("first-radii", LOOPS, lambda c: True)
+restate("first-exact", LOOPS, alone)

@@ -35,6 +35,8 @@ from mcexact.errors import LimitReached
 )
 @click.argument("file")
 @click.argument("controller")
+@options.step
+@options.late
 @options.rate
 @options.radius
 @options.damping
@@ -100,6 +102,9 @@ def command(file: str, controller: str, **values: Any) -> int:
     run, weights, html = Run(values), values.pop("weights"), values.pop("html")
     sizes = values.pop("sizes")
     output, values["effort"] = values.pop("output"), options.effort_of_search(values)
+    values["sampling"] = options.sampling(values)
+    if values["sampling"] and values["effort"] is not None:
+        raise click.UsageError("--largest-uncertainty is about plants that are not sampled")
     if values["effort"] is not None and values["gains"] is not None:
         raise click.UsageError(
             "--largest-uncertainty takes the gains as they are: leave out --gains"

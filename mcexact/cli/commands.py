@@ -86,9 +86,9 @@ class NoCommand(click.UsageError):
 LAST = "Limits and help"
 GROUPS = {
     "Asked of the loop": (
-        "rate", "radius", "damping", "largest_modulus", "spectrum", "largest", "round_gains",
-        "uncertainty", "largest_uncertainty", "gains", "method", "dimensions", "share", "network",
-        "free_assignability", "order", "agent", "arithmetic",
+        "step", "late", "rate", "radius", "damping", "largest_modulus", "spectrum", "largest",
+        "round_gains", "uncertainty", "largest_uncertainty", "gains", "method", "dimensions",
+        "share", "network", "free_assignability", "order", "agent", "arithmetic",
     ),
     "Weights and limits of the search": (
         "weights", "sizes", "margin", "disk", "box", "largest_gain", "largest_order", "most_digits",

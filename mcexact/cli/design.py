@@ -76,6 +76,8 @@ def design_options(
 ) -> Callable[[F], F]:
     """Add the options of every design command, and those of a search if there is one."""
     every_option = (
+        options.step,
+        options.late,
         options.rate,
         options.radius,
         click.option("--spectrum", metavar="SPECTRUM", help=spectrum_help),
@@ -127,6 +129,7 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
         None if weights is None else run.read(weights),
         None if sizes is None else run.read(sizes),
     )
+    sampling = options.sampling(values)
     keywords = {**wanted, "agent": values["agent"], **{key: values[key] for key in HOW}}
     aimed = {key: values[key] for key in options.AIMS if key in values}
     left = run.deadline.left()
@@ -138,7 +141,7 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
     try:
         result = supervised(
             _designed,
-            *(name, plant, *extra, run.limits, keywords, aimed),
+            *(name, plant, *extra, run.limits, sampling, keywords, aimed),
             *(not values["no_box"], values["prove_all"]),
             *(html is not None, run.system_by_digest, left),
             doing=f"designing for {plant[0]}",

@@ -24,7 +24,7 @@ from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.structure import SetpointSolvability
 from mcexact.answer.templates import Sentence
 from mcexact.cli.files import system_in
-from mcexact.cli.loops import assessed, read_weights, unproved, with_sizes
+from mcexact.cli.loops import assessed, read_weights, sampled, unproved, with_sizes
 from mcexact.cli.options import AIMS
 from mcexact.cli.results import DESIGNED, Evidence, Loop, Refused
 from mcexact.cli.running import Reporting
@@ -72,6 +72,7 @@ def designed(
     weights: tuple[str, bytes] | None,
     sizes: tuple[str, bytes] | None,
     limits: Mapping[str, int],
+    sampling: Mapping[str, Any],
     wanted: dict[str, Any],
     aimed: Mapping[str, Any],
     with_box: bool,
@@ -95,6 +96,8 @@ def designed(
         them.
     limits : mapping
         The limits on input files.
+    sampling : mapping
+        The step and the delay with which the plant is sampled; empty if it is not.
     wanted : dict
         Keyword arguments of the function.
     aimed : mapping
@@ -126,7 +129,7 @@ def designed(
             report.step(step)
 
     spectrum, end = None, None if left is None else time.monotonic() + left
-    system = with_sizes(system_in(*plant, limits), sizes, limits)
+    system = sampled(with_sizes(system_in(*plant, limits), sizes, limits), sampling)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
     if aimed:

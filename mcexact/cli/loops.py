@@ -31,13 +31,18 @@ from mcexact.analysis.boxes.largest import (
 from mcexact.analysis.boxes.loops import box_stability
 from mcexact.answer.account import Account
 from mcexact.answer.boxes import BoxStability
-from mcexact.answer.loops import EVERY_LOOP, EVERY_LOOP_PART, EVERY_LOOP_RULES, StabilityVerdict
+from mcexact.answer.loops import (
+    ABOUT_EVERY_LOOP,
+    EVERY_LOOP_RULES,
+    StabilityVerdict,
+)
 from mcexact.answer.protocol import Answer
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import count
 from mcexact.cli import uncertainty
 from mcexact.cli.files import plant_in, system_in
 from mcexact.cli.results import Evidence, Loop, Simulated
+from mcexact.derived.sampling import sampled_system
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import Limits, percent, written
 from mcexact.exact.roots import StabilityRegion
@@ -113,17 +118,21 @@ def certified(
         If options contradict each other, or do not apply to the plant.
     """
     gains, effort, at = wanted.pop("gains"), wanted.pop("effort"), dict(wanted.pop("at"))
+    sampling = wanted.pop("sampling")
     with_box, prove_all = not wanted.pop("no_box"), wanted.pop("prove_all")
     typed_plant = plant_in(*plant, limits, at)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
     if isinstance(typed_plant, ParametricSystem):
+        if sampling:
+            raise UsageError("a plant with parameters is not sampled: give them values with --at")
         every_option = wanted | {"weights": weights, "sizes": sizes, "effort": effort}
         return _certified_for_all_values(
             typed_plant, controller, gains, every_option, with_page, system_by_digest
         )
     sized = with_sizes(typed_plant, sizes, limits)
     system, search = uncertainty.with_radii(sized, wanted.pop("uncertainty"))
+    system = sampled(system, sampling)
     with InputError.inside(program[0]):
         digits, notes, typed = wanted.pop("round_gains"), tuple[str, ...](), controller
         if digits is not None:
@@ -184,7 +193,7 @@ def certified(
         ),
         pictures=uncertainty.pictures(search) if with_page else (),
         with_page=with_page,
-        system_by_digest=system_by_digest and system is sized,
+        system_by_digest=system_by_digest and system.plant is sized,
         document=account.as_json(
             certified=verdict.stable,
             region=str(verdict.region),
@@ -193,7 +202,7 @@ def certified(
             states=verdict.about.n,
             blocks=list(verdict.blocks),
             largest=bound_text if wanted["largest"] else None,
-            warnings=list(controller.warnings_for(typed_plant)),
+            warnings=list(controller.warnings_for(system)),
             rounded_to_digits=digits,
             eigenvalue_outside=None if outside is None else outside.to_dict(),
             **loops.view,
@@ -234,9 +243,8 @@ def assessed(
     controller : str
         The controller's file.
     """
-    all_loops = (EVERY_LOOP, EVERY_LOOP_PART)
     lines = [assessment.first_line(account.sentences.at("first"))]
-    lines += [each.line for each in account.sentences if each.template in all_loops]
+    lines += [each.line for each in account.sentences if each.template in ABOUT_EVERY_LOOP]
     lines += [f"warning: {each}" for each in assessment.warnings if each not in lines[0]]
     lines += [f"note: {each}" for each in assessment.notes]
     page = None
@@ -298,6 +306,11 @@ def with_sizes(
         content = parse(file[1], Limits(**limits))
         sizes = read_sizes(content, system.names, system.n, p, q, Limits(**limits))
     return system.with_typical_sizes(sizes)
+
+
+def sampled(system: MultiChannelSystem, sampling: Mapping[str, Any]) -> MultiChannelSystem:
+    """The plant at the samples, or itself if no step is given."""
+    return sampled_system(system, **sampling) if sampling else system
 
 
 @dataclass(frozen=True)
@@ -402,7 +415,9 @@ def loops_near(
     failing = known.failing or around.failing
     view = {"every_loop": around.to_dict()}
     rows, margins = tuple(around.rows()), around.margins
-    return Loops(rows, around.proof, view, None, failing, margins), around.gains
+    own = loop.plant.plant.uncertainty is not None
+    within = around.within_radii if own else None
+    return Loops(rows, around.proof, view, within, failing, margins), around.gains
 
 
 def _within_radii_of_file(search: LargestUncertainty) -> WithinRadii | None:

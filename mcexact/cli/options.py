@@ -86,6 +86,21 @@ radius = click.option(
     "--radius", type=rational, help="In discrete time: every modulus is below RADIUS."
 )
 
+step = click.option(
+    "--step",
+    type=rational,
+    metavar="TIME",
+    help="Sample the plant in FILE, which is in continuous time, every TIME, with its inputs held.",
+)
+
+late = click.option(
+    "--late",
+    type=click.IntRange(min=0),
+    metavar="STEPS",
+    help="With --step: apply every input so many steps late, 0 by default; 1 if agents measure at "
+    "a sample and set their inputs at the next one.",
+)
+
 uncertainty = click.option(
     "--uncertainty",
     type=part,
@@ -108,6 +123,16 @@ def largest_uncertainty(searched: str) -> Callable[[F], F]:
         "timed.",
     )
     return lambda function: largest(effort(function))
+
+
+def sampling(values: dict[str, Any]) -> dict[str, Any]:
+    """Take --step and --late from the values of a command: how its plant is sampled, if it is."""
+    step, late = values.pop("step"), values.pop("late")
+    if step is None:
+        if late is not None:
+            raise click.UsageError("--late is for plants that are sampled: add --step")
+        return {}
+    return {"step": step, "late": late or 0}
 
 
 def effort_of_search(values: dict[str, Any], *others: str) -> float | None:

@@ -352,6 +352,11 @@ class ByChannel(Shown, Generic[M]):
             object.__setattr__(plant, "_digest", known)
         return known
 
+    @property
+    def at_samples(self: Any) -> Any:
+        """The plant, as agents meet it: a sampled one only at the samples."""
+        return self.plant
+
     def digest_of_values(self: Any) -> str:
         """Return the digest of the plant without radii, by which a controller names its plant.
 
@@ -365,11 +370,8 @@ class ByChannel(Shown, Generic[M]):
         >>> Box.relative(plant, "1/100").system.digest_of_values() == plant.digest()
         True
         """
-        held = getattr(self, "_sampled", None) or self
-        if getattr(held, "_is_sampled", False):
-            plant = as_plant(held)
-        else:
-            plant = self.plant
+        plant = self.at_samples
+        plant = as_plant(plant) if plant.subject else plant
         digest: str = (
             plant if plant.uncertainty is None else plant.with_uncertainty(None)
         ).digest()
@@ -842,6 +844,13 @@ class MultiChannelSystem(ByChannel[Matrix]):
     def _is_sampled(self) -> bool:
         """Whether sampling alone made the system from its plant."""
         return [each["construction"] for each in self.subject] == ["sampled"]
+
+    @property
+    def at_samples(self) -> MultiChannelSystem:
+        """The plant, or where it was sampled before all other constructions the sampled plant."""
+        if self._is_sampled:
+            return self
+        return self._sampled or self.plant
 
     def with_neighbors(self, graph: NeighborGraph | Mapping[str, Iterable[str]]) -> Self:
         """Return the same system with another neighbor graph, which its plant gets as well.

@@ -191,7 +191,7 @@ class Assessment(Shown):
             As for `assess`; a performance that is left out stays as it was.
         """
         known = self if performance is None else replace(self, performance=performance)
-        if design.loop.closed.plant.uncertainty is None:
+        if design.loop.closed.plant.plant.uncertainty is None:
             failing = None if every_loop is None else every_loop.failing
             return replace(known, fails_within=None if failing is None else failing.distance)
         return replace(

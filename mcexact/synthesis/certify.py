@@ -278,7 +278,7 @@ def account_of_verdict(
         asked |= failing.facts(verdict.about.plant)
     if performance is not None:
         answers |= performance.answers
-    context = Context(verdict.about.plant, asked)
+    context = Context(verdict.about.at_samples, asked)
     sentences = VERDICT.sentences(answers, context)
     return Account(answers, context, sentences, verdict.about.subject[:-1], nearby=(FAILING,))
 

@@ -165,7 +165,7 @@ class Design(ShownByAccount):
             facts |= failing.facts(closed.plant)
         if performance is not None:
             answers |= performance.answers
-        context = Context(closed.plant, {**facts, **self.parts})
+        context = Context(closed.at_samples, {**facts, **self.parts})
         sentences = DESIGN.sentences(answers, context)
         return Account(answers, context, sentences, closed.subject[:-1], nearby=(FAILING,))
 

@@ -22,6 +22,7 @@ from mcexact.analysis.boxes.loops import StabilitySearch, gain_radii
 from mcexact.analysis.boxes.margins import SIDES, margin_in_box
 from mcexact.analysis.boxes.pencils import one_thread
 from mcexact.answer.boxes import BoxStability
+from mcexact.derived.sampling import is_sampled, resampled
 from mcexact.errors import LimitReached, require_seconds
 from mcexact.exact.rational import percent, written
 from mcexact.exact.roots import StabilityRegion
@@ -42,6 +43,8 @@ _MOST_SIGNALS, _MOST_SEGMENTS, _USUAL = 160, 600, 30
 the border are tried."""
 _PER_SECOND = 170
 """How many parts of the border of a loop with the usual number of signals are tried in a second."""
+_SMALL = Fraction(1, 1000)
+"""A part of the entries of a plant for which the radii of its samples are about in proportion."""
 _HALF = Fraction(1, 2)
 """The part of a proved box in which disk margins are proved; at its end little is left of them."""
 _LEFT, _FEWEST = 800, 10
@@ -203,7 +206,7 @@ def every_loop(
     (True, True)
     """
     whole = StabilityRegion(loop.plant.time)
-    if loop.plant.subject:
+    if loop.plant.subject and not is_sampled(loop.plant):
         return EveryLoop(whole, None, None, None, "not tried, as the system is a derived one")
     require_seconds(effort, "effort")
     ports = sum(loop.plant.p(i) + loop.plant.q(i) for i in range(loop.plant.m))
@@ -214,6 +217,8 @@ def every_loop(
         )
     units, work = Units.of(loop.plant), _Work.of(effort, size, deadline)
     try:
+        if is_sampled(loop.plant):
+            return _searched_at_samples(loop, region, _Work.of(effort, size))
         if units is None:
             return _searched(loop, region, work)
         found = _searched(loop_in(units, loop), region, work)
@@ -365,6 +370,42 @@ def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLo
         return EveryLoop(whole, None, None, failing, _LATE)
     box = f"every plant within the radii{_ASK_OWN}" if own else f"any box{_ASK}"
     return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
+
+
+def _searched_at_samples(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLoop:
+    """As `_searched`, for a sampled plant: the boxes are those of the plant that was sampled.
+
+    The radii of the samples grow faster than those of the plant, about in proportion where they
+    are small.  The last box that is tried is the plant alone, whose samples are not rational.
+    """
+    whole, plant = StabilityRegion(loop.plant.time), loop.plant.plant
+    own = plant.uncertainty is not None
+    with one_thread():
+        if own:
+            boxes = [(loop, StabilityRegion(whole.time, region.bound)), (loop, whole)]
+        else:
+            unit = _with_part(loop, _SMALL)
+            largest = min((each for each, _ in StabilitySearch(unit, whole).margins()), default=0.0)
+            scale = float(_SMALL) * min(largest, 1e6)
+            parts = [short(times * scale) for times in work.parts]
+            positive = [part for part in parts if part]
+            boxes = [(_with_part(loop, part), whole) for part in (*positive, Fraction(0))]
+        tried = [(*each, gains) for gains in (SIX_DIGITS, None) for each in boxes]
+        for about, wanted, gains in tried:
+            proof = work.proof(about, wanted, gains)
+            if proof is not None:
+                part = Box(about.plant.plant).part or Fraction(0)
+                inside = about if own else _with_part(loop, part * _HALF)
+                margins = margins_within(inside, work.left)
+                return EveryLoop(wanted, proof, gains, None, margins=margins)
+    box = f"every plant within the radii{_ASK_OWN}" if own else f"the exact samples{_ASK}"
+    return EveryLoop(whole, None, None, None, f"{whole} is not proved for {box}")
+
+
+def _with_part(loop: ClosedLoop, part: Fraction) -> ClosedLoop:
+    """The loop of a sampled plant whose entries differ by at most a part of their moduli."""
+    plant = Box.relative(loop.plant.plant, part).system
+    return replace(loop, plant=resampled(loop.plant, plant))
 
 
 def _smaller(search: StabilitySearch, parts: tuple[float, ...]) -> Iterator[ClosedLoop]:

@@ -207,7 +207,7 @@ class StabilitySearch:
 
         signals = LoopPencil(self.loop.plant, self.loop.controller, self.loop.graph)
         plant = self.loop.plant
-        members = self.members or Members(plant, Box(plant).radii)
+        members = self.members or Members.of(plant)
         A, B, C = members.radii.A, members.radii.B, members.radii.C
         radii = MultiChannelSystem(A, B, C, time=plant.time)
         certain = gain_radii(self.loop.controller, 0)
@@ -298,6 +298,8 @@ class StabilitySearch:
         """The loop of the box whose radii are multiplied by a factor."""
         if factor == 1:
             return self.loop.system
+        if self.loop.plant.subject:
+            raise InternalError("the radii of a derived plant are not those of its plant")
         return replace(self.loop, plant=Box(self.loop.plant).scaled(factor).system).system
 
 
@@ -542,7 +544,7 @@ class LoopSearch:
         if isinstance(system, ParametricSystem):
             ranges = looped(system, lambda plant: self.loop(plant).system)
         else:
-            loop, system = self.loop(system), Box(system).system
+            loop = self.loop(system)
         cuts, parts = proofs(
             system,
             self._evidence,

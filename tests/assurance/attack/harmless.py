@@ -93,7 +93,7 @@ HARMLESS: dict[str, str] = {
     "kinds.py: _claiming: not isinstance(claim, dict)": USERS,
     "kinds.py: named: not DIGEST.fullmatch(value)": USERS,
     "kinds.py: _require_system: self.system in ('', digest, values)": USERS,
-    "kinds.py: require_plant: ranged or self.made_for in ('', values)": USERS,
+    "kinds.py: require_plant: ranged or self.made_for in ('', named)": USERS,
     "kinds.py: require_subject: bool(digest)": USERS,
     "kinds.py: require_subject: digest == self.controller": USERS,
     "kinds.py: require_subject: same(steps, expected)": USERS,
