@@ -298,14 +298,6 @@ SAMPLED_EXACTLY = Template(
     "{region:region} for the exact samples of the plant{gains:gains}",
     label="sampled exactly",
 )
-ABOUT_EVERY_LOOP = (
-    EVERY_LOOP,
-    EVERY_LOOP_PART,
-    EVERY_SAMPLED,
-    EVERY_SAMPLED_PART,
-    SAMPLED_EXACTLY,
-)
-"""What is said of every loop in a box, which follows the first line of an answer."""
 SAMPLED = Template(
     "sampled-loop",
     "every {step:step} with inputs held{late:late}; what is said of one loop is about A and B "

@@ -32,8 +32,12 @@ from mcexact.analysis.boxes.loops import box_stability
 from mcexact.answer.account import Account
 from mcexact.answer.boxes import BoxStability
 from mcexact.answer.loops import (
-    ABOUT_EVERY_LOOP,
+    EVERY_LOOP,
+    EVERY_LOOP_PART,
     EVERY_LOOP_RULES,
+    EVERY_SAMPLED,
+    EVERY_SAMPLED_PART,
+    SAMPLED_EXACTLY,
     StabilityVerdict,
 )
 from mcexact.answer.protocol import Answer
@@ -80,6 +84,14 @@ _EFFORT = 5.0
 """The seconds of a search for the largest part of the ranges of parameters."""
 _OF_DIGITS = ("digits of the gains that are safe", "digits that are too few")
 """The labels of the rows about rounded gains."""
+_OF_EVERY_LOOP = (
+    EVERY_LOOP,
+    EVERY_LOOP_PART,
+    EVERY_SAMPLED,
+    EVERY_SAMPLED_PART,
+    SAMPLED_EXACTLY,
+)
+"""What is said of every loop in a box follows the first line of an answer."""
 _OF_RANGES = ("rate", "radius")
 """The options of `mcexact certify` that say what is proved for all values, besides --gains."""
 
@@ -244,7 +256,7 @@ def assessed(
         The controller's file.
     """
     lines = [assessment.first_line(account.sentences.at("first"))]
-    lines += [each.line for each in account.sentences if each.template in ABOUT_EVERY_LOOP]
+    lines += [each.line for each in account.sentences if each.template in _OF_EVERY_LOOP]
     lines += [f"warning: {each}" for each in assessment.warnings if each not in lines[0]]
     lines += [f"note: {each}" for each in assessment.notes]
     page = None

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from flint import fmpq, fmpq_mat
 
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.sharing import minimal_shared_dimensions
@@ -15,20 +16,23 @@ from mcexact.answer.rulebook import ALLOCATION, everything
 from mcexact.answer.sentence import Context
 from mcexact.answer.sharing import SHARING_RULES
 from mcexact.derived.constructions import Share
+from mcexact.derived.sampling import sampled_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.decentralized import design_extended
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.optimum.figures import Aims
+from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.assurance.campaigns.sentences import caught, drawn, examined
 from tests.checker.polynomials import generous
 from tests.oracle.sentences import JUDGES, UNJUDGED, Case, Said, plant_of, said, verdict
-from tests.oracle.sentences.cases import plain
+from tests.oracle.sentences.cases import Region, plain
 from tests.oracle.sentences.designs import document_of, tracks
 from tests.oracle.sentences.falsified import OLD_STEADY_STATE
+from tests.oracle.sentences.members import scaled
 
 FAST = [number for number in range(600, 675) if number % 10 in {0, 2, 5, 8}]
 """Analyses, allocations and boxes, which take little; designs and parameters are slow tests."""
@@ -64,6 +68,53 @@ def tracking() -> Iterator[tuple[Said, Case]]:
     rows = [said(each) for each in made.account.sentences]
     [held] = [row for row in rows if row.rule == "design-steady-state"]
     yield held, Case(plant_of(plant), asked, document, rows)
+
+
+SAMPLED_RULES = {"sampled-loop", "first-sampled", "first-box", "members-sampled-region-part"}
+
+
+@pytest.fixture(scope="module")
+def at_samples() -> tuple[list[Said], Case]:
+    """What is said of a loop with a sampled plant, about the samples and the box."""
+    plant = MultiChannelSystem([[0, 1], [0, -1]], [[[0], [1]]], [[[1, 0]]])
+    made = design_decentralized(sampled_system(plant, "1/5", 1))
+    document = document_of(json.loads(json.dumps(made.controller.document(), default=str)))
+    how = {"step": "1/5", "late": 1, "decimals": 12}
+    account = made.account_with(made.every_loop(), performance_of(made.loop.closed))
+    rows = [said(each) for each in account.sentences]
+    case = Case(plant_of(plant), {"sampling": how}, document, rows)
+    return [row for row in rows if row.rule in SAMPLED_RULES], case
+
+
+def test_what_is_said_of_samples_is_true_of_drawn_plants(
+    at_samples: tuple[list[Said], Case],
+) -> None:
+    rows, case = at_samples
+    assert {row.rule for row in rows} == SAMPLED_RULES
+    assert all(verdict(row, case) for row in rows)
+    alone = {"region": Region("discrete"), "gains": None}
+    for rule in ("members-sampled-exactly", "first-exact"):
+        assert verdict(Said(rule, alone), case)
+    plant = case.plant
+    around = replace(plant, radii=(scaled(plant.A, fmpq(1, 1000)), *none_of(plant)))
+    assert verdict(Said("members-sampled-region", alone), replace(case, plant=around))
+
+
+def none_of(plant: Any) -> tuple[list[fmpq_mat], list[fmpq_mat]]:
+    """Radii of certain inputs and outputs."""
+    return [M * 0 for M in plant.B], [M * 0 for M in plant.C]
+
+
+@pytest.mark.parametrize("change", [{"part": 5}, {"step": "1/4"}, {"late": 0}, {"decimals": 3}])
+def test_what_is_false_of_samples_is_denied(
+    at_samples: tuple[list[Said], Case], change: dict[str, Any]
+) -> None:
+    rows, case = at_samples
+    (key,) = change
+    known = [row for row in rows if key in row.values]
+    assert known
+    for row in known:
+        assert verdict(replace(row, values={**row.values, **change}), case) is False
 
 
 def test_outputs_tend_to_set_points_that_are_all_constant(tracking: tuple[Said, Case]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tests.checker.box_maker import controllable, fixed, stable
-from tests.checker.handmade import Document, listed, matrix, plant
+from tests.checker.handmade import Document, certificate, listed, matrix, plant
 
 DUAL = {"construction": "dual"}
 
@@ -181,6 +181,25 @@ WAYS = [1, 2, 3, 5]
 PART_STABLE = stable(PART, WAYS, IN_PART, growth=[1], gain_radii=proportional("1/100"))
 PART_CERTAIN = stable(PART, WAYS, IN_PART, growth=[1])
 """The same, with gains that are certain."""
+AT_SAMPLES = {"construction": "sampled", "step": "1/2", "late": 1, "decimals": 6}
+HELD = {
+    "construction": "closed_loop",
+    "controller": {**proportional("-1/2"), "time": "discrete"},
+}
+TANK = plant([[-1]], ([[1]], [[1]]))
+AROUND = {**TANK, "uncertainty": uncertain([["1/20"]], {"1": [["1/20"]]}, None)}
+ARCS = ["1/4", "1/2", 1, 2, 4]
+HELD_ALONE = stable(TANK, ARCS, AT_SAMPLES, HELD)
+HELD_AROUND = stable(AROUND, ARCS, AT_SAMPLES, HELD)
+"""The samples of a tank alone, and of all tanks nearby, one step late."""
+HELD_LOOP = certificate(
+    "stability",
+    TANK,
+    {"bound": None, "stable": True},
+    {"method": "polynomial"},
+    AT_SAMPLES,
+    HELD,
+)
 DELAYED_STABLE = stable(
     DAMPED,
     ["1/8", "1/4", "3/8", "1/2", "3/4", 1, "4/3", 2, "8/3", 4, 8],
@@ -217,4 +236,6 @@ ALL = {
     "stable, sampled": SAMPLED_STABLE,
     "stable loop": LOOP_STABLE,
     "stable loop with messages": DELAYED_STABLE,
+    "stable samples of a plant": HELD_ALONE,
+    "stable samples of all plants near one": HELD_AROUND,
 }

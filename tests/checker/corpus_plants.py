@@ -55,7 +55,7 @@ from tests.checker import (
     test_setpoint,
     test_single_channel_gains,
 )
-from tests.checker.box_plants import OF_ONE_PLANT
+from tests.checker.box_plants import AT_SAMPLES, HELD_ALONE, HELD_AROUND, HELD_LOOP, OF_ONE_PLANT
 from tests.checker.handmade import Document
 from tests.checker.polynomials import generous
 from tests.checker.test_fixed_spectrum import UNEVEN
@@ -385,6 +385,8 @@ def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
                     if made is not None:
                         found.append(made)
         yield f"based_{name}", found, base
+    for name, listed in (("alone", [HELD_ALONE, HELD_LOOP]), ("around", [HELD_AROUND])):
+        yield f"based_samples_{name}", listed, [AT_SAMPLES]
 
 
 def margins_in_boxes() -> Iterator[Document]:

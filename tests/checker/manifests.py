@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import hashlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -87,6 +87,13 @@ def text_of(document: Any) -> bytes:
     return json.dumps(document, sort_keys=True, separators=(",", ":")).encode("ascii") + b"\n"
 
 
+def sampled_subject(documents: Iterable[Document]) -> Document:
+    """The subject of a manifest about a sampled plant; nothing where another one is sampled."""
+    first = [each["subject"][:1] for each in documents]
+    steps = [step for steps in first for step in steps if step["construction"] == "sampled"]
+    return {"subject": steps[:1]} if steps and len(steps) == len(first) else {}
+
+
 def manifest(
     evidence: Mapping[str, Document] = EVIDENCE, sentences: Sequence[Document] = SENTENCES
 ) -> Document:
@@ -94,6 +101,7 @@ def manifest(
     files = {f"{name}.json": text_of(document) for name, document in evidence.items()}
     return {
         "format": "mcexact-manifest/1",
+        **sampled_subject(evidence.values()),
         "certificates": {name: hashlib.sha256(text).hexdigest() for name, text in files.items()},
         "sentences": copy.deepcopy(list(sentences)),
     }

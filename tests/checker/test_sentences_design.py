@@ -17,7 +17,13 @@ from mcexact.derived.constructions import error_system, extended_system, setpoin
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from tests.checker import test_setpoint
-from tests.checker.box_plants import PART_CERTAIN, PART_STABLE
+from tests.checker.box_plants import (
+    HELD_ALONE,
+    HELD_AROUND,
+    HELD_LOOP,
+    PART_CERTAIN,
+    PART_STABLE,
+)
 from tests.checker.box_plants import STABLE as UNCONTROLLED
 from tests.checker.handmade import (
     INTEGRATOR,
@@ -33,7 +39,15 @@ from tests.checker.test_closed_loop_spectrum import LOOP
 from tests.checker.test_distributed_observer import ONE as OBSERVER
 from tests.checker.test_stability import BY_BLOCKS
 
-OF_DESIGNS = ("design-", "certify-", "refused-", "members-in-region")
+OF_DESIGNS = (
+    "design-",
+    "certify-",
+    "refused-",
+    "members-in-region",
+    "members-sampled",
+    "sampled-",
+)
+OF_SAMPLES = "members-sampled-region members-sampled-region-part"
 """How the keys of these rules begin."""
 
 
@@ -176,6 +190,9 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("refused-no-equilibrium refused-no-equilibrium-zero", [VELOCITY]),
     ("refused-mode-of-the-integrators", [document(setpoint_solvability(STILL))]),
     *(("members-in-region members-in-region-part", [each]) for each in LOOPS_IN_BOXES),
+    (f"{LOOPS} sampled-loop", [HELD_LOOP]),
+    *((OF_SAMPLES, [each]) for each in (HELD_ALONE, HELD_AROUND)),
+    ("members-sampled-exactly", [HELD_ALONE]),
 ]
 DENIED: list[tuple[str, list[Document]]] = [
     (SIZES, [SPECTRUM]),
@@ -199,6 +216,9 @@ DENIED: list[tuple[str, list[Document]]] = [
     ("refused-no-equilibrium-zero refused-mode-of-the-integrators", [TWICE_SEEN]),
     ("refused-no-equilibrium refused-no-equilibrium-zero", [document(setpoint_solvability(STILL))]),
     *(("members-in-region members-in-region-part", [each]) for each in (UNCONTROLLED, STABLE)),
+    *((f"{OF_SAMPLES} members-sampled-exactly", [each]) for each in (*LOOPS_IN_BOXES, HELD_LOOP)),
+    ("members-sampled-exactly", [HELD_AROUND]),
+    *(("sampled-loop", [each]) for each in (LOOP, STABLE, HELD_ALONE)),
     (
         "refused-mode-of-the-integrators refused-no-equilibrium",
         [document(setpoint_solvability(FOUND))],

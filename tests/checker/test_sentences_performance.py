@@ -7,7 +7,13 @@ from pathlib import Path
 import pytest
 
 from mcexact.checker.sentences import RULES
-from tests.checker.box_plants import PART_CERTAIN, PART_STABLE
+from tests.checker.box_plants import (
+    HELD_ALONE,
+    HELD_AROUND,
+    HELD_LOOP,
+    PART_CERTAIN,
+    PART_STABLE,
+)
 from tests.checker.handmade import Document, changed
 from tests.checker.performance_plants import (
     COST,
@@ -45,7 +51,9 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("performance-input-steps", [STEPPED]),
     ("performance-output-steps", [SENSED]),
     ("performance-setpoint-steps", [FOLLOWING]),
-    *(("first-box first-radii", [each]) for each in (PART_STABLE, PART_CERTAIN)),
+    *(("first-box first-radii", [each]) for each in (PART_STABLE, PART_CERTAIN, HELD_AROUND)),
+    ("first-exact first-radii", [HELD_ALONE]),
+    ("first-sampled", [HELD_LOOP]),
 ]
 DENIED: list[tuple[str, list[Document]]] = [
     ("performance-cost performance-ratio first-cost", [STEP_BOUND]),
@@ -68,6 +76,8 @@ DENIED: list[tuple[str, list[Document]]] = [
     ("performance-input-steps performance-setpoint-steps", [SENSED]),
     ("performance-output-steps", [STEPPED]),
     ("first-box first-radii", [STABLE]),
+    *(("first-exact", [each]) for each in (PART_STABLE, HELD_AROUND, HELD_LOOP)),
+    *(("first-sampled", [each]) for each in (STABLE, HELD_ALONE)),
 ]
 
 

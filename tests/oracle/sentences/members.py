@@ -14,7 +14,9 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
+from tests.oracle.certificates.constructions import built
 from tests.oracle.certificates.controllers import Loop, read_agents
+from tests.oracle.certificates.sampling import sharpened
 from tests.oracle.certificates.systems import System
 from tests.oracle.sentences.analysis import judge
 from tests.oracle.sentences.cases import Case, Facts, Region, Said, number
@@ -142,6 +144,51 @@ def _in_region(said: Said, case: Case) -> bool:
 def _in_region_part(said: Said, case: Case) -> bool:
     part = number(Fraction(said.values["part"]))
     return _loops(said, case, members(case.plant, part))
+
+
+def at_samples(said: Said, case: Case, plants: Iterator[System]) -> bool:
+    """Whether the loops of the exact samples of these plants are in the region."""
+    how = case.asked.get("sampling")
+    if how is None or case.controller is None:
+        return False
+    steps = sharpened([{"construction": "sampled", **how}])
+    rng = random.Random(1)
+    gains = said.values.get("gains")
+    part = None if gains is None else number(Fraction(gains))
+    for k, plant in enumerate(plants):
+        held = built(replace(plant, radii=None), steps)
+        matrix = loop_of(held, case.controller, part, shares(rng, k % 2 == 0))
+        region = said.values.get("region", Region("discrete"))
+        if not region.contains(matrix.charpoly()):
+            return False
+    return True
+
+
+@judge("members-sampled-region")
+def _sampled_region(said: Said, case: Case) -> bool:
+    return case.plant.radii is not None and at_samples(said, case, members(case.plant))
+
+
+@judge("members-sampled-region-part")
+def _sampled_region_part(said: Said, case: Case) -> bool:
+    part = number(Fraction(said.values["part"]))
+    return at_samples(said, case, members(case.plant, part))
+
+
+@judge("members-sampled-exactly", "first-exact")
+def _sampled_exactly(said: Said, case: Case) -> bool:
+    return at_samples(said, case, iter([case.plant]))
+
+
+@judge("sampled-loop", "first-sampled")
+def _sampled(said: Said, case: Case) -> bool:
+    """The step, and what else is told of the way in which the plant is sampled."""
+    how = case.asked.get("sampling")
+    if how is None:
+        return False
+    told = {key: value for key, value in said.values.items() if key != "step"}
+    same = all(how[key] == value for key, value in told.items())
+    return same and Fraction(how["step"]) == Fraction(said.values["step"])
 
 
 @judge("certify-failing-plant", "certify-failing-plant-radii")

@@ -29,7 +29,7 @@ from tests.oracle.certificates.steps import seen_peaks, signals
 from tests.oracle.sentences.analysis import judge
 from tests.oracle.sentences.cases import Case, Region, Said, UnjudgedError, number
 from tests.oracle.sentences.designs import floats
-from tests.oracle.sentences.members import loop_of, members, shares
+from tests.oracle.sentences.members import at_samples, loop_of, members, shares
 
 DRAWS = 400
 """How many multipliers of inputs or outputs are drawn."""
@@ -239,6 +239,8 @@ def _box(said: Said, case: Case) -> bool:
     if case.controller is None or (case.plant.radii is None and said.rule == "first-radii"):
         return False
     part = number(Fraction(said.values["part"])) if "part" in said.values else None
+    if "sampling" in case.asked:
+        return at_samples(said, case, members(case.plant, part))
     rng = random.Random(1)
     for k, plant in enumerate(members(case.plant, part)):
         matrix = loop_of(plant, case.controller, None, shares(rng, k % 2 == 0))
