@@ -65,6 +65,9 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
     "questions building 10000 states 400 channels": partial(
         every_question.sparse_rows, 10_000, 400
     ),
+    "questions chains 10000 states 400 channels": partial(
+        every_question.chain_questions, 10_000, 400
+    ),
     **{
         f"whole analyze {n} states": partial(every_question.whole_rows, n)
         for n in every_question.WHOLE

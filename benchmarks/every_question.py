@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import compileall
 import random
 import statistics
 import subprocess
@@ -13,6 +14,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import mcexact
 from benchmarks.fixed_spectrum import Row
 from benchmarks.measure import processor_seconds
 from mcexact import (
@@ -77,6 +79,24 @@ def sparse_rows(n: int, m: int) -> Iterator[Row]:
     yield from _rows(f"building, n={n}, m={m}", lambda: drawn_system(drawn), None, 1)
 
 
+def channel_chains(n: int, m: int) -> MultiChannelSystem:
+    """Chains of n/m states, each with a channel from start to end; every second drives the next."""
+    rng, size = random.Random(n), n // m
+    entries = {(i, i): rng.randint(-9, 9) for i in range(n)}
+    entries |= {(i, i - 1): rng.randint(1, 9) for i in range(1, n) if i % (2 * size)}
+    entries |= {(i, i + 1): rng.randint(1, 9) for i in range(n - 1) if (i + 1) % size}
+    return MultiChannelSystem(
+        Matrix.from_entries((n, n), [(i, j, x) for (i, j), x in entries.items() if x]),
+        [Matrix.from_entries((n, 1), [(size * k, 0, 1)]) for k in range(m)],
+        [Matrix.from_entries((1, n), [(0, size * k + size - 1, 1)]) for k in range(m)],
+    )
+
+
+def chain_questions(n: int, m: int) -> Iterator[Row]:
+    """Every question about such chains."""
+    yield from _rows(f"chains, n={n}, m={m}", lambda: channel_chains(n, m), None, 1)
+
+
 def _rows(
     plant: str, make: Callable[[], MultiChannelSystem], ratio: float | None, runs: int
 ) -> Iterator[Row]:
@@ -131,7 +151,8 @@ def whole_rows(n: int) -> Iterator[Row]:
 
 
 def _whole(n: int, m: int) -> tuple[float, int, int]:
-    """The seconds, the bytes of the folder, and the status."""
+    """The seconds with compiled files, the bytes of the folder, and the status."""
+    compileall.compile_dir(Path(mcexact.__file__).parent, quiet=1)
     with tempfile.TemporaryDirectory() as place:
         plant, folder = Path(place, "plant.json"), Path(place, "certificates")
         save_system(dense_plant(n, m), plant)

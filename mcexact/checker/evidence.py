@@ -399,7 +399,7 @@ def _products(
             made.append(byte_sum(by_coefficient(pairs, width, ell), width, ell))
             continue
         parts = [power[j] if x == 1 else power[j].translate(tables[x]) for j, x in line if power[j]]
-        made.append(byte_sum(parts, width, ell) if parts else b"")
+        made.append(byte_sum(parts, width, ell) if len(parts) > 1 else b"".join(parts))
     return made
 
 
