@@ -524,10 +524,8 @@ def assignability(
     known = TransferGraph.known(graph, system, "graph")
     graph = transfer_graph(system) if known is None else known
     rng = generator(system, "assignability")
-    degrees = tuple(
-        _degree(system, system.indices(c), rng, apart=len(graph.components) > 1)
-        for c in graph.components
-    )
+    arcs = _arcs(system.A) if system.A.is_sparse or len(graph.components) > 1 else None
+    degrees = tuple(_degree(system, system.indices(c), rng, arcs) for c in graph.components)
     blocks = tuple(
         SpectrumBlock(c, degree.number) for c, degree in zip(graph.components, degrees, strict=True)
     )
@@ -540,14 +538,14 @@ def assignability(
 
 
 def _degree(
-    system: MultiChannelSystem, c: Sequence[int], rng: random.Random, *, apart: bool
+    system: MultiChannelSystem, c: Sequence[int], rng: random.Random, arcs: Arcs | None
 ) -> Degree:
     """The McMillan degree of C_c (xI − A)⁻¹ B_c with its evidence.
 
-    ``apart`` says that there are other components, so that some states may be on no path.
+    ``arcs`` are given if some states may be on no path.
     """
     A, B, C = system.A, system.input_matrix(c), system.output_matrix(c)
-    states = _on_paths(A, B, C) if apart or A.is_sparse else None
+    states = None if arcs is None else _on_paths(arcs, B, C)
     parts = MultiChannelSystem(
         A, [system.B(i) for i in c], [system.C(i) for i in c], time=system.time
     )
@@ -596,17 +594,26 @@ def _padded(numbers: Sequence[int], start: int, size: int) -> tuple[int, ...]:
     return (*(0,) * start, *numbers, *(0,) * (size - start - len(numbers)))
 
 
-def _on_paths(A: Matrix, B: Matrix, C: Matrix) -> tuple[int, ...] | None:
-    """The states on paths from inputs to outputs; None for all."""
+Arcs = tuple[list[list[int]], list[list[int]]]
+"""For each state those that it drives, and those that drive it."""
+
+
+def _arcs(A: Matrix) -> Arcs:
     ahead: list[list[int]] = [[] for _ in range(A.nrows)]
     behind: list[list[int]] = [[] for _ in range(A.nrows)]
     for a, b, _ in A.nonzero():
         ahead[b].append(a)
         behind[a].append(b)
+    return ahead, behind
+
+
+def _on_paths(arcs: Arcs, B: Matrix, C: Matrix) -> tuple[int, ...] | None:
+    """The states on paths from inputs to outputs; None for all."""
+    ahead, behind = arcs
     driven = _closure({a for a, _, _ in B.nonzero()}, ahead)
     measured = _closure({b for _, b, _ in C.nonzero()}, behind)
     states = tuple(sorted(driven & measured))
-    return None if len(states) == A.nrows else states
+    return None if len(states) == len(ahead) else states
 
 
 def _closure(start: set[int], arcs: list[list[int]]) -> set[int]:

@@ -21,6 +21,7 @@ operation charges its units to the budget before it is done.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -268,6 +269,16 @@ class Matrix:
         spend(self.nrows * (8 + self.ncols))
         return budget.limbs(chain(*self.rows, [self.denominator]))
 
+    @cached_property
+    def driven(self) -> list[list[int]]:
+        """For each column the rows in which it is not 0."""
+        entries = entries_of(self)
+        spend(40 * (len(entries) + self.ncols))
+        rows: list[list[int]] = [[] for _ in range(self.ncols)]
+        for i, j, _ in entries:
+            rows[j].append(i)
+        return rows
+
     @property
     def T(self) -> Matrix:
         """The transpose."""
@@ -315,15 +326,21 @@ class Matrix:
 
     def take(self, rows: Iterable[int] | None = None, cols: Iterable[int] | None = None) -> Matrix:
         """The submatrix of these rows and columns."""
-        if cols is not None:
-            return self.take(rows).T.take(cols).T
-        return self if rows is None else self.at(rows)
+        chosen = self if rows is None else self.at(rows)
+        return chosen if cols is None else chosen.across(cols)
 
     def at(self, rows: Iterable[int]) -> Matrix:
         """The submatrix of these rows."""
         chosen = list(rows)
         spend(budget.STEP + 8 * len(chosen))
         return Matrix([self.rows[i] for i in chosen], self.ncols, self.denominator)
+
+    def across(self, cols: Iterable[int]) -> Matrix:
+        """The submatrix of these columns."""
+        chosen = list(cols)
+        spend(budget.STEP + budget.table(self.nrows, len(chosen)))
+        entries = [[row[j] for j in chosen] for row in self.rows]
+        return Matrix(entries, len(chosen), self.denominator)
 
     def modulo(self, ell: int) -> Rows:
         """The residues modulo ℓ; the denominator must be a unit."""
@@ -820,6 +837,10 @@ class SparseMatrix(Matrix):
         numbered = [(new, j, x) for new, i in enumerate(chosen) for _, j, x in lines.get(i, ())]
         return SparseMatrix(len(chosen), self.ncols, numbered, self.denominator)
 
+    def across(self, cols: Iterable[int]) -> Matrix:
+        """The submatrix of these columns."""
+        return self.T.at(cols).T
+
 
 def listed(M: Matrix) -> SparseMatrix | None:
     """A matrix by its entries, if it is large and most cells are 0; otherwise None."""
@@ -853,9 +874,13 @@ def within(M: Matrix, rows: Mapping[int, int] | None, cols: Mapping[int, int] | 
     ncols = M.ncols if cols is None else len(cols)
     if not isinstance(M, SparseMatrix):
         return M.take(rows, cols)
-    spend(100 * len(M.entries))
-    down = [(i if rows is None else rows.get(i), j, x) for i, j, x in M.entries]
-    kept = [(i, j if cols is None else cols.get(j), x) for i, j, x in down if i is not None]
+    down = M.entries
+    if rows is not None:
+        spend(100 * len(rows))
+        starts = ((k, *(bisect_left(down, (i + end,)) for end in (0, 1))) for i, k in rows.items())
+        down = [(k, j, x) for k, start, end in starts for _, j, x in down[start:end]]
+    spend(100 * len(down))
+    kept = [(i, j if cols is None else cols.get(j), x) for i, j, x in down]
     renumbered = [(i, j, x) for i, j, x in kept if j is not None]
     return SparseMatrix(nrows, ncols, renumbered, M.denominator)
 

@@ -418,15 +418,14 @@ def _require_degree(system: System, c: list[int], d: int, value: Json) -> None:
     place = "witness.degrees"
     keys = ("states", "annihilator", "pivots", "kernel", "kernel_pivots", "sequence")
     chosen, rows, columns, unseen, places, proof = fields(value, place, *keys)
-    A, B, C = system.A, evidence.inputs(system, c), evidence.outputs(system, c)
+    A, inputs, outputs = system.A, [system.B[i] for i in c], [system.C[i] for i in c]
     if chosen is not None:
         at = {a: k for k, a in enumerate(positions(chosen, f"{place}.states", system.n))}
-        _require_paths_within(A, B, C, at)
-        A, B, C = (
-            arithmetic.within(A, at, at),
-            arithmetic.within(B, at, None),
-            arithmetic.within(C, None, at),
-        )
+        _require_paths_within(A, inputs, outputs, at)
+        A = arithmetic.within(A, at, at)
+        inputs = [arithmetic.within(M, at, None) for M in inputs]
+        outputs = [arithmetic.within(M, None, at) for M in outputs]
+    B, C = arithmetic.beside(inputs, A.nrows), arithmetic.stack(outputs, A.nrows)
     W, _ = evidence.annihilator(rows, columns, place, A, [B])
     U, _ = evidence.annihilator(unseen, places, place, A.T, [C.T, W.T])
     least = 0
@@ -437,7 +436,9 @@ def _require_degree(system: System, c: list[int], d: int, value: Json) -> None:
     require(most == d == least, "degree", place, f"it is from {least} to {most}")
 
 
-def _require_paths_within(A: Matrix, B: Matrix, C: Matrix, at: Mapping[int, int]) -> None:
+def _require_paths_within(
+    A: Matrix, inputs: list[Matrix], outputs: list[Matrix], at: Mapping[int, int]
+) -> None:
     """Stop unless all paths from inputs to outputs stay among some states.
 
     What inputs and these states drive outside of these states leads to none of them, and is not
@@ -445,17 +446,15 @@ def _require_paths_within(A: Matrix, B: Matrix, C: Matrix, at: Mapping[int, int]
 
     Theorem ``realization.path_realization``.
     """
-    arcs = arithmetic.entries_of(A)
-    spend(40 * (len(arcs) + A.nrows))
-    driven: list[list[int]] = [[] for _ in range(A.nrows)]
-    for a, b, _ in arcs:
-        driven[b].append(a)
-    measured = {b for _, b, _ in arithmetic.entries_of(C)}
-    rest = [a for a, _, _ in arithmetic.entries_of(B) if a not in at]
+    driven = A.driven
+    measured = {b for C in outputs for _, b, _ in arithmetic.entries_of(C)}
+    rest = [a for B in inputs for a, _, _ in arithmetic.entries_of(B) if a not in at]
+    spend(sum(40 * (1 + len(driven[b])) for b in at))
     rest += [a for b in at for a in driven[b] if a not in at]
     outside = set(rest)
     while rest:
         b = rest.pop()
+        spend(40 * (1 + len(driven[b])))
         stays = b not in measured and not any(a in at for a in driven[b])
         require(stays, "path", "witness.degrees", "a path leaves the states")
         rest += (new := {a for a in driven[b] if a not in at} - outside)

@@ -215,12 +215,21 @@ class SparseTable:
         """The rows and columns chosen, in this order; None takes all."""
         down, across = _places(rows), _places(cols)
         width, entries = self.ncols if cols is None else len(cols), []
-        for cell, value in self.nonzero():
+        for cell, value in self.nonzero() if rows is None else self._in_rows(set(rows)):
             i, j = divmod(cell, self.ncols)
             for a in (i,) if down is None else down.get(i, ()):
                 for b in (j,) if across is None else across.get(j, ()):
                     entries.append((a * width + b, value))
         return table_of_cells(self.nrows if rows is None else len(rows), width, *_sorted(entries))
+
+    def _in_rows(self, rows: Collection[int]) -> Iterator[tuple[int, int]]:
+        """The cells in some rows, with their values; all of them if these rows are many."""
+        if 16 * len(rows) > len(self.cells):
+            yield from self.nonzero()
+            return
+        for i in sorted(rows):
+            start, end = (bisect_left(self.cells, k * self.ncols) for k in (i, i + 1))
+            yield from zip(self.cells[start:end], self.values[start:end], strict=True)
 
     def reduced(self, denominator: int) -> tuple[SparseTable, int]:
         """The table and a denominator, not 0, both divided by their greatest common divisor."""

@@ -280,7 +280,8 @@ def test_what_is_sparse_is_charged() -> None:
     S = SparseMatrix(1000, 1000, [(i, i, 1) for i in range(1000)])
     M = Matrix([[1] * 100] * 10, 100)
     steps: list[Any] = [
-        lambda: within(S, {1: 0}, None),
+        lambda: within(S, None, {1: 0}),
+        lambda: within(S, {i: i for i in range(5)}, None),
         lambda: entries_of(M),
         lambda: residues(S, 7),
         lambda: SparseStep(S.entries, 1000, 7),
