@@ -39,7 +39,16 @@ from mcexact.model.parametric import ParametricSystem
 from mcexact.model.properties import question_about
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
-from mcexact.report.text import WIDTH, Table, in_lines, latex, tables, wrapped
+from mcexact.report.text import (
+    WIDTH,
+    Table,
+    in_lines,
+    latex,
+    parameter_latex,
+    parameter_tables,
+    tables,
+    wrapped,
+)
 
 if TYPE_CHECKING:
     from mcexact.analysis.boxes.largest import LargestUncertainty
@@ -203,15 +212,16 @@ def _for_all_values(
             "these questions are about systems without parameters: give values to "
             f"{', '.join(system.parameters)} by --at NAME=VALUE"
         )
-    # Its module has the pages as well, with their pictures.
-    from mcexact.report.pages import parameter_latex, parameter_page, parameter_tables
-
     analysis = Analysis(system, channel=asked.channel)
     analysis.also(asked.questions)
     known.resume(analysis, report)
     account, taken = analysis.account, effort_tables(analysis.effort())
-    page = parameter_page(account) if with_page else None
-    if page is not None:
+    page = None
+    if with_page:
+        # Pictures need numpy and matplotlib.
+        from mcexact.report.pages import parameter_page
+
+        page = parameter_page(account)
         page = replace(page, tables=(*page.tables, *taken))
     words = [line for sentence in account.at("answer") for line in wrapped(sentence, WIDTH)]
     return Analyzed(

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from mcexact.answer.account import LABELS, MODES, PROOFS, PROVED, Account
+from mcexact.answer.account import Account
 from mcexact.answer.several_parameters import Hypersurfaces
 from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
@@ -24,8 +24,7 @@ from mcexact.report.figures import (
     links_picture,
 )
 from mcexact.report.html import AnswerPage, Picture, shown_plant
-from mcexact.report.text import Table, answer, tables
-from mcexact.shown import array, escaped
+from mcexact.report.text import Table, answer, parameter_tables, tables
 
 # The pages that `mcexact analyze --html` and `mcexact allocate --html` write.
 
@@ -241,25 +240,6 @@ def _steps(curves: LoopCurves) -> Picture:
 # The answers about a system with parameters: tables, a page, and LaTeX.
 
 
-def parameter_tables(account: Account, *, whole: bool = False) -> tuple[Table, ...]:
-    """Return the table of all answers, then tables with the details of some questions.
-
-    Parameters
-    ----------
-    account : Account
-    whole : bool
-        Whether all questions have a table, and not only those about modes: on a page.
-    """
-    sentences = account.sentences
-    rows = tuple(each.cells for each in sentences.at("table"))
-    title = "All answers" if whole else "".join(sentences.at("title"))
-    first = (Table(title, (), rows),) if rows else ()
-    shown = account.detailed(LABELS) if whole else account.detailed(MODES)
-    proofs = account.proofs(LABELS if whole else MODES)
-    proved = (Table(PROVED, PROOFS, proofs),) if proofs else ()
-    return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *proved)
-
-
 def parameter_page(account: Account) -> AnswerPage:
     """Return the page of an analysis for all values of parameters."""
     return AnswerPage(
@@ -283,20 +263,3 @@ def _parameter_pictures(account: Account) -> list[Picture]:
     if len(account.given.system.parameters) == 2 and spectrum.hypersurfaces:
         return [Picture(hypersurfaces(spectrum), "Where another mode is fixed", words)]
     return []
-
-
-def parameter_latex(account: Account) -> str:
-    """Return the system and the answers in LaTeX."""
-    lines = [
-        f"% {escaped(account.given.system.name or 'system')}",
-        rf"\[ {account.given.system._latex()} \]",
-    ]
-    lines += [escaped(sentence) for sentence in account.at("answer")]
-    lines += [escaped(each.line) for each in account.sentences.at("table")]
-    for name in account.detailed():
-        rows = ((where, "; ".join(filter(None, rest))) for where, *rest in account.rows(name))
-        lines.append(rf"\[ {array(rows)} \]")
-    if proofs := account.proofs(MODES):
-        rows = ((about, "; ".join(rest)) for about, *rest in proofs)
-        lines += [escaped(PROVED), rf"\[ {array(rows)} \]"]
-    return "\n".join(lines) + "\n"

@@ -9,13 +9,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TextIO
 
-from mcexact.answer.account import Account
+from mcexact.answer.account import LABELS, MODES, PROOFS, PROVED, Account
 from mcexact.answer.sentence import Sentences
 from mcexact.answer.templates import Sentence
 from mcexact.errors import InputError, MissingExtra
 from mcexact.exact import matrix
 from mcexact.exact.matrix import Matrix
-from mcexact.shown import escaped
+from mcexact.shown import array, escaped
 
 # Sentences and tables as text, with lines no longer than the width of the terminal.
 
@@ -211,6 +211,25 @@ def _table(
     return Table(title, tuple(columns), tuple(rows), note)
 
 
+def parameter_tables(account: Account, *, whole: bool = False) -> tuple[Table, ...]:
+    """Return the table of all answers, then tables with the details of some questions.
+
+    Parameters
+    ----------
+    account : Account
+    whole : bool
+        Whether all questions have a table, and not only those about modes: on a page.
+    """
+    sentences = account.sentences
+    rows = tuple(each.cells for each in sentences.at("table"))
+    title = "All answers" if whole else "".join(sentences.at("title"))
+    first = (Table(title, (), rows),) if rows else ()
+    shown = account.detailed(LABELS) if whole else account.detailed(MODES)
+    proofs = account.proofs(LABELS if whole else MODES)
+    proved = (Table(PROVED, PROOFS, proofs),) if proofs else ()
+    return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown), *proved)
+
+
 def measured(
     figures: Mapping[str, float | None],
     assessed: Sequence[tuple[str, str]],
@@ -265,6 +284,23 @@ def latex(account: Account) -> str:
 
 
 # Results as tables of pandas.
+
+
+def parameter_latex(account: Account) -> str:
+    """Return the system and the answers in LaTeX."""
+    lines = [
+        f"% {escaped(account.given.system.name or 'system')}",
+        rf"\[ {account.given.system._latex()} \]",
+    ]
+    lines += [escaped(sentence) for sentence in account.at("answer")]
+    lines += [escaped(each.line) for each in account.sentences.at("table")]
+    for name in account.detailed():
+        rows = ((where, "; ".join(filter(None, rest))) for where, *rest in account.rows(name))
+        lines.append(rf"\[ {array(rows)} \]")
+    if proofs := account.proofs(MODES):
+        rows = ((about, "; ".join(rest)) for about, *rest in proofs)
+        lines += [escaped(PROVED), rf"\[ {array(rows)} \]"]
+    return "\n".join(lines) + "\n"
 
 
 def to_pandas(results: Any) -> Any:
