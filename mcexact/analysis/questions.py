@@ -337,6 +337,9 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                 needs="uncertainty",
                 for_all_values=True,
                 reuses={"spectrum": "fixed_spectrum"} if kind == "box_fixed" else {},
+                shares=(
+                    {"nothing_fixed": "box_fixed_modes"} if name == "box_stabilizability" else {}
+                ),
                 kind=kind,
                 dual=name == "box_observability",
             )

@@ -42,6 +42,7 @@ from mcexact.analysis.boxes.pencils import (
     perron,
 )
 from mcexact.answer.evidence import ExteriorDiscs, RootDisc
+from mcexact.errors import InternalError
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, vstack
 from mcexact.exact.roots import decimal, exact_decimal, is_discrete
 from mcexact.model.radii import Radii, moduli
@@ -171,6 +172,38 @@ class Cover:
                 ):
                     return False
         return True
+
+
+def trees_beyond(
+    outside: Outside,
+    trees: Sequence[Sequence[int | None]],
+    *lists: Sequence[RootDisc],
+) -> tuple[tuple[int | None, ...], ...]:
+    """The trees of a cover of all complex numbers, without what a proof may skip.
+
+    Parameters
+    ----------
+    outside : Outside
+        What may be skipped.
+    trees : sequence of sequences of int or None
+        The trees that `Cover.of` made of these lists for a claim about all complex numbers.
+    *lists : sequences of RootDisc
+    """
+    nodes = [node for tree in trees for node in tree]
+    left, known = iter(nodes), dict[tuple[Point, Fraction], int]()
+
+    def again(c: Point, rho: Fraction, _: int) -> int | None:
+        k = next(left)
+        if k is not None:
+            known[c, rho] = k
+        return k
+
+    limit = len(nodes) + 1
+    Cover(again, Outside(outside.time, None), limit).of(*lists)
+    made = Cover(lambda c, rho, _: known.get((c, rho)), outside, limit).of(*lists)
+    if made is None:
+        raise InternalError("the trees of a cover are not those of its discs")
+    return made
 
 
 def meets(c: Point, size: Fraction, disc: Disc, *, square: bool = False) -> bool:

@@ -36,7 +36,15 @@ import numpy as np
 import numpy.typing as npt
 
 from mcexact.analysis.boxes.cells import proofs
-from mcexact.analysis.boxes.cover import MANY, Cover, GainBox, Outside, Test, disc_lists
+from mcexact.analysis.boxes.cover import (
+    MANY,
+    Cover,
+    GainBox,
+    Outside,
+    Test,
+    disc_lists,
+    trees_beyond,
+)
 from mcexact.analysis.boxes.pencils import (
     ComplexRows,
     FloatBox,
@@ -51,6 +59,7 @@ from mcexact.analysis.boxes.pencils import (
     entries,
     gain_pencil,
     perron,
+    radii_of,
     weights,
     whole_weights,
 )
@@ -574,12 +583,18 @@ def _require_nominal(spectrum: FixedSpectrum, limit: Fraction | None) -> None:
 
 @overload
 def box_stabilizability(
-    system: MultiChannelSystem, *, spectrum: FixedSpectrum | None = ...
+    system: MultiChannelSystem,
+    *,
+    spectrum: FixedSpectrum | None = ...,
+    nothing_fixed: BoxFixedModes | None = ...,
 ) -> BoxFixedModes: ...
 @overload
 def box_stabilizability(system: ParametricSystem) -> ParametricBoxFixedModes: ...
 def box_stabilizability(
-    system: MultiChannelSystem | ParametricSystem, *, spectrum: FixedSpectrum | None = None
+    system: MultiChannelSystem | ParametricSystem,
+    *,
+    spectrum: FixedSpectrum | None = None,
+    nothing_fixed: BoxFixedModes | None = None,
 ) -> BoxFixedModes | ParametricBoxFixedModes:
     """Prove that each member of a family is stabilized by a decentralized controller of its own.
 
@@ -589,6 +604,8 @@ def box_stabilizability(
         As for `box_fixed_modes`.
     spectrum : FixedSpectrum, optional
         As for `box_fixed_modes`.
+    nothing_fixed : BoxFixedModes, optional
+        The proof that no member has a fixed mode, if it is known: a part of it is the proof.
 
     Raises
     ------
@@ -612,7 +629,28 @@ def box_stabilizability(
         return box_fixed_modes(system, bound=StabilityRegion(system.time).edge)
     InputError.require(system, MultiChannelSystem, "system")
     edge = StabilityRegion(system.time).edge
+    whole = BoxFixedModes.known(nothing_fixed, system, "nothing_fixed")
+    if whole is not None and whole.bound is None and radii_of(whole.about) == radii_of(system):
+        part = _beyond(whole, Outside(system.time, edge))
+        return BoxFixedModes(system, edge, **vars(part))
     return box_fixed_modes(system, bound=edge, spectrum=spectrum)
+
+
+def _beyond(proof: BoxFixedModes, outside: Outside) -> FixedModesOfCell:
+    """The part of a proof about all complex numbers that a claim about fewer needs."""
+    lists = [each.discs for each in proof.exterior]
+    trees = trees_beyond(outside, proof.cover, *lists)
+    frames = sorted({k for tree in trees for k in tree if k is not None})
+    gains = sorted({g for k in frames if (g := proof.frames[k].gains) is not None})
+    return FixedModesOfCell(
+        proof.exterior,
+        tuple(proof.gains[g] for g in gains),
+        tuple(
+            replace(each, gains=None if each.gains is None else gains.index(each.gains))
+            for each in (proof.frames[k] for k in frames)
+        ),
+        tuple(tuple(None if k is None else frames.index(k) for k in tree) for tree in trees),
+    )
 
 
 # Controllability of the members, by right inverses of [λI − A, −B_T].

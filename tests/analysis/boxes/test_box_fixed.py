@@ -66,6 +66,31 @@ def test_each_member_is_stabilized_where_what_is_fixed_is_stable() -> None:
     assert fixed_spectrum(box.member(random.Random(2))).stabilizable
 
 
+@pytest.mark.parametrize(
+    ("name", "part"),
+    [
+        ("compleib-ac1", "2/5"),
+        ("compleib-dis5", "1/10"),
+        ("quadruple-tank-pminus", "1/1000"),
+        ("liu2020-3ch-extended-n1", "1/1000"),
+    ],
+)
+def test_a_part_of_the_proof_that_nothing_is_fixed_proves_that_members_are_stabilized(
+    name: str, part: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    box = Box.relative(gallery(name), part)
+    whole, smaller = box_fixed_modes(box.system), box.scaled("1/2").system
+    with monkeypatch.context() as patch:
+        patch.setattr("mcexact.analysis.boxes.members.proofs", None)
+        proof = box_stabilizability(box.system, nothing_fixed=whole)
+        with pytest.raises(TypeError):  # the radii are others
+            box_stabilizability(smaller, nothing_fixed=whole)
+    assert proof.bound is not None and check(proof, box.system).verdict == "VALID"
+    assert len(proof.frames) <= len(whole.frames)
+    again = box_stabilizability(box.system, nothing_fixed=proof)
+    assert again == box_stabilizability(box.system)
+
+
 def test_a_radius_is_the_region_in_discrete_time() -> None:
     plant = MultiChannelSystem([["1/2", 0], [0, 2]], [[[0], [1]]], [[[0, 1]]], time="discrete")
     proof = box_stabilizability(Box.relative(plant, "1/100").system)
