@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs
+.PHONY: samples gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -81,6 +81,11 @@ costs: $(STAMP)
 # How many numbers each rounding of floats recovers: a minute.  Writes benchmarks/ROUNDING.md.
 rounding: $(STAMP)
 	$(BIN)/python -m benchmarks.rounding
+
+# Samples of 20,000 drawn plants within the radii that are computed for them: a minute.
+# FILES='plant.json=1/10' designs for samples a step late instead.
+samples: $(STAMP)
+	$(BIN)/python -m benchmarks.samples $(FILES)
 
 # Every decision beside exhaustive enumeration, on 10,000 drawn systems: minutes.
 agreement: $(STAMP)

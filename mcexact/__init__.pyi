@@ -128,6 +128,7 @@ from .derived.constructions import union_graph as union_graph
 from .derived.drawn.systems import Draw as Draw
 from .derived.sampling import c2d as c2d
 from .derived.sampling import sampled_system as sampled_system
+from .derived.sampling import tustin as tustin
 from .derived.variants import Variant as Variant
 from .derived.variants import neighbor_graph_variants as neighbor_graph_variants
 from .derived.variants import parameter_grid as parameter_grid

@@ -81,7 +81,7 @@ from mcexact.errors import LimitReached
     "--output",
     type=options.FOLDER,
     metavar="FILE",
-    help="Write the rounded controller to this file.",
+    help="Write the controller that is rounded, or taken at the samples, to this file.",
 )
 @options.page("figures of the loop and all certificates")
 @options.answering
@@ -93,6 +93,9 @@ def command(file: str, controller: str, **values: Any) -> int:
     --certificates writes a proof of that as well, and a disc is told that holds an eigenvalue and
     lies outside, if the loop is small. A warning is given if the controller was designed for
     another plant. The first line says whether to install the controller.
+
+    With --step a controller in continuous time is taken at the samples by Tustin's rule, exactly,
+    and rounded to 12 digits, or to those of --round-gains.
 
     For a system with parameters it is proved that the loop is stable, or fast enough, at all values
     within their ranges. Where no proof is found, the largest part of the ranges that is proved is
@@ -109,8 +112,11 @@ def command(file: str, controller: str, **values: Any) -> int:
         raise click.UsageError(
             "--largest-uncertainty takes the gains as they are: leave out --gains"
         )
-    if output is not None and values["round_gains"] is None:
-        raise click.UsageError("-o writes the rounded controller: give --round-gains, too")
+    if output is not None and values["round_gains"] is None and not values["sampling"]:
+        raise click.UsageError(
+            "-o writes the controller that is rounded, or taken at the samples: give --round-gains "
+            "or --step, too"
+        )
     require_other(output, file, controller, weights, sizes)
     require_writable(output, run.certificates)
     require_page(html, run.certificates, file, controller, weights, sizes)

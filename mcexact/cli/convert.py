@@ -38,7 +38,7 @@ from mcexact.exact.matrix import Rounding
 from mcexact.exact.rational import Limits
 from mcexact.export.code import EQUATIONS, Language, export_controller
 from mcexact.model.arrays import MARK, Reading
-from mcexact.model.controller import read_controller
+from mcexact.model.controller import controller_text, read_controller
 from mcexact.model.files import is_folder, read_plant, require_suffix, system_files
 from mcexact.model.gallery import published
 from mcexact.model.parametric import ParametricSystem
@@ -203,6 +203,12 @@ def _used(rounding: Rounding | None, target: str) -> Rounding | None:
     help="Give the file radii that contain the exact samples, also where FILE has none.",
 )
 @click.option(
+    "--controller",
+    metavar="FILE",
+    help="Write this controller in continuous time, in place of the plant, for its samples: by "
+    "Tustin's rule, rounded to as many significant digits.",
+)
+@click.option(
     "-o",
     "--output",
     type=options.FOLDER,
@@ -218,6 +224,7 @@ def c2d_command(
     late: int,
     decimals: int,
     enclose: bool,
+    controller: str | None,
     output: Path | None,
     **values: Any,
 ) -> None:
@@ -229,27 +236,40 @@ def c2d_command(
 
     If FILE has an "uncertainty", so has the sampled file: it contains the exact samples of every
     plant within the radii of FILE. What is proved for every plant within these radii is proved for
-    the exact samples; all other answers are about the rounded values. The radii are as small as
-    independent entries allow, and grow with the step.
+    the exact samples; all other answers are about the rounded values. The radii grow with the step.
     """
     run = Run(values)
-    require_other(output, file)
+    require_other(output, file, controller)
     require_writable(output)
     plant = run.read(file)
+    program = None if controller is None else run.read(controller)
     how = {"step": step, "late": late, "decimals": decimals, "enclosed": enclose}
-    sampled = run.result(_sampled, plant, run.limits, how, doing=f"sampling {plant[0]}")
+    sampled = run.result(_sampled, plant, program, run.limits, how, doing=f"sampling {plant[0]}")
     if output is None:
         emit(sampled)
     else:
         write_result(output, sampled)
 
 
-def _sampled(plant: tuple[str, bytes], limits: dict[str, int], how: dict[str, Any]) -> str:
-    """Sample a system, in the child process."""
+def _sampled(
+    plant: tuple[str, bytes],
+    program: tuple[str, bytes] | None,
+    limits: dict[str, int],
+    how: dict[str, Any],
+) -> str:
+    """Sample a system, or a controller for it, in the child process."""
     # Only there: the command line starts without what samples.
-    from mcexact.derived.sampling import c2d
+    from mcexact.derived.sampling import c2d, sampled_system, tustin
 
-    return system_text(c2d(system_in(*plant, limits), **how))
+    system = system_in(*plant, limits)
+    if program is None:
+        return system_text(c2d(system, **how))
+    from mcexact.synthesis.optimum.diagnosis import rounded_controller
+
+    with InputError.inside(program[0]):
+        controller = read_controller(program[1], Limits(**limits))
+        held = sampled_system(system, how["step"], how["late"], decimals=how["decimals"])
+        return controller_text(rounded_controller(tustin(controller, held), how["decimals"]))
 
 
 @click.command(name="export", short_help="Write a controller as C or Structured Text.")

@@ -46,10 +46,10 @@ from mcexact.answer.templates import count
 from mcexact.cli import uncertainty
 from mcexact.cli.files import plant_in, system_in
 from mcexact.cli.results import Evidence, Loop, Simulated
-from mcexact.derived.sampling import sampled_system
+from mcexact.derived.sampling import DECIMALS, sampled_system, tustin
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import Limits, percent, written
-from mcexact.exact.roots import StabilityRegion
+from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.model.box import radii_in_words
 from mcexact.model.controller import Controller, controller_text, read_controller
 from mcexact.model.loop import ClosedLoop, closed_loop
@@ -146,10 +146,17 @@ def certified(
     system, search = uncertainty.with_radii(sized, wanted.pop("uncertainty"))
     system = sampled(system, sampling)
     with InputError.inside(program[0]):
-        digits, notes, typed = wanted.pop("round_gains"), tuple[str, ...](), controller
+        digits, notes = wanted.pop("round_gains"), tuple[str, ...]()
+        warnings = list(controller.warnings_for(system))
+        if sampling and not is_discrete(controller.time):
+            warnings = list(controller.warnings_for(typed_plant))
+            controller, note = at_samples(controller, system, digits)
+            notes = (note,)
+        typed = controller
         if digits is not None:
             controller = rounded_controller(controller, digits)
-            notes = (f"the verdict is about the controller rounded to {count(digits, 'digit')}",)
+            rounded = f"the verdict is about the controller rounded to {count(digits, 'digit')}"
+            notes = (*notes, rounded)
         if effort is not None:
             asked = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
             bound: dict[str, Any] = {asked.word: asked.bound}
@@ -214,7 +221,7 @@ def certified(
             states=verdict.about.n,
             blocks=list(verdict.blocks),
             largest=bound_text if wanted["largest"] else None,
-            warnings=list(controller.warnings_for(system)),
+            warnings=warnings,
             rounded_to_digits=digits,
             eigenvalue_outside=None if outside is None else outside.to_dict(),
             **loops.view,
@@ -320,6 +327,20 @@ def with_sizes(
     return system.with_typical_sizes(sizes)
 
 
+def at_samples(
+    controller: Controller, system: MultiChannelSystem, digits: int | None = None
+) -> tuple[Controller, str]:
+    """A controller in continuous time for the samples of a plant, and what was done to it.
+
+    Its entries are rounded to 12 digits, unless they are rounded to others afterwards.
+    """
+    said = "the controller, in continuous time, is taken at the samples by Tustin's rule"
+    held = tustin(controller, system)
+    if digits is not None:
+        return held, said
+    return rounded_controller(held, DECIMALS), f"{said}, rounded to {count(DECIMALS, 'digit')}"
+
+
 def sampled(system: MultiChannelSystem, sampling: Mapping[str, Any]) -> MultiChannelSystem:
     """The plant at the samples, or itself if no step is given."""
     return sampled_system(system, **sampling) if sampling else system
@@ -392,9 +413,10 @@ def loops_within(
         The search that found the radii of the system.
     """
     near = None if search is None or not verdict.stable else search.nearby
-    if system.uncertainty is None and gains is None:
+    uncertain = system.plant.uncertainty is not None
+    if not uncertain and gains is None:
         return Loops(failing=near)
-    rows = [] if system.uncertainty is None else [("plant", radii_in_words(system))]
+    rows = [("plant", radii_in_words(system.plant))] if uncertain else []
     rows += [] if gains is None else [("gains", f"within {percent(gains)}")]
     proof, failing, region = None, None, _region_for_boxes(verdict)
     unproved = [region]
@@ -405,7 +427,7 @@ def loops_within(
         neither = "".join(f", and neither is {each}" for each in unproved[1:])
         rows.append(("eigenvalues of every loop", f"{unproved[0]} is not proved{neither}"))
     view: dict[str, Any] = {"certified": proof is not None, "region": str(region)}
-    if proof is None and verdict.stable and system.uncertainty is not None:
+    if proof is None and verdict.stable and uncertain and not system.subject:
         failing = failing_plant(closed_loop(system, controller))
     if failing is not None:
         view |= {"fails_within": written(failing.distance), "failing": failing.plant.to_dict()}
@@ -413,7 +435,7 @@ def loops_within(
     if search is not None and search.proof is not None:
         within = _within_radii_of_file(search)
     margins = dict[str, BoxStability]()
-    if proof is not None and system.uncertainty is not None:
+    if proof is not None and uncertain:
         margins = margins_within(closed_loop(system, controller))
         view["margins"] = margins_view(margins)
     return Loops(tuple(rows), proof, {"every_loop": view}, within, failing or near, margins)

@@ -8,20 +8,23 @@ proved for boxes is therefore about the exact exponential, of the plant and of e
 
 `sampled_system` records the construction, so that certificates are about the plant in continuous
 time, and the checker samples it itself.  `c2d` gives the same plant as a plant of its own, for a
-file.
+file.  `tustin` makes a controller in continuous time one for the samples.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 from mcexact.derived.constructions import require_size
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.linear_algebra import inverse
 from mcexact.exact.matrix import Matrix, as_requested, hstack, vstack
 from mcexact.exact.rational import Entry, rational_text, three_digits, written
 from mcexact.exact.roots import is_discrete
 from mcexact.exact.sampling import held_exponential
 from mcexact.model.box import Box
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.radii import Radii
 from mcexact.model.regulated import selection_document
 from mcexact.model.sizes import TypicalSizes
@@ -291,6 +294,107 @@ def _largest(missed: Matrix, decimals: int) -> str:
     largest = max(entries, default=Fraction(0))
     usual = largest <= Fraction(51, 100) / 10**decimals
     return f"0.51e-{decimals}" if usual else three_digits(largest, up=True)
+
+
+# Controllers in continuous time, at the samples.
+
+
+def tustin(controller: Controller, plant: MultiChannelSystem) -> Controller:
+    """Run a controller in continuous time at the samples of a plant, by Tustin's rule.
+
+    Parameters
+    ----------
+    controller : Controller
+        In continuous time, of agents that share no states.
+    plant : MultiChannelSystem
+        A plant at its samples, made by `sampled_system`.
+
+    Returns
+    -------
+    Controller
+        In discrete time, for this plant, with the states of the given one.
+
+    Raises
+    ------
+    UsageError
+        If the controller is in discrete time, the plant is not a sampled one, agents share states,
+        or I − (h/2)A is singular for the A of an agent.
+
+    Notes
+    -----
+    Exact.  An agent ż = Az + By, u = Cz + Dy becomes, with X = (I − (h/2)A)⁻¹,
+
+        z(t+1) = X (I + (h/2)A) z + h X B y,   u = C X z + (D + (h/2) C X B) y,
+
+    set-points as outputs.  So s is replaced by (2/h)(z − 1)/(z + 1): what is stable stays so by
+    itself, and integrators remain integrators.  That the loop is stable has to be certified.
+    States that agents share would have to be known before they are sent.
+
+    Examples
+    --------
+    >>> from mcexact.model.statespace import local_controllers
+    >>> plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+    >>> lag = local_controllers(plant, [([[-2]], [[1]], [[-3]], [[0]])])
+    >>> (agent,) = tustin(lag, sampled_system(plant, "1/2")).agents
+    >>> agent.private_update.private.rows(), agent.input.private.rows()
+    (((Fraction(1, 3),),), ((Fraction(-2, 1),),))
+    """
+    InputError.require(controller, Controller, "controller")
+    InputError.require(plant, MultiChannelSystem, "plant")
+    if is_discrete(controller.time):
+        raise UsageError("the controller is in discrete time already", where="controller")
+    if not is_sampled(plant) or plant.sample_time is None:
+        raise UsageError("expected a plant made by sampled_system", where="plant")
+    half = plant.sample_time / 2
+    agents = tuple(_at_samples(agent, half) for agent in controller.agents)
+    return Controller("discrete", plant.digest_of_values(), agents)
+
+
+def _at_samples(agent: AgentProgram, half: Fraction) -> AgentProgram:
+    """An agent by Tustin's rule; ``half`` is half the step."""
+    if agent.shared or any(each.shared for each in agent.maps()):
+        raise UsageError(
+            f"Tustin's rule does not apply to agent {agent.name}, which uses shared states: "
+            "design for the sampled plant",
+            where="controller",
+        )
+    k, update, control = agent.private, agent.private_update, agent.input
+    if not k:
+        return agent
+    identity = Matrix.identity(k)
+    A = update.private if update.private is not None else Matrix.zeros(k, k)
+    X = inverse(identity - A * half)
+    if X is None:
+        raise UsageError(
+            f"Tustin's rule does not apply to agent {agent.name}, which has the mode 2/h",
+            where="controller",
+        )
+    CX = None if control.private is None else control.private @ X
+
+    def held(M: Matrix) -> Matrix:
+        return X @ M * (2 * half)
+
+    def fed(M: Matrix | None, D: Matrix | None) -> Matrix | None:
+        """D + (h/2) C X M, where a matrix that is not there is 0."""
+        if M is None or CX is None:
+            return D
+        return CX @ M * half if D is None else D + CX @ M * half
+
+    used = sorted({*update.outputs, *control.outputs})
+    outputs = {j: fed(update.outputs.get(j), control.outputs.get(j)) for j in used}
+    return replace(
+        agent,
+        private_update=LinearMap(
+            {j: held(M) for j, M in update.outputs.items()},
+            private=X @ (identity + A * half),
+            reference=None if update.reference is None else held(update.reference),
+        ).without_zeros(),
+        input=LinearMap(
+            {j: M for j, M in outputs.items() if M is not None},
+            private=CX,
+            reference=fed(update.reference, control.reference),
+        ).without_zeros(),
+    )
 
 
 def is_sampled(system: MultiChannelSystem) -> bool:
