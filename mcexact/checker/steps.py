@@ -63,7 +63,7 @@ def response_of(system: System, loop: Disturbed, at: str) -> Response:
 def check_step_peaks(claim: Json, witness: Json, system: System) -> None:
     """The response in integers, until a Lyapunov matrix shows that nothing larger follows.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``step_peaks.peaks_continuous``, ``step_peaks.peaks_discrete``.
     """
     side, *tables = fields(claim, "claim", "at", "inputs", "outputs")
     at = string(side, "claim.at", *SIDES)
@@ -136,7 +136,10 @@ def scaled(x: Fraction, up: int, down: int) -> int:
 
 
 def exponents_of(P: Matrix) -> list[int]:
-    """The least f_i with P_ii ≤ 4^f_i, so that √v'Pv is at most Σ 2^f_i abs(v_i)."""
+    """The least f_i with P_ii ≤ 4^f_i, so that √v'Pv is at most Σ 2^f_i abs(v_i).
+
+    Theorem ``step_peaks.norm_entries``.
+    """
     result = []
     for i in range(P.nrows):
         above, below = P.rows[i][i], P.denominator
@@ -193,7 +196,10 @@ class Lanes:
         require(self.is_within(vector, bits), "range", "witness", message)
 
     def products(self, rows: Sequence[Row], vector: Sequence[int]) -> list[int]:
-        """The products of rows and a vector, divided by 2^bits and rounded down."""
+        """The products of rows and a vector, divided by 2^bits and rounded down.
+
+        Open: see ``proofs/OPEN.md``.
+        """
         bits, offset, kept, moved = self.bits, self._offset, self._kept, self._moved
         result = []
         for places, entries in rows:
@@ -268,7 +274,10 @@ class Grid:
         return cls((flow, signals), (entering, columns), bits, h)
 
     def require_within(self, bounds: list[list[int]], times: int, a: Fraction) -> None:
-        """Stop unless the signals of each step stay within its bounds, in units, at all times."""
+        """Stop unless the signals of each step stay within its bounds, in units, at all times.
+
+        Open: see ``proofs/OPEN.md``.
+        """
         N, z, error = self.N, [0] * self.N, 0
         for _ in budget.counted(range(times)):
             terms = [*self._terms(z)]
@@ -365,7 +374,10 @@ def rows_of(M: Matrix, up: list[int], down: list[int], bits: int) -> list[Row]:
 
 
 def stays_within(c: list[int], bound: int) -> bool:
-    """Whether abs(c_0 + c_1 s + c_2 s² + …) ≤ bound for all s from 0 to 1; may say no in doubt."""
+    """Whether abs(c_0 + c_1 s + c_2 s² + …) ≤ bound for all s from 0 to 1; may say no in doubt.
+
+    Theorem ``step_peaks.polynomial_between``.
+    """
     waiting, n = [(c, bound, 0)], len(c) - 1
     while waiting:
         c, bound, depth = waiting.pop()
