@@ -230,6 +230,7 @@ def steps_of(
     found = _proposal(steps, norm, h, run)
     _allow(_units(steps, found.response.bits, run.terms), work)
     verdict = checked(encode(found).encode())
+    _allow(verdict.spent, work)
     return found if verdict.verdict == "VALID" else None
 
 
@@ -253,7 +254,8 @@ def _units(steps: StepLoop, bits: int, terms: float) -> float:
     limbs = b.ncols * (2 * bits + 12) / 30 + 1
     short = bits / 30 + 2
     each = 2 + short * limbs / 20 * 8 / max(8.0, math.sqrt(min(short, limbs)))
-    return terms * entries * each
+    # each sum is rounded, and each signal is taken apart
+    return terms * (entries * each + (M.nrows + S.nrows) * limbs / 2 + S.nrows * b.ncols * 20)
 
 
 def _dyadic(x: float, bits: int = 6) -> Fraction:
