@@ -167,15 +167,17 @@ class Lanes:
         self.count, self.bits = count, bits
         self.size = -(-(bits + max(bits, largest.bit_length()) + 2) // 8)
         self.width = 8 * self.size
-        self.ones = sum(1 << self.width * k for k in range(count))
+        self.ones = ((1 << self.width * count) - 1) // ((1 << self.width) - 1)
         self.limbs = self.width * count // budget.LIMB + 1
         self._offset = self.ones << (self.width - 1)
         self._kept = self.ones * ((1 << (self.width - bits)) - 1)
         self._moved = self.ones << (self.width - 1 - bits)
 
     def packed(self, numbers: Sequence[int]) -> int:
-        """Numbers, each in its lane."""
-        return sum(number << self.width * k for k, number in enumerate(numbers))
+        """Numbers within 2^bits, each in its lane."""
+        least, size = 1 << self.bits, self.size
+        data = b"".join((number + least).to_bytes(size, "little") for number in numbers)
+        return int.from_bytes(data, "little") - (self.ones << self.bits)
 
     def numbers(self, packed: int) -> list[int]:
         """The numbers of lanes that are within 2^bits."""

@@ -67,6 +67,7 @@ FORGERS = {
 TRAPS: dict[str, Document] = {
     **plain_traps.TRAPS,
     **box_traps.TRAPS,
+    **performance.TRAPS,
     **parametric_traps.SPECTRA,
     **parametric_traps.RANKS,
 }

@@ -6,6 +6,8 @@ import random
 from fractions import Fraction
 from typing import Any
 
+from tests.checker.handmade import certificate, changed, plant
+from tests.checker.performance_plants import CONTINUOUS_STEP, STEP, form, static
 from tests.oracle.drawn.plants import Document, number
 
 Forged = Document | None
@@ -188,3 +190,48 @@ BOUNDS = (better, other_weights, other_form, other_group)
 MARGINS = (better, other_ports, other_form, other_gain)
 SECTORS = (better, other_sector, other_ports, other_form, other_gain)
 STEPS = (better, other_response, other_form, other_gain)
+
+# x' = -x/2 + u tends to 2u, and x(t+1) = -x(t)/2 + u never exceeds u.
+HALF = plant([["-1/2"]], ([[1]], [[1]]))
+# Two agents see the one state, on which the first one acts.
+SEEN = plant([[0]], ([[1]], [[1]]), ([[0]], [[1]]), time="discrete")
+# 1/(1 - M) is 54,613, and with M rounded down to 16 bits 32,768.
+CREEPING = plant([["163837/163840"]], ([[1]], [[1]]), time="discrete")
+TRAPS: dict[str, Document] = {
+    "errors that need not fall": certificate(
+        "step_peaks",
+        STEP,
+        {"at": "inputs", "inputs": [[1]], "outputs": [[1]]},
+        {"P": form([3]), "rate": -1, "sizes": [1, 1], "bits": 24, "unit": -18, "times": 0},
+        static(STEP, 0),
+    ),
+    "a step of discrete time in continuous time": certificate(
+        "step_peaks",
+        HALF,
+        {"at": "inputs", "inputs": [["1/1000"]], "outputs": [["101/100"]]},
+        {"P": form([3]), "rate": "1/8", "sizes": [1, 1], "bits": 30, "unit": -24, "times": 30},
+        static(HALF, 0),
+    ),
+    "time that runs backward": changed(
+        CONTINUOUS_STEP,
+        ("claim.inputs", [["1/10"]]),
+        ("claim.outputs", [["1/10"]]),
+        ("witness.step", -1),
+        ("witness.times", 0),
+    ),
+    "a number that falls into the lane of another step": certificate(
+        "step_peaks",
+        SEEN,
+        {"at": "inputs", "inputs": [["1/1000"] * 2] * 2, "outputs": [["1/1000"] * 2] * 2},
+        {"P": form([3]), "rate": "1/4", "sizes": [1] * 4, "bits": 24, "unit": -55, "times": 1},
+        static(SEEN, 0, 0),
+    ),
+    "numbers beyond the bits to which matrices are rounded": certificate(
+        "step_peaks",
+        CREEPING,
+        {"at": "inputs", "inputs": [[50000]], "outputs": [[50000]]},
+        {"P": form([3]), "rate": "1/65536", "sizes": [1, 1], "bits": 16, "unit": -6}
+        | {"times": 130000},
+        static(CREEPING, 0),
+    ),
+}
