@@ -136,3 +136,25 @@ def test_a_plant_that_fails_differs_in_short_numbers(monkeypatch: pytest.MonkeyP
     ]
     assert lengths[0] < 25 < 100 < lengths[1]
     assert short.refutation is not None and check(short.refutation, short.plant).valid
+
+
+@pytest.mark.parametrize("states", [21, pytest.param(61, marks=pytest.mark.slow)])
+def test_a_large_loop_has_a_plant_that_fails_a_little_beyond_the_border(states: int) -> None:
+    agents = 21
+    rows = [[0] * states for _ in range(states)]
+    for i in range(states):
+        rows[i][i] = 1 if i < agents else -1
+    B = [[[int(i == k)] for i in range(states)] for k in range(agents)]
+    C = [[[int(i == k) for i in range(states)]] for k in range(agents)]
+    plant = MultiChannelSystem(rows, B, C)
+    about = closed_loop(plant, local_controllers(plant, [[["-3"]]] * agents))
+    failing = every_loop(about, WHOLE, effort=0).failing
+    # 1 + d = 3 (1 − d)² has the root d = 1/3.
+    assert failing is not None and 1 / 3 < failing.distance < 0.334
+    assert failing.refutation is not None and check(failing.refutation, failing.plant).valid
+    largest_change = max(
+        abs(x - y)
+        for one, other in zip(failing.plant.A.rows(), plant.A.rows(), strict=True)
+        for x, y in zip(one, other, strict=True)
+    )
+    assert largest_change <= failing.distance
