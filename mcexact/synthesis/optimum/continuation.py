@@ -291,7 +291,7 @@ def box_part(candidate: Candidate) -> float | None:
     problem = candidate.problem
     plant, graph = problem.network.plant, problem.network.graph
     rows, columns = problem.mask.shape
-    if plant.subject or problem.network.system.n != plant.n:
+    if plant.subject or (graph is not None and graph.delays):
         return None
     if len(problem.A) + rows + columns > _MOST_SIGNALS:
         return None
