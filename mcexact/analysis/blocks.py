@@ -394,6 +394,14 @@ def local_subspaces(
         A factor divides χ_{A_F} more often than pencils lose rank at its roots: by a Jordan chain
         within a block, or in blocks of which one acts on the other through states outside of both.
         Then blocks do not prove the rank.  Or a block is too large for its search.
+
+    Notes
+    -----
+    With Jordan chains of length e a factor p divides χ_{A_F} more often than pencils lose rank d.
+    A shrunk subspace for pᵉ would prove that pᵉᵈ divides it.  But the claim also has the rank, and
+    the degrees that blocks leave bound the loss by e·d alone.  That no pencil loses more than d
+    would need blocks of the system with a further channel of d inputs and d outputs, which moves p;
+    certificates have none.  Dense plants prove this rank by two polynomials (`Completion`).
     """
     parts, proved = state_blocks(system), list[Block]()
     found: dict[Polynomial, list[tuple[StateBlock, ExactSubspace]]] = {}
