@@ -334,6 +334,7 @@ and its certificate is VALID. Figures depend on the processor and its kernels.
 def main(names: list[str]) -> int:
     """Print the figures of some parts; without names those of all, which are written."""
     lines = []
+    warnings.simplefilter("ignore", RoundingWarning)
     for name in names or PARTS:
         for line in PARTS[name]():
             lines.append(f"- {name}: {line}")

@@ -19,6 +19,7 @@ from __future__ import annotations
 import os
 import random
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -30,6 +31,7 @@ import numpy as np
 import scipy.linalg
 
 from mcexact import MultiChannelSystem, fixed_spectrum
+from mcexact.errors import RoundingWarning
 from mcexact.exact.linear_algebra import inverse
 from mcexact.exact.matrix import Matrix, Rounding, from_float, matrix_from_float
 
@@ -236,6 +238,7 @@ def large() -> Iterator[str]:
 def main() -> None:
     """Write the page."""
     assert set(ROUNDINGS) == set(get_args(Rounding))
+    warnings.simplefilter("ignore", RoundingWarning)
     tables = {
         f"Of {DRAWS:,} results of arithmetic with numbers of few digits, those that a rounding "
         "reads as the exact result. Digits are those of the numbers that were typed.": recovered,

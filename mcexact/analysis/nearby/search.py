@@ -61,6 +61,8 @@ _FARTHEST = float(FARTHEST)
 _TRIES, _TRIES_OF_LARGE, _LARGE = 4, 2, 100
 _HOPELESS = 100.0
 """A change in floating point so many times too large is not made exact."""
+_LOOKED_AT = 1000
+"""Of about so many entries the digits are counted."""
 _CLOSE = 4
 _MOVED = 4
 _TOLERANCES = (1e-8, 1e-12, 0.0)
@@ -144,12 +146,10 @@ class _Search:
         self.region = StabilityRegion(system.time)
         self.discrete = is_discrete(system.time)
         self.suspects = by_bottleneck(self._in_time(suspects(floats, self.discrete)))
-        values = [
-            Fraction(x, M.denominator)
-            for M in (system.A, *system.B, *system.C)
-            for *_, x in M.nonzero()
-            if x % M.denominator
-        ]
+        matrices = (system.A, *system.B, *system.C)
+        entries = [(x, M.denominator) for M in matrices for *_, x in M.nonzero()]
+        broken = [(x, d) for x, d in entries if x % d]
+        values = [Fraction(x, d) for x, d in broken[:: 1 + len(broken) // _LOOKED_AT]]
         # Of floats some have few digits by chance.
         self.has_typed = 4 * sum(map(is_typed, values)) > len(values)
         self._known: dict[Suspect, NearPlant | None] = {}
