@@ -195,8 +195,8 @@ STEPS = (better, other_response, other_form, other_gain)
 HALF = plant([["-1/2"]], ([[1]], [[1]]))
 # Two agents see the one state, on which the first one acts.
 SEEN = plant([[0]], ([[1]], [[1]]), ([[0]], [[1]]), time="discrete")
-# 1/(1 - M) is 54,613, and with M rounded down to 16 bits 32,768.
-CREEPING = plant([["163837/163840"]], ([[1]], [[1]]), time="discrete")
+# 1/(1 - M) is 256.9, and with M rounded down to 16 bits 256.
+CREEPING = plant([["652809/655360"]], ([[1]], [[1]]), time="discrete")
 TRAPS: dict[str, Document] = {
     "errors that need not fall": certificate(
         "step_peaks",
@@ -229,9 +229,9 @@ TRAPS: dict[str, Document] = {
     "numbers beyond the bits to which matrices are rounded": certificate(
         "step_peaks",
         CREEPING,
-        {"at": "inputs", "inputs": [[50000]], "outputs": [[50000]]},
-        {"P": form([3]), "rate": "1/65536", "sizes": [1, 1], "bits": 16, "unit": -6}
-        | {"times": 130000},
+        {"at": "inputs", "inputs": [[300]], "outputs": [["1027/4"]]},
+        {"P": form([1]), "rate": "1/260", "sizes": [1, "65/64"], "bits": 16, "unit": -14}
+        | {"times": 2200},
         static(CREEPING, 0),
     ),
 }
