@@ -148,6 +148,16 @@ def of_regions() -> Iterator[tuple[str, Any]]:
         yield name, mcexact.certify_stability(loop, method="polynomial", **given)
 
 
+def of_samples() -> Iterator[tuple[str, Any]]:
+    """The eigenvalues and the transfer graphs of two plants at the samples."""
+    cart = MultiChannelSystem([[0, 1], [0, "-1/3"]], [[[0], [1]], [[1], [0]]], [[[1, 0]], [[0, 1]]])
+    for name, plant in (("cart", cart), ("tanks", gallery.load("quadruple-tank-pminus"))):
+        for late in (0, 2):
+            sampled = mcexact.sampled_system(plant, "1/7", late)
+            yield f"{name}, {late} late", open_loop_spectrum(sampled)
+            yield f"{name}, {late} late", mcexact.transfer_graph(sampled)
+
+
 def of_a_parameter() -> Iterator[tuple[str, Any]]:
     """The paper's example with one of its entries free, and the valves of four tanks."""
     for i in range(3):
@@ -297,6 +307,8 @@ def digests(asked: Iterable[tuple[str, MultiChannelSystem]]) -> dict[str, dict[s
             add_answer(answer, ("plants", name), ("questions", question))
     for name, answer in of_a_parameter():
         add_answer(answer, ("plants", f"with a parameter: {name}"), ("questions", answer.kind))
+    for name, answer in of_samples():
+        add_answer(answer, ("plants", f"at the samples: {name}"), ("questions", "at the samples"))
     for name, answer in of_regions():
         add_answer(answer, ("plants", f"a loop: {name}"), ("questions", "stability in a region"))
     for name, made in designs():
