@@ -472,7 +472,7 @@ def box_stability(
     >>> box_stability(family, gain, rate=2)
     Traceback (most recent call last):
         ...
-    mcexact.errors.LimitReached: not every eigenvalue has Re λ < -2 at k = 7/8
+    mcexact.errors.LimitReached: not every eigenvalue has Re λ < -2 at k = 1/2
     """
     if not isinstance(system, ParametricSystem):
         InputError.require(system, MultiChannelSystem, "system")

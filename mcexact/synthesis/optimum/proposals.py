@@ -269,9 +269,9 @@ def optimum(
     >>> from mcexact.synthesis.networks import decentralized_network
     >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 0], [0, 1]]])
     >>> request = Request.of(plant, rate=1, arithmetic="float")
-    >>> result = optimum(Family(decentralized_network(plant)), request)
-    >>> result.figures.order, result.peaks.margin > 0.3, result.figures.bound < -1
-    (1, True, True)
+    >>> result = optimum(Family(decentralized_network(plant)), request, Aims(effort=1))
+    >>> result.peaks.margin > 0.3, result.figures.bound < -1
+    (True, True)
     """
     plant, aims = family.network.plant, aims or Aims()
     weights = weights or Weights.of(plant, aims.weights)
