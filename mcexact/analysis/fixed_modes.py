@@ -85,7 +85,7 @@ from mcexact.derived.modular import (
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.krylov import controllable_subspace, stays_sparse
 from mcexact.exact.linear_algebra import PolynomialMatrix, inflate, nullspace_at
-from mcexact.exact.matrix import Matrix, block, block_diagonal, vstack
+from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, vstack
 from mcexact.exact.modular import polynomial_residues, primes, random_matrix, residues
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.rational import as_fraction
@@ -544,23 +544,18 @@ def _degree(
 
     ``arcs`` are given if some states may be on no path.
     """
-    A, B, C = system.A, system.input_matrix(c), system.output_matrix(c)
-    states = None if arcs is None else _on_paths(arcs, B, C)
-    parts = MultiChannelSystem(
-        A, [system.B(i) for i in c], [system.C(i) for i in c], time=system.time
-    )
+    A, inputs, outputs = system.A, [system.B(i) for i in c], [system.C(i) for i in c]
+    states = None if arcs is None else _on_paths(arcs, inputs, outputs)
     if states is not None:
-        A, B, C = A.take(states, states), B.take(rows=states), C.take(cols=states)
-        inputs = [M.take(rows=states) for M in parts.B]
-        outputs = [M.take(cols=states) for M in parts.C]
-        parts = MultiChannelSystem(A, inputs, outputs, time=system.time)
-    n = A.nrows
+        A = A.take(states, states)
+        inputs = [M.take(rows=states) for M in inputs]
+        outputs = [M.take(cols=states) for M in outputs]
+    n, B, C = A.nrows, hstack(inputs), vstack(outputs)
     merged = MultiChannelSystem(A, [B], [C], time=system.time)
     # Gains of the channels alone leave a sparse loop sparse.
-    drawn = best_sequences(parts if A.is_sparse else merged, system.denominator)
-    best = max(drawn, key=lambda each: each.degree)
-    if A.is_sparse:
-        best = _of_all_channels(best, parts)
+    apart = MultiChannelSystem(A, inputs, outputs, time=system.time) if A.is_sparse else merged
+    drawn = best_sequences(apart, system.denominator)
+    best = _of_all_channels(max(drawn, key=lambda each: each.degree), apart)
     if best.degree == n:
         return Degree(states, Matrix.zeros(0, n), (), Matrix.zeros(0, n), (), best if n else None)
     reached = controllable_subspace(A, B, rng)
@@ -607,11 +602,13 @@ def _arcs(A: Matrix) -> Arcs:
     return ahead, behind
 
 
-def _on_paths(arcs: Arcs, B: Matrix, C: Matrix) -> tuple[int, ...] | None:
+def _on_paths(
+    arcs: Arcs, inputs: Sequence[Matrix], outputs: Sequence[Matrix]
+) -> tuple[int, ...] | None:
     """The states on paths from inputs to outputs; None for all."""
     ahead, behind = arcs
-    driven = _closure({a for a, _, _ in B.nonzero()}, ahead)
-    measured = _closure({b for _, b, _ in C.nonzero()}, behind)
+    driven = _closure({a for B in inputs for a, _, _ in B.nonzero()}, ahead)
+    measured = _closure({b for C in outputs for _, b, _ in C.nonzero()}, behind)
     states = tuple(sorted(driven & measured))
     return None if len(states) == len(ahead) else states
 
