@@ -278,8 +278,7 @@ def warn_of_rounding(system: Plant) -> Plant:
     if _examine is None or _ignores(RoundingWarning):
         return system
     for text in _examine(system):
-        message = f"an answer depends on rounding errors: {text}"
-        warnings.warn(message, RoundingWarning, stacklevel=_callers_level())
+        warnings.warn(text, RoundingWarning, stacklevel=_callers_level())
     return system
 
 

@@ -169,7 +169,7 @@ def _warnings(system: MultiChannelSystem | ParametricSystem) -> list[str]:
     analysis = analyze(system, _ASKED)
     if analysis.nearby_left_out:
         return []
-    return [f"an answer depends on rounding errors: {text}" for text in analysis.nearby.doubts]
+    return list(analysis.nearby.doubts)
 
 
 def _used(rounding: Rounding | None, target: str) -> Rounding | None:

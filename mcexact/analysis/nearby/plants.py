@@ -170,8 +170,9 @@ class Nearby(Shown):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What is said of the plants that differ by rounding errors alone, one text for each."""
-        return tuple(each.explain() for each in self.plants if each.within == "rounding")
+        """Say that an answer depends on rounding errors, one text for each plant that shows it."""
+        near = (each.explain() for each in self.plants if each.within == "rounding")
+        return tuple(f"an answer depends on rounding errors: {text}" for text in near)
 
     @property
     def answers(self) -> dict[str, PencilRank]:
