@@ -12,6 +12,7 @@ its zeros, and its certificate is VALID.  Figures depend on the processor and it
 
 from __future__ import annotations
 
+import os
 import random
 import sys
 import time
@@ -20,6 +21,9 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
+
+# A second thread of OpenBLAS that waits for work takes time of the processor, too.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 
