@@ -37,7 +37,7 @@ from .arithmetic import NotAUnit
 from .budget import MORE, Budget, current, kept, limited
 from .cells import subject_of
 from .constructions import read_subject
-from .discs import at_values
+from .discs import LOOP, SAMPLED, at_values
 from .parametric_system import FunctionSystem, digest_of_values, plant_of, plant_of_file
 from .reading import (
     Json,
@@ -68,7 +68,6 @@ DIGEST = re.compile(r"[0-9a-f]{64}")
 LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
 """A statement, alone or in the line of its verdict."""
 CLAIM = 'a claim as a JSON object {"kind": ..., "subject": [...], "claim": {...}}'
-LOOP, SAMPLED = "closed_loop", "sampled"
 PLANT = ".plant"
 """The end of the name of a plant's file, behind its digest."""
 Plant = System | FunctionSystem
