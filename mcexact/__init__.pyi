@@ -173,6 +173,9 @@ from .report.text import to_pandas as to_pandas
 from .simulation.envelope import Envelope as Envelope
 from .simulation.envelope import proved_envelope as proved_envelope
 from .simulation.network import SignalNotReceived as SignalNotReceived
+from .simulation.real import Quantizer as Quantizer
+from .simulation.real import RealRun as RealRun
+from .simulation.real import simulate_real as simulate_real
 from .simulation.trajectory import Trajectory as Trajectory
 from .simulation.trajectory import simulate as simulate
 from .sweeps.run import Record as Record

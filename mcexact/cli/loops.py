@@ -15,7 +15,7 @@ search gives the largest part of the ranges with a proof, and values at which th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -59,9 +59,10 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import parse
 from mcexact.report.html import AnswerPage, EmbeddedPicture, shown_plant
 from mcexact.report.pages import loop_page
-from mcexact.report.simulation import SimulationReport
+from mcexact.report.simulation import RealReport, SimulationReport
 from mcexact.report.text import Table, tables
-from mcexact.simulation.envelope import simulated_loop
+from mcexact.simulation.envelope import loop_of, simulated_loop
+from mcexact.simulation.real import Quantizer, simulate_real
 from mcexact.synthesis.assessment import BASIS, Assessment, assessed_loop
 from mcexact.synthesis.certify import (
     account_of_verdict,
@@ -628,6 +629,7 @@ def simulated(
     suffix: str,
     fractions: bool,
     system_by_digest: bool,
+    real: Mapping[str, Any],
 ) -> Simulated:
     """Run a controller on a plant, prove bounds on the outputs, and format the results.
 
@@ -644,6 +646,8 @@ def simulated(
     fractions : bool
         Whether exact numbers are written as fractions.
     system_by_digest : bool
+    real : mapping
+        What makes the loop real: the sampling, limits, converters and code; empty if nothing does.
 
     Raises
     ------
@@ -655,8 +659,14 @@ def simulated(
         controller = read_controller(program[1], Limits(**limits))
     if wanted["initial"] is not None and len(wanted["initial"]) == 1:
         wanted = wanted | {"initial": wanted["initial"] * system.n}
-    simulation = simulated_loop(system, controller, **wanted)
-    report = SimulationReport(simulation, fractions)
+    report: SimulationReport | RealReport
+    if real:
+        run = simulate_real(system, controller, **_realized(system, real), **_signals(wanted))
+        warnings = controller.warnings_for(run.ideal.loop.plant)
+        report = RealReport(run, loop_of(run.ideal, system.name, warnings))
+    else:
+        report = SimulationReport(simulated_loop(system, controller, **wanted), fractions)
+    simulation = report.done
     account = Account({}, Context(system), Sentences([]))
     evidence = Evidence({}, {}, system.canonical_text())
     if simulation.envelope is not None:
@@ -670,3 +680,35 @@ def simulated(
         warnings=simulation.warnings,
         file=report.file(suffix),
     )
+
+
+def _signals(wanted: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of a simulation that a real loop has as well."""
+    return {name: value for name, value in wanted.items() if name not in ("arithmetic", "points")}
+
+
+def _realized(system: MultiChannelSystem, real: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of `simulate_real`; what is given once holds for all signals."""
+    p, q = (sum(size(i) for i in range(system.m)) for size in (system.p, system.q))
+    converters = {
+        "quantized_outputs": real["quantize_outputs"],
+        "quantized_inputs": real["quantize_inputs"],
+    }
+    given: dict[str, Any] = {name: real[name] for name in ("step", "late") if name in real}
+    if real["limits"] is not None:
+        given["limits"] = list(real["limits"]) * (p if len(real["limits"]) == 1 else 1)
+    for (name, texts), count_ in zip(converters.items(), (q, p), strict=True):
+        if texts is not None:
+            made = [_converter(each) for each in texts]
+            given[name] = made * (count_ if len(made) == 1 else 1)
+    return given | ({} if real["code"] is None else {"code": real["code"]})
+
+
+def _converter(numbers: Sequence[Fraction]) -> Quantizer:
+    """A converter of a step, or of bits and a range."""
+    if len(numbers) == 1:
+        return Quantizer(numbers[0])
+    bits, low, high = numbers
+    if bits.denominator != 1:
+        raise UsageError(f"expected a number of bits, found {bits}")
+    return Quantizer.of_bits(int(bits), low, high)

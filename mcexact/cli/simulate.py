@@ -40,6 +40,38 @@ def change_option(name: str, what: str) -> Callable[[options.F], options.F]:
     )
 
 
+def limit(text: str) -> tuple[Fraction | None, Fraction | None]:
+    """Parse LOW,HIGH; either may be left out.
+
+    Examples
+    --------
+    >>> limit("-1,1/2"), limit(",3")
+    ((Fraction(-1, 1), Fraction(1, 2)), (None, Fraction(3, 1)))
+    """
+    low, comma, high = text.partition(",")
+    if not comma:
+        raise click.BadParameter(f"expected LOW,HIGH such as -1,1, found '{text}'")
+    ends = [options.rational(each.strip()) if each.strip() else None for each in (low, high)]
+    return ends[0], ends[1]
+
+
+def converter(text: str) -> tuple[Fraction, ...]:
+    """Parse a step, or BITS:LOW,HIGH.
+
+    Examples
+    --------
+    >>> converter("1/100"), converter("12:-10,10")
+    ((Fraction(1, 100),), (Fraction(12, 1), Fraction(-10, 1), Fraction(10, 1)))
+    """
+    bits, colon, ends = text.partition(":")
+    if not colon:
+        return (options.rational(text),)
+    low, comma, high = ends.partition(",")
+    if not comma:
+        raise click.BadParameter(f"expected BITS:LOW,HIGH such as 12:-10,10, found '{text}'")
+    return tuple(options.rational(each.strip()) for each in (bits, low, high))
+
+
 @click.command(name="simulate", short_help="Run a controller as a network of agents.")
 @click.argument("file")
 @click.argument("controller")
@@ -74,6 +106,37 @@ def change_option(name: str, what: str) -> Callable[[options.F], options.F]:
     type=click.Choice(["exact", "multiprecision", "float"]),
     help="By default exact in discrete time and float in continuous time.",
 )
+@options.step
+@options.late
+@click.option(
+    "--limits",
+    multiple=True,
+    type=limit,
+    metavar="LOW,HIGH",
+    help="The real loop: the least and the largest value of inputs, such as --limits=-1,1; once "
+    "for all inputs, or once for each in the order of the channels. Either may be left out.",
+)
+@click.option(
+    "--quantize-outputs",
+    multiple=True,
+    type=converter,
+    metavar="STEP|BITS:LOW,HIGH",
+    help="The real loop: outputs are measured in steps, such as 1/100, or by a converter, such as "
+    "12:-10,10; once for all outputs or once for each.",
+)
+@click.option(
+    "--quantize-inputs",
+    multiple=True,
+    type=converter,
+    metavar="STEP|BITS:LOW,HIGH",
+    help="The same for inputs.",
+)
+@click.option(
+    "--code",
+    type=click.Choice(["double", "compiled"]),
+    help="The real loop: the arithmetic of the agents, by default doubles in the order of the "
+    "exported code; or that code in C, compiled here and run.",
+)
 @click.option(
     "--fractions",
     is_flag=True,
@@ -94,8 +157,15 @@ def command(file: str, controller: str, **values: Any) -> None:
     Shown are the outputs y, the inputs u, and the set-points r if there are any. If the loop is
     stable and nothing changes after the start, bounds on the outputs are proved, too; their
     certificate is checked, and --certificates writes it.
+
+    With --step, --limits, --quantize-outputs, --quantize-inputs or --code the real loop is run: the
+    plant at the samples, inputs that are held, late and limited, converters, and the arithmetic of
+    the exported code, from agents at 0. The ideal loop, about which something is proved, is shown
+    beside it, with settling times and control effort of both. A controller in continuous time is
+    taken at the samples by Tustin's rule; the ideal loop is then the one in continuous time.
     """
     run = Run(values)
+    real = _real(values)
     output, fractions = values.pop("output"), values.pop("fractions")
     suffix = "" if output is None else output.suffix
     if output is not None and suffix not in _FILES:
@@ -111,7 +181,7 @@ def command(file: str, controller: str, **values: Any) -> None:
     }
     plant, program = run.read(file), run.read(controller)
     doing = f"simulating {plant[0]}"
-    how = suffix, fractions, run.system_by_digest
+    how = suffix, fractions, run.system_by_digest, real
     answer = run.result(_simulated, plant, program, run.limits, wanted, *how, doing=doing)
     for warning in answer.warnings:
         click.echo(f"mcexact: warning: {warning}", err=True)
@@ -129,6 +199,22 @@ def command(file: str, controller: str, **values: Any) -> None:
 
     about = f"the simulation of {plant[0]}"
     run.conclude(answer, show, about=about, write=write).require_complete()
+
+
+_REAL = ("limits", "quantize_outputs", "quantize_inputs", "code")
+_IDEAL = {"arithmetic": "--arithmetic", "points": "--points", "fractions": "--fractions"}
+
+
+def _real(values: dict[str, Any]) -> dict[str, Any]:
+    """Take what makes the loop real from the values of the command; nothing if it is not."""
+    sampling = options.sampling(values)
+    real = {name: values.pop(name) for name in _REAL}
+    if not sampling and not any(real.values()):
+        return {}
+    for name, option in _IDEAL.items():
+        if values[name]:
+            raise click.UsageError(f"{option} is not for the real loop")
+    return sampling | {name: value or None for name, value in real.items()}
 
 
 def _numbers(text: str | None, name: str) -> list[Fraction] | None:

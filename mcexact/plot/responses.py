@@ -62,6 +62,17 @@ class Bounds(Protocol):
     def decay(self, times: Sequence[Fraction]) -> list[float]: ...
 
 
+class Beside(Protocol):
+    """A real loop beside the ideal one, as it is drawn."""
+
+    @property
+    def times(self) -> Sequence[Fraction]: ...
+    @property
+    def ideal(self) -> Run: ...
+    @property
+    def real(self) -> Run: ...
+
+
 class Located(Protocol):
     """A spectrum whose rate is enclosed between decimals."""
 
@@ -99,6 +110,38 @@ def responses(run: Run, ax: Any = None, *, envelope: Bounds | None = None) -> An
     for axis in (upper, lower):
         finished(axis, across=elapsed_label(run.time), columns=4)
     return upper.figure
+
+
+def real_responses(run: Beside, ax: Any = None) -> Any:
+    """Draw the outputs and the inputs of the real loop, and those of the ideal one dashed.
+
+    Parameters
+    ----------
+    run : RealRun
+    ax : two axes, optional
+        For the outputs and the inputs; by default those of a new figure.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    times = list(map(to_float, run.times))
+    for axis, kind in zip(several_axes(ax, 2), ("outputs", "inputs"), strict=True):
+        real, ideal = run.real.values(kind), run.ideal.values(kind)
+        named = len(real) <= NAMED
+        # The inputs are held between samples, and those of the ideal loop may not be.
+        style = "steps-post" if kind == "inputs" else "default"
+        for k, (name, values) in enumerate(real.items()):
+            color, label = f"C{k % 10}", plain_label(name) if named else None
+            axis.plot(times, values, color=color, linewidth=1.4, label=label, drawstyle=style)
+            beside = {"color": color, "linewidth": 1, "linestyle": "--", "alpha": 0.8}
+            axis.plot(times, ideal[name], label=None if k else "ideal loop", **beside)
+        what = kind if named else f"{len(real)} {kind}"
+        axis.set_title(f"{what} of the real loop", fontsize="medium")
+        axis.margins(x=0)
+        axis.grid(visible=True, alpha=0.3)
+        figure = finished(axis, across=elapsed_label(run.real.time), columns=4)
+    return figure
 
 
 def _draw_curves(axis: Any, run: Run, curves: Mapping[str, list[float]], what: str) -> None:

@@ -16,9 +16,10 @@ from mcexact.model.controller import Controller
 from mcexact.plot.canvas import PANEL, empty_figure, one_axis
 from mcexact.plot.eigenvalues import eigenvalues
 from mcexact.plot.graphs import MARKED, gains, graph, graph_size, structure
-from mcexact.plot.responses import decay, has_bounds, rate_text, responses
+from mcexact.plot.responses import decay, has_bounds, rate_text, real_responses, responses
 from mcexact.report.html import Picture
 from mcexact.simulation.envelope import Envelope, SimulatedLoop
+from mcexact.simulation.real import RealRun
 from mcexact.simulation.trajectory import Trajectory
 
 # Pictures of trajectories with their proved bounds, and of the eigenvalues of a closed loop.
@@ -37,6 +38,44 @@ def simulation_pictures(done: SimulatedLoop) -> list[Picture]:
     if spectrum is not None:
         drawn.append(spectrum_picture(spectrum, done.run.time, "Eigenvalues of the closed loop"))
     return [*drawn, *gains_pictures(run.loop.controller)]
+
+
+def real_pictures(run: RealRun, done: SimulatedLoop) -> list[Picture]:
+    """Draw outputs and inputs of the real loop beside the ideal one, and the eigenvalues.
+
+    Parameters
+    ----------
+    run : RealRun
+    done : SimulatedLoop
+        The ideal loop.
+    """
+    outputs, inputs = (one_axis(None, *PANEL) for _ in range(2))
+    real_responses(run, [outputs, inputs])
+    beside = "Dashed: the ideal loop."
+    words = [f"{_range_in_words(run.real, kind)} {beside}" for kind in ("outputs", "inputs")]
+    drawn = [
+        Picture(outputs.figure, "Outputs of the real loop", words[0]),
+        Picture(inputs.figure, "Inputs of the real loop", words[1]),
+    ]
+    spectrum = drawable(done.spectrum)
+    if spectrum is not None:
+        title = "Eigenvalues of the ideal loop"
+        drawn.append(spectrum_picture(spectrum, done.run.time, title))
+    return [*drawn, *gains_pictures(run.ideal.loop.controller)]
+
+
+def real_png(run: RealRun, title: str) -> bytes:
+    """Draw the real loop beside the ideal one in one PNG image, always with the same bytes."""
+    figure = empty_figure(9.2, 3.8)
+    figure.suptitle(title, parse_math=False)
+    real_responses(run, list(figure.subplots(1, 2).flat))
+    return _png(figure)
+
+
+def _png(figure: Any) -> bytes:
+    image = io.BytesIO()
+    figure.savefig(image, format="png", dpi=120, metadata={"Software": None})
+    return image.getvalue()
 
 
 def gains_pictures(controller: Controller) -> list[Picture]:
@@ -74,9 +113,7 @@ def simulation_png(done: SimulatedLoop) -> bytes:
         eigenvalues(spectrum, axes[panels - 1], time=done.run.time)
     for axis in axes[panels:]:
         axis.remove()
-    image = io.BytesIO()
-    figure.savefig(image, format="png", dpi=120, metadata={"Software": None})
-    return image.getvalue()
+    return _png(figure)
 
 
 def _at_rest(done: SimulatedLoop, spectrum: LoopSpectrum | None) -> LoopSpectrum | None:

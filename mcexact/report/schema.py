@@ -576,9 +576,42 @@ def simulate() -> Schema:
     return {
         "description": "a run of the loop: times, and the signals of the plant and of each agent",
         "type": "object",
-        "properties": named("mcexact-analysis/1") | {"system": _SYSTEM_IN_SHORT},
+        "properties": named("mcexact-analysis/1")
+        | {"system": _SYSTEM_IN_SHORT, "real": _real_loop()},
         "required": ["format", "time", "arithmetic", "times", "state", "agents"],
     }
+
+
+def _real_loop() -> Schema:
+    """The real loop beside the ideal one."""
+    column = rows(FLOAT)
+    converters = rows(some(record({"step": FLOAT, "low": some(FLOAT), "high": some(FLOAT)})))
+    both = record({"ideal": some(FLOAT), "real": some(FLOAT)})
+    agent = record(
+        {"name": TEXT}
+        | {
+            name: rows(column)
+            for name in ("outputs", "measured", "computed", "inputs", "reference")
+        }
+    )
+    output = {"name": TEXT, "rest": some(FLOAT), "settled": both, "largest_distance": both}
+    put = {"name": TEXT, "largest_modulus": both, "effort": both, "steps_at_a_limit": WHOLE}
+    return record(
+        {
+            "step": some(FLOAT),
+            "late": WHOLE,
+            "code": TEXT,
+            "limits": rows(rows(some(FLOAT), minItems=2, maxItems=2)),
+            "quantized_outputs": converters,
+            "quantized_inputs": converters,
+            "times": column,
+            "state": rows(column),
+            "agents": rows(agent),
+            "outputs": rows(record(output | {"apart": some(FLOAT)})),
+            "inputs": rows(record(put)),
+        },
+        says="the loop as it is installed: at the samples, with limits, converters and code",
+    )
 
 
 def allocate() -> Schema:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
 from fractions import Fraction
@@ -13,10 +14,11 @@ from typing import Any
 from mcexact.exact.matrix import finite, float_above, to_float
 from mcexact.exact.rational import digits_outward, rational_text
 from mcexact.exact.roots import is_discrete
-from mcexact.report.figures import simulation_pictures, simulation_png
+from mcexact.report.figures import real_pictures, real_png, simulation_pictures, simulation_png
 from mcexact.report.html import AnswerPage, shown_plant
 from mcexact.report.text import Table
 from mcexact.simulation.envelope import LARGEST, SimulatedLoop
+from mcexact.simulation.real import RealRun
 from mcexact.simulation.trajectory import SIGNALS, Trajectory, as_float
 
 # Trajectories as tables and as comma-separated values.
@@ -265,6 +267,161 @@ class SimulationReport:
             ),
             plant=shown_plant(done.run.loop.plant),
         )
+
+
+@dataclass(frozen=True)
+class RealReport:
+    """The displayed data of a real loop beside the ideal one.
+
+    Attributes
+    ----------
+    run : RealRun
+    done : SimulatedLoop
+        The ideal loop, with what is proved about it.
+    """
+
+    run: RealRun
+    done: SimulatedLoop
+
+    @property
+    def _ideal(self) -> SimulationReport:
+        return SimulationReport(self.done)
+
+    def tables(self, lines: int = 12) -> tuple[Table, ...]:
+        """Return the comparison, signals at some times, and bounds of the ideal loop."""
+        facts = "; ".join(self.run.realization.facts())
+        note = (
+            "settled: within 2 % of the largest distance from rest in the ideal loop; "
+            "effort: sum of u² times the time between samples; computed, not certified"
+        )
+        compared = Table(
+            f"{self.done.title}, the real loop beside the ideal one: {facts}",
+            ("", "ideal", "real"),
+            tuple(self.run.compared()),
+            note=note,
+        )
+        ideal = "; ".join(self._ideal.facts())
+        bounds = (replace(each, title=f"Ideal: {ideal}") for each in self._ideal.tables(lines)[1:])
+        return compared, self._shown(lines), *bounds
+
+    def _shown(self, lines: int) -> Table:
+        """Outputs and inputs of the real loop, and their distances from those of the ideal one."""
+        run, columns = self.run, dict[str, list[float]]()
+        signals = {kind: run.real.values(kind) for kind in ("outputs", "inputs")}
+        few = sum(map(len, signals.values())) <= _COLUMNS
+        for kind, values in signals.items():
+            beside = run.ideal.values(kind)
+            columns |= values if few else {f"|{SIGNALS[kind]}|": _largest_of(values.values())}
+            apart = [
+                [abs(a - b) for a, b in zip(values[name], beside[name], strict=True)]
+                for name in values
+            ]
+            columns[f"|{SIGNALS[kind]} - ideal|"] = _largest_of(apart)
+        rows = tuple(
+            (f"{to_float(run.times[k]):g}", *(f"{values[k]:.4g}" for values in columns.values()))
+            for k in shown_times(run.real, lines)
+        )
+        return Table("The real loop at some times", ("t", *columns), rows)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the ideal loop as a simulation has it, and the real one beside it."""
+        run = self.run
+        outputs, inputs = run.measured, run.computed
+        sizes = [
+            [len(each) for each in getattr(run.real.snapshots[0], kind)]
+            for kind in ("outputs", "inputs")
+        ]
+        agents = []
+        for i, name in enumerate(run.real.agents):
+            starts = [sum(size[:i]) for size in sizes]
+            parts = [
+                [row[start : start + size[i]] for row in rows]
+                for rows, start, size in zip((outputs, inputs), starts, sizes, strict=True)
+            ]
+            at = run.real.snapshots
+            agents.append(
+                {
+                    "name": name,
+                    "outputs": [each.outputs[i] for each in at],
+                    "measured": parts[0],
+                    "computed": parts[1],
+                    "inputs": [each.inputs[i] for each in at],
+                    "reference": [each.reference[i] for each in at],
+                }
+            )
+        real = {
+            **run.realization.to_dict(),
+            "times": [to_float(t) for t in run.times],
+            "state": [each.plant for each in run.real.snapshots],
+            "agents": agents,
+            "outputs": [
+                {
+                    "name": each.name,
+                    "rest": finite(each.rest),
+                    "settled": _both(*(None if t is None else to_float(t) for t in each.settled)),
+                    "largest_distance": _both(*each.peak),
+                    "apart": finite(each.apart),
+                }
+                for each in run.outputs
+            ],
+            "inputs": [
+                {
+                    "name": each.name,
+                    "largest_modulus": _both(*each.peak),
+                    "effort": _both(*each.effort),
+                    "steps_at_a_limit": each.at_limit,
+                }
+                for each in run.inputs
+            ],
+        }
+        return {**self._ideal.as_json(), "real": real}
+
+    def file(self, suffix: str) -> bytes:
+        """Return the content of a file with suffix .csv or .png; empty with another suffix."""
+        if suffix == ".csv":
+            return self._csv().encode("utf-8")
+        if suffix == ".png":
+            return real_png(self.run, self.done.title)
+        return b""
+
+    def _csv(self) -> str:
+        """All signals, as floats with all their digits."""
+        signals = self.run.signals()
+        stream = io.StringIO()
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(signals)
+        writer.writerows(zip(*(map(repr, values) for values in signals.values()), strict=True))
+        return stream.getvalue()
+
+    def page(self) -> AnswerPage:
+        """Return the page of the real loop."""
+        done = self.done
+        facts = [*self.run.realization.facts(), *(f"ideal: {each}" for each in self._ideal.facts())]
+        return AnswerPage(
+            title=done.title,
+            heading="A controller as it is installed, beside the ideal loop. Trajectories are "
+            "computed; what is proved is proved of the ideal loop.",
+            good=None if done.spectrum is None else done.spectrum.stable,
+            answer=(
+                *(f"{each[0].upper()}{each[1:]}." for each in facts),
+                *(f"warning: {each}" for each in done.warnings),
+            ),
+            pictures=tuple(each.embedded() for each in real_pictures(self.run, done)),
+            tables=self.tables(),
+            plant=shown_plant(done.run.loop.plant.plant),
+        )
+
+
+def _largest_of(curves: Iterable[Sequence[float]]) -> list[float]:
+    """The largest modulus of several curves at every time."""
+    return [max(map(abs, row)) for row in zip(*curves, strict=True)]
+
+
+def _both(ideal: float | None, real: float | None) -> dict[str, float | None]:
+    return {
+        key: None if value is None else finite(value)
+        for key, value in (("ideal", ideal), ("real", real))
+    }
 
 
 def radius_text(bound: Fraction) -> str:

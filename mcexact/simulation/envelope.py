@@ -20,10 +20,12 @@ from mcexact.answer.loops import LyapunovMethod, StabilityVerdict
 from mcexact.errors import InputError, McexactError
 from mcexact.exact.balls import exponential_above, power_above
 from mcexact.exact.linear_algebra import solve_nonsingular
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.matrix import Matrix, vstack
 from mcexact.exact.roots import StabilityRegion, is_discrete, root_above, steady_point
 from mcexact.model.controller import Controller
+from mcexact.model.loop import ClosedLoop
 from mcexact.model.system import MultiChannelSystem
+from mcexact.simulation.network import Drive
 from mcexact.simulation.trajectory import Trajectory, simulate
 
 LARGEST = 80
@@ -140,14 +142,19 @@ def _distance_from_rest(run: Trajectory) -> Matrix | None:
     for shared, private in zip(run.start.shared, run.start.private, strict=True):
         state += [*shared, *private]
     start = Matrix.column([*state, *[zero] * (N - len(state))])
-    plant = loop.plant
-    inputs = hstack([plant.B(i) for i in range(plant.m)], nrows=plant.n)
-    pushed = vstack([inputs, Matrix.zeros(N - plant.n, inputs.ncols)], ncols=inputs.ncols)
-    constant = loop.reference @ vstack(run.drive.references.at(zero), ncols=1)
-    constant = constant + pushed @ vstack(run.drive.disturbances.at(zero), ncols=1)
-    place = Matrix.identity(N) * Fraction(steady_point(run.time))
-    rest = solve_nonsingular(place - loop.matrix, constant)
+    rest = state_at_rest(loop, run.drive, zero)
     return None if rest is None else start - rest
+
+
+def state_at_rest(loop: ClosedLoop, drive: Drive, time: Fraction) -> Matrix | None:
+    """The state at which a loop rests with its signals of one time; None if there is none."""
+    plant, N = loop.plant, loop.dimension
+    inputs = plant.input_matrix()
+    pushed = vstack([inputs, Matrix.zeros(N - plant.n, inputs.ncols)], ncols=inputs.ncols)
+    constant = loop.reference @ vstack(drive.references.at(time), ncols=1)
+    constant = constant + pushed @ vstack(drive.disturbances.at(time), ncols=1)
+    place = Matrix.identity(N) * Fraction(steady_point(plant.time))
+    return solve_nonsingular(place - loop.matrix, constant)
 
 
 def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Matrix) -> Envelope:
@@ -211,13 +218,18 @@ def simulated_loop(
         As in `simulate`.
     """
     run = simulate(system, controller, **options)
+    return loop_of(run, system.name, controller.warnings_for(system))
+
+
+def loop_of(run: Trajectory, title: str | None, warnings: tuple[str, ...]) -> SimulatedLoop:
+    """Return a run with the spectrum of its loop and with proved bounds."""
     spectrum = None
     if run.loop.dimension <= LARGEST:
-        spectrum = closed_loop_spectrum(run.loop.matrix, system.time)
+        spectrum = closed_loop_spectrum(run.loop.matrix, run.time)
     return SimulatedLoop(
-        system.name or "simulation",
+        title or "simulation",
         run,
         spectrum,
         proved_envelope(run, spectrum),
-        controller.warnings_for(system) + (() if run.warning is None else (run.warning,)),
+        warnings + (() if run.warning is None else (run.warning,)),
     )

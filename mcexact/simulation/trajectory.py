@@ -256,7 +256,12 @@ class Grid:
 
 
 def chosen_grid(
-    loop: ClosedLoop, last: Fraction, horizon: Fraction | None = None, points: int | None = None
+    loop: ClosedLoop,
+    last: Fraction,
+    horizon: Fraction | None = None,
+    points: int | None = None,
+    *,
+    most: int = STEPS,
 ) -> Grid:
     """Choose the times of a run.
 
@@ -271,6 +276,8 @@ def chosen_grid(
     points : int, optional
         The number of equal intervals in continuous time, by default several for each radian of the
         fastest mode, within limits.
+    most : int
+        The largest number of steps that is chosen in discrete time.
 
     Notes
     -----
@@ -278,7 +285,7 @@ def chosen_grid(
     which says exactly how many eigenvalues are 0, where floating point cannot.
     """
     if is_discrete(loop.plant.time):
-        chosen = last + _steps(loop, _eigenvalues(loop)) if horizon is None else horizon
+        chosen = last + _steps(loop, _eigenvalues(loop), most) if horizon is None else horizon
         return Grid(tuple(Fraction(k) for k in range(math.ceil(chosen) + 1)))
     modes = _eigenvalues(loop)
     fastest = max(map(abs, modes), default=0.0)
@@ -319,7 +326,7 @@ def _duration(modes: list[complex]) -> Fraction:
     return Fraction(CONSTANTS / rate)
 
 
-def _steps(loop: ClosedLoop, modes: list[complex]) -> int:
+def _steps(loop: ClosedLoop, modes: list[complex], most: int) -> int:
     """The duration in discrete time, as a number of steps."""
     states = loop.dimension
     if states <= STEPS // 5:
@@ -329,11 +336,11 @@ def _steps(loop: ClosedLoop, modes: list[complex]) -> int:
         modes = sorted(modes, key=abs)[at_rest:]
     radius = max(map(abs, modes), default=0.0)
     if radius <= _SLOW:
-        return min(states + 3, STEPS)
+        return min(states + 3, most)
     constant = abs(math.log(radius))
-    if constant < CONSTANTS / STEPS:
-        return STEPS
-    return min(max(states + 3, math.ceil(_nice(Fraction(CONSTANTS / constant)))), STEPS)
+    if constant < CONSTANTS / most:
+        return most
+    return min(max(states + 3, math.ceil(_nice(Fraction(CONSTANTS / constant)))), most)
 
 
 def _nice(value: Fraction) -> Fraction:

@@ -21,11 +21,11 @@ STAGE = {
     "floating": 5,
     "synthesis": 6,
     "export": 7,
-    "simulation": 7,
-    "report": 8,
-    "crosschecks": 9,
-    "sweeps": 9,
-    "reproduce": 10,
+    "simulation": 8,
+    "report": 9,
+    "crosschecks": 10,
+    "sweeps": 10,
+    "reproduce": 11,
 }
 BESIDE = {"checker", "testing", "cli", "errors", "shown", "processes"}
 EXACT_STAGES = {"exact", "model", "derived", "answer", "analysis", "checker"}

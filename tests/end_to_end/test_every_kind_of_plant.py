@@ -58,7 +58,7 @@ CALLS: dict[str, tuple[tuple[str, ...], ...]] = {
         (*LOOP, "--largest"),
     ),
     "crosscheck": (("PLANT",),),
-    "simulate": ((*LOOP, "--horizon", "1"),),
+    "simulate": ((*LOOP, "--horizon", "1"), (*LOOP, "--step", "1/10", "--horizon", "1")),
     "convert": (("PLANT",), ("PLANT", "-o", "TEXT")),
     "c2d": (("PLANT", "--step", "1/10"),),
     "sweep": (("PLANT",),),

@@ -114,7 +114,9 @@ def test_loops_are_as_their_schemas_say(tmp_path: Path) -> None:
 def test_a_run_is_as_its_schema_says(tmp_path: Path) -> None:
     plant, controller = small(tmp_path), tmp_path / "c.json"
     save_controller(local_controllers(load_system(plant), [[[-1]], [[-1]]]), controller)
-    asked("simulate", "simulate", plant, str(controller), "--horizon", "1")
+    loop = plant, str(controller), "--horizon", "1"
+    asked("simulate", "simulate", *loop)
+    asked("simulate", "simulate", *loop, "--step", "1/4", "--limits=-1,1")
 
 
 def test_sweeps_and_lists_are_as_their_schemas_say(tmp_path: Path) -> None:
