@@ -7,7 +7,8 @@ than another search:
 - `sounder` asks for a margin of all inputs and of all outputs together, and for a loop that is not
   slower than the plant alone;
 - `more_damped` asks for a damping ratio, and `with_larger_box` for a box of plants around the given
-  one within which every loop seems stable, by faster and faster loops;
+  one within which every loop seems stable, by faster and faster loops, or by costs at the corners
+  of the box where a loop fails first (`Corners`);
 - `fastest` looks for the fastest rate at which a loop still keeps its margins: by factors of 1.5,
   then by bisection.
 
@@ -17,7 +18,7 @@ of this is floating point, and finding nothing proves nothing: there may be fast
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import isfinite, log, sqrt
@@ -29,7 +30,8 @@ from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.floating.margins import spectral_bound
 from mcexact.model.box import Box
 from mcexact.model.loop import closed_loop
-from mcexact.synthesis.optimum.descent import Target, inside, polished
+from mcexact.synthesis.optimum.corners import Corner, Corners
+from mcexact.synthesis.optimum.descent import Target, hardened, inside, polished
 from mcexact.synthesis.optimum.diagnosis import pace_of, region_of_pace, rounded_region
 from mcexact.synthesis.optimum.figures import TOGETHER, Figures, Shape
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, controller_of
@@ -48,6 +50,7 @@ _INSISTING, _HEAVY = 3, 10.0
 _NEARLY = 0.99
 """The part of the pace of the plant alone at which a loop does not count as slower."""
 _FURTHER = (1.0, 1.1, 1.2, 1.35, 1.6, 2.2)
+_ROUNDS, _FIRST_SHARE, _NEAR, _BEYOND, _INSIDE = 7, 0.01, 1.5, 1.2, 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,7 +239,9 @@ def more_damped(ladder: Ladder, best: Candidate, damping: float = DAMPING) -> Im
 def with_larger_box(
     ladder: Ladder, best: Candidate, part: Fraction | None = None, most: float = AFFORDABLE
 ) -> Improved:
-    """Ask for a box of plants within which every loop seems stable, by faster and faster loops.
+    """Ask for a box of plants within which every loop seems stable.
+
+    Faster and faster loops are tried first, then loops that are cheap at corners of the box, too.
 
     Parameters
     ----------
@@ -255,31 +260,67 @@ def with_larger_box(
     """
     own = best.problem.network.plant.uncertainty is not None
     aimed, whole = (Fraction(1), "the radii") if own else (part or BOX, "each entry")
+    cost = best.figures.cost
     seen = box_part(best)
     if seen is None and part is not None:
         return Improved(best, ("no box was sought: the loop is large, or its plant a derived one",))
     if seen is None or seen >= aimed:
         return Improved(best)
-    pace, found = _pace(best, ladder.target.region.time), best
     told = f"the loop stays stable for plants within about {percent(_short(seen))} of {whole}"
+    cheapest: Candidate | None = None
+    for loops in (_faster_loops, _loops_of_members):
+        for other in loops(ladder, best, aimed):
+            if _loses_margins(ladder, best, other) or other.figures.cost > 4 * most * cost:
+                break
+            if (box_part(other) or 0.0) >= aimed:
+                if other.figures.cost <= most * cost:
+                    return Improved(other)
+                if cheapest is None or other.figures.cost < cheapest.figures.cost:
+                    cheapest = other
+                break
+    if cheapest is None:
+        note = f"{told}: no loop for {percent(aimed)} was found (computed)"
+    else:
+        dearer = _dearer(cheapest.figures, best.figures)
+        note = f"{told}: {percent(aimed)} would cost {dearer} more (computed)"
+    return Improved(best, (note,))
+
+
+def _faster_loops(ladder: Ladder, best: Candidate, aimed: Fraction) -> Iterator[Candidate]:
+    """Faster and faster loops, each from the one before, whatever is aimed at."""
+    pace, found = _pace(best, ladder.target.region.time), best
     for _ in range(_WALK):
         pace *= _FASTER
         target = replace(ladder.target, region=region_of_pace(ladder.target.region.time, pace))
         other = followed(ladder, found, target, ladder.effort.part(_SHARE))
-        if other is None or _loses_margins(ladder, best, other):
-            break
-        found, reached = other, box_part(other) or 0.0
-        if other.figures.cost > most * best.figures.cost:
-            if reached >= aimed:
-                dearer = _dearer(other.figures, best.figures)
-                note = f"{told}: {percent(aimed)} would cost {dearer} more (computed)"
-                return Improved(best, (note,))
-            if other.figures.cost > 4 * most * best.figures.cost:
-                break
-        elif reached >= aimed:
-            return Improved(other)
-    note = f"{told}: no faster loop for {percent(aimed)} was found (computed)"
-    return Improved(best, (note,))
+        if other is None:
+            return
+        found = other
+        yield other
+
+
+def _loops_of_members(ladder: Ladder, best: Candidate, aimed: Fraction) -> Iterator[Candidate]:
+    """Loops that are cheap for plants at corners of the box, too, where loops fail first.
+
+    A round adds corners at which the loop of the round before fails, and the costs at all corners,
+    at nine tenths of the nearest failure, count more and more.
+    """
+    problem, box = best.problem, Corners.of(best.problem)
+    x, share, corners = problem.entries(best.K), _FIRST_SHARE, list[Corner]()
+    for _ in range(_ROUNDS):
+        K, part = problem.gain(x), ladder.effort.part(_SHARE)
+        for distance, corner in box.failing(K, part):
+            if distance < _NEAR * aimed and not any(map(corner.same, corners)):
+                corners.append(corner)
+        if not corners or part.over:
+            return
+        size = min(_BEYOND * float(aimed), *(_INSIDE * box.distance(K, each) for each in corners))
+        members = [box.member(each, size) for each in corners]
+        x, share = hardened(problem, x, ladder.target, part, members, share), 3 * share
+        other = candidate_of(ladder, best.step, problem, problem.gain(x))
+        if other is None:
+            return
+        yield other
 
 
 def box_part(candidate: Candidate) -> float | None:

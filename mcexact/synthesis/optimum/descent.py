@@ -71,9 +71,9 @@ _NO_POINTS: Complexes = np.zeros(0, dtype=np.complex128)
 
 @dataclass(frozen=True, eq=False)
 class Objective:
-    """(J_0 + σ J_a)/J* + μ e_T + Σ max(0, |K_ij|/g − 1)² + 100 e.
+    """(J_0 + σ J_a + τ Σ_k J_k)/J* + μ e_T + Σ max(0, |K_ij|/g − 1)² + 100 e.
 
-    Here e_T is `Margins.excess`, and e is `Shape.excess`.
+    Here e_T is `Margins.excess`, e is `Shape.excess`, and J_k are the costs of plants nearby.
 
     Attributes
     ----------
@@ -93,6 +93,10 @@ class Objective:
     shape : Shape
     scalings : pair of ndarray or None
         Those of the margins of all inputs and of all outputs together.
+    members : tuple of FeedbackProblem
+        The same problem for plants nearby, the cost of which counts, too.
+    share : float
+        τ.
     """
 
     problem: FeedbackProblem
@@ -104,6 +108,8 @@ class Objective:
     points: Complexes = field(default_factory=lambda: _NO_POINTS)
     shape: Shape = NO_LIMITS
     scalings: Scalings | None = None
+    members: tuple[FeedbackProblem, ...] = ()
+    share: float = 0.0
 
     def __call__(self, x: Floats) -> Valued:
         """Compute the objective and its gradient in the free entries of K.
@@ -111,7 +117,8 @@ class Objective:
         Returns
         -------
         float, ndarray
-            Infinite unless every eigenvalue of the shifted loop is stable.
+            Infinite unless every eigenvalue of the shifted loop is stable, and all loops of plants
+            nearby are.
         """
         problem = self.problem
         K, unshifted = problem.gain(x), 1.0 if problem.discrete else 0.0
@@ -120,6 +127,11 @@ class Objective:
             return INFINITE
         value = (plain + SHARE_OF_SHIFTED * shifted) / self.least
         G = (G0 + SHARE_OF_SHIFTED * Ga) / self.least
+        for member in self.members:
+            [(cost, Gk)] = quadratic_costs(member, K, (unshifted,))
+            if not np.isfinite(cost):
+                return INFINITE
+            value, G = value + self.share * cost / self.least, G + self.share * Gk / self.least
         if self.points.size and self.weight:
             excess, Gm = Margins(problem, K).excess(self.points, self.limits, self.scalings)
             if not np.isfinite(excess):
@@ -142,11 +154,11 @@ class Objective:
         """How many times the work of one Lyapunov equation an evaluation takes, about."""
         problem = self.problem
         if not self.points.size:
-            return 2.0
+            return 2.0 + len(self.members)
         rows, columns = problem.mask.shape
         # Each point multiplies the L × N, N × P matrices; an equation has some 25 N³ operations.
         of_points = len(self.points) * rows * columns / (6 * max(len(problem.A), 1) ** 2)
-        return float(4 + of_points)
+        return float(4 + of_points + len(self.members))
 
 
 # The BFGS method with a line search that accepts infinite values (Lewis and Overton 2013).
@@ -280,6 +292,8 @@ _PARTS = (0.5, 0.25, 0.12, 0.06)
 _MARGIN_ROUNDS, _MARGIN_STEPS = 6, 120
 _AIMED_FURTHER, _NEARLY = 1.1, 1.02
 """The peaks are penalized for margins a tenth larger than asked; a fiftieth larger is enough."""
+_AIMED_LAST, _LAST_WEIGHT, _HEAVY = 1.04, 300.0, 10.0
+"""Of the rounds after that, in which heavy penalties allow smaller margins and a lower cost."""
 _SETTLED = 60
 _DRAFT, _POLISH = 60, 400
 _TOLERANCE = 1e-4
@@ -518,17 +532,25 @@ def polished(
         value, _ = counted(x)
     if not np.isfinite(value):
         return
-    limits = target.limits.tightened(_AIMED_FURTHER)
+    limits, aimed = target.limits, _AIMED_FURTHER
     points = _NO_POINTS
     for _ in range(_MARGIN_ROUNDS):
         yield x
-        peaks = Margins(problem, problem.gain(x)).peaks(limits)
+        peaks = Margins(problem, problem.gain(x)).peaks(limits.tightened(aimed))
         effort.take(len(problem.A), replace(objective, points=_GRID).work)
-        if effort.over or peaks.keep(target.limits.tightened(_NEARLY)):
+        if effort.over:
             return
+        if peaks.keep(target.limits.tightened(_NEARLY)):
+            if not points.size or aimed == _AIMED_LAST:
+                return
+            aimed, weight = _AIMED_LAST, _LAST_WEIGHT
         points = np.unique(np.concatenate([points, peaks.points]))
         penalized = replace(
-            objective, weight=weight, limits=limits, points=points, scalings=peaks.scalings
+            objective,
+            weight=weight,
+            limits=limits.tightened(aimed),
+            points=points,
+            scalings=peaks.scalings,
         )
         x, _ = minimize(
             _counted(penalized, effort),
@@ -539,6 +561,50 @@ def polished(
         )
         weight *= 3
     yield x
+
+
+def hardened(
+    problem: FeedbackProblem,
+    x: Floats,
+    target: Target,
+    effort: Effort,
+    members: Sequence[FeedbackProblem],
+    share: float,
+) -> Floats:
+    """Minimize the objective together with the costs of plants nearby, from a loop with margins.
+
+    Parameters
+    ----------
+    problem : FeedbackProblem
+    x : ndarray
+        Free entries of K with which all these plants are stable, too.
+    target : Target
+    effort : Effort
+    members : sequence of FeedbackProblem
+        The same problem for these plants.
+    share : float
+        The weight of their costs.  It is a barrier: where a loop is hardly stable, its cost is
+        high.
+    """
+    limits = target.limits.tightened(_AIMED_LAST)
+    peaks = Margins(problem, problem.gain(x)).peaks(limits)
+    objective = replace(
+        _objective(problem, x, target),
+        weight=_HEAVY,
+        limits=limits,
+        points=peaks.points,
+        scalings=peaks.scalings,
+        members=tuple(members),
+        share=share,
+    )
+    x, _ = minimize(
+        _counted(objective, effort),
+        x,
+        steps=_SETTLED,
+        tolerance=_TOLERANCE,
+        stop=lambda: effort.over,
+    )
+    return x
 
 
 _GRID: Complexes = np.zeros(GRID_OF_PEAKS, dtype=np.complex128)

@@ -69,7 +69,14 @@ from mcexact.synthesis.optimum.problem import (
     quiet_floats,
     rounded,
 )
-from mcexact.synthesis.optimum.search import MOST_STATES, Candidate, Ladder, climbed, ranked
+from mcexact.synthesis.optimum.search import (
+    MOST_STATES,
+    Candidate,
+    Ladder,
+    climbed,
+    drawn_further,
+    ranked,
+)
 
 # The structures of decentralized and of extended control, by the order of the agents' states.
 
@@ -140,8 +147,9 @@ _LATE = (
 _LEAST_GAIN = 1.0
 _LARGEST_UNKNOWN = 1e3
 _LEAST_EFFORT, _LEAST_ENOUGH = 40_000.0, 1.05
-_FOR_MARGINS, _AFTERWARDS = 1.5, 0.5
-"""How much more effort there is for margins that were missed, and for what else is asked then."""
+_FOR_MARGINS, _FURTHER, _AFTERWARDS = 1.5, 1.0, 0.5
+"""How much more effort there is for margins that were missed, for more starts where the cost stays
+high, and for what else is asked then."""
 _EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE_SHARE = 60_000.0, 40, 5.0, 130, 0.25
 
 
@@ -360,6 +368,9 @@ def _completed(
         found = with_margins(_more(ladder, _FOR_MARGINS), result.candidates)
         candidates = tuple(ranked(ladder, [*found, *result.candidates]))
         result = replace(result, candidates=candidates)
+    if request.brisk is not None and result.candidates:
+        more = drawn_further(_more(ladder, _FURTHER), result.candidates)
+        result = replace(result, candidates=tuple(ranked(ladder, [*more, *result.candidates])))
     if request.brisk is None and not result.keeps_margins:
         return _slower(family, request, aims, weights, result) or result
     if result.candidates and (request.brisk is not None or aims.box is not None):

@@ -254,7 +254,7 @@ _SHIFTS = (1.0, 1.3, 1.7, 2.5, 4.0)
 _REACHES = ((1.0, 1.0), (10.0, 1.0), (100.0, 1.0), (10.0, 100.0))
 _FURTHER_REACHES = ((10.0, 10.0), (100.0, 10.0))
 _MOST_ENTRIES, _SETTLED = 1500, 3
-_BETTER, _GOOD = 0.97, 2.0
+_BETTER, _CLOSE, _GOOD = 0.97, 1.15, 2.0
 _SMALL = 20
 _STATIC = "static gains"
 
@@ -264,7 +264,8 @@ def steps_of(
 ) -> Iterator[Iterable[Start]]:
     """Yield the starts of each step, from the lowest order to the highest.
 
-    The orders end with one that hardly lowered the best price, if this price is moderate.
+    The orders end with one that hardly lowered the best price, if this price is moderate; larger
+    controllers of all agents together and of the agents' own parts follow unless it is low.
     """
     static = ladder.problem(ladder.structure(0))
     parts = [localities(static, ladder.weights, driven=each) for each in (False, True)]
@@ -288,8 +289,12 @@ def steps_of(
         yield _alone(ladder, static, parts[1], order)
         yield _drawn(ladder, problem, order, [*candidates, *(draft for _, draft in later)])
         if _BETTER * before < best_price(ladder, candidates) < _GOOD * ladder.enough:
-            return
+            break
+    if best_price(ladder, candidates) < _CLOSE * ladder.enough:
+        return
     yield observers
+    if best_price(ladder, candidates) < _GOOD * ladder.enough:
+        return
     # It takes long to construct, and is hardly ever a better start than what was found.
     small = static.n <= (_SMALL if candidates else MOST_STATES)
     proposed = ladder.theorem() if small and not ladder.effort.late else None
@@ -437,6 +442,8 @@ def _rank(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> Rank:
 
 _KEPT, _MOST_FREED, _SAME = 2, 3000, 1e-3
 _GOOD_ENOUGH, _DEAR, _HOPELESS = 2.0, 0.05, 1000.0
+_ENTERING, _BEHIND = 0.3, 1.5
+_FURTHER_SEEDS = 6
 
 
 def climbed(ladder: Ladder) -> list[Candidate]:
@@ -454,7 +461,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     candidates: list[Candidate] = []
     later: list[tuple[float, Start]] = []
     for step in steps_of(ladder, candidates, later):
-        drafts, dear = list[tuple[float, Start]](), False
+        drafts, dear, failures = list[tuple[float, Start]](), False, 0
         for start in filter(lambda each: ladder.allows(each.problem), step):
             if ladder.effort.over and (candidates or not ladder.effort.late):
                 break
@@ -463,7 +470,8 @@ def climbed(ladder: Ladder) -> list[Candidate]:
             if ladder.effort.over:
                 continue
             before = ladder.effort.left
-            value, draft = _draft(ladder, start)
+            value, draft = _draft(ladder, start, _ENTERING / 3**failures)
+            failures += not np.isfinite(value)
             if value <= ladder.enough and _finish(ladder, draft, candidates):
                 return candidates
             if np.isfinite(value) and value > ladder.enough:
@@ -483,6 +491,45 @@ def climbed(ladder: Ladder) -> list[Candidate]:
         if _finish(ladder, draft, candidates):
             break
     return candidates
+
+
+def drawn_further(ladder: Ladder, candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Follow more drawn starts, of the order of the best controller and of one more.
+
+    Parameters
+    ----------
+    ladder : Ladder
+    candidates : sequence of Candidate
+        The best first.
+
+    Returns
+    -------
+    list of Candidate
+        What was found on the way, not ranked, until the effort is spent.  Empty where the best
+        price is moderate.
+
+    Notes
+    -----
+    Where margins are dear the objective has many local optima, and the cheapest drafts need not
+    lead to the best of them.
+    """
+    found = list[Candidate]()
+    network = candidates[0].problem.network
+    sizes = zip(candidates[0].problem.orders, network.dimensions, strict=True)
+    least = max((sum(each) for each in sizes), default=0)
+    for seed, more in product(range(1, _FURTHER_SEEDS), (0, 1)):
+        if best_price(ladder, [*candidates, *found]) <= _GOOD * ladder.enough or ladder.effort.over:
+            break
+        problem = ladder.problem(ladder.structure(least + more))
+        if not problem.order or problem.size > _MOST_ENTRIES or not ladder.allows(problem):
+            continue
+        name = f"order {least + more} per agent, seed {seed}"
+        ladder.tell(f"{name}{_so_far(ladder, [*candidates, *found])}")
+        start = Start(name, problem, drawn_dynamics(problem, seed))
+        value, draft = _draft(ladder, start, _ENTERING)
+        if np.isfinite(value):
+            _followed(ladder, draft, found)
+    return found
 
 
 def _different(drafts: list[tuple[float, Start]]) -> list[tuple[float, Start]]:
@@ -519,23 +566,23 @@ def _as_it_is(ladder: Ladder, start: Start) -> list[Candidate]:
     return [] if candidate is None else [candidate]
 
 
-def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:
-    """Follow a start into the region and for a few steps; return its cost, too.
+def _draft(ladder: Ladder, start: Start, share: float) -> tuple[float, Start]:
+    """Follow a start into the region and for a few steps, with a share of the effort.
 
-    The cost is infinite if the region is not reached.  It leaves out the barrier, which is high at
-    the border of the region, from where polishing moves away.
+    Its cost is returned, too, which is infinite if the region is not reached.  It leaves out the
+    barrier, which is high at the border of the region, from where polishing moves away.
     """
     problem, x = start.problem, start.problem.entries(start.K)
     if problem.ties is not None:
         x = settled(problem, x, ladder.target, ladder.effort.part(0.4))
-    part = ladder.effort.part(0.3 if problem.ties is None else 0.5)
+    part = ladder.effort.part(share if problem.ties is None else 0.5)
     entered = inside(problem, x, ladder.target, part)
     if entered is None:
         return np.inf, start
     x, value = drafted(problem, entered, ladder.target, part)
     K = problem.gain(x)
     [(cost, _)] = quadratic_costs(problem, K, (1.0 if problem.discrete else 0.0,))
-    return min(cost, value), replace(start, K=K)
+    return min(cost, value * ladder.target.least), replace(start, K=K)
 
 
 def _finish(ladder: Ladder, draft: Start, candidates: list[Candidate]) -> bool:
@@ -562,12 +609,18 @@ def _followed(ladder: Ladder, draft: Start, candidates: list[Candidate]) -> bool
     if ladder.effort.over and candidates:
         return False
     part = ladder.effort.part(0.4 if problem.ties is None else 0.8)
-    for x in polished(problem, problem.entries(draft.K), ladder.target, part):
+    best = best_price(ladder, candidates)
+    peaks = Margins(problem, draft.K).peaks(ladder.target.limits)
+    # The cheapest loop of all is often a fragile one, from which no way leads to large margins.
+    weight = None if peaks.keep(ladder.target.limits) else 1.0
+    for x in polished(problem, problem.entries(draft.K), ladder.target, part, weight):
         candidate = candidate_of(ladder, draft.step, problem.untied, problem.gain(x))
         if candidate is not None:
             candidates.append(candidate)
             if ladder.fine(candidate) and ladder.keeps(candidate.problem, candidate.K):
                 return True
+            if candidate.figures.cost > _BEHIND * best:
+                break
     return False
 
 

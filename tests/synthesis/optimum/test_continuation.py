@@ -14,6 +14,7 @@ from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.optimum import continuation
 from mcexact.synthesis.optimum.continuation import (
     box_part,
     fastest,
@@ -162,6 +163,21 @@ def test_faster_loops_have_a_larger_box_and_the_box_is_reached_if_it_may_cost() 
     dear = with_larger_box(ladder, cheap, Fraction(1, 20))
     assert dear.candidate is cheap and len(dear.notes) == 1
     assert "computed" in dear.notes[0]
+
+
+def test_costs_at_corners_of_a_box_make_it_larger_where_faster_loops_may_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    ladder, slow = found(TWICE, [[-5.0, 3.0]])
+    aimed = Fraction(1, 4)
+    loops = [*continuation._loops_of_members(ladder, slow, aimed)]
+    reached = [box_part(each) or 0.0 for each in loops]
+    assert (box_part(slow) or 0.0) < 0.5 * float(aimed) <= float(aimed) <= max(reached)
+    assert sorted(reached) == reached
+    monkeypatch.setattr(continuation, "_faster_loops", lambda *_: iter(()))
+    wide = with_larger_box(ladder, slow, aimed, np.inf)
+    assert (box_part(wide.candidate) or 0.0) >= aimed and not wide.notes
+    assert wide.candidate.peaks.keep(MARGINS)
 
 
 @pytest.mark.parametrize("rate", ["1/5", 50])

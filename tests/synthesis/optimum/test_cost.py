@@ -69,7 +69,7 @@ def differences(function, x: np.ndarray, step: float = 1e-5) -> np.ndarray:
 
 @pytest.mark.parametrize("kind", NETWORKS)
 @pytest.mark.parametrize(
-    "part", ["cost", "single loops", "all inputs", "all ports", "gains", "shape"]
+    "part", ["cost", "single loops", "all inputs", "all ports", "gains", "shape", "members"]
 )
 def test_the_gradient_agrees_with_finite_differences(kind, part):
     of, x = stable(kind)
@@ -94,6 +94,9 @@ def test_the_gradient_agrees_with_finite_differences(kind, part):
         )
     elif part == "gains":
         objective = replace(objective, largest_gain=0.02)
+    elif part == "members":
+        members = replace(of, A=0.99 * of.A), replace(of, B=1.1 * of.B, C=0.9 * of.C)
+        objective = replace(objective, members=members, share=0.3)
     elif part == "shape":
         sizes = np.abs(np.linalg.eigvals(of.loop(x)))
         shape = Shape(damping=0.97, largest=0.9 * float(np.max(sizes)))
@@ -102,6 +105,14 @@ def test_the_gradient_agrees_with_finite_differences(kind, part):
     assert value > Objective(of, shift, least=3.0)(x)[0] or part == "cost"
     expected = differences(objective, x)
     assert np.allclose(gradient, expected, rtol=1e-5, atol=1e-6 * np.max(np.abs(expected)))
+
+
+def test_an_unstable_plant_nearby_makes_the_objective_infinite():
+    of, x = stable("decentralized")
+    objective = Objective(of, 0.9 if of.discrete else 0.5)
+    assert np.isfinite(objective(x)[0])
+    far = replace(of, A=of.A + 100 * np.eye(len(of.A)))
+    assert not np.isfinite(replace(objective, members=(of, far), share=1e-9)(x)[0])
 
 
 def with_filters(of: FeedbackProblem) -> FeedbackProblem:

@@ -169,6 +169,19 @@ def test_a_margin_that_is_too_small_is_raised_at_a_price():
     assert first.cost < last.cost
 
 
+def test_margins_are_not_larger_than_asked_where_they_are_dear():
+    plant = MultiChannelSystem([[0, 1], [1, 0]], [[[0], [1]]], [[[1, 0]]])
+    asked = request(plant, "1/10")
+    of = FeedbackProblem.of(decentralized_network(plant), (1,), Weights.unit(plant))
+    target = Target(asked.region)
+    start = inside(of, np.full(of.size, -0.5), target, Effort(1e5))
+    assert start is not None
+    cheapest, *_, last = polished(of, start, target, Effort(1e5))
+    before, after = (Margins(of, of.gain(x)).peaks(MARGINS) for x in (cheapest, last))
+    assert not before.keep(MARGINS) and after.keep(MARGINS)
+    assert min(after.disk / MARGINS.disk, after.margin / MARGINS.margin) < 1.05
+
+
 def test_a_start_with_less_than_the_slack_is_polished_all_the_same():
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     target = Target(request(plant, "1").region)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -10,8 +13,9 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum import search
-from mcexact.synthesis.optimum.figures import Aims, figures_of, shift_of
-from mcexact.synthesis.optimum.problem import FeedbackProblem, Weights
+from mcexact.synthesis.optimum.descent import Target
+from mcexact.synthesis.optimum.figures import MARGINS, Aims, figures_of, least_cost, shift_of
+from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
 from mcexact.synthesis.optimum.starts import local_regulators, localities
 from tests.synthesis.optimum.plants import coupled
 
@@ -72,3 +76,48 @@ def test_drafts_that_seem_to_lead_to_the_same_optimum_are_followed_once():
         (1.0005, 3),
         (2.0, 0),
     ]
+
+
+@pytest.mark.parametrize("size", [1, 100])
+def test_the_cost_of_a_draft_is_compared_with_what_is_enough_in_the_same_unit(size: int) -> None:
+    # Disturbances of this size make all costs larger by its square, and nothing else.
+    plant = coupled()
+    unit = Weights.unit(plant)
+    weights = replace(unit, W=size**2 * unit.W, V=size**2 * unit.V)
+    problem = FeedbackProblem.of(decentralized_network(plant), (0, 0, 0), weights)
+    region = StabilityRegion.of("continuous", rate="1/2")
+    least = least_cost(plant, weights)
+    assert least is not None
+    none: Any = None
+    target = Target(region, least=least)
+    ladder = search.Ladder(none, none, weights, target, 1.05 * least, Effort(1e5))
+    start = search.Start("gains", problem, np.array(problem.gain(np.full(problem.size, -9.0))))
+    value, draft = search._draft(ladder, start, 0.3)
+    cost = figures_of(draft.problem, draft.K, peak=False).cost
+    assert least <= value <= cost * (1 + 1e-9) and value > 0.5 * cost
+
+
+def test_further_starts_are_drawn_only_where_the_cost_is_high() -> None:
+    plant = MultiChannelSystem([[0, 1], [4, 0]], [[[0], [1]]], [[[1, 0]]])
+    weights = Weights.unit(plant)
+    network = decentralized_network(plant)
+    problem = FeedbackProblem.of(network, (1,), weights)
+    region = StabilityRegion.of("continuous", rate="1/10")
+    least = least_cost(plant, weights)
+    assert least is not None
+    none: Any = None
+    target = Target(region, 1e3, MARGINS, least)
+    told = list[str]()
+    ladder = search.Ladder(
+        lambda orders: (network, (orders,) if isinstance(orders, int) else tuple(orders)),
+        none, weights, target, 1.05 * least, Effort(4e3), tell=told.append,
+    )  # fmt: skip
+    K = np.array([[-60.0, 50.0], [10.0, -10.0]])
+    dear = search.candidate_of(ladder, "gains", problem, K)
+    assert dear is not None and dear.figures.cost > 2.1 * least
+    more = search.drawn_further(ladder, [dear])
+    assert more and min(each.figures.cost for each in more) < dear.figures.cost
+    assert {each.problem.order for each in more} <= {1, 2}
+    assert told and told[0].startswith("order 1 per agent, seed 1; so far")
+    cheap = replace(dear, figures=replace(dear.figures, cost=least))
+    assert search.drawn_further(ladder, [cheap]) == []
