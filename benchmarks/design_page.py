@@ -86,8 +86,8 @@ def exceptions(row: Row) -> list[str]:
         told.append(f"damping {row['damping']:.2g}")
     if row["seconds"] > SECONDS:
         told.append(f"{row['seconds']:.0f} seconds")
-    if row["install"] == "no":
-        told.append("not to be installed")
+    if row["install"] != "yes":
+        told.append("not to be installed" if row["install"] == "no" else "with care")
     return told
 
 
@@ -105,6 +105,11 @@ def reason(row: Row) -> str:
     central = (row.get("by hand") or {}).get("python-control")
     if central is not None and central["disk"] < DISK:
         told.append(f"one controller for all agents has a disk margin of {central['disk']:.2g}")
+    if row.get("beyond all") is not None:
+        told.append(
+            f"no controller, not even one for all agents, stabilizes a plant within "
+            f"{100 * row['beyond all']:.3g} % of each entry (proved)"
+        )
     if row["answer"] in ("designed", "theorem"):
         told += row["warnings"][:1]
     return "; ".join(told)
@@ -214,7 +219,8 @@ def _told_of_exceptions(rows: Rows) -> str:
         f"Of {len(rows)} requests, {odd} are exceptions: no controller, that of the theorem, a "
         f"cost above {RATIO:g} times the bound or not proved, a disk margin below {DISK}, a "
         f"damping ratio below {DAMPING}, more than {SECONDS:.0f} seconds, or a controller that "
-        "should not be installed. The most important warning of each is the reason."
+        "is to be installed with care or not at all. The most important warning of each is the "
+        "reason."
     )
 
 

@@ -1,27 +1,42 @@
 """What a design without a rate is answered with, as a row of a table.
 
 `answered` designs, proves the cost, its bound and the margins, searches a box, and asks for the
-verdict, as `mcexact design` does.
+verdict, as `mcexact design` does.  Every row has the same effort.  Where a plant within 1 % fails,
+`beyond_all` looks for one that no controller stabilizes, not even one that has all outputs and all
+inputs: then no controller is worth installing.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from fractions import Fraction
 from math import isfinite, nan
 from typing import Any
 
 from benchmarks.kept_rows import Row
 from mcexact import Aims
+from mcexact.analysis.boxes.failure import failing_plant
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.derived.constructions import merged
 from mcexact.errors import Impossible, LimitReached, OutOfReach
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.performance import performance_of
 
+EFFORT, BOX = 12.0, 3.0
+"""About the seconds for each search of a controller and of a box."""
+_FAILS, _MOST_STATES, _TRIES = 0.01, 60, 8
+
 
 def answered(
-    function: Callable[..., Design], system: MultiChannelSystem, effort: float, box: float
+    function: Callable[..., Design],
+    system: MultiChannelSystem,
+    effort: float = EFFORT,
+    box: float = BOX,
 ) -> Row:
     """The row of a plant: its figures, or the reason why there is no controller.
 
@@ -44,7 +59,36 @@ def answered(
         row = {"answer": "limit", "told": str(limit)}
     else:
         row = _figures(design, effort, box)
-    return {**row, "seconds": round(time.process_time() - began, 1)}
+    seconds = round(time.process_time() - began, 1)
+    fails = row.get("fails within")
+    if fails is not None and fails < _FAILS and system.n <= _MOST_STATES:
+        beyond = beyond_all(system)
+        row["beyond all"] = None if beyond is None else float(beyond)
+    return {**row, "seconds": seconds}
+
+
+def beyond_all(system: MultiChannelSystem) -> Fraction | None:
+    """The part of each entry within which a plant is that no controller stabilizes.
+
+    Returns
+    -------
+    Fraction or None
+        None if none was found, which proves nothing.  It is decided exactly that a mode of the
+        plant is fixed for all agents together, and is not stable.
+
+    Examples
+    --------
+    >>> beyond_all(MultiChannelSystem([[1, 0], [0, -1]], [[["1/10"], [1]]], [[[1, 1]]]))
+    Fraction(1, 1)
+    """
+    unit, region = Box.relative(system, 1).system, StabilityRegion(system.time)
+    box = Box(unit)
+    together = [(), tuple(range(system.m))]
+    near = failing_plant(box.nominal, box.radii, together, _TRIES, region)
+    if near is None:
+        return None
+    fixed = fixed_spectrum(merged(near.plant, [system.names])).polynomial
+    return None if region.contains_roots_of(fixed) else near.distance
 
 
 def _figures(design: Design, effort: float, box: float) -> Row:

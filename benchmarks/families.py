@@ -33,8 +33,6 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 SIZES = (10, 40, 120)
-EFFORTS = {10: (2.5, 2.0), 40: (4.0, 3.0), 120: (8.0, 4.0)}
-"""About the seconds for each search of a controller and of a box, by the number of states."""
 _LONGER = 30.0
 """The seconds of a second search, where the first one finds no controller."""
 
@@ -197,9 +195,9 @@ def row_of(kind: Kind, n: int, domain: str) -> Row:
     """The row of a plant of a family."""
     system = plant(kind, n, domain)
     function: Any = design_extended if kind.structure == "extended" else design_decentralized
-    found = answered(function, system, *EFFORTS[n])
+    found = answered(function, system)
     if found["answer"] == "limit":
-        again = answered(function, system, _LONGER, EFFORTS[n][1])
+        again = answered(function, system, _LONGER)
         found = {**again, "seconds": round(found["seconds"] + again["seconds"], 1)}
     return {**found, "by hand": made_by_hand(system)}
 

@@ -27,8 +27,6 @@ from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
-EFFORT, BOX = 12.0, 1.5
-"""Seconds for each search of a controller and of a box: all rows end in twenty minutes."""
 DESIGNS: dict[str, Any] = {
     "decentralized": design_decentralized,
     "extended": design_extended,
@@ -48,7 +46,7 @@ def row_of(name: str, structure: str) -> Row:
     """The row of a request; what is made by hand stands beside designs without communication."""
     plant = prepared(name, structure)
     hand = made_by_hand(plant) if structure == "decentralized" else {}
-    return {**answered(DESIGNS[structure], plant, EFFORT, BOX), "by hand": hand}
+    return {**answered(DESIGNS[structure], plant), "by hand": hand}
 
 
 def main(arguments: list[str]) -> int:

@@ -55,6 +55,7 @@ from mcexact.synthesis.optimum.diagnosis import (
 )
 from mcexact.synthesis.optimum.figures import (
     DISK,
+    LEAST_DAMPING,
     MARGIN,
     NO_LIMITS,
     TOGETHER,
@@ -81,7 +82,7 @@ LONGEST = 160
 """The characters of the first line."""
 _NO_DISK, _TIMES_THE_BOUND = 0.1, 3.0
 _FAILS, _FAILS_AT_ONCE = Fraction(1, 100), Fraction(1, 1000)
-_DAMPING, _SLOWER = 0.05, 0.99
+_SLOWER = 0.99
 _STEP_PEAK, _DIGITS = 2.0, 4
 _REFUTED = "within the given uncertainty there is a plant whose loop is not stable"
 _OPEN = "stability is not proved for everything within the given uncertainty"
@@ -340,7 +341,7 @@ class Assessment(Shown):
     def _of_eigenvalues(self) -> Iterator[tuple[str, str]]:
         seen, alone = self.figures, self.uncontrolled
         damping = shown(seen.damping)
-        if seen.damping < _DAMPING:
+        if seen.damping < LEAST_DAMPING:
             yield f"damping {damping}", f"the least damping ratio is {damping}"
         elif not self.shape.met(seen.damping, seen.fastest):
             text = (

@@ -1,11 +1,14 @@
 """The page of designs is made of the rows that were measured."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
 
 from benchmarks.design_page import PAGE, REMARKS, exceptions, page, ratio_of, reason, written
+from benchmarks.designed_rows import beyond_all
 from benchmarks.kept_rows import ROWS, Row, kept
+from mcexact.model.system import MultiChannelSystem
 
 DESIGNED: dict[str, Any] = {
     "name": "plant decentralized", "answer": "designed", "rate": "1/2", "states": 3, "order": 1,
@@ -50,6 +53,7 @@ def test_what_is_remarked_on_is_an_exception() -> None:
         ({"damping": 0.04}, ["damping 0.04"]),
         ({"seconds": 61.0}, ["61 seconds"]),
         ({"install": "no"}, ["not to be installed"]),
+        ({"install": "with care"}, ["with care"]),
         ({"answer": "theorem"}, ["the controller of the theorem"]),
         ({"answer": "refused", "told": "no control moves it"}, []),
         ({"answer": "limit", "told": "nothing was found"}, ["no controller: nothing was found"]),
@@ -70,6 +74,21 @@ def test_an_exception_of_a_plant_that_is_fragile_in_one_hand_says_so() -> None:
         "one controller for all agents has a disk margin of 0.05; a margin is low"
     )
     assert reason(DESIGNED) == ""
+
+
+def test_a_plant_nearby_that_no_controller_stabilizes_is_a_reason() -> None:
+    row = {**DESIGNED, "install": "with care", "beyond all": 0.00036, "warnings": ["it fails"]}
+    told = "stabilizes a plant within 0.036 % of each entry (proved); it fails"
+    assert reason(row) == f"no controller, not even one for all agents, {told}"
+    assert "beyond all" not in reason({**row, "beyond all": None})
+
+
+def test_no_controller_stabilizes_a_plant_whose_unstable_mode_is_fixed_for_all_agents() -> None:
+    plant = MultiChannelSystem([[1, 0], [0, -1]], [[["1/10"], [1]]], [[[1, 1]]])
+    assert beyond_all(plant) == 1
+    near = MultiChannelSystem([[1, 1], [1, 1]], [[[1], ["9/10"]]], [[[1, 0]]])
+    part = beyond_all(near)
+    assert part is not None and part < Fraction(1, 5)
 
 
 def test_a_refusal_is_listed_with_its_reason_and_counts_nowhere() -> None:

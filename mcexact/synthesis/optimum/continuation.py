@@ -33,7 +33,7 @@ from mcexact.model.loop import closed_loop
 from mcexact.synthesis.optimum.corners import Corner, Corners
 from mcexact.synthesis.optimum.descent import Target, hardened, inside, polished
 from mcexact.synthesis.optimum.diagnosis import pace_of, region_of_pace, rounded_region
-from mcexact.synthesis.optimum.figures import TOGETHER, Figures, Shape
+from mcexact.synthesis.optimum.figures import LEAST_DAMPING, TOGETHER, Figures, Shape
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, controller_of
 from mcexact.synthesis.optimum.search import Candidate, Ladder, candidate_of, ranked
 
@@ -217,23 +217,37 @@ def _pace_alone(problem: FeedbackProblem) -> float:
 
 
 def more_damped(ladder: Ladder, best: Candidate, damping: float = DAMPING) -> Improved:
-    """Ask for a damping ratio, and keep it where it costs little."""
+    """Ask for a damping ratio, and keep it where it costs little.
+
+    If it is not found, `LEAST_DAMPING` is enough, which the verdict on a design asks for.
+    """
     shape = ladder.target.shape
     if best.figures.damping >= damping or shape.damping is not None:
         return Improved(best)
-    other: Candidate | None = best
+    other, tried = best, list[Candidate]()
     for factor in _FURTHER:
         # The penalty is a soft one.
         target = replace(ladder.target, shape=Shape(factor * damping, shape.largest))
-        if other is not None and other.figures.damping < damping:
-            other = followed(ladder, other, target, ladder.effort.part(_SHARE))
-    aimed = f"a damping ratio of at least {damping:g}"
-    if other is None or other.figures.damping < damping or _loses_margins(ladder, best, other):
-        return Improved(best, (f"no loop with {aimed} was found (computed)",))
-    if other.figures.cost <= AFFORDABLE * best.figures.cost:
-        return Improved(other)
-    dearer = _dearer(other.figures, best.figures)
-    return Improved(best, (f"{aimed} would cost {dearer} more (computed)",))
+        following = followed(ladder, other, target, ladder.effort.part(_SHARE))
+        if following is None:
+            break
+        other = following
+        if not _loses_margins(ladder, best, other):
+            tried.append(other)
+        if other.figures.damping >= damping:
+            break
+    aimed, notes = f"a damping ratio of at least {damping:g}", tuple[str, ...]()
+    able = [each for each in tried if each.figures.damping >= damping]
+    if not able:
+        notes = (f"no loop with {aimed} was found (computed)",)
+        able = [each for each in tried if each.figures.damping >= min(LEAST_DAMPING, damping)]
+    if not able or (notes and best.figures.damping >= LEAST_DAMPING):
+        return Improved(best, notes)
+    cheapest = min(able, key=lambda each: each.figures.cost)
+    if cheapest.figures.cost <= AFFORDABLE * best.figures.cost:
+        return Improved(cheapest, notes)
+    dearer = _dearer(cheapest.figures, best.figures)
+    return Improved(best, notes or (f"{aimed} would cost {dearer} more (computed)",))
 
 
 def with_larger_box(

@@ -71,6 +71,21 @@ def test_damping_that_costs_little_is_taken_and_what_costs_much_is_told() -> Non
     assert note.startswith("a damping ratio of at least 0.07 would cost ") and "computed" in note
 
 
+@pytest.mark.parametrize(("reached", "taken"), [(0.058, True), (0.045, False)])
+def test_a_smaller_damping_ratio_is_better_than_none(
+    monkeypatch: pytest.MonkeyPatch, reached: float, taken: bool
+) -> None:
+    ladder, slow = found(SPRING, [[0.0, -0.02]])
+    other = replace(slow, figures=replace(slow.figures, damping=reached))
+    monkeypatch.setattr(continuation, "followed", lambda *_: other)
+    improved = more_damped(ladder, slow)
+    assert improved.candidate is (other if taken else slow)
+    assert improved.notes == ("no loop with a damping ratio of at least 0.07 was found (computed)",)
+    dear = replace(other, figures=replace(other.figures, cost=2 * slow.figures.cost))
+    monkeypatch.setattr(continuation, "followed", lambda *_: dear)
+    assert more_damped(ladder, slow).candidate is slow
+
+
 def test_a_damped_loop_is_left_alone() -> None:
     ladder, calm = found(DOUBLE, LEAD, (1,))
     before = ladder.effort.spent
