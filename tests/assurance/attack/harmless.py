@@ -15,6 +15,58 @@ CANONICAL = "the object `system` has to be equal to its canonical form as well"
 # The keys are conditions as they stand in the checker.
 # ruff: noqa: E501
 HARMLESS: dict[str, str] = {
+    "boxes.py: read_disk: box.plant is not None": (
+        "places of states are taken for those of ports then, and no frame proves of a state on the "
+        "whole border what is asked of a signal"
+    ),
+    "boxes.py: read_disk: bool(ports)": RAISES,
+    "cells.py: bottom_of: bool(below)": RAISES,
+    "constructions.py: sampled_within: decimals <= MOST_DECIMALS": (
+        "an enclosure to more decimals is as true, and its work is counted"
+    ),
+    "constructions.py: read_subject: name != LINE": (
+        "a line is not among the constructions of a plant without parameters, so that the document "
+        "is INCOMPLETE"
+    ),
+    "performance.py: symmetric: any((each > LARGEST for each in e))": (
+        "larger exponents are as exact, and the work is counted"
+    ),
+    "performance.py: require_positive: even": "every caller makes a symmetric matrix",
+    "performance.py: require_positive: all((S.rows[i][i] > 0 for i in range(n)))": (
+        "no congruence of a matrix that is not definite is dominant: this only spares work"
+    ),
+    "performance.py: require_positive: all((2 * bits[i][j] <= bits[i][i] + bits[j][j] + 1 for i in range(n) for j in range(i)))": (
+        "no congruence of a matrix that is not definite is dominant: this only spares work, and an "
+        "overflow on the way"
+    ),
+    "performance.py: loop_of: system.loop is not None": RAISES,
+    "performance.py: read_graph: (j, i) <= before or j == i": (
+        "the order of edges, and an edge from an agent to itself, say nothing"
+    ),
+    "performance.py: check_disk_margin: all(scaling)": (
+        "with 0 in the scaling the inequality has 0 on its diagonal, and is not strict"
+    ),
+    "performance.py: check_sector: all(scaling)": (
+        "with 0 in the scaling the inequality has no number above 0 at that place of its diagonal"
+    ),
+    "sharing.py: check_shared_dimensions: value is not None": RAISES,
+    "sharing.py: check_shared_dimensions: 0 <= below < value": (
+        "every cost is at least 0 and what is claimed to be attained is: a number out of these "
+        "bounds is proved in the same way, or cannot be"
+    ),
+    "sharing.py: check_shared_dimensions: not connected": (
+        "multipliers of any cuts prove their sum, those of connections too; the theorem has them not"
+    ),
+    "sharing.py: require_nested: integer(number, place) >= len(subsets)": RAISES,
+    "sharing.py: require_nested: inner is None or inner < subsets[number]": (
+        "multipliers of any cuts prove their sum; the theorem has it for nested ones"
+    ),
+    "sharing_gap.py: require_no_more_relays: relays <= most": (
+        "the search does not end without it, and its work is counted"
+    ),
+    "system.py: read_system: A.nrows != A.ncols or not items(listed, 'channels')": RAISES,
+    "system.py: _check_unused: not all((1 <= number <= q for number in listed))": USERS,
+    "system.py: _check_sizes: len(values) != count or any((x <= 0 for x in values))": USERS,
     "steps.py: positive: all((each > 0 for each in numbers))": (
         "a bound divided by a size below 0 is below every absolute value, and 0 raises an error"
     ),

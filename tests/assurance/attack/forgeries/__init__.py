@@ -15,6 +15,7 @@ from . import (
     box_traps,
     boxes,
     gains,
+    graph_traps,
     loops,
     modes,
     parametric,
@@ -67,6 +68,7 @@ FORGERS = {
 TRAPS: dict[str, Document] = {
     **plain_traps.TRAPS,
     **box_traps.TRAPS,
+    **graph_traps.TRAPS,
     **performance.TRAPS,
     **parametric_traps.SPECTRA,
     **parametric_traps.RANKS,

@@ -7,6 +7,7 @@ from tests.checker.box_plants import GAIN_RADII, LOOP_STABLE, STABLE, gains, unc
 from tests.checker.handmade import certificate, changed, plant, ranged
 from tests.checker.parameter_plants import fixed
 from tests.checker.parameter_plants import stable as stable_in_ranges
+from tests.checker.performance_plants import static
 from tests.oracle.drawn.plants import Document
 
 STILL = plant([[1, 0], [0, 2]], ([[0], [0]], [[1, 1]]))
@@ -33,6 +34,10 @@ def exact(rows: list[list[int]]) -> Document:
     return {"denominator": 1, "re": rows, "im": [[0] * len(row) for row in rows]}
 
 
+UNSURE = plant([["1/2"]], ([[1]], [[1]]), time="discrete", uncertainty=uncertain([[1]]))
+"""An eigenvalue from −1/2 to 3/2."""
+
+
 EXCHANGED = {
     "F": None,
     "Y": exact([[0, 1], [1, 0]]),
@@ -56,6 +61,19 @@ TRAPS: dict[str, Document] = {
     ),
     "radii of gains in another time": changed(
         LOOP_STABLE, ("claim.gain_radii", {**GAIN_RADII, "time": "discrete"})
+    ),
+    "a margin below 0": certificate(
+        "box_stable",
+        UNSURE,
+        {"bound": None, "gain_radii": None, "disk": {"at": "inputs", "margin": -1000}},
+        {
+            "nominal": {"method": "polynomial"},
+            "points": [1],
+            "growth": None,
+            "segments": [0, 0],
+            "frames": [{"V": exact([[1] * 3] * 3), "w": [[1] * 5]}],
+        },
+        static(UNSURE, "-1/4"),
     ),
     "a half that nothing is proved of": changed(
         fixed(FADING, [None], [gains((4, 1))]),

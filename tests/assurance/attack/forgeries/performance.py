@@ -6,8 +6,16 @@ import random
 from fractions import Fraction
 from typing import Any
 
-from tests.checker.handmade import certificate, changed, plant
-from tests.checker.performance_plants import CONTINUOUS_STEP, STEP, form, static
+from tests.checker.handmade import certificate, changed, matrix, plant
+from tests.checker.performance_plants import (
+    CONTINUOUS_STEP,
+    DRIVEN,
+    FALLING,
+    STEP,
+    form,
+    static,
+    weights,
+)
 from tests.oracle.drawn.plants import Document, number
 
 Forged = Document | None
@@ -197,7 +205,69 @@ HALF = plant([["-1/2"]], ([[1]], [[1]]))
 SEEN = plant([[0]], ([[1]], [[1]]), ([[0]], [[1]]), time="discrete")
 # 1/(1 - M) is 256.9, and with M rounded down to 16 bits 256.
 CREEPING = plant([["652809/655360"]], ([[1]], [[1]]), time="discrete")
+# Agent 1 moves the state of agent 2, which agent 2 itself can hardly move.
+HELPED = plant(
+    [[0, 0], [1, 2]],
+    ([[1], [0]], [[1, 0]]),
+    ([[0], ["1/16"]], [[0, 1]]),
+    time="discrete",
+)
+PRECISE = {"states": [1], "inputs": [1], "disturbances": [1], "noise": ["1/1000000"]}
 TRAPS: dict[str, Document] = {
+    "a share below 0": certificate(
+        "cost_bound",
+        DRIVEN,
+        {"weights": PRECISE, "cost": 4},
+        {
+            "groups": [
+                {
+                    "agents": ["1"],
+                    "disturbances": [1],
+                    "noise": ["1/1000000"],
+                    "P": form([4]),
+                    "S": form([2], exponent=-6),
+                    "F": matrix([0]),
+                    "share": -1,
+                }
+            ]
+        },
+    ),
+    "a group whose agent is helped by one outside": certificate(
+        "cost_bound",
+        HELPED,
+        {
+            "weights": weights(2, 2),
+            "cost": 500,
+            "graph": {"states": ["1", "2"], "edges": [["1", "2"], ["2", "1"]]},
+        },
+        {
+            "groups": [
+                {
+                    "agents": ["2"],
+                    "disturbances": [1],
+                    "noise": [1],
+                    "P": form([512]),
+                    "S": form([1], exponent=-1),
+                    "F": matrix([0]),
+                    "share": 0,
+                }
+            ]
+        },
+    ),
+    "white noise that passes to the input": certificate(
+        "loop_cost",
+        FALLING,
+        {"weights": weights(1, 1), "cost": 3},
+        {"P": form([1])},
+        static(FALLING, -1),
+    ),
+    "a scaling below 0": certificate(
+        "disk_margin",
+        FALLING,
+        {"at": "inputs", "together": False, "margin": 4},
+        {"parts": [{"ports": [0], "scaling": [-1], "P": form([1], exponent=-1)}]},
+        static(FALLING, 0),
+    ),
     "errors that need not fall": certificate(
         "step_peaks",
         STEP,

@@ -6,7 +6,9 @@ from typing import Any
 
 from tests.checker.handmade import (
     CHAIN,
+    COMPLETE,
     CUT,
+    FIXED,
     FREE,
     GENERIC,
     INTEGRATOR,
@@ -14,6 +16,7 @@ from tests.checker.handmade import (
     PAIR,
     PAPER,
     PAPER_SUBSPACE,
+    UNCONTROLLABLE,
     certificate,
     changed,
     layers,
@@ -86,6 +89,9 @@ def free(cut: Document) -> Document:
     """That nothing makes all modes of :data:`CROSSED` assignable."""
     return dimensions(CROSSED, None, 0, nothing(cut), free_assignability=True)
 
+
+STILL = plant([[1, 0], [0, 0]], ([[1], [0]], [[1, 0]]))
+"""The second state stays where it is."""
 
 NO_MORE = {"cuts": [], "tree": [{"multipliers": []}]}
 MEASURED = {"channels_T": ["1"], "U": layers([[1]]), "V": layers([[0]]), "pivots": [0]}
@@ -272,5 +278,62 @@ TRAPS: dict[str, Document] = {
     ),
     "a cut that unlimited dimensions satisfy": dimensions(
         PAPER, None, 0, nothing(behind(["2", "3"]))
+    ),
+    "a cut that a path crosses": certificate(
+        "completeness", CROSSED, {"complete": False}, {"from": ["1"]}
+    ),
+    "a cut behind which there is no channel": changed(
+        COMPLETE,
+        ("claim.complete", False),
+        ("witness", {"zero": {"from": ["1"], "X": matrix([1]), "pivots": [0]}}),
+    ),
+    "another multiplicity in A": changed(FIXED, ("claim.factors.0.multiplicity_in_A", 2)),
+    "a state in no block": certificate(
+        "fixed_spectrum",
+        STILL,
+        FREE["claim"],
+        {
+            "blocks": [
+                {
+                    "states": [0],
+                    "evidence": {"gains": [matrix([1])], "modulus": 7},
+                }
+            ],
+            "modulus": None,
+            "subspaces": [],
+        },
+    ),
+    "a direction in which the form is positive": certificate(
+        "stability",
+        plant([[-1]], ([[1]], [[1]])),
+        {"bound": None, "stable": False},
+        {"method": "instability", "P": matrix([1]), "R2": matrix([1]), "v": matrix([1])},
+    ),
+    "a row that annihilates the pencil at 0 alone": certificate(
+        "setpoint",
+        SHIFTED,
+        {"solvable": False, "rank": 2, "invariant_zero": False},
+        {
+            "modulus": 101,
+            "left": matrix([1, 0, -1]),
+            "pivots": [0],
+            "point": None,
+            "normal": layers([[1, 0, -1]]),
+        },
+    ),
+    "a determinant of 0 beside one that is a unit modulo 7 alone": certificate(
+        "exceptional_gains",
+        plant([[0, 7], [0, 0]], ([[0], [1]], [[0, 0]])),
+        {"M": matrix([0, -1], [0, 0]), "blocks": 2, "polynomial": [1], "roots": []},
+        {
+            "modulus": 7,
+            "factors": [],
+            "compressions": [matrix([0, 0], [0, 0]), matrix([1, 0], [0, 1])],
+        },
+    ),
+    "channels merged without one of them": changed(
+        UNCONTROLLABLE,
+        ("system.channels", [*PAIR["channels"], {"name": "2", "B": [[0], [1]], "C": [[0, 1]]}]),
+        ("subject", [{"construction": "merged", "parts": [["1"]]}]),
     ),
 }

@@ -35,11 +35,11 @@ def other_time(rng: random.Random, document: Document) -> Document:
 
 
 def other_line(rng: random.Random, document: Document) -> Document | None:
-    """Another line through the same plant, no line, or one behind another construction."""
+    """Another line, a point, another name, no line, or a line behind another construction."""
     steps = document["subject"]
     if not steps or steps[0]["construction"] != "line":
         return None
-    line, what = steps[0], rng.randrange(5)
+    line, what = steps[0], rng.randrange(7)
     values = line[rng.choice(("point", "direction"))]
     if what == 0:
         values[rng.choice(sorted(values))] = rng.choice((0, 1, -2, "1/3"))
@@ -50,6 +50,10 @@ def other_line(rng: random.Random, document: Document) -> Document | None:
         values[first], values[second] = values[second], values[first]
     elif what == 3:
         steps.append(steps.pop(0))
+    elif what == 4:
+        line["direction"] = dict.fromkeys(line["direction"], 0)
+    elif what == 5:
+        line["parameter"] = rng.choice(("x", "1", *sorted(values)))
     else:
         document["subject"] = steps[1:]
     return document
