@@ -13,7 +13,7 @@ def form(*rows: list[int], exponent: int = 0) -> Document:
     return {"exponents": [exponent] * len(rows), "entries": entries}
 
 
-def static(system: Document, *gains: int) -> Document:
+def static(system: Document, *gains: int | str) -> Document:
     """The loop with constant gains, one for each agent."""
     agents: list[Any] = [
         {
