@@ -509,7 +509,8 @@ def merged(system: System, step: dict[str, Json], place: str) -> System:
     if not all(parts) or parts != sorted(parts):
         malformed(place, "expected parts that are not empty, by their first members")
     whole = sorted(i for part in parts for i in part) == list(range(system.m))
-    require(whole, "subject", place, "expected every channel in exactly one part")
+    message = "expected every channel in exactly one part, and a part"
+    require(bool(parts) and whole, "subject", place, message)
     known = ["+".join(system.names[i] for i in part) for part in parts]
     distinct = len(set(known)) == len(known)
     require(distinct, "subject", place, "two channels would have the same name")
