@@ -32,6 +32,9 @@ from .analysis.in_units import disk_margin as disk_margin
 from .analysis.in_units import loop_cost as loop_cost
 from .analysis.in_units import sector_stability as sector_stability
 from .analysis.in_units import step_peaks as step_peaks
+from .analysis.modulo import MinimalRealization as MinimalRealization
+from .analysis.modulo import minimal_realization as minimal_realization
+from .analysis.modulo import modulo as modulo
 from .analysis.parameters.hypersurfaces import ParametricCompleteness as ParametricCompleteness
 from .analysis.parameters.hypersurfaces import ParametricTransferGraph as ParametricTransferGraph
 from .analysis.parameters.hypersurfaces import (
@@ -126,6 +129,8 @@ from .derived.constructions import setpoint_system as setpoint_system
 from .derived.constructions import slow_system as slow_system
 from .derived.constructions import union_graph as union_graph
 from .derived.drawn.systems import Draw as Draw
+from .derived.modulo import LeftOut as LeftOut
+from .derived.modulo import without_part as without_part
 from .derived.sampling import c2d as c2d
 from .derived.sampling import sampled_system as sampled_system
 from .derived.sampling import tustin as tustin

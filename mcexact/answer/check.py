@@ -48,6 +48,7 @@ from mcexact.derived.constructions import (
     setpoint_system,
     slow_system,
 )
+from mcexact.derived.modulo import without_part
 from mcexact.derived.sampling import sampled_system
 from mcexact.errors import InputError, InternalError, place_of, require_seconds, telling
 from mcexact.exact.linear_algebra import PolynomialMatrix
@@ -526,6 +527,9 @@ _CONSTRUCTIONS: Mapping[
     "held": lambda system, data: held_system(system, data["dimensions"]),
     "integrators": lambda system, _: setpoint_system(system),
     "merged": lambda system, data: merged(system, data["parts"]),
+    "modulo": lambda system, data: without_part(
+        system, data["part"], _matrix(data["annihilator"], system.n), data["pivots"]
+    ),
     "regulated": lambda system, data: regulated_outputs(
         system, _gains(data, [system.q(i) for i in range(system.m)])
     ),

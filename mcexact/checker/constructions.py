@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from . import evidence
-from .arithmetic import Matrix, beside, diagonal, stack
+from .arithmetic import Matrix, beside, characteristic_polynomial, diagonal, stack
 from .budget import spend, table
 from .evidence import inputs, outputs, read_gains
 from .reading import (
@@ -25,6 +25,8 @@ from .reading import (
     matrices,
     matrix,
     names,
+    polynomial,
+    positions,
     rational,
     require,
     shown,
@@ -40,6 +42,7 @@ from .system import (
     counted,
     digest_of,
     edge_set,
+    polynomial_text,
     prefixed,
     read_controller,
     suffixed,
@@ -461,7 +464,9 @@ def _registered(system: System, M: Matrix, late: int, one: int) -> System:
     )
 
 
-# Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``restricted`` and others.
+# Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``modulo`` and others.
+
+MODULO = ("part", "annihilator", "pivots", "polynomial")
 
 
 def dual(system: System, step: dict[str, Json], place: str) -> System:
@@ -518,6 +523,39 @@ def merged(system: System, step: dict[str, Json], place: str) -> System:
     words = f"with its channels merged into {sets}"
     B, C = [inputs(system, part) for part in parts], [outputs(system, part) for part in parts]
     return suffixed(system, words, names=known, B=B, C=C, neighbors=None, delays={})
+
+
+def modulo(system: System, step: dict[str, Json], place: str) -> System:
+    """x modulo the span of W, which no output shows; or x with W x = 0, as no input moves W x.
+
+    The first is the dual of the second for the dual system.
+
+    Theorems ``modulo.unobservable_part``, ``modulo.uncontrollable_part``.
+    """
+    side, rows, columns, factor = fields(step, place, *MODULO)
+    hidden = string(side, place, "unobservable", "uncontrollable") == "unobservable"
+    A, B, C = _turned(system.A, system.B, system.C) if hidden else (system.A, system.B, system.C)
+    chi = polynomial(factor, f"{place}.polynomial", 1)
+    W, Z = evidence.annihilator(rows, columns, place, A, B)
+    same = characteristic_polynomial(Z) == chi
+    require(same, "claim", f"{place}.polynomial", "not det(xI - Z)")
+    pivots = positions(columns, f"{place}.pivots", system.n)
+    kept = sorted(set(range(system.n)) - set(pivots))
+    D = W.take(None, kept)
+    A, *C = (M.take(None, kept) - M.take(None, pivots) @ D for M in (A, *C))
+    A, B = A.take(kept), [M.take(kept) for M in B]
+    if hidden:
+        A, B, C = _turned(A, B, C)
+    digest = with_digest(canonical_json({"pivots": pivots, "W": W}))
+    words = f"modulo an {side} part with the characteristic polynomial {polynomial_text(chi)}"
+    return suffixed(system, f"{words} and W with {digest}", A=A, B=B, C=C)
+
+
+def _turned(
+    A: Matrix, B: list[Matrix], C: list[Matrix]
+) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+    """The matrices of the dual system."""
+    return A.T, [M.T for M in C], [M.T for M in B]
 
 
 def restricted(system: System, step: dict[str, Json], place: str) -> System:
@@ -626,7 +664,7 @@ LINE = "line"
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
 LAST = (regulated, restricted, sampled, servo, slow)
 CONSTRUCTIONS = {
-    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, *LAST)
+    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, modulo, *LAST)
 }
 
 

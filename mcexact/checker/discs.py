@@ -306,7 +306,7 @@ def require_covered(
 
 # Boxes of plants, and constructions applied to them.
 
-LOOP, SAMPLED = "closed_loop", "sampled"
+LOOP, PART, SAMPLED = "closed_loop", "modulo", "sampled"
 NONE = System("", [], Matrix.zeros(0, 0), [], [])
 
 
@@ -363,6 +363,9 @@ def box_of(steps: Json, plant: System, kind: str) -> Box:
     for k, step in enumerate(computed):
         if step["construction"] == LOOP:
             message = "a closed loop is the last construction, for the kind box_stable alone"
+            incomplete("construction", f"subject[{k}]", message)
+        if step["construction"] == PART:
+            message = "a part of the nominal plant is none of every plant in a box"
             incomplete("construction", f"subject[{k}]", message)
     radii, members = _radii(computed, plant), members_in_words(plant)
     if any(step["construction"] == SAMPLED for step in steps):

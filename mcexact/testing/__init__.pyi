@@ -12,6 +12,7 @@ from .strategies import systems_on_graphs as systems_on_graphs
 from .strategies import systems_with_deficiency as systems_with_deficiency
 from .strategies import systems_with_fixed_mode as systems_with_fixed_mode
 from .strategies import systems_with_indices as systems_with_indices
+from .strategies import systems_with_joint_modes as systems_with_joint_modes
 from .strategies import systems_with_remnant as systems_with_remnant
 from .strategies import uncontrollable_systems as uncontrollable_systems
 

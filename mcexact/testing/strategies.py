@@ -262,6 +262,31 @@ def uncontrollable_systems(
 
 
 @st.composite
+def _with_joint_modes(draw: DrawFn, max_states: int, max_channels: int, time: str | None) -> Drawn:
+    choices = HypothesisChoices(draw)
+    n, m = choices.integer(1, max_states), choices.integer(1, max_channels)
+    return printed(draw, drawn.system_with_joint_modes(choices, n, m, time=_time(choices, time)))
+
+
+def systems_with_joint_modes(
+    max_states: int = 5, max_channels: int = 4, *, time: str | None = None
+) -> SearchStrategy[Drawn]:
+    """Systems with states that all channels together do not control, or do not observe.
+
+    Parameters
+    ----------
+    max_states, max_channels : int
+    time : {"continuous", "discrete"}, optional
+
+    Returns
+    -------
+    SearchStrategy of Drawn
+        With the ``order`` of a minimal realization, and the polynomial ``left_out`` of the rest.
+    """
+    return _with_joint_modes(max_states, max_channels, time)
+
+
+@st.composite
 def _sparse(draw: DrawFn, max_states: int, max_channels: int, time: str | None) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(0, max_states), choices.integer(1, max_channels)

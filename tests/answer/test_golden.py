@@ -158,6 +158,14 @@ def of_samples() -> Iterator[tuple[str, Any]]:
             yield f"{name}, {late} late", mcexact.transfer_graph(sampled)
 
 
+def of_parts() -> Iterator[tuple[str, Any]]:
+    """Plants without what no output shows, or what no input moves."""
+    for name in ("relative-positions-4", "swing-grid-four-buses"):
+        left = mcexact.modulo(gallery.load(name))
+        yield name, mcexact.fixed_spectrum(left)
+        yield f"{name}, dual", mcexact.fixed_spectrum(mcexact.dual(left))
+
+
 def of_a_parameter() -> Iterator[tuple[str, Any]]:
     """The paper's example with one of its entries free, and the valves of four tanks."""
     for i in range(3):
@@ -309,6 +317,8 @@ def digests(asked: Iterable[tuple[str, MultiChannelSystem]]) -> dict[str, dict[s
         add_answer(answer, ("plants", f"with a parameter: {name}"), ("questions", answer.kind))
     for name, answer in of_samples():
         add_answer(answer, ("plants", f"at the samples: {name}"), ("questions", "at the samples"))
+    for name, answer in of_parts():
+        add_answer(answer, ("plants", f"modulo: {name}"), ("questions", "modulo a part"))
     for name, answer in of_regions():
         add_answer(answer, ("plants", f"a loop: {name}"), ("questions", "stability in a region"))
     for name, made in designs():

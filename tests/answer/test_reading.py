@@ -16,6 +16,7 @@ from mcexact.derived.constructions import (
     regulated_outputs,
     servo_system,
 )
+from mcexact.derived.modulo import without_part
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
@@ -31,6 +32,12 @@ PLANT = MultiChannelSystem(
 )
 CONTINUOUS = MultiChannelSystem(
     [["-1/2", 1], [0, 2]], [[[1, 0], [0, 0]], [[], []]], [[[1, 1]], [[0, 1]]], names=["a", "b"]
+)
+HIDDEN = MultiChannelSystem(
+    [[1, 0, 0], [0, "1/3", 0], [0, 0, "1/3"]],
+    [[[1], [1], [0]], [[0], [2], [1]]],
+    [[[0, 2, -1]], [[3, 0, 0]]],
+    names=["a", "b"],
 )
 ONE_WAY = PLANT.with_neighbors(NeighborGraph(("a", "b"), [[], [0]]))
 GAINS = [[["1/3"], [2]], []]
@@ -53,6 +60,7 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "sampled": lambda: mcexact.sampled_system(CONTINUOUS, "1/10", 1),
     "servo": lambda: servo_system(PLANT, [[], [[0, 1]]]),
     "merged": lambda: mcexact.merged(PLANT, [["a", "b"]]),
+    "modulo": lambda: without_part(HIDDEN, "unobservable", [[0, "1/2", 1]]),
     "restricted": lambda: mcexact.restricted(PLANT, ["b"]),
     "error": lambda: mcexact.error_system(PLANT, FEEDBACK),
     "several": lambda: mcexact.dual(

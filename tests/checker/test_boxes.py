@@ -130,7 +130,18 @@ def test_a_loop_is_known_as_the_last_construction_alone() -> None:
     with pytest.raises(Refused) as refused:
         subject_of(CALM, "box_fixed", (step_of("dual"), LOOP))
     assert refused.value.args[:3] == ("INCOMPLETE", "construction", "subject[1]")
-    assert {*STEPS, CLOSED} == {*CONSTRUCTIONS}
+    assert {*STEPS, CLOSED, "modulo"} == {*CONSTRUCTIONS}
+
+
+def test_a_part_of_the_nominal_plant_is_none_of_every_plant_in_a_box() -> None:
+    still = plant([[0, 0], [0, 0]], ([[1], [0]], [[1, 0]]))
+    part = {"annihilator": matrix([0, 1]), "pivots": [1], "polynomial": [0, 1]}
+    for side in ("unobservable", "uncontrollable"):
+        step = {"construction": "modulo", "part": side, **part}
+        assert subject_of(still, "fixed_spectrum", (step,)).n == 1
+        with pytest.raises(Refused) as refused:
+            subject_of(still, "box_fixed", (step,))
+        assert refused.value.args[:3] == ("INCOMPLETE", "construction", "subject[0]")
 
 
 def test_a_loop_is_the_last_construction_of_a_claim_about_stability_alone() -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.checker import arithmetic
 from mcexact.checker.constructions import CONSTRUCTIONS, LINE, read_subject
 from mcexact.checker.reading import Refused
@@ -30,8 +31,9 @@ from mcexact.derived.constructions import (
     setpoint_system,
     slow_system,
 )
+from mcexact.derived.modulo import PARTS, without_part
 from mcexact.derived.sampling import sampled_system
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
@@ -69,6 +71,30 @@ def drawn_parts(rng: random.Random, system: MultiChannelSystem) -> list[list[str
     for name in rng.sample(system.names, system.m):
         found.setdefault(rng.randrange(system.m), []).append(name)
     return list(found.values())
+
+
+def without_drawn_part(rng: random.Random, system: MultiChannelSystem) -> MultiChannelSystem:
+    """All that no output shows or no input moves, or without dynamics some of it.
+
+    Where there is no such part, the plant gets a state that no output shows.
+    """
+    part = rng.choice(PARTS)
+    decide = joint_observability if part == "unobservable" else joint_controllability
+    W = decide(system).evidence.annihilator
+    if not W.nrows:
+        n = system.n
+        plant = MultiChannelSystem(
+            block([[system.A, Matrix.zeros(n, 1)], [drawn(rng, 1, n), drawn(rng, 1, 1)]]),
+            [block([[c.B], [drawn(rng, 1, c.B.ncols)]]) for c in system.channels],
+            [block([[c.C, Matrix.zeros(c.C.nrows, 1)]]) for c in system.channels],
+            time=system.time,
+            names=system.names,
+            neighbors=system.neighbors,
+        )
+        return without_part(plant, "unobservable", [[0] * n + [1]])
+    if system.A.is_zero():
+        W = W.take(rows=sorted(rng.sample(range(W.nrows), rng.randint(1, W.nrows))))
+    return without_part(system, part, W)
 
 
 def missing_arcs(system: MultiChannelSystem) -> list[tuple[int, int]]:
@@ -135,6 +161,7 @@ BUILDS: dict[str, list[Build]] = {
         lambda rng, s: sampled_system(s, Fraction(1, 2), decimals=rng.choice((0, 1, 30))),
     ],
     "merged": [lambda rng, s: merged(s, drawn_parts(rng, s))],
+    "modulo": [without_drawn_part],
     "slow": [lambda rng, s: slow_system(s, max(2 * s.n, 1) + rng.randint(0, 2))],
     "restricted": [lambda rng, s: restricted(s, rng.sample(s.names, rng.randint(1, s.m)))],
 }

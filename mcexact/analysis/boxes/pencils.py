@@ -39,6 +39,7 @@ from threadpoolctl import threadpool_limits
 
 from mcexact.answer.check import constructed
 from mcexact.answer.evidence import ComplexMatrix
+from mcexact.derived.modulo import MODULO
 from mcexact.derived.sampling import sampled_within
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float, vstack
@@ -698,6 +699,8 @@ def radii_of(system: MultiChannelSystem) -> Radii:
     for k, each in enumerate(system.subject):
         if each["construction"] == "closed_loop":
             raise UsageError("radii of a closed loop are a matter of box_stability")
+        if each["construction"] == MODULO:
+            raise UsageError("a part of the nominal plant is none of every plant in a box")
         if each["construction"] == "sampled":
             before = constructed(system.plant, _records(system.subject[:k]))
             how = Fraction(each["step"]), each["late"], each["decimals"]

@@ -22,6 +22,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 from mcexact.derived.drawn.networks import drawn_graph, network_system
 from mcexact.derived.drawn.primary_form import (
@@ -75,6 +76,10 @@ class Drawn:
     complete : bool or None
     deficiency : int or None
         The bound of Theorem 2 on shared dimensions (or of Remark 2) over the neighbor graph.
+    order : int or None
+        The least number of states of a system with the same transfer matrix.
+    left_out : Polynomial or None
+        The characteristic polynomial of A on what such a system leaves out: the joint fixed modes.
     """
 
     system: MultiChannelSystem
@@ -88,6 +93,8 @@ class Drawn:
     remnant: Polynomial | None = None
     complete: bool | None = None
     deficiency: int | None = None
+    order: int | None = None
+    left_out: Polynomial | None = None
 
 
 def jointly_controllable_system(
@@ -255,6 +262,98 @@ def uncontrollable_system(
         subset=tuple(range(channels)) if observable_side else (),
         complete=False,
     )
+
+
+def system_with_joint_modes(
+    choices: Choices, states: int, channels: int, *, time: str = "continuous"
+) -> Drawn:
+    """Draw a system with states that all channels together do not control or do not observe.
+
+    Parameters
+    ----------
+    choices : Choices
+    states, channels : int
+        n ≥ 1 and m ≥ 1.
+    time : {"continuous", "discrete"}
+
+    Returns
+    -------
+    Drawn
+        Its ``order`` is below n, and ``left_out`` has the degree n − ``order``.
+
+    Notes
+    -----
+    Before an integer change of the basis, with a system (A_22, B_2, C_2) that is jointly
+    controllable and observable, and a lower triangular block that is 0::
+
+            ⎡ A_11  A_12  A_13  A_14 ⎤        ⎡ B_1 ⎤
+            ⎢  0    A_22   0    A_24 ⎥        ⎢ B_2 ⎥
+        A = ⎢  0     0    A_33  A_34 ⎥ ,  B = ⎢  0  ⎥ ,   C = [ 0  C_2  0  C_4 ]
+            ⎣  0     0     0    A_44 ⎦        ⎣  0  ⎦
+
+    Examples
+    --------
+    >>> from mcexact.derived.drawn.primary_form import SeededChoices
+    >>> drawn = system_with_joint_modes(SeededChoices(2), states=4, channels=2)
+    >>> drawn.order, drawn.left_out.degree
+    (0, 4)
+    """
+    _require_sizes(states, channels)
+    if not states:
+        raise UsageError("a system without states is controllable and observable")
+    r = choices.integer(0, states - 1)
+    core = jointly_controllable_system(choices, r, channels, time=time).system
+    cuts = sorted(choices.integer(0, states - r) for _ in range(2))
+    sizes = [cuts[0], r, cuts[1] - cuts[0], states - r - cuts[1]]
+    block_of = [k for k, size in enumerate(sizes) for _ in range(size)]
+    start = sizes[0]
+    middle = range(start, start + r)
+
+    def entry(i: int, j: int) -> Fraction:
+        if i in middle and j in middle:
+            return core.A[i - start, j - start]
+        free = i < j if block_of[i] == block_of[j] else block_of[i] < block_of[j]
+        known = i == j or (free and (block_of[i], block_of[j]) != (1, 2))
+        return Fraction(choices.integer(-2, 2) if known else 0)
+
+    A = [[entry(i, j) for j in range(states)] for i in range(states)]
+    left_out = as_polynomial((1,))
+    for i in {*range(states)} - {*middle}:
+        left_out = left_out * Polynomial((-A[i][i], Fraction(1)))
+    B = [
+        [*([choices.integer(-1, 1) for _ in range(c.B.ncols)] for _ in range(start)), *c.B.rows()]
+        + [[0] * c.B.ncols] * (sizes[2] + sizes[3])
+        for c in core.channels
+    ]
+    C = [
+        [
+            [0] * start
+            + [*row]
+            + [0] * sizes[2]
+            + [choices.integer(-1, 1) for _ in range(sizes[3])]
+            for row in c.C.rows()
+        ]
+        for c in core.channels
+    ]
+    for _ in range(choices.integer(0, 2 * states)):
+        i, j, factor = choices.integer(0, states - 1), choices.integer(0, states - 1), 1
+        if i != j:
+            _add_state(A, B, C, i, j, factor)
+    system = MultiChannelSystem(
+        A,
+        [Matrix.from_rows(rows, ncols=c.B.ncols) for rows, c in zip(B, core.channels, strict=True)],
+        [Matrix.from_rows(rows, ncols=states) for rows in C],
+        time=time,
+    )
+    return Drawn(system, fixed_modes=True, order=r, left_out=left_out)
+
+
+def _add_state(A: Any, B: Any, C: Any, i: int, j: int, factor: int) -> None:
+    """Let x_i + factor x_j take the place of x_i."""
+    for rows in (A, *B):
+        rows[i] = [x + factor * y for x, y in zip(rows[i], rows[j], strict=True)]
+    for row in [*A, *(row for rows in C for row in rows)]:
+        row[j] -= factor * row[i]
 
 
 def sparse_system(

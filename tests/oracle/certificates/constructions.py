@@ -12,7 +12,17 @@ from .algebra import below, beside, identity, selection, stacked
 from .controllers import closed_loop
 from .networks import held, lifted
 from .one_parameter import along, read_parametric
-from .reading import demand, integer, listed, matrix, place, positions, record
+from .reading import (
+    demand,
+    integer,
+    listed,
+    matrix,
+    place,
+    polynomial,
+    positions,
+    record,
+    text,
+)
 from .rearranged import REARRANGING, rearranged
 from .sampling import sampled
 from .several_parameters import read_several
@@ -224,6 +234,42 @@ def merged(system: System, given: Mapping[str, Any]) -> System:
     return replace(system, names=names, B=B, C=C).plain()
 
 
+def modulo(system: System, given: Mapping[str, Any]) -> System:
+    """The block of A that is left where a change of the basis splits the part off."""
+    n, part = system.n, text(given["part"])
+    demand(part in ("unobservable", "uncontrollable"), "expected a part")
+    pivots = [integer(j, 0) for j in listed(given["pivots"])]
+    k = len(pivots)
+    demand(pivots == sorted(set(pivots)) and all(j < n for j in pivots), "expected positions")
+    demand(k > 0, "expected a part that is not empty")
+    W = matrix(given["annihilator"], k, n)
+    units = selection(n, pivots).transpose()
+    demand(W * units == identity(k), "expected the identity at the pivots")
+    others = selection(n, [j for j in range(n) if j not in pivots]).transpose()
+    whole, z = fmpq_mat(system.A), n - k
+    # The part comes last: along it, or what its rows measure.
+    P = beside([others, W.transpose()], n)
+    if part == "uncontrollable":
+        P = beside([others - units * (W * others), units], n)
+    left = P.inv()
+    A, B, C = left * whole * P, left * system.inputs(), system.outputs() * P
+    kept, gone = selection(n, range(z)), selection(n, range(z, n))
+    if part == "unobservable":
+        leaks = [kept * A * gone.transpose(), C * gone.transpose()]
+    else:
+        leaks = [gone * A * kept.transpose(), gone * B]
+    demand(all(x == 0 for M in leaks for x in M.entries()), "expected a part of this sort")
+    own = gone * A * gone.transpose()
+    demand(own.charpoly() == polynomial(given["polynomial"], monic=True), "expected another one")
+    down, up = kept * left, P * kept.transpose()
+    return replace(
+        system,
+        A=kept * A * kept.transpose(),
+        B=tuple(down * B_i for B_i in system.B),
+        C=tuple(C_i * up for C_i in system.C),
+    )
+
+
 def restricted(system: System, given: Mapping[str, Any]) -> System:
     """These channels, and no others."""
     chosen = positions(given["channels"], system.names)
@@ -292,6 +338,7 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     LINE: (("parameter", "point", "direction"), line),
     "error": (("gains",), error),
     "merged": (("parts",), merged),
+    "modulo": (("part", "annihilator", "pivots", "polynomial"), modulo),
     "regulated": (("gains",), regulated),
     "restricted": (("channels",), restricted),
     "sampled": (("step", "late", "decimals"), sampled),

@@ -198,6 +198,12 @@ def _words(step: Mapping[str, Any], system: System) -> str:
         return f"with the links {edges(added)} added to its neighbor graph"
     if kind == "merged":
         return f"with its channels merged into {', '.join(map(channels, step['parts']))}"
+    if kind == "modulo":
+        W = matrix(step["annihilator"], len(step["pivots"]), system.n)
+        which = digested({"W": W, "pivots": step["pivots"]})
+        p = polynomial_text(step["polynomial"])
+        part = f"an {step['part']} part with the characteristic polynomial {p}"
+        return f"modulo {part} and W with {which}"
     if kind == "restricted":
         return f"with the channels {channels(step['channels'])} alone"
     if kind == "line":

@@ -5,6 +5,9 @@ from __future__ import annotations
 import random
 from typing import Any
 
+from flint import fmpq_mat, fmpz_mat
+
+from tests.oracle.certificates.algebra import beside, krylov, selection
 from tests.oracle.certificates.constructions import subject_of
 from tests.oracle.certificates.reading import Unspecified
 from tests.oracle.certificates.systems import System
@@ -13,8 +16,8 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "slow", "integrators", "error", "merged", "regulated", "restricted", "sampled", "servo",
-    "closed_loop", "line",
+    "slow", "integrators", "error", "merged", "modulo", "regulated", "restricted", "sampled",
+    "servo", "closed_loop", "line",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "slow", "error")
 LARGEST = 12
@@ -71,11 +74,53 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
             [system.names[i] for i in range(m) if labels[i] == k] for k in dict.fromkeys(labels)
         ]
         step["parts"] = parts
+    elif name == "modulo":
+        return drawn_part(rng, system)
     elif name == "restricted":
         step["channels"] = [s for s in system.names if rng.random() < 0.6] or [*system.names[:1]]
     elif name == "closed_loop":
         step["controller"] = drawn_controller(rng, system)
     return step
+
+
+def drawn_part(rng: random.Random, system: System) -> Document | None:
+    """All that no output shows, or that no input moves, or what lies in both of two such parts."""
+    part = rng.choice(("unobservable", "uncontrollable"))
+    hidden = part == "unobservable"
+    A = system.A.transpose() if hidden else system.A
+    ports = system.outputs().transpose() if hidden else system.inputs()
+    if rng.random() < 0.3:  # of rows that also vanish on what a drawn vector reaches
+        ports = beside([ports, column(rng, system.n)], system.n)
+    reached = krylov(A, ports, system.n)
+    W, rank = left_kernel(reached).rref()
+    if not rank:
+        return None
+    rows = W.tolist()[:rank]
+    pivots = [next(j for j, x in enumerate(row) if x != 0) for row in rows]
+    W = fmpq_mat(rank, system.n, [x for row in rows for x in row])
+    own = W * A * selection(system.n, pivots).transpose()
+    numerators, d = W.numer_denom()
+    return {
+        "construction": "modulo",
+        "part": part,
+        "annihilator": {
+            "denominator": int(d),
+            "entries": [[int(x) for x in row] for row in numerators.tolist()],
+        },
+        "pivots": pivots,
+        "polynomial": [text_of(x) for x in own.charpoly().coeffs()],
+    }
+
+
+def column(rng: random.Random, n: int) -> fmpq_mat:
+    """A drawn vector, mostly of zeros."""
+    return fmpq_mat(n, 1, [rng.choice((0, 0, 0, 1, -1)) for _ in range(n)])
+
+
+def left_kernel(M: fmpq_mat) -> fmpq_mat:
+    """Rows w with w M = 0, which span all of them."""
+    X, nullity = fmpz_mat(M.transpose().numer_denom()[0]).nullspace()
+    return fmpq_mat(X).transpose() if nullity else fmpq_mat(0, M.nrows())
 
 
 def drawn_controller(rng: random.Random, system: System) -> Document:

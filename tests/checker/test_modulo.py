@@ -1,0 +1,160 @@
+"""The construction ``modulo``: a part of the state that no output shows, or that no input moves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from mcexact.checker.constructions import read_subject
+from mcexact.checker.reading import Refused
+from mcexact.checker.system import read_plant
+from tests.checker.handmade import (
+    FREE,
+    UNCONTROLLABLE,
+    Document,
+    certificate,
+    changed,
+    checked,
+    matrix,
+    plant,
+)
+from tests.checker.tables import accepts, rejects
+
+
+def part(side: str, W: Document, pivots: Any, polynomial: Any) -> Document:
+    """The construction with these parameters."""
+    return {
+        "construction": "modulo",
+        "part": side,
+        "annihilator": W,
+        "pivots": pivots,
+        "polynomial": polynomial,
+    }
+
+
+RELATIVE = plant([[0, 0], [0, 0]], ([[1], [0]], [[1, -1]]), ([[0], [1]], [[-1, 1]]))
+"""Two integrators that measure their distance: no output shows (1, 1)."""
+TOGETHER = part("unobservable", matrix([1, 1]), [0], [0, 1])
+DISTANCE = certificate(
+    "fixed_spectrum",
+    RELATIVE,
+    FREE["claim"],
+    {**FREE["witness"], "gains": [matrix([1]), matrix([1])]},
+    TOGETHER,
+)
+"""z = x_2 - x_1, z' = u_2 - u_1, y_1 = -z, y_2 = z."""
+UNMOVED = part("uncontrollable", matrix([0, 1]), [1], [-2, 1])
+"""Of diag(1, 2) the channel moves the first state alone."""
+FIRST = changed(
+    UNCONTROLLABLE,
+    ("subject", [UNMOVED]),
+    (
+        "claim",
+        {
+            "channels": ["1"],
+            "dimension": 1,
+            "controllable": True,
+            "uncontrollable_polynomial": [1],
+        },
+    ),
+    ("witness", {"modulus": 7, "annihilator": {"denominator": 1, "entries": []}, "pivots": []}),
+)
+SLANTED = plant([[1, 0], [1, 2]], ([[1], [-1]], [[1, 1]]))
+"""x_1 + x_2 is multiplied by 2 and no input moves it."""
+ALONG = certificate(
+    "closed_loop_spectrum",
+    SLANTED,
+    {"polynomial": [-1, 1]},
+    {"moduli": [7]},
+    part("uncontrollable", matrix([1, 1]), [1], [-2, 1]),
+)
+"""On x_2 = -x_1 the state x_1 has the eigenvalue 1."""
+ACROSS = certificate(
+    "closed_loop_spectrum",
+    plant([[1, 1], [0, 2]], ([[1], [1]], [[1, -1]])),
+    {"polynomial": [-1, 1]},
+    {"moduli": [7]},
+    part("unobservable", matrix([1, 1]), [0], [-2, 1]),
+)
+
+ACCEPTED = [
+    ("nothing is fixed modulo what two integrators have in common", DISTANCE),
+    ("the same by the other state", changed(DISTANCE, ("subject.0.pivots", [1]))),
+    ("the state that the channel moves is controlled", FIRST),
+    ("A on a slanted subspace", ALONG),
+    ("A modulo a slanted subspace", ACROSS),
+    (
+        "over a denominator",
+        changed(DISTANCE, ("subject.0.annihilator", matrix([2, 2], denominator=2))),
+    ),
+]
+
+W, PIVOTS, CHI = (f"subject.0.{key}" for key in ("annihilator", "pivots", "polynomial"))
+REJECTED = [
+    ("a subspace that an output shows", DISTANCE, (W, matrix([1, 0])), "INVALID"),
+    ("nearly the subspace", DISTANCE, (W, matrix([1, 2])), "INVALID"),
+    ("the other part", DISTANCE, ("subject.0.part", "uncontrollable"), "INVALID"),
+    ("the part of the dual", ALONG, ("subject.0.part", "unobservable"), "INVALID"),
+    ("a part that the input moves", FIRST, ((W, matrix([1, 0])), (PIVOTS, [0])), "INVALID"),
+    ("a subspace that A leaves", ACROSS, ("system.A", [[1, 1], [1, 2]]), "INVALID"),
+    ("the dual of a subspace that A leaves", ALONG, ("system.A", [[1, 1], [1, 2]]), "INVALID"),
+    ("another eigenvalue of the part", ACROSS, (CHI, [-1, 1]), "INVALID"),
+    ("the polynomial of the plant", ACROSS, (CHI, [2, -3, 1]), "INVALID"),
+    ("the polynomial 1", ACROSS, (CHI, [1]), "MALFORMED"),
+    ("a polynomial that is not monic", ACROSS, (CHI, [-4, 2]), "MALFORMED"),
+    ("no identity at the pivots", DISTANCE, (W, matrix([2, 2])), "INVALID"),
+    ("a pivot of zeros", FIRST, (PIVOTS, [0]), "INVALID"),
+    ("a pivot beyond the states", DISTANCE, (PIVOTS, [2]), "MALFORMED"),
+    ("a pivot below 0", DISTANCE, (PIVOTS, [-1]), "MALFORMED"),
+    ("a truth value for a pivot", DISTANCE, (PIVOTS, [False]), "MALFORMED"),
+    ("a pivot twice", DISTANCE, ((W, matrix([1, 1], [1, 1])), (PIVOTS, [0, 0])), "MALFORMED"),
+    (
+        "pivots in another order",
+        FIRST,
+        (("system.channels.0.B", [[0], [0]]), (W, matrix([0, 1], [1, 0])), (PIVOTS, [1, 0])),
+        "MALFORMED",
+    ),
+    ("more pivots than rows", DISTANCE, (PIVOTS, [0, 1]), "MALFORMED"),
+    (
+        "no rows",
+        DISTANCE,
+        ((W, {"denominator": 1, "entries": []}), (PIVOTS, []), (CHI, [1])),
+        "MALFORMED",
+    ),
+    ("a row too long", DISTANCE, (W, matrix([1, 1, 0])), "MALFORMED"),
+    ("another word for the part", DISTANCE, ("subject.0.part", "hidden"), "MALFORMED"),
+    ("a part that is no word", DISTANCE, ("subject.0.part", None), "MALFORMED"),
+    ("something given besides", DISTANCE, ("subject.0.dimension", 1), "MALFORMED"),
+    ("the whole plant", DISTANCE, ("subject", []), "INVALID"),
+    ("the same part twice", DISTANCE, ("subject", [TOGETHER, TOGETHER]), "MALFORMED"),
+]
+
+test_a_true_claim_without_a_part_is_accepted = accepts(ACCEPTED)
+test_anything_else_is_rejected = rejects(REJECTED)
+
+
+def test_the_theorem_names_the_part_that_was_left_out() -> None:
+    said = checked(DISTANCE).statement
+    assert "modulo an unobservable part with the characteristic polynomial x and W with " in said
+    assert '= {"W":[[1,1]],"pivots":[0]} (1 state, channels {"1", "2"}' in said
+    assert "modulo an uncontrollable part with the characteristic polynomial x - 2 and W" in (
+        checked(FIRST).statement
+    )
+
+
+def test_the_graph_and_its_delays_stay() -> None:
+    heard = {"neighbors": {"1": ["2"], "2": []}, "delays": {"1": {"2": 3}}}
+    made = read_subject([TOGETHER], read_plant({**RELATIVE, "time": "discrete", **heard}))
+    assert made.neighbors == [[0, 1], [1]] and made.delays == {(0, 1): 3}
+    assert made.names == ["1", "2"] and made.n == 1
+
+
+@pytest.mark.parametrize("side", ["unobservable", "uncontrollable"])
+def test_all_states_may_go(side: str) -> None:
+    idle = plant([[0, 1], [-1, 0]], ([[0], [0]], [[0, 0]]))
+    whole = part(side, matrix([1, 0], [0, 1]), [0, 1], [1, 0, 1])
+    assert read_subject([whole], read_plant(idle)).n == 0
+    with pytest.raises(Refused) as found:
+        read_subject([part(side, matrix([1, 0]), [0], [0, 1])], read_plant(idle))
+    assert found.value.verdict == "INVALID"
