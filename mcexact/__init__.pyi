@@ -47,6 +47,8 @@ from .analysis.parameters.modes import (
 from .analysis.parameters.ranks import signal_solvability as signal_solvability
 from .analysis.performance import default_weights as default_weights
 from .analysis.performance import influences as influences
+from .analysis.saturation import saturation_stability as saturation_stability
+from .analysis.saturation import with_anti_windup as with_anti_windup
 from .analysis.sharing import common_dimension as common_dimension
 from .analysis.sharing import minimal_communication as minimal_communication
 from .analysis.sharing import minimal_shared_dimensions as minimal_shared_dimensions
@@ -95,6 +97,7 @@ from .answer.performance import SectorStability as SectorStability
 from .answer.performance import StepPeaks as StepPeaks
 from .answer.protocol import Answer as Answer
 from .answer.protocol import save_certificate as save_certificate
+from .answer.saturation import SaturationStability as SaturationStability
 from .answer.several_parameters import ExceptionalHypersurfaces as ExceptionalHypersurfaces
 from .answer.several_parameters import Hypersurface as Hypersurface
 from .answer.several_parameters import RankHypersurfaces as RankHypersurfaces

@@ -116,7 +116,7 @@ def _decimal_above(x: Fraction, digits: int = 6) -> Fraction:
     return Fraction(math.ceil(x * Fraction(10) ** power)) / Fraction(10) ** power
 
 
-def _decimal_below(x: Fraction, digits: int = 6) -> Fraction:
+def decimal_below(x: Fraction, digits: int = 6) -> Fraction:
     """The largest decimal of so many significant digits that is at most x > 0."""
     if x <= 0:
         return x
@@ -463,7 +463,7 @@ def bound_of(
     proved = tuple(
         CostGroup(plant.named(part.agents), W, V, *bound[:-1]) for part, W, V, bound in proofs
     )
-    return CostBound(plant, weights, _decimal_below(total, 8), groups=proved, graph=graph)
+    return CostBound(plant, weights, decimal_below(total, 8), groups=proved, graph=graph)
 
 
 def influences(plant: MultiChannelSystem, *, messages: bool = True) -> CostGraph | None:
@@ -787,7 +787,7 @@ def _rounded_bound(
     F = dyadic_matrix(solutions[2], bits)
     share = Fraction(1) - Fraction(round(room * 2**20), 2**19)
     bound = bound_by(plant, weights, time, (forms[0], forms[1], F, share))
-    return None if bound is None else (forms[0], forms[1], F, share, _decimal_below(bound, 8))
+    return None if bound is None else (forms[0], forms[1], F, share, decimal_below(bound, 8))
 
 
 def bound_by(
@@ -886,7 +886,7 @@ def margin_of(
     # far from all poles T is 0, so that no norm is below 1/2
     worst = max([0.5, *(system.scaled_norm(each)[0] for each in groups)])
     for slack in _SLACK:
-        alpha = margin or _decimal_below(Fraction(1 / (worst * slack)), 3)
+        alpha = margin or decimal_below(Fraction(1 / (worst * slack)), 3)
         if parts := _margin_parts(system, alpha, groups):
             return DiskMargin(loop.system, at, together, alpha, parts)
     return None
@@ -904,7 +904,7 @@ def single_margin(response: PortResponse, port: int) -> Fraction | None:
     if response.unstable:
         return None
     worst = max(response.scaled_norm([port])[0], 0.5)
-    tried = (_decimal_below(Fraction(1 / (worst * slack)), 3) for slack in _SLACK)
+    tried = (decimal_below(Fraction(1 / (worst * slack)), 3) for slack in _SLACK)
     return next((alpha for alpha in tried if response.proved([port], alpha)), None)
 
 

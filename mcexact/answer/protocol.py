@@ -188,6 +188,7 @@ TOPICS = (
     "sharing_gap",
     "loops",
     "performance",
+    "saturation",
     "boxes",
     "parameters",
 )

@@ -14,6 +14,7 @@ from mcexact.answer import (
     nearby,
     parameters,
     performance,
+    saturation,
     several_parameters,
     sharing,
     sharing_gap,
@@ -41,8 +42,9 @@ ANALYSIS = Rulebook(
 ALLOCATION = Rulebook([*sharing.ALLOCATION_RULES, *sharing_gap.NOTE_RULES])
 PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 LINKS = sharing.LINK_RULES
-DESIGN = Rulebook([*loops.DESIGN, *performance.RULES])
-VERDICT = Rulebook([*loops.VERDICT, *performance.RULES])
+_OF_LOOPS = (*performance.RULES, *saturation.RULES)
+DESIGN = Rulebook([*loops.DESIGN, *_OF_LOOPS])
+VERDICT = Rulebook([*loops.VERDICT, *_OF_LOOPS])
 REFUSALS = loops.REFUSAL_RULES
 OWN: Mapping[str, Rulebook] = {
     "box_controllable": boxes.BOX_CONTROLLABLE_RULES,
@@ -124,7 +126,7 @@ TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze, with parameters": (PARAMETERS, (parameters,)),
     "allocate": (ALLOCATION, (sharing, sharing_gap)),
     "allocate --links": (LINKS, (sharing,)),
-    "design, certify": (Rulebook([*DESIGN, *VERDICT]), (loops, performance)),
+    "design, certify": (Rulebook([*DESIGN, *VERDICT]), (loops, performance, saturation)),
     "design, if there is none": (REFUSALS, (loops,)),
 }
 """The rules of each topic, and the modules that define their templates."""

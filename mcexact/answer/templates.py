@@ -394,6 +394,20 @@ def _sectors(sectors: Sequence[tuple[Fraction, Fraction]]) -> str:
     return pairs[0] if len(set(pairs)) == 1 else ", ".join(cut(pairs, 6))
 
 
+def _limits(by_channel: Sequence[tuple[str, Sequence[Any]]]) -> str:
+    """Write the limits of inputs, once if all inputs have the same."""
+    parts = []
+    for name, own in by_channel:
+        inputs = [name] if len(own) == 1 else [f"{name}[{k + 1}]" for k in range(len(own))]
+        parts += [(label, pair) for label, pair in zip(inputs, own, strict=True)]
+    pairs = {pair for _, pair in parts}
+    if len(pairs) == 1 and (only := pairs.pop()) is not None:
+        return f"{number(only[0])} to {number(only[1])}"
+    limited = ((label, pair) for label, pair in parts if pair is not None)
+    texts = [f"{label} {number(low)} to {number(high)}" for label, (low, high) in limited]
+    return ", ".join(cut(texts, 6))
+
+
 FORMS: dict[str, Write] = {
     "int": str,
     "int or open": lambda value: "open" if value is None else str(value),
@@ -488,6 +502,8 @@ FORMS: dict[str, Write] = {
     "weights": _weights,
     "proper": lambda only: " whose inputs do not depend on the outputs at once" if only else "",
     "sectors": _sectors,
+    "input limits": _limits,
+    "windup": lambda some: " and with the anti-windup gains of the controller" if some else "",
     "step": approximated,
     "late": lambda steps: f" and applied {count(steps, 'step')} late" if steps else "",
     "short late": lambda steps: f", {count(steps, 'step')} late" if steps else "",

@@ -28,6 +28,7 @@ from . import (
     modes,
     parameters,
     performance,
+    saturation,
     sharing,
     sharing_gap,
     steps,
@@ -53,6 +54,7 @@ from .reading import (
     string,
 )
 from .system import (
+    Saturation,
     System,
     canonical_json,
     described,
@@ -104,6 +106,9 @@ class Expectation:
         on them where they do not end with one.
     claim : object
         The claim as in a certificate; None for any.
+    saturation : tuple
+        For each agent the limits and the anti-windup gains in the file of the controller; empty
+        for any.
     """
 
     system: str = ""
@@ -115,6 +120,7 @@ class Expectation:
     kind: str = ""
     subject: Json = None
     claim: Json = None
+    saturation: Saturation = ()
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
         """Expect, in addition, that the certificate is about the plant in a system file."""
@@ -124,8 +130,8 @@ class Expectation:
 
     def controlled(self, data: bytes, limits: Limits) -> Expectation:
         """Expect, in addition, that it is about a loop with the controller in a controller file."""
-        controller, made_for = read_controller_file(data, limits)
-        return replace(self, controller=controller, made_for=made_for)
+        controller, made_for, saturation = read_controller_file(data, limits)
+        return replace(self, controller=controller, made_for=made_for, saturation=saturation)
 
     def saying(self, data: bytes, limits: Limits) -> Expectation:
         """Expect, in addition, a statement: as text, digest, line of a verdict, or claim.
@@ -220,6 +226,10 @@ class Expectation:
         require(self.kind in ("", kind), "expected", "kind", other)
         other = f"it states something else: {statement}"
         require(self.statement in ("", digest_of(statement)), "expected", "claim", other)
+        if self.saturation and kind == "saturation":
+            message = "other limits or anti-windup gains than those of the controller's file"
+            right = saturation.agrees(claim, self.saturation)
+            require(right, "controller", "claim", message)
         right = self.claim is None or same(claim, self.claim)
         message = f"another claim, which differs in {difference(claim, self.claim)}"
         require(right, "expected", "claim", f"{message} and states: {statement}")
@@ -319,6 +329,7 @@ KINDS = {
     ),
     "parametric_rank": Rule(parameters.check_parametric_rank, parameters.parametric_rank_statement),
     "pencil_rank": Rule(modes.check_pencil_rank, modes.pencil_rank_statement),
+    "saturation": Rule(saturation.check_saturation, saturation.saturation_statement),
     "sector": Rule(performance.check_sector, performance.sector_statement),
     "setpoint": Rule(structure.check_setpoint, structure.setpoint_statement),
     "shared_dimensions": Rule(sharing.check_shared_dimensions, sharing.shared_dimensions_statement),

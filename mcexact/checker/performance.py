@@ -318,13 +318,13 @@ def check_cost_bound(claim: Json, witness: Json, system: System) -> None:
         for key, value, rest, where in zip(
             ("disturbances", "noise"), intensities, left, (part.states, part.outputs), strict=True
         ):
-            taken = _entries(value, f"{place}.{key}", len(where))
+            taken = nonnegative(value, f"{place}.{key}", len(where))
             spend(budget.fractions(len(taken), budget.limbs_of(taken) + budget.limbs_of(rest)))
             for at, amount in zip(where, taken, strict=True):
                 rest[at] -= amount
                 message = "the groups take more than there is"
                 require(rest[at] >= 0, "intensity", f"{place}.{key}", message)
-        W, V = (diagonal_of(_entries(v, place, len(v))) for v in intensities)
+        W, V = (diagonal_of(nonnegative(v, place, len(v))) for v in intensities)
         Q, R = weights.Q.take(part.states, part.states), weights.R.take(part.inputs, part.inputs)
         own = Weights(Q, R, W, V, weights.bandwidth)
         total += group_bound(own, matrices_of(system, part), (P, S, F, share), place, system.time)
@@ -429,7 +429,7 @@ def group_bound(
     return trace(P @ W) + trace(F.T @ (R_s @ F) @ S)
 
 
-def _entries(value: Json, place: str, size: int) -> list[Fraction]:
+def nonnegative(value: Json, place: str, size: int) -> list[Fraction]:
     """Rationals from 0 on."""
     entries = [rational(entry, place) for entry in items(value, place, size)]
     spend(budget.LOOK * size)
@@ -484,7 +484,7 @@ def check_disk_margin(claim: Json, witness: Json, system: System) -> None:
         place = f"witness.parts[{k}]"
         chosen, theta, form = fields(entry, place, "ports", "scaling", "P")
         where = positions(chosen, f"{place}.ports", leave.nrows)
-        scaling = _entries(theta, f"{place}.scaling", len(where))
+        scaling = nonnegative(theta, f"{place}.scaling", len(where))
         require(all(scaling), "scaling", f"{place}.scaling", "expected numbers above 0")
         P = symmetric(form, f"{place}.P", loop.M.nrows)
         signals = loop.M, enter.take(cols=where), leave.at(where)
@@ -544,7 +544,7 @@ def check_sector(claim: Json, witness: Json, system: System) -> None:
         for pair in items(listed, "claim.sectors", p)
     ]
     require(all(a <= b for a, b in ends), "sector", "claim.sectors", "expected [a, b] with a <= b")
-    scaling = _entries(theta, "witness.scaling", p)
+    scaling = nonnegative(theta, "witness.scaling", p)
     require(all(scaling), "scaling", "witness.scaling", "expected numbers above 0")
     P = symmetric(form, "witness.P", loop.M.nrows)
     products = diagonal_of([t * a * b for t, (a, b) in zip(scaling, ends, strict=True)])

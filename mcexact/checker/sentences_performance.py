@@ -1,4 +1,4 @@
-"""Rules of sentences about costs, bounds for every controller, margins, sectors and steps.
+"""Rules of sentences about costs, bounds for every controller, margins, sectors, limits and steps.
 
 Most repeat one claim.  The cost of a loop is set beside a bound only where both certificates have
 the same weights: then the ratio of the two claims is at least that of the loop's cost and the cost
@@ -10,11 +10,12 @@ from . import budget
 from .budget import spend
 from .kinds import same
 from .reading import rational
-from .sentences import PLANT, Premise, Role, restate, rule
+from .sentences import PLANT, Premise, Role, either, restate, rule
 from .sentences_loops import CLOSED, LOOPS, alone, within
 
 COST, BOUND = Role(("loop_cost",), CLOSED), Role(("cost_bound",), PLANT)
 MARGIN, MARGINS = (Role(("disk_margin",), CLOSED, many=many) for many in (False, True))
+SATURATION = Role(("saturation",), CLOSED)
 SECTOR, STEPS = Role(("sector",), CLOSED), Role(("step_peaks",), CLOSED)
 
 restate("performance-cost", COST, lambda c: True)
@@ -102,6 +103,15 @@ of_steps("performance-input-steps", "inputs")
 of_steps("performance-output-steps", "outputs")
 of_steps("performance-setpoint-steps", "setpoints")
 restate("performance-sectors", SECTOR, lambda c: True)
+
+
+def everywhere(premise: Premise) -> bool:
+    """Whether a loop is stable from all states with its inputs cut off."""
+    return "region" not in premise.document["claim"]
+
+
+either("saturation-global", "saturation-region", SATURATION, everywhere)
+either("first-saturation", "first-saturation-region", SATURATION, everywhere)
 restate("first-box", LOOPS, lambda c: True, words=within)
 restate("first-radii", LOOPS, lambda c: True)
 restate("first-exact", LOOPS, alone)

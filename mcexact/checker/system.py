@@ -35,6 +35,7 @@ from .reading import (
     malformed,
     parse,
     printable,
+    rational,
     shown,
     string,
 )
@@ -376,7 +377,7 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
 
     ``typed`` is the same document with its numbers as texts, if there is one.
     """
-    unused = "format", "name", "source", "sample_time", "sizes", "D", "regulated"
+    unused = "format", "name", "source", "sample_time", "sizes", "D", "regulated", "limits"
     extra = () if limits is None else unused
     keys = ("time", "A", "channels")
     optional = ("neighbors", "delays", "uncertainty", *extra)
@@ -406,7 +407,7 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
 
 def _check_unused(plant: System, unused: list[Json], limits: Limits) -> None:
     """Read the parts of a system file on which no claim depends: they are not in the digest."""
-    name, source, sample_time, sizes, D, regulated = unused
+    name, source, sample_time, sizes, D, regulated, ranges = unused
     for key, text in (("name", name), ("source", source)):
         printable("" if text is None else text, key, 10_000, allowed="\n\t")
     period = None if sample_time is None else number(sample_time, "sample_time", limits)
@@ -421,6 +422,28 @@ def _check_unused(plant: System, unused: list[Json], limits: Limits) -> None:
                 malformed("regulated", f"expected outputs from 1 to {q}")
         else:
             read_matrix(held, "regulated", None, q, limits)
+    for _, i, listed in reading.by_name(ranges, "limits", plant.names):
+        read_limits(listed, "limits", plant.B[i].ncols, limits)
+
+
+def read_limits(
+    value: Json, place: str, count: int, limits: Limits | None = None
+) -> list[tuple[Fraction, Fraction] | None]:
+    """The least and the largest value of each input of some; None for one without limits."""
+    ranges: list[tuple[Fraction, Fraction] | None] = []
+    for pair in items(value, place, count):
+        if pair is None:
+            ranges.append(None)
+            continue
+        low, high = (_end(end, place, limits) for end in items(pair, place, 2))
+        if not low <= 0 <= high or low == high:
+            malformed(place, "expected limits that contain 0")
+        ranges.append((low, high))
+    return ranges
+
+
+def _end(value: Json, place: str, limits: Limits | None) -> Fraction:
+    return rational(value, place) if limits is None else Fraction(number(value, place, limits))
 
 
 def _check_sizes(plant: System, sizes: Json, limits: Limits) -> None:
@@ -666,7 +689,8 @@ def read_controller(
     """
     time, listed = fields(value, place, "time", "agents")
     keys = ("name", "shared", "private", *MAPS)
-    agents = [fields(agent, place, *keys, optional=("hold",)) for agent in items(listed, place)]
+    optional = ("hold", *(SATURATION if limits is not None else ()))
+    agents = [fields(agent, place, *keys, optional=optional) for agent in items(listed, place)]
     if not agents:
         malformed(place, "expected at least one agent")
     known = reading.own_names([agent[0] for agent in agents], [place] * len(agents))
@@ -675,7 +699,7 @@ def read_controller(
     p = [B.ncols for B in ports.B] if ports else [None] * len(known)
     x, z = ([integer(agent[k], place) for agent in agents] for k in (1, 2))
     programs: list[dict[str, Json]] = []
-    for i, (*_, shared_update, private_update, control, hold) in enumerate(agents):
+    for i, (_, _, _, shared_update, private_update, control, hold, *_) in enumerate(agents):
         steps = {name: integer(d, place) for name, _, d in reading.by_name(hold, place, known)}
         program: dict[str, Json] = {"hold": {name: d for name, d in steps.items() if d}}
         updates = (shared_update, x[i]), (private_update, z[i]), (control, p[i])
@@ -703,8 +727,32 @@ def read_controller(
     return {"time": string(time, place, "continuous", "discrete"), "agents": programs}
 
 
-def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:
-    """The digest of the controller in a file, and that of its plant, empty if it names none."""
+SATURATION = ("limits", "back_calculation")
+"""The keys of a controller file that are no part of the linear program."""
+Saturation = tuple[tuple[Json, Matrix | None], ...]
+"""For each agent the limits of its inputs, and its anti-windup gains, each None without any."""
+
+
+def _read_saturation(agents: list[Json], place: str, limits: Limits) -> Saturation:
+    """The limits and anti-windup gains of agents that `read_controller` has read."""
+    result = list[tuple[Json, Matrix | None]]()
+    for agent in agents:
+        listed, gains = (agent.get(key) for key in SATURATION)
+        rows = [M for key in USED[:2] for M in agent["input"].get(key, {}).values()]
+        rows += [M for key in USED[2:] if (M := agent["input"].get(key)) is not None]
+        p = read_matrix(rows[0], place, None, None, limits).nrows if rows else None
+        if listed is not None:
+            p = len(items(listed, place, p))
+            listed = read_limits(listed, place, p, limits)
+        L = None
+        if gains is not None:
+            L = read_matrix(gains, place, agent["shared"] + agent["private"], p, limits)
+        result.append((listed, L))
+    return tuple(result)
+
+
+def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str, Saturation]:
+    """The digest of the controller in a file, that of its plant or "", and its saturation."""
     with limited(current(limits.work), len(data)):
         document = parse_file(data, limits)
         keys = ("format", "system", "time", "agents")
@@ -713,4 +761,5 @@ def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:
             malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
         loop = dict(zip(("time", "agents"), parts, strict=True))
         controller = read_controller(loop, "controller", limits=limits)
-        return digest_of(canonical_json(controller)), string(plant, "system")
+        saturation = _read_saturation(parts[1], "controller", limits)
+        return digest_of(canonical_json(controller)), string(plant, "system"), saturation

@@ -25,6 +25,7 @@ from mcexact.exact.roots import is_discrete
 from mcexact.exact.sampling import held_exponential
 from mcexact.model.box import Box
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.limits import limits_document
 from mcexact.model.radii import Radii
 from mcexact.model.regulated import selection_document
 from mcexact.model.sizes import TypicalSizes
@@ -111,6 +112,7 @@ def sampled_system(
         time="discrete",
         sample_time=h,
         regulated=system.regulated,
+        limits=system.limits,
         typical_sizes=_sizes_with_registers(system, late),
     )
 
@@ -221,6 +223,7 @@ most 0.51e-12
         sample_time=h,
         uncertainty=radii,
         regulated=None if regulated is None else selection_document(regulated, system.names),
+        limits=None if system.limits is None else limits_document(system.limits, system.names),
         typical_sizes=_sizes_with_registers(system, late),
         name=system.name,
         source=note if system.source is None else f"{system.source}; {note}",

@@ -532,6 +532,8 @@ def parts_of(system: MultiChannelSystem) -> Parts:
         raise InputError("only .json and .yaml files keep the radii of uncertain entries")
     if system.regulated is not None:
         raise InputError("only .json and .yaml files keep which outputs are regulated")
+    if system.limits is not None:
+        raise InputError("only .json and .yaml files keep the limits of inputs")
     tables: dict[str, Matrix] = {"A": system.A}
     for k, channel in enumerate(system.channels, start=1):
         tables[f"B_{k}"], tables[f"C_{k}"] = channel.B, channel.C

@@ -13,7 +13,7 @@ import json
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -23,6 +23,7 @@ from mcexact.exact.rational import DEFAULT_LIMITS, Limits, decimal_or_quotient
 from mcexact.exact.roots import is_discrete, require_time
 from mcexact.model.entries import matrix_json, read_matrix
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.limits import InputLimits, Range, pairs_document, read_input_limits
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import (
     checked_names,
@@ -121,6 +122,17 @@ class AgentProgram(Shown):
     hold : mapping of int to int
         The number of steps for which the agent holds x_i before it sends it to follower j; under
         the agent's own position, before it uses x_i itself.  Only in discrete time.
+    limits : tuple of pairs of Fraction, or None
+        The least and the largest value of each input, None for an input without limits: the agent
+        computes v and sets its input to v cut off at the limits.  None where no input has any.
+    back_calculation : Matrix or None
+        The anti-windup gains L, of (x_i, z_i) × inputs: while inputs are cut off, the agent adds
+        L (u − v) to its next states (in continuous time to their derivatives).
+
+    Notes
+    -----
+    ``limits`` and ``back_calculation`` are no part of the linear program: certificates about linear
+    loops leave them out, and those about inputs that are cut off name them as claims.
     """
 
     name: str
@@ -130,6 +142,8 @@ class AgentProgram(Shown):
     private_update: LinearMap = field(default_factory=LinearMap)
     input: LinearMap = field(default_factory=LinearMap)
     hold: Mapping[int, int] = field(default_factory=dict)
+    limits: tuple[Range | None, ...] | None = None
+    back_calculation: Matrix | None = None
 
     def __repr__(self) -> str:
         return f"AgentProgram({quoted(self.name)}, {self.shared} shared, {self.private} private)"
@@ -314,6 +328,12 @@ class Controller(Shown):
                 _require(each.private, nrows, agent.private, f"{where}.private")
             if each.reference is not None:
                 _require(each.reference, nrows, system.q(i), f"{where}.reference")
+        if agent.limits is not None and len(agent.limits) != system.p(i):
+            message = f"expected {system.p(i)} pairs, found {len(agent.limits)}"
+            raise InputError(message, where=f"agents[{i}].limits")
+        if agent.back_calculation is not None:
+            where = f"agents[{i}].back_calculation"
+            _require(agent.back_calculation, agent.shared + agent.private, system.p(i), where)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the gains as a colored matrix; see `mcexact.plot.graphs`."""
@@ -322,9 +342,34 @@ class Controller(Shown):
         return gains(self, ax)
 
     def document(self) -> dict[str, Any]:
-        """The object of a controller file without ``format`` and ``system``, as plain data."""
+        """The linear programs as plain data, as certificates have them."""
         names = [agent.name for agent in self.agents]
         return {"time": self.time, "agents": [_agent_json(a, names) for a in self.agents]}
+
+    def with_saturation(
+        self, limits: InputLimits | None, gains: Sequence[Matrix | None] = ()
+    ) -> Controller:
+        """Return the same controller with limits of its inputs, and with anti-windup gains.
+
+        Parameters
+        ----------
+        limits : InputLimits or None
+            For each agent the limits of its inputs.
+        gains : sequence of m Matrix or None
+            L_i, (x_i, z_i) × inputs.
+        """
+        own = [None] * len(self.agents) if limits is None else limits
+        agents = tuple(
+            replace(
+                agent,
+                limits=None if each is None or not any(each) else each,
+                back_calculation=None if L is None or L.is_zero() else L,
+            )
+            for agent, each, L in zip(
+                self.agents, own, gains or [None] * len(self.agents), strict=True
+            )
+        )
+        return replace(self, agents=agents)
 
 
 def _require(M: Matrix, nrows: int, ncols: int, where: str) -> None:
@@ -403,7 +448,7 @@ def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Contr
         raise InputError("expected at least one agent, found none", where="agents")
     keys = ("name", "shared", "private", *MAPS)
     for k, agent in enumerate(agents):
-        expect_object(agent, f"agents[{k}]", keys, ("hold",))
+        expect_object(agent, f"agents[{k}]", keys, ("hold", "limits", "back_calculation"))
     places = [f"agents[{k}].name" for k in range(len(agents))]
     labels = [
         expect_name(agent["name"], place) for agent, place in zip(agents, places, strict=True)
@@ -430,8 +475,28 @@ def _read_agent(
     hold = {}
     for name, steps in _by_agent(agent.get("hold", {}), f"{where}.hold", names).items():
         hold[name] = expect_integer(steps, f"{where}.hold[{quoted(names[name])}]")
+    inputs = max((M.nrows for M in input_map.matrices()), default=None)
+    pairs, gains = None, None
+    if "limits" in agent:
+        place, name = f"{where}.limits", agent["name"]
+        count = len(expect_list(agent["limits"], place))
+        if inputs not in (None, count):
+            raise InputError(f"expected {inputs} pairs, found {count}", where=place)
+        read = read_input_limits({name: agent["limits"]}, [name], [count], place, limits)
+        pairs, inputs = None if read is None else read[0], count
+    if "back_calculation" in agent:
+        place = f"{where}.back_calculation"
+        gains = read_matrix(agent["back_calculation"], place, shared + private, inputs, limits)
     return AgentProgram(
-        agent["name"], shared, private, shared_update, private_update, input_map, hold
+        agent["name"],
+        shared,
+        private,
+        shared_update,
+        private_update,
+        input_map,
+        hold,
+        pairs,
+        None if gains is None or gains.is_zero() else gains,
     )
 
 
@@ -483,12 +548,18 @@ def _by_agent(value: Any, where: str, names: tuple[str, ...]) -> dict[int, Any]:
 
 def controller_document(controller: Controller) -> dict[str, Any]:
     """The object of a controller file as plain data, with quotients as strings."""
-    return {"format": FORMAT, "system": controller.system, **controller.document()}
+    document = {"format": FORMAT, "system": controller.system, **controller.document()}
+    for agent, own in zip(controller.agents, document["agents"], strict=True):
+        if agent.limits is not None:
+            own["limits"] = pairs_document(agent.limits)
+        if agent.back_calculation is not None:
+            own["back_calculation"] = matrix_json(agent.back_calculation)
+    return document
 
 
 def controller_text(controller: Controller) -> str:
     """The text of a controller file: decimals where they are exact and short, a row on one line."""
-    document = {"format": FORMAT, "system": controller.system, **_readable(controller.document())}
+    document = _readable(controller_document(controller))
     text = json.dumps(document, indent=1, ensure_ascii=True)
     return _LIST_OF_NUMBERS.sub(lambda match: f"[{' '.join(match[0][1:-1].split())}]", text) + "\n"
 

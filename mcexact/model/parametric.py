@@ -114,6 +114,7 @@ class ParametricSystem(ByChannel[FunctionMatrix]):
     neighbors: ClassVar[None] = None
     sample_time: ClassVar[None] = None
     regulated: ClassVar[None] = None
+    limits: ClassVar[None] = None
     uncertainty: ClassVar[None] = None
     typical_sizes: ClassVar[None] = None
     rounding: ClassVar[None] = None

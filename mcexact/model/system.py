@@ -7,7 +7,8 @@ constructions that lead to it.
 
 `ByChannel` is what it has in common with `ParametricSystem`: sizes, channels by position or name,
 display, canonical JSON and its digest.  The digest identifies a plant in certificates; it does not
-depend on the form in which numbers are written, nor on ``name``, ``source`` and ``regulated``.
+depend on the form in which numbers are written, nor on ``name``, ``source``, ``regulated`` and
+``limits``.
 
 `with_graph` and `with_links` combine a system with the graph of an argument: the first requires a
 graph, the second takes the graph without edges if there is none.  `from_stacked` makes a system
@@ -60,6 +61,12 @@ from mcexact.model.entries import (
     require_square,
 )
 from mcexact.model.graph import NeighborGraph, graph_for
+from mcexact.model.limits import (
+    InputLimits,
+    limits_document,
+    limits_in_words,
+    read_input_limits,
+)
 from mcexact.model.radii import Radii
 from mcexact.model.regulated import (
     Selection,
@@ -284,6 +291,8 @@ class ByChannel(Shown, Generic[M]):
             yield "uncertainty", self.uncertainty
         if self.regulated is not None:
             yield "regulated", selection_in_words(self.regulated, self.names)
+        if self.limits is not None:
+            yield "limits of inputs", limits_in_words(self.limits, self.names)
         if self.typical_sizes is not None:
             yield "typical sizes", self.typical_sizes
         if self.source is not None:
@@ -420,6 +429,8 @@ def _sentences(system: Any) -> Iterator[str]:
     if system.regulated is not None:
         held = selection_in_words(system.regulated, system.names)
         yield fitting(f"A controller is to hold at set-points: {held}.")
+    if system.limits is not None:
+        yield fitting(f"Inputs have limits: {limits_in_words(system.limits, system.names)}.")
     if system.typical_sizes is not None:
         yield f"For costs, {system.typical_sizes.explain()}."
     if system.rounding is not None:
@@ -557,6 +568,11 @@ class MultiChannelSystem(ByChannel[Matrix]):
         What a controller is to hold at set-points, for each agent that holds something: positions
         of its outputs from 1 on, or a matrix S_i of q_i columns.  No decision uses it, nor does the
         digest depend on it; `design_setpoint` takes it where nothing else is asked for.
+    limits : mapping, optional
+        Between which values inputs have to be, for each agent whose inputs have limits, by name or
+        by position from 0 on: a list with the least and the largest value for each of its inputs,
+        or None for an input without limits.  They contain 0.  No decision uses them but those about
+        inputs that are cut off (`saturation_stability`), nor does the digest depend on them.
     typical_sizes : TypicalSizes, optional
         How large signals typically are, for the weights of costs; no other decision uses them, and
         the digest does not depend on them.
@@ -612,6 +628,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
     name: str | None = field(compare=False)
     source: str | None = field(compare=False)
     regulated: Selection | None = field(compare=False)
+    limits: InputLimits | None = field(compare=False)
     subject: tuple[Construction, ...] = field(hash=False)
     rounding: Rounding | None = field(compare=False)
     _plant: MultiChannelSystem | None
@@ -630,6 +647,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
         sample_time: Any = None,
         uncertainty: Radii | None = None,
         regulated: Mapping[str, Any] | None = None,
+        limits: Mapping[Any, Any] | None = None,
         typical_sizes: TypicalSizes | None = None,
         name: str | None = None,
         source: str | None = None,
@@ -650,6 +668,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             name=None if name is None else checked_text(name, "name"),
             source=None if source is None else checked_text(source, "source"),
             regulated=None,
+            limits=None,
             subject=(),
             rounding=None,
             _plant=None,
@@ -658,6 +677,9 @@ class MultiChannelSystem(ByChannel[Matrix]):
         if regulated is not None:
             counts = [channel.C.nrows for channel in channels]
             self._fill(regulated=read_selection(regulated, labels, counts, "regulated"))
+        if limits is not None:
+            widths = [channel.B.ncols for channel in channels]
+            self._fill(limits=read_input_limits(limits, labels, widths))
         if uncertainty is not None:
             self._fill(uncertainty=self._fitting(uncertainty))
         if typical_sizes is not None:
@@ -832,6 +854,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             name=self.name,
             source=self.source,
             regulated=None,
+            limits=None,
             subject=(*self.subject, dict(construction)),
             rounding=self.rounding,
             _plant=self.plant,
@@ -910,6 +933,30 @@ class MultiChannelSystem(ByChannel[Matrix]):
         other._fill(typical_sizes=None if sizes is None else self._with_shapes(sizes))
         return other
 
+    def with_limits(self, limits: Mapping[Any, Any] | None) -> Self:
+        """Return the same plant with other limits of its inputs, or with none.
+
+        Parameters
+        ----------
+        limits : mapping or None
+            As for the constructor.
+
+        Raises
+        ------
+        UsageError
+            If this system was made by a construction.
+        InputError
+            If limits do not fit the inputs, or do not contain 0.
+        """
+        if self.subject:
+            raise UsageError("limits belong to the plant, and not to a derived system")
+        other = object.__new__(type(self))
+        other._fill(**{name: getattr(self, name) for name in self.__dataclass_fields__})
+        widths = [self.p(i) for i in range(self.m)]
+        own = None if limits is None else read_input_limits(limits, self.names, widths)
+        other._fill(limits=own)
+        return other
+
     def _as_canonical_text(self) -> str:
         channels = ",".join(
             f'{{"B":{canonical_matrix_text(channel.B)},"C":{canonical_matrix_text(channel.C)},'
@@ -930,6 +977,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
             document = {"sample_time": number_json(self.sample_time)} | document
         if self.regulated is not None:
             document["regulated"] = selection_document(self.regulated, self.names)
+        if self.limits is not None:
+            document["limits"] = limits_document(self.limits, self.names)
         if self.typical_sizes is not None:
             document["sizes"] = self.typical_sizes.document(self.names)
         return document

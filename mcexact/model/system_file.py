@@ -35,6 +35,7 @@ from mcexact.model.entries import (
     unread_matrix,
 )
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.limits import limits_document, read_input_limits
 from mcexact.model.parametric import ParametricSystem, require_ascending
 from mcexact.model.radii import read_radii
 from mcexact.model.regulated import read_selection, selection_document
@@ -64,7 +65,7 @@ M = TypeVar("M")
 _REQUIRED = ("format", "time", "A", "channels")
 _OPTIONAL = (
     *("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty", "sizes"),
-    *("regulated", "parameters"),
+    *("regulated", "limits", "parameters"),
 )
 
 
@@ -137,6 +138,7 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
         sample_time=sample_time,
         uncertainty=radii,
         regulated=_read_regulated(document, names, [C_i.shape[0] for C_i in C], limits),
+        limits=_read_limits(document, names, [B_i.shape[1] for B_i in B], limits),
         typical_sizes=sizes,
         **texts_of(document),
     )
@@ -236,6 +238,17 @@ def _read_regulated(
     return dict(zip(names, read_selection(chosen, names, counts, "regulated", limits), strict=True))
 
 
+def _read_limits(
+    document: dict[str, Any], names: tuple[str, ...], counts: list[int], limits: Limits
+) -> dict[str, Any] | None:
+    """Read the limits of inputs, by agent; None if nothing is said."""
+    if "limits" not in document:
+        return None
+    chosen = _mapping(document["limits"], "limits")
+    read = read_input_limits(chosen, names, counts, "limits", limits)
+    return None if read is None else dict(zip(names, read, strict=True))
+
+
 def _mapping(value: Any, where: str) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise InputError(f"expected an object keyed by agents, found {kind_of(value)}", where=where)
@@ -261,6 +274,9 @@ def system_text(system: MultiChannelSystem | ParametricSystem) -> str:
         selection = selection_document(system.regulated, system.names)
         with numbers_of_any_length():
             head.append(("regulated", json.dumps(selection)))
+    if system.limits is not None:
+        with numbers_of_any_length():
+            head.append(("limits", json.dumps(limits_document(system.limits, system.names))))
     if system.uncertainty is not None:
         document = system.uncertainty.document(system.names)
         with numbers_of_any_length():
@@ -420,6 +436,7 @@ _EXPLAINED = (
     "messages from pump reach valve after 2 steps. A large matrix can be an object: "
     '{"shape": [n, n], "entries": [[row, column, value]]}, rows and columns from 0. '
     'regulated {"pump": [1]} says which outputs a set-point controller holds, counted from 1. '
+    'limits {"pump": [[-1, 2]]} gives the least and the largest value of each input of an agent. '
     "name and source are free texts."
 )
 _YAML = """\
@@ -445,6 +462,8 @@ neighbors:                     # for each agent, whose messages it receives; may
   valve: [pump]
 # regulated:                   # what a set-point controller holds, counted from 1; else all
 #   pump: [1]
+# limits:                      # the least and the largest value of each input of an agent
+#   pump: [[-1, 2]]
 # delays:                      # in discrete time: messages from valve reach pump after 2 steps
 #   pump: {valve: 2}
 """

@@ -107,6 +107,9 @@ _MATRIX = "rows of numbers, or the shape and the entries [row, column, value] th
 MATRIX = matrix(NUMBER, _MATRIX)
 
 
+LIMITS = rows(some(rows(NUMBER, minItems=2, maxItems=2)))
+"""Limits of the inputs of an agent; null for an input without limits."""
+
 # The schemas of files: systems, controllers, certificates, manifests and records of sweeps.
 
 NEIGHBORS = table(rows(NAME)) | {
@@ -174,6 +177,8 @@ def system() -> Schema:
             "regulated": table(
                 {"anyOf": [rows({"type": "integer", "minimum": 1}, minItems=1), MATRIX]}
             ),
+            "limits": table(LIMITS)
+            | {"description": "the least and the largest value of each input of a channel"},
             "sizes": _typical_sizes(),
         },
         closed=True,

@@ -22,7 +22,7 @@ from tests.kernels import usable_kernels
 
 IN_FLOATING_POINT = {f"design-{design}-float" for design in DESIGNS}
 IN_FLOATING_POINT |= {"certify-lyapunov", "certify-instability"}
-ABOUT_PERFORMANCE = {"cost_bound", "disk_margin", "loop_cost", "sector", "step_peaks"}
+ABOUT_PERFORMANCE = {"cost_bound", "disk_margin", "loop_cost", "saturation", "sector", "step_peaks"}
 """Kinds whose matrices are proposed in floating point: their certificates are only valid."""
 ABOUT_BOXES = {"box_fixed", "box_controllable", "box_stable"}
 ABOUT_BOXES |= {"parametric_box_fixed", "parametric_box_controllable", "parametric_box_stable"}

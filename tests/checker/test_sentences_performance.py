@@ -28,6 +28,7 @@ from tests.checker.performance_plants import (
     STEPPED,
 )
 from tests.checker.recorded import compare, keys
+from tests.checker.saturation_plants import CUT, INTEGRAL, NEAR, RISEN
 from tests.checker.test_sentences_design import STABLE, judged, rows
 
 TOGETHER = ("claim.together", True)
@@ -48,6 +49,8 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("first-margin", [MARGIN, OUTPUT_MARGIN]),
     ("first-margin", [ALL_OUTPUTS, MARGIN]),
     ("performance-sectors", [SECTOR]),
+    *(("saturation-global first-saturation", [each]) for each in (CUT, INTEGRAL)),
+    *(("saturation-region first-saturation-region", [each]) for each in (NEAR, RISEN)),
     ("performance-input-steps", [STEPPED]),
     ("performance-output-steps", [SENSED]),
     ("performance-setpoint-steps", [FOLLOWING]),
@@ -73,6 +76,9 @@ DENIED: list[tuple[str, list[Document]]] = [
     ("first-margin", [MARGIN]),
     ("first-margin", [OUTPUT_MARGIN, ALL_OUTPUTS]),
     ("performance-sectors", [MARGIN]),
+    ("saturation-global first-saturation", [NEAR]),
+    ("saturation-region first-saturation-region", [CUT]),
+    ("saturation-global first-saturation", [SECTOR]),
     ("performance-input-steps performance-setpoint-steps", [SENSED]),
     ("performance-output-steps", [STEPPED]),
     ("first-box first-radii", [STABLE]),
@@ -97,7 +103,7 @@ def test_what_certificates_do_not_imply_of_performance(
 
 
 def test_every_rule_about_performance_is_in_both_tables() -> None:
-    about = {key for key in RULES if key.startswith(("performance-", "first-"))}
+    about = {key for key in RULES if key.startswith(("performance-", "saturation-", "first-"))}
     assert about == {key for key, _ in rows(IMPLIED)} == {key for key, _ in rows(DENIED)}
 
 

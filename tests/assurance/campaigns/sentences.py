@@ -24,11 +24,13 @@ from mcexact.analysis.boxes.largest import largest_loop_ranges
 from mcexact.analysis.boxes.loops import box_stability
 from mcexact.analysis.performance import sectors_of
 from mcexact.analysis.questions import asked_by
+from mcexact.analysis.saturation import gains_for, gains_none, saturation_of
 from mcexact.answer import protocol
 from mcexact.answer.account import Account
 from mcexact.answer.loops import EVERY_LOOP_RULES
 from mcexact.answer.performance import RULES as PERFORMANCE
 from mcexact.answer.rulebook import everything
+from mcexact.answer.saturation import RULES as SATURATION
 from mcexact.answer.sentence import Context
 from mcexact.answer.templates import Sentence
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
@@ -381,6 +383,13 @@ def certified(plant: MultiChannelSystem, controller: Any, case: Case) -> Iterato
     if sectors is not None:
         given = Context(plant)
         yield from _cases(rows_of(PERFORMANCE.sentences({"sector": sectors}, given)), case)
+    one = (Fraction(-1), Fraction(1))
+    limits = tuple((one,) * plant.p(i) for i in range(plant.m))
+    loop = closed_loop(plant, controller)
+    for saturated in (saturation_of(loop, limits, gains_none(loop)), gains_for(loop, limits)[1]):
+        if saturated is not None:
+            rows = rows_of(SATURATION.sentences({"saturation": saturated}, Context(plant)))
+            yield from _cases(rows, case)
 
 
 def parameter(rng: random.Random) -> Iterator[Judged]:

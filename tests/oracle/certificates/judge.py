@@ -12,6 +12,7 @@ from . import (
     parametric_rank,
     performance,
     ranges,
+    saturation,
     segments,
     sharing,
     steps,
@@ -30,6 +31,7 @@ _TOPICS = (
     parametric_rank,
     performance,
     ranges,
+    saturation,
     segments,
     sharing,
     steps,
@@ -40,7 +42,12 @@ KINDS: dict[str, Callable[[Any, Any, Any], bool]] = {
 }
 """The judge of each kind, which the module of its topic names."""
 MOST_STATES = 30
-ABOUT_THE_DOCUMENT = {"distributed_observer", *performance.JUDGES, *steps.JUDGES}
+ABOUT_THE_DOCUMENT = {
+    "distributed_observer",
+    *performance.JUDGES,
+    *saturation.JUDGES,
+    *steps.JUDGES,
+}
 """The kinds, besides those about boxes, that are judged with the whole document."""
 
 

@@ -401,7 +401,7 @@ def is_below(
         M, X, Y = inner * (M - identity(n)), 2 * inner * X, Y * inner
     Theta = diagonal(theta)
     R = gamma * gamma * Theta - D.transpose() * Theta * D
-    if not _is_definite(R):
+    if not is_definite(R):
         return False
     if not n or not theta:
         return True
@@ -417,7 +417,7 @@ def is_below(
     return not _has_root_from_0_down(h)
 
 
-def _is_definite(R: fmpq_mat) -> bool:
+def is_definite(R: fmpq_mat) -> bool:
     """Whether all leading minors are positive."""
     sizes = range(1, R.nrows() + 1)
     return all(

@@ -232,6 +232,35 @@ def _sector(claim: Any, system: System) -> str:
     )
 
 
+def _saturation(claim: Any, system: System) -> str:
+    def pair(ends: Any) -> str:
+        return "no limits" if ends is None else " to ".join(number(rational(x)) for x in ends)
+
+    def rows(L: Any) -> str:
+        d = L["denominator"]
+        texts = [", ".join(number(fmpq(x, d)) for x in row) for row in L["entries"]]
+        return f"[{'; '.join(texts)}]" if any(L["entries"]) else "none"
+
+    limits = "; ".join(", ".join(map(pair, own)) or "none" for own in claim["limits"])
+    gains = "; ".join(map(rows, claim["back_calculation"]))
+    cut = (
+        "where the plant receives each input cut off at its limits, and each agent adds L (w - v) "
+        "to its next states, in continuous time to their derivatives, v being the inputs that it "
+        f"computes and w these cut off; limits of each agent in turn: {limits}; L in turn: {gains}"
+    )
+    if "region" not in claim:
+        same = "any two solutions with the same set-points and disturbances approach each other"
+        return f"{same} exponentially, {cut}"
+    P, radius = claim["region"]["P"], number(rational(claim["region"]["radius"]))
+    return (
+        "every solution without set-points and disturbances that starts where z'Pz <= 1 stays "
+        f"there and tends to 0 exponentially, z the state of the loop, {cut}; P_ij = s_ij "
+        f"2^(e_i + e_j) with e = {P['exponents']} and the lower triangle s = {P['entries']}, row "
+        f"by row; z'Pz <= 1 holds for every state of the plant of norm at most {radius}, where all "
+        "else is 0"
+    )
+
+
 def _exceptional(claim: Any, system: System) -> str:
     M = matrix(claim["M"], system.n, system.n)
     return (
@@ -405,6 +434,7 @@ SENTENCES: dict[str, Any] = {
     "parametric_fixed_spectrum": parametric_sentence,
     "parametric_rank": rank_sentence,
     "pencil_rank": _pencil_rank,
+    "saturation": _saturation,
     "sector": _sector,
     "setpoint": _setpoint,
     "shared_dimensions": _dimensions,

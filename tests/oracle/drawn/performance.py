@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from mcexact.analysis.performance import bound_of, cost_of, influences, margin_of, sectors_of
+from mcexact.analysis.saturation import gains_for, gains_none, saturation_of
 from mcexact.analysis.steps import steps_of
 from mcexact.answer import protocol
 from mcexact.answer.performance import CostWeights
 from mcexact.errors import McexactError
-from mcexact.exact.matrix import matrix_to_float
+from mcexact.exact.matrix import Matrix, matrix_to_float
 from mcexact.model.controller import read_controller
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
@@ -24,7 +25,7 @@ from tests.oracle.certificates.systems import read_plant
 from .plants import Document, drawn_plant, number, rows_of, table
 from .subjects import drawn_controller
 
-KINDS = ("loop_cost", "cost_bound", "disk_margin", "sector", "step_peaks")
+KINDS = ("loop_cost", "cost_bound", "disk_margin", "saturation", "sector", "step_peaks")
 
 
 def damped_plant(rng: random.Random) -> Document:
@@ -109,6 +110,8 @@ def _about_loop(rng: random.Random, kind: str) -> Document | None:
     elif kind == "step_peaks":
         sides: Any = ("inputs", "outputs", "setpoints")
         answer = steps_of(loop, rng.choice(sides), most=400)
+    elif kind == "saturation":
+        answer = _saturated(rng, loop)
     else:
         ends = [(Fraction(1, 2), Fraction(2)), (Fraction(9, 10), Fraction(11, 10))]
         ends += [(Fraction(0), Fraction(1)), (Fraction(1, 4), Fraction(3, 2))]
@@ -116,6 +119,27 @@ def _about_loop(rng: random.Random, kind: str) -> Document | None:
         answer = sectors_of(loop, [rng.choice(ends) for _ in range(count)])
     steps = [{"construction": "closed_loop", "controller": controller}]
     return _written(answer, plant, steps)
+
+
+def _saturated(rng: random.Random, loop: ClosedLoop) -> Any:
+    """The loop with drawn limits, and with anti-windup gains that were chosen, or drawn."""
+    some: Any = (None, (-1, 1), (-1, Fraction(1, 2)), (0, 3), (Fraction(-1, 7), 2), (-2, 2))
+    p = [loop.plant.p(i) for i in range(loop.plant.m)]
+    limits = tuple(tuple(rng.choice(some) for _ in range(count)) for count in p)
+    exact: Any = tuple(
+        tuple(None if pair is None else tuple(map(Fraction, pair)) for pair in own)
+        for own in limits
+    )
+    if rng.random() < 0.5:
+        return gains_for(loop, exact)[1]
+    gains = [
+        Matrix.from_rows(
+            [[Fraction(rng.choice((0, 0, 1, -1, 3)), 10) for _ in range(L.ncols)]] * L.nrows,
+            ncols=L.ncols,
+        )
+        for L in gains_none(loop)
+    ]
+    return saturation_of(loop, exact, gains)
 
 
 def _written(answer: Any, plant: Document, steps: list[Document]) -> Document | None:

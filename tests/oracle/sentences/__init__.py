@@ -9,7 +9,15 @@ judged at drawn ones, which can only refute it.
 
 from __future__ import annotations
 
-from tests.oracle.sentences import designs, members, nearby, parameters, performance, sharing
+from tests.oracle.sentences import (
+    designs,
+    members,
+    nearby,
+    parameters,
+    performance,
+    saturation,
+    sharing,
+)
 from tests.oracle.sentences.analysis import JUDGES
 from tests.oracle.sentences.cases import Case, Facts, Region, Said, UnjudgedError, plant_of, said
 
@@ -47,5 +55,5 @@ def verdict(sentence: Said, case: Case) -> bool | None:
 
 __all__ = [
     "JUDGES", "UNJUDGED", "Case", "Facts", "Region", "Said", "UnjudgedError", "designs", "members",
-    "nearby", "parameters", "performance", "plant_of", "said", "sharing", "verdict",
+    "nearby", "parameters", "performance", "plant_of", "said", "saturation", "sharing", "verdict",
 ]  # fmt: skip

@@ -24,6 +24,7 @@ from . import (
     performance,
     plain_traps,
     ranges,
+    saturation,
     sharing,
     structure,
     subjects,
@@ -55,6 +56,7 @@ FORGERS = {
     "parametric_fixed_spectrum": (*parametric.PARAMETRIC, parametric_traps.trap_about_modes),
     "parametric_rank": (*parametric_rank.RANKS, parametric_traps.trap_about_ranks),
     "pencil_rank": modes.PENCIL,
+    "saturation": saturation.SATURATED,
     "sector": performance.SECTORS,
     "setpoint": structure.SETPOINT,
     "shared_dimensions": sharing.DIMENSIONS,
@@ -70,6 +72,7 @@ TRAPS: dict[str, Document] = {
     **box_traps.TRAPS,
     **graph_traps.TRAPS,
     **performance.TRAPS,
+    **saturation.TRAPS,
     **parametric_traps.SPECTRA,
     **parametric_traps.RANKS,
 }

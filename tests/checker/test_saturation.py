@@ -1,0 +1,147 @@
+"""The rule of ``saturation``, and the limits and gains of a controller file."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from mcexact.checker.kinds import Expectation
+from mcexact.checker.reading import Limits, Refused
+from tests.checker.handmade import Document, changed, checked, matrix
+from tests.checker.performance_plants import form, static
+from tests.checker.saturation_plants import (
+    ALL,
+    CUT,
+    DOUBLED,
+    INTEGRAL,
+    NEAR,
+    ONE_OF_TWO,
+    RISEN,
+    gains,
+    integral,
+)
+from tests.checker.tables import accepts, rejects
+
+ACCEPTED = [
+    *ALL.items(),
+    ("a valve that only opens", changed(CUT, ("claim.limits", [[[0, 2]]]))),
+    ("no input has limits", changed(
+        ONE_OF_TWO, ("claim.limits", [[None], [None]]), ("witness.scaling", []),
+        ("witness.sectors", []),
+    )),
+    ("wider limits", changed(NEAR, ("claim.limits", [[[-2, 2]]]))),
+    ("a smaller ball", changed(NEAR, ("claim.region.radius", "1/4"))),
+]  # fmt: skip
+
+P, L = "witness.P", "claim.back_calculation"
+REJECTED: list[tuple[Any, ...]] = [
+    # an unstable plant is not held from everywhere, whatever form there is
+    ("everywhere for an unstable plant", CUT, ("system", DOUBLED), "INVALID"),
+    ("an indefinite form", CUT, (P, form([-1])), "INVALID"),
+    ("a form that does not fall", CUT, (P, form([3])), "INVALID"),
+    ("M₀ unstable with a form that falls", CUT, (
+        ("system", DOUBLED), (P, form([-1])), ("witness.scaling", [1])
+    ), "INVALID"),
+    ("a loop that grows", CUT, ("subject", [static(DOUBLED, 1)]), "INVALID"),
+    ("an integral without anti-windup", INTEGRAL, (L, [matrix([0])]), "INVALID"),
+    ("anti-windup of the wrong sign", INTEGRAL, (L, [matrix([-1])]), "INVALID"),
+    ("anti-windup that is too strong", INTEGRAL, (L, [matrix([90])]), "INVALID"),
+    ("an integral of the wrong sign", INTEGRAL, ("subject", [integral(1)]), "INVALID"),
+    ("gains of another shape", INTEGRAL, (L, [matrix([1], [1])]), "MALFORMED"),
+    ("gains of an agent too many", INTEGRAL, (L, [matrix([1]), matrix([1])]), "MALFORMED"),
+    ("limits above 0", CUT, ("claim.limits", [[[1, 2]]]), "MALFORMED"),
+    ("limits below 0", CUT, ("claim.limits", [[[-2, -1]]]), "MALFORMED"),
+    ("limits in the wrong order", CUT, ("claim.limits", [[[1, -1]]]), "MALFORMED"),
+    ("an input that is always 0", CUT, ("claim.limits", [[[0, 0]]]), "MALFORMED"),
+    ("limits of an input too many", CUT, ("claim.limits", [[[-1, 1], None]]), "MALFORMED"),
+    ("limits of an agent too many", CUT, ("claim.limits", [[[-1, 1]], []]), "MALFORMED"),
+    ("three ends", CUT, ("claim.limits", [[[-1, 0, 1]]]), "MALFORMED"),
+    ("a scaling of 0", CUT, ("witness.scaling", [0]), "INVALID"),
+    ("a negative scaling", CUT, ("witness.scaling", [-2]), "MALFORMED"),
+    ("a scaling too many", CUT, ("witness.scaling", [2, 2]), "MALFORMED"),
+    ("a smaller sector everywhere", CUT, ("witness.sectors", ["1/2"]), "INVALID"),
+    ("a sector beyond the input", NEAR, ("witness.sectors", ["3/2"]), "INVALID"),
+    ("a negative sector", NEAR, ("witness.sectors", ["-3/4"]), "MALFORMED"),
+    ("a sector from 0 on", NEAR, ("witness.sectors", [0]), "INVALID"),
+    ("a region that leaves the sector", NEAR, (
+        ("claim.region.P", form([2])), ("witness.scaling", ["12/5"])
+    ), "INVALID"),
+    ("narrower limits", NEAR, ("claim.limits", [[["-3/4", 1]]]), "INVALID"),
+    ("narrower limits on the other side", NEAR, ("claim.limits", [[[-1, "3/4"]]]), "INVALID"),
+    ("a valve that only opens, in a region", NEAR, ("claim.limits", [[[0, 1]]]), "INVALID"),
+    ("a ball beyond the region", NEAR, ("claim.region.radius", "1/2"), "INVALID"),
+    ("a ball of a negative radius", NEAR, ("claim.region.radius", "-1/3"), "INVALID"),
+    ("a ball of the radius 0", NEAR, ("claim.region.radius", 0), "INVALID"),
+    ("two forms", NEAR, (P, form([4])), "INVALID"),
+    ("a wider sector in continuous time", RISEN, ("witness.sectors", ["1/4"]), "INVALID"),
+    ("a weaker loop in continuous time", RISEN, (
+        "subject", [static(RISEN["system"], -1)]
+    ), "INVALID"),
+    ("an input without limits that lets its state grow", ONE_OF_TWO, (
+        "subject", [gains("-1", "1")]
+    ), "INVALID"),
+    ("limits of the other input", ONE_OF_TWO, (
+        ("claim.limits", [[None], [[-1, 1]]]), ("subject", [gains("1", "-1")])
+    ), "INVALID"),
+    ("no loop", CUT, ("subject", []), "INVALID"),
+]  # fmt: skip
+test_valid_certificates_are_accepted = accepts(ACCEPTED)
+test_each_condition_is_needed = rejects(REJECTED)
+
+
+def test_without_a_region_the_form_is_in_the_witness() -> None:
+    document = changed(CUT)
+    del document["witness"]["P"]
+    assert checked(document).verdict == "MALFORMED"
+
+
+def controller_file(document: Document, **of_agent: Any) -> bytes:
+    """The controller of a certificate as a file, with more keys of its agents."""
+    controller = changed(document)["subject"][0]["controller"]
+    for agent in controller["agents"]:
+        agent.update(of_agent)
+    head = {"format": "mcexact-controller/1", "system": ""}
+    return json.dumps(head | controller).encode()
+
+
+@pytest.mark.parametrize(
+    ("of_agent", "verdict"),
+    [
+        ({"limits": [[-1, 1]], "back_calculation": [[1]]}, "VALID"),
+        ({"back_calculation": [["2/2"]]}, "VALID"),
+        ({"limits": [[-1, 2]], "back_calculation": [[1]]}, "INVALID"),
+        ({"limits": [[-1, 1]], "back_calculation": [[2]]}, "INVALID"),
+        ({"limits": [[-1, 1]]}, "INVALID"),
+        ({}, "INVALID"),
+    ],
+)
+def test_a_controller_file_has_the_limits_and_the_gains_of_the_claim(
+    of_agent: Any, verdict: str
+) -> None:
+    expected = Expectation().controlled(controller_file(INTEGRAL, **of_agent), Limits())
+    found = checked(INTEGRAL, expected=expected)
+    assert found.verdict == verdict, found.line()
+
+
+def test_without_gains_a_file_is_that_of_a_claim_without_gains() -> None:
+    expected = Expectation().controlled(controller_file(CUT), Limits())
+    assert checked(CUT, expected=expected).verdict == "VALID"
+
+
+@pytest.mark.parametrize(
+    "of_agent",
+    [
+        {"limits": [[1, 2]]},
+        {"limits": [[-1, 1], None]},
+        {"limits": [-1]},
+        {"limits": {}},
+        {"back_calculation": [[1, 1]]},
+        {"back_calculation": [[1], [1]]},
+        {"back_calculation": 1},
+    ],
+)
+def test_a_controller_file_with_limits_or_gains_of_another_form_is_refused(of_agent: Any) -> None:
+    with pytest.raises(Refused):
+        Expectation().controlled(controller_file(INTEGRAL, **of_agent), Limits())
