@@ -15,6 +15,7 @@ floating point; whatever it is, the proof is exact.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -57,6 +58,8 @@ _SECTORS = tuple(
     map(Fraction, ("1/50", "1/20", "1/10", "1/5", "3/10", "2/5", "1/2", "3/5", "7/10", "4/5"))
 )
 """The ends a of sectors [a, 1] that are tried for a region."""
+_MOST_SECTORS = 4
+"""So many of them are tried, from the widest one that seems to be covered on."""
 _ROOM = 1 + 1e-6
 
 
@@ -242,6 +245,10 @@ class Saturated:
             return np.inf
         return response.scaled_norm(range(response.ports))[0]
 
+    def first_sector(self) -> int:
+        """The position of the widest of `_SECTORS` that seems to be covered, or their number."""
+        return bisect_left(_SECTORS, True, key=lambda a: self.norm(a) < 1)
+
     def falls(self, P: Matrix, scaling: Sequence[Fraction], a: Fraction) -> bool:
         """Whether zᵀPz is positive and falls for all φ between av and v."""
         M, E, U = self.M, self.E, self.U
@@ -290,8 +297,9 @@ def saturation_of(
         proof = SaturationProof(found[0], (Fraction(0),) * len(found[0]), P=found[1])
         return SaturationStability(loop.system, limits, tuple(gains), region=None, proof=proof)
     best: SaturationStability | None = None
-    for a in _SECTORS:
-        found = _circle(saturated, a) if all(saturated.nearer) else None
+    first = saturated.first_sector() if all(saturated.nearer) else len(_SECTORS)
+    for a in _SECTORS[first : first + _MOST_SECTORS]:
+        found = _circle(saturated, a)
         region = None if found is None else _region(saturated, loop.plant.n, a, *found)
         if region is not None and _is_larger(region[1], best):
             proof = SaturationProof(region[0], (a,) * len(region[0]))
@@ -370,18 +378,18 @@ def gains_for(
         largest region.
     """
     best: SaturationStability | None = None
-    regional = list[tuple[float, tuple[Matrix, ...]]]()
+    regional = list[tuple[int, tuple[Matrix, ...]]]()
     for gains in _candidates(loop, limits):
         saturated = Saturated.of(loop, limits, gains)
         if saturated.norm() < 1:
             proof = saturation_of(loop, limits, gains)
             if proof is not None and proof.region is None:
                 return gains, proof
-        # the least sector that seems to be covered
-        least = next((a for a in _SECTORS if saturated.norm(a) < 1), None)
-        if least is not None:
-            regional.append((float(least), gains))
-    for _, gains in sorted(regional, key=lambda each: each[0])[:3]:
+        if all(saturated.nearer):
+            regional.append((saturated.first_sector(), gains))
+    for first, gains in sorted(regional, key=lambda each: each[0])[:3]:
+        if first == len(_SECTORS):
+            break
         proof = saturation_of(loop, limits, gains)
         if proof is not None and proof.region is not None and _is_larger(proof.region, best):
             best = proof

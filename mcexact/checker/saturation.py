@@ -90,7 +90,10 @@ def windup(value: Json, plant: System, system: System) -> Matrix:
 def check_region(
     region: Json, U: Matrix, limits: tuple[Ranges, Sequence[Fraction]], n: int
 ) -> Matrix:
-    """P, where a|v| is within the limits if z'Pz ≤ 1, as it is for small states of the plant."""
+    """P, where a|v| is within the limits if z'Pz ≤ 1, as it is for small states of the plant.
+
+    Theorem ``saturation.ellipsoid_stays``.
+    """
     form, size = fields(region, "claim.region", "P", "radius")
     place, radius = "claim.region.radius", rational(size, "claim.region.radius")
     P = symmetric(form, "claim.region.P", U.ncols)
@@ -171,7 +174,7 @@ def saturation_statement(claim: Json, system: System) -> str:
 
 
 def _range(pair: Json) -> str:
-    return "no limits" if pair is None else f"{pair[0]} to {pair[1]}"
+    return "no limits" if pair is None else " to ".join(map(str, pair))
 
 
 def _entries(L: Json) -> list[list[Fraction]]:

@@ -40,6 +40,7 @@ from tests.answer.test_golden import answers, of_a_parameter
 from tests.checker.box_plants import ALL as ABOUT_BOXES
 from tests.checker.parameter_plants import ALL as ABOUT_RANGES
 from tests.checker.performance_plants import ALL as ABOUT_PERFORMANCE
+from tests.checker.saturation_plants import ALL as ABOUT_SATURATION
 
 FORMAT = Path(home.__file__).with_name("FORMAT.md").read_text(encoding="utf-8")
 _ELIDED = re.compile(r"… \d+ more|\(degree \d+\)|\d+×\d+ matrix|about -?\d[.\d]*(e[+-]\d+)?")
@@ -75,7 +76,12 @@ def about(name: str) -> tuple[tuple[str, Answer], ...]:
         found += [(each.kind, each) for _, each in of_a_parameter()]
         found += [
             (name, answer_of(document))
-            for name, document in {**ABOUT_BOXES, **ABOUT_RANGES, **ABOUT_PERFORMANCE}.items()
+            for name, document in {
+                **ABOUT_BOXES,
+                **ABOUT_RANGES,
+                **ABOUT_PERFORMANCE,
+                **ABOUT_SATURATION,
+            }.items()
         ]
     return tuple(found)
 
