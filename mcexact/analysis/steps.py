@@ -58,6 +58,9 @@ _SLACK = 5e-4
 """What may follow after the last step is above the peak by at most this part of it."""
 _ROUNDING = 1e-6
 """The part of a peak that rounding to integers may add."""
+_SETTLED, _DRAWN, _FEWEST, _MOVES = 8.0, 300, 12, 0.02
+"""The times of the slowest mode, and the points, that are drawn at most, and the fewest instants;
+less than this part of the largest value counts as rest."""
 SECONDS = 1.5e-8
 """Of a unit of work of the checker, on a processor of 2025, in long products as here."""
 _REST = 256
@@ -182,6 +185,81 @@ class _Norm:
         """The powers 2^f of the checker, 4^f ≥ P_ii."""
         diagonal = np.diag(matrix_to_float(self.P.matrix()))
         return np.exp2(np.ceil(np.log2(diagonal) / 2))
+
+
+@dataclass(frozen=True)
+class StepCurve:
+    """The response to a step of the input, or of the output, where the step is.
+
+    Attributes
+    ----------
+    port : int
+        The number of the input or output, in the order of the channels.
+    times : tuple of float
+        From 0 until little moves; in discrete time instants.
+    values : tuple of float
+    """
+
+    port: int
+    times: tuple[float, ...]
+    values: tuple[float, ...]
+
+
+def step_curves(loop: ClosedLoop, at: Steps, most: int) -> list[StepCurve]:
+    """Compute the responses with the largest peaks, to be drawn; none of an unstable loop.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    at : {"inputs", "outputs", "setpoints"}
+    most : int
+        The number of responses.
+
+    Examples
+    --------
+    >>> from mcexact.model.loop import closed_loop
+    >>> from mcexact.model.statespace import local_controllers
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> loop = closed_loop(plant, local_controllers(plant, [[[-3]]]))
+    >>> [curve] = step_curves(loop, "inputs", 4)
+    >>> curve.values[0], round(curve.values[-1], 2)
+    (0.0, -1.5)
+    """
+    from scipy.linalg import expm
+
+    steps = StepLoop(loop, at)
+    N, k = steps.b.shape
+    if not 0 < steps.decay or not k:
+        return []
+    whole = np.block([[steps.m, steps.b], [np.zeros((k, N)), np.eye(k) * steps.discrete]])
+    first = 0 if at == "inputs" else steps.p
+    seen = np.hstack([steps.s, steps.d])[first : first + k]
+
+    def along(span: float, count: int) -> Floats:
+        """The responses at multiples of a time, one column for each step."""
+        E = np.linalg.matrix_power(whole, int(span)) if steps.discrete else expm(span * whole)
+        state, values = np.vstack([np.zeros((N, k)), np.eye(k)]), list[Floats]()
+        for _ in range(count + 1):
+            values.append(np.einsum("ij,ji->i", seen, state))
+            state = E @ state
+        return np.array(values)
+
+    last = _SETTLED / steps.decay
+    while True:
+        count = min(_DRAWN, max(math.ceil(last), _FEWEST)) if steps.discrete else _DRAWN
+        span = float(math.ceil(last / count)) if steps.discrete else last / count
+        values = along(span, count)
+        peaks = np.max(np.abs(values), axis=0)
+        away = (np.abs(values - values[-1]) > _MOVES * peaks).any(axis=1)
+        # A slow mode that hardly shows would hide how the response begins.
+        moving = int(np.max(np.flatnonzero(away), initial=0)) > count / 3
+        if moving or count == _FEWEST or last * steps.fastest < 1:
+            break
+        last /= 2
+    times = tuple(span * t for t in range(count + 1))
+    order = np.argsort(-peaks, kind="stable")[:most]
+    return [StepCurve(int(k), times, tuple(values[:, k].tolist())) for k in sorted(order)]
 
 
 def steps_of(

@@ -12,6 +12,7 @@ from mcexact.plot.graphs import graph as graph
 from mcexact.plot.graphs import structure as structure
 from mcexact.plot.margins import margins as margins
 from mcexact.plot.margins import nyquist as nyquist
+from mcexact.plot.margins import step_peaks as step_peaks
 from mcexact.plot.parameters import hypersurfaces as hypersurfaces
 from mcexact.plot.parameters import parameter_modes as parameter_modes
 from mcexact.plot.parameters import uncertainty as uncertainty

@@ -1,8 +1,9 @@
-"""Disk margins of a loop, and the Nyquist curves of its single loops with the certified disks.
+"""Disk margins, Nyquist curves with the certified disks, and responses to steps with their peaks.
 
-`margins` draws both beside each other.  A margin that is proved is a filled bar, and one that is
-computed alone is hollow.  The curves are computed in floating point; the disk that no curve enters
-is that of the least single margin, and is drawn only if this is proved.
+`margins` draws margins and Nyquist curves beside each other.  A margin that is proved is a filled
+bar, and one that is computed alone is hollow.  The curves are computed in floating point; the disk
+that no curve enters is that of the least single margin, and is drawn only if this is proved.
+`step_peaks` draws computed responses, and as dashed lines the peaks that are proved.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from fractions import Fraction
 from typing import Any, Protocol
 
 from mcexact.exact.matrix import to_float
+from mcexact.exact.rational import digits_outward
+from mcexact.exact.roots import is_discrete
 from mcexact.plot.canvas import (
     BLUE,
     GRAY,
@@ -20,6 +23,7 @@ from mcexact.plot.canvas import (
     NAMED,
     PANEL,
     RED,
+    elapsed_label,
     finished,
     one_axis,
     plain_label,
@@ -45,8 +49,30 @@ class SingleLoop(Protocol):
     def curve(self) -> Sequence[complex]: ...
 
 
-class Margins(Protocol):
-    """The margins of a loop by their labels, and its single loops."""
+class Step(Protocol):
+    """The response of an input or output to a step, and what it is proved not to exceed."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def times(self) -> Sequence[float]: ...
+    @property
+    def values(self) -> Sequence[float]: ...
+    @property
+    def peak(self) -> Fraction | None: ...
+
+
+class Steps(Protocol):
+    """The responses of a loop to steps, by where the step is."""
+
+    @property
+    def steps(self) -> Mapping[str, Sequence[Step]]: ...
+    @property
+    def time(self) -> str: ...
+
+
+class Margins(Steps, Protocol):
+    """The margins of a loop by their labels, its single loops, and its responses to steps."""
 
     @property
     def bars(self) -> Mapping[str, tuple[float, bool]]: ...
@@ -123,6 +149,47 @@ def nyquist(performance: Margins, ax: Any = None) -> Any:
     return finished(
         axis, "Nyquist curves of single loops", "real part", "imaginary part", columns=1
     )
+
+
+def step_peaks(performance: Steps, ax: Any = None) -> Any:
+    """Draw the responses to steps at inputs, and of set-points, with the peaks that are proved.
+
+    Parameters
+    ----------
+    performance : Performance
+    ax : axes, optional
+        As many as there are kinds of steps; by default those of a new figure.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Notes
+    -----
+    The curves are computed in floating point.  A dashed line of the color of a curve is what the
+    curve is proved not to cross, on the side where its largest absolute value is.
+    """
+    kinds = performance.steps
+    axes = several_axes(ax, len(kinds), *PANEL)
+    for axis, (title, steps) in zip(axes, kinds.items(), strict=True):
+        figure = step_picture(steps, title, performance.time, axis)
+    return figure
+
+
+def step_picture(steps: Sequence[Step], title: str, time: str, axis: Any) -> Any:
+    """Draw the responses to one kind of steps."""
+    for k, step in enumerate(steps):
+        color, label = f"C{k}", plain_label(step.name, 28)
+        if step.peak is not None:
+            label += f": at most {digits_outward(step.peak, up=True)}, proved"
+            line = math.copysign(to_float(step.peak), max(step.values, key=abs))
+            axis.axhline(line, color=color, linestyle="--", linewidth=1)
+        style = "steps-post" if is_discrete(time) else "default"
+        axis.plot(step.times, step.values, color=color, linewidth=1.4, label=label, drawstyle=style)
+    axis.axhline(0, color=GRAY, linewidth=0.6)
+    axis.set_xlim(left=0)
+    axis.grid(visible=True, alpha=0.3)
+    return finished(axis, f"Peak of {title}", elapsed_label(time), columns=1)
 
 
 def disk(alpha: float) -> tuple[float, float]:

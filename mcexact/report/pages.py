@@ -12,7 +12,7 @@ from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import NAMED, PANEL, one_axis
 from mcexact.plot.eigenvalues import circle_near
-from mcexact.plot.margins import Margins, margin_bars, nyquist
+from mcexact.plot.margins import Margins, margin_bars, nyquist, step_picture
 from mcexact.plot.parameters import hypersurfaces, parameter_modes
 from mcexact.plot.responses import LoopCurves, effort, loop_decay, poles, sensitivity, steps
 from mcexact.report.figures import (
@@ -164,7 +164,20 @@ def margin_pictures(margins: Margins) -> list[Picture]:
             "Nyquist curves",
             f"The loops opened at the {names}.{proved} The curves are computed, not certified.",
         ),
+        *_step_pictures(margins),
     ]
+
+
+def _step_pictures(performance: Margins) -> list[Picture]:
+    """Draw the responses to steps, with the peaks that are proved."""
+    drawn = list[Picture]()
+    for title, found in performance.steps.items():
+        proved = " Dashed lines are proved peaks." if any(step.peak for step in found) else ""
+        names = ", ".join(step.name for step in found)
+        figure = step_picture(found, title, performance.time, one_axis(None, *PANEL))
+        words = f"The {names}.{proved} The curves are computed, not certified."
+        drawn.append(Picture(figure, f"Peak of {title}", words))
+    return drawn
 
 
 def _picture(

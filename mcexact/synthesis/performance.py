@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from math import inf, isfinite, isnan, nan
 from typing import Any
 
@@ -41,7 +42,7 @@ from mcexact.analysis.performance import (
     response_of,
     weights_in,
 )
-from mcexact.analysis.steps import SECONDS, Steps, computed_steps, steps_of
+from mcexact.analysis.steps import SECONDS, Steps, computed_steps, step_curves, steps_of
 from mcexact.answer.performance import CostBound, CostWeights, DiskMargin, LoopCost, StepPeaks
 from mcexact.answer.protocol import Answer, encode
 from mcexact.errors import InputError, LimitReached, UsageError
@@ -97,8 +98,12 @@ _BARS = {
     "all_inputs_margin": "all inputs",
     "all_outputs_margin": "all outputs",
 }
+_LABELS_OF_STEPS = {
+    "input_steps": "an input after a step there",
+    "setpoint_steps": "an output after a step of its set-point",
+}
 _MOST_CURVES = 4
-"""The single loops whose curves are kept."""
+"""The single loops whose curves are kept, and the responses to steps that are drawn."""
 NO_TIME = "the time limit left no time for it"
 """Why a proof was not sought before a deadline."""
 
@@ -118,6 +123,26 @@ class SingleLoop:
 
     name: str
     curve: tuple[complex, ...]
+
+
+@dataclass(frozen=True)
+class Step:
+    """What an input or an output does after a step there.
+
+    Attributes
+    ----------
+    name : str
+        The input or output, in words.
+    times, values : tuple of float
+        The response, computed in floating point.
+    peak : Fraction or None
+        What its absolute value never exceeds, if that is proved.
+    """
+
+    name: str
+    times: tuple[float, ...]
+    values: tuple[float, ...]
+    peak: Fraction | None
 
 
 @dataclass(frozen=True, repr=False)
@@ -140,6 +165,8 @@ class Performance(Shown):
         The single input or output with the least margin, in words.
     loops : tuple of SingleLoop
         Those of the least margins, at most four.
+    closed : ClosedLoop or None
+        The loop, whose responses are computed when they are drawn; None if it is not stable.
     """
 
     weights: CostWeights
@@ -148,6 +175,7 @@ class Performance(Shown):
     left_out: Mapping[str, str] = field(default_factory=dict)
     weakest: str = ""
     loops: tuple[SingleLoop, ...] = ()
+    closed: ClosedLoop | None = None
 
     @property
     def ratio(self) -> Fraction | None:
@@ -204,6 +232,50 @@ class Performance(Shown):
             for name, value in known.items()
             if isfinite(value)
         }
+
+    @property
+    def time(self) -> str:
+        """The time domain of the loop; empty if it is not stable."""
+        return "" if self.closed is None else self.closed.plant.time
+
+    @cached_property
+    def steps(self) -> dict[str, tuple[Step, ...]]:
+        """The responses with the largest peaks, at most four, by where the step is."""
+        shown = dict[str, tuple[Step, ...]]()
+        for name, at in STEPS.items():
+            if self.closed is None:
+                continue
+            proved, plant = self.answers.get(name), self.closed.plant
+            inputs = at == "inputs"
+            names = [*_names(plant, plant.p if inputs else plant.q)]
+            peaks = list[Fraction | None]([None] * len(names))
+            if isinstance(proved, StepPeaks):
+                rows = proved.inputs if inputs else proved.outputs
+                peaks = [row[k] for k, row in enumerate(rows)]
+            side = "input" if inputs else "output"
+            curves = step_curves(self.closed, at, _MOST_CURVES)
+            found = [
+                Step(f"{side}{names[each.port]}", each.times, each.values, peaks[each.port])
+                for each in curves
+                if any(each.values)
+            ]
+            if found:
+                shown[_LABELS_OF_STEPS[name]] = tuple(found)
+        return shown
+
+    def plot_steps(self, ax: Any = None) -> Any:
+        """Draw the responses to steps with their proved peaks; see `mcexact.plot.step_peaks`.
+
+        Raises
+        ------
+        UsageError
+            If the loop is not stable, or no step has a response.
+        """
+        from mcexact.plot.margins import step_peaks
+
+        if not self.steps:
+            raise UsageError("no step has a response to draw")
+        return step_peaks(self, ax)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the disk margins and the Nyquist curves of single loops; see `mcexact.plot.margins`.
@@ -384,6 +456,7 @@ class PerformanceSearch:
             dict.fromkeys(seen, "not tried"),
             _weakest(loop.plant, margins),
             _single_loops(loop.plant, margins, responses),
+            loop,
         )
 
     def proved(self, *, prove_all: bool = False, deadline: float | None = None) -> Performance:
