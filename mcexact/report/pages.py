@@ -127,7 +127,9 @@ def loop_page(
         The disk margins of the loop, and its single loops.
     """
     system = account.given.system
-    pictures = [] if curves is None else loop_pictures(curves)
+    # What outputs do after steps of their set-points is drawn once, with its peaks if it has some.
+    peaks = margins is not None and len(margins.steps) > 1
+    pictures = [] if curves is None else loop_pictures(curves, peaks=peaks)
     pictures += [] if margins is None or not margins.bars else margin_pictures(margins)
     pictures += gains_pictures(controller)
     return AnswerPage(
@@ -142,10 +144,13 @@ def loop_page(
     )
 
 
-def loop_pictures(curves: LoopCurves) -> list[Picture]:
-    """Draw the eigenvalues, the sensitivity, the decay, and the effort or the step responses."""
+def loop_pictures(curves: LoopCurves, *, peaks: bool = False) -> list[Picture]:
+    """Draw the eigenvalues, the sensitivity, the decay, and the effort or the step responses.
+
+    The effort is drawn in place of the step responses if these are drawn with their peaks.
+    """
     drawn = [_eigenvalues(curves), _sensitivity(curves), _decay(curves)]
-    return [*drawn, _steps(curves) if curves.steps else _effort(curves)]
+    return [*drawn, _steps(curves) if curves.steps and not peaks else _effort(curves)]
 
 
 def margin_pictures(margins: Margins) -> list[Picture]:

@@ -6,8 +6,9 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model.loop import closed_loop
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.pages import loop_pictures
+from mcexact.report.pages import loop_pictures, margin_pictures
 from mcexact.synthesis.optimum.diagnosis import curves_of
+from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.setpoint import design_setpoint
 
 
@@ -81,6 +82,21 @@ def test_a_loop_with_integrators_shows_its_step_responses():
     *_, picture = loop_pictures(curves)
     assert picture.alternative.startswith("Each output after a unit step")
     assert picture.figure.axes[0].get_legend().get_texts()[0].get_text() == "pump"
+
+
+def test_a_page_draws_the_steps_of_set_points_once_with_the_peaks_that_are_proved():
+    plant = MultiChannelSystem([[1, 0], [1, -1]], [[[1], [0]]], [[[1, 0]]], names=["pump"])
+    made = design_setpoint(plant, rate="1/2")
+    curves = curves_of(made.loop.closed, made.region)
+    with_peaks = [each.title for each in loop_pictures(curves, peaks=True)]
+    assert with_peaks[:3] == [each.title for each in loop_pictures(curves)][:3]
+    assert with_peaks[3] == "Effort"
+    of_steps = margin_pictures(performance_of(made.loop.closed))[2:]
+    assert [each.title for each in of_steps] == [
+        "Peak of an input after a step there", "Peak of an output after a step of its set-point",
+    ]  # fmt: skip
+    assert all("Dashed lines are proved peaks." in each.alternative for each in of_steps)
+    assert "The output of agent pump." in of_steps[1].alternative
 
 
 def test_an_output_of_several_is_numbered():
