@@ -36,11 +36,10 @@ from mcexact.analysis.blocks import (
     modes_left,
 )
 from mcexact.analysis.sparse import (
-    edge_modulus,
+    edge_powers,
     is_connected,
     is_large_and_sparse,
     reachable_pairs,
-    sparse_powers,
 )
 from mcexact.analysis.stability import located, open_loop_spectrum
 from mcexact.analysis.structure import (
@@ -412,12 +411,10 @@ def _by_structure(system: MultiChannelSystem, proof: ByBlocks) -> Evidence | Non
     closed = _closed_set(system.m, paths)
     if closed is not None:
         return PathCutWitness(system.named(closed))
-    ell = edge_modulus(system)
-    if ell is None:
+    found = edge_powers(system, is_connected)
+    if found is None:
         return None
-    powers, names = sparse_powers(system, ell, is_connected), system.names
-    if not is_connected(powers >= 0):
-        return None
+    (ell, powers), names = found, system.names
     edges = {(int(j), int(i)) for j, i in zip(*(powers >= 0).nonzero(), strict=True)}
     chosen = sorted(_connecting_edges(system.m, edges))
     arcs = tuple((names[j], names[i], int(powers[j, i])) for j, i in chosen)

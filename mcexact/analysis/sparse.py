@@ -17,7 +17,7 @@ Uncontrollable modes (`annihilator`).  Let h be the common divisor of the minima
 closed loops whose feedback moves all that the channels control, and m = h g that of A_F, g coprime
 to h.  Then the rows of g(A_F) span the annihilator W of what they control.
 
-The transfer graph (`reachable_pairs`, `sparse_powers`).  Where no path leads from the inputs of a
+The transfer graph (`reachable_pairs`, `edge_powers`).  Where no path leads from the inputs of a
 channel to the outputs of another, no transfer does, and the structure of the matrices is the
 evidence.  Where one does, a Markov parameter that is not 0 modulo a prime is an edge; all columns
 of A^k B are computed at once, for one k after the other.
@@ -399,6 +399,8 @@ def _annihilates(system: MultiChannelSystem, W: Matrix, pivots: tuple[int, ...])
 
 # Modulo small primes the checker adds up whole rows as long integers, a byte for each column.
 _MODULI = (31, 61, 53)
+# Modulo these a byte holds the sums of most rows.  An edge is missed at some powers more often.
+_QUICK, _MORE_POWERS = (7, 11, 13), 24
 # Up to this size the evidence is what dense matrices give.
 _SMALL = 128
 # The numbers of a table A^k B, in single precision, and the products of all of them.
@@ -418,13 +420,13 @@ def is_connected(edges: Flags) -> bool:
     return len(edges) < 2 or connected_components(edges, connection="strong")[0] == 1
 
 
-def edge_modulus(system: MultiChannelSystem) -> int | None:
-    """A small prime that divides no denominator, for which all sums are exact, if there is one."""
+def edge_modulus(system: MultiChannelSystem, moduli: Sequence[int] = _MODULI) -> int | None:
+    """The first prime that divides no denominator and keeps all sums exact, if there is one."""
     parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
     longest = max((_longest_row(M) for M in parts), default=0)
     usable = (
         ell
-        for ell in _MODULI
+        for ell in moduli
         if longest * (ell // 2 + 3) ** 2 < 2**24 and all(M.denominator % ell for M in parts)
     )
     return next(usable, None)
@@ -465,8 +467,42 @@ def _reached(system: MultiChannelSystem) -> list[int]:
     return reached
 
 
+def edge_powers(
+    system: MultiChannelSystem, enough: Callable[[Flags], bool]
+) -> tuple[int, Integers] | None:
+    """A modulus ℓ, and powers k with C_i A^k B_j ≠ 0 modulo ℓ for enough pairs, if they are found.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    enough : function
+        Takes the pairs (j, i) that have a k, in row j and column i.
+
+    Returns
+    -------
+    modulus : int
+    powers : array
+        −1 for pairs without a k.  ℓ is one of those that are checked quickest, where so small a
+        one shows enough pairs in a few powers more than a larger one.
+    """
+    ell, short = edge_modulus(system), edge_modulus(system, _QUICK)
+    if ell is None:
+        return None
+    powers = sparse_powers(system, ell, enough)
+    if not enough(powers >= 0):
+        return None
+    if short is not None:
+        others = sparse_powers(system, short, enough, int(powers.max()) + _MORE_POWERS)
+        if enough(others >= 0):
+            return short, others
+    return ell, powers
+
+
 def sparse_powers(
-    system: MultiChannelSystem, ell: int, enough: Callable[[Flags], bool]
+    system: MultiChannelSystem,
+    ell: int,
+    enough: Callable[[Flags], bool],
+    limit: int | None = None,
 ) -> Integers:
     """The least k with C_i A^k B_j ≠ 0 modulo ℓ in row j and column i, −1 where there is none.
 
@@ -477,6 +513,8 @@ def sparse_powers(
         One of the moduli of `edge_modulus`.
     enough : function
         Takes the pairs that have a k, each time that there are more, and ends the search.
+    limit : int, optional
+        How many powers are tried, if not n.
 
     Raises
     ------
@@ -494,7 +532,7 @@ def sparse_powers(
     A, seen = loop.A.astype(np.float32), _observed(loop)
     powers = np.full((system.m, system.m), -1, dtype=np.int64)
     most = _MOST_PRODUCTS // max(loop.A.nnz * width + n, 1)
-    for k in range(min(n, most + 1)):
+    for k in range(min(n, most + 1, n if limit is None else limit)):
         if k:
             V = reduce(A @ V, ell)
         new = seen(V) & (powers < 0)

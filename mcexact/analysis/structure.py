@@ -25,10 +25,9 @@ from random import Random
 from typing import TYPE_CHECKING, overload
 
 from mcexact.analysis.sparse import (
-    edge_modulus,
+    edge_powers,
     is_large_and_sparse,
     reachable_pairs,
-    sparse_powers,
 )
 from mcexact.answer.evidence import ZeroTransfer
 from mcexact.answer.structure import ComplementarySubsystem, SetpointSolvability, TransferGraph
@@ -239,12 +238,11 @@ def transfer_graph(
 
 def _by_structure(system: MultiChannelSystem) -> TransferGraph | None:
     """The graph by paths, if there is an edge for each pair that a path connects."""
-    ell, paths = edge_modulus(system), reachable_pairs(system)
-    if ell is None:
+    paths = reachable_pairs(system)
+    found = edge_powers(system, lambda edges: bool((edges | ~paths).all()))
+    if found is None:
         return None
-    powers = sparse_powers(system, ell, lambda edges: bool((edges | ~paths).all()))
-    if ((powers < 0) & paths).any():
-        return None
+    ell, powers = found
     edges = [(int(j), int(i)) for j, i in zip(*paths.nonzero(), strict=True)]
     return _graph_answer(system, ell, {edge: int(powers[edge]) for edge in edges}, [])
 

@@ -152,26 +152,45 @@ def logarithms(ell: int) -> Logarithms | None:
 
 
 class Combination:
-    """Σ f_k u_k modulo ℓ, for rows u_k of residues that come one after the other."""
+    """Σ f_k u_k modulo ℓ, for rows u_k of residues that come one after the other.
+
+    Up to ``SMALL`` the rows with equal factors are added first, at most as many as a byte holds; a
+    row may be one long integer, with bytes up to ℓ.
+    """
 
     def __init__(self, ncols: int, ell: int) -> None:
-        self.ell = ell
+        self.ell, self.ncols = ell, ncols
         self.row: Sequence[int] = bytes(ncols)
+        self.sums = [[0, 0] for _ in range(ell if ell <= SMALL else 0)]
 
-    def add(self, factor: int, u: Sequence[int]) -> None:
+    def add(self, factor: int, u: Sequence[int] | int) -> None:
         """Add a multiple of a row."""
-        ell, ncols = self.ell, len(self.row)
-        if ell > SMALL:
+        ell, ncols = self.ell, self.ncols
+        if isinstance(u, int):
+            row = u
+        elif ell <= SMALL:
+            row = int.from_bytes(bytes(u), "little")
+        else:
             spend(budget.reductions(ncols, budget.limbs([ell])))
             self.row = [(x + factor * y) % ell for x, y in zip(self.row, u, strict=True)]
-        else:
-            spend(40 + ncols // 8)
-            multiple = bytes(u).translate(multiples(ell)[factor])
-            self.row = byte_sum((bytes(self.row), multiple), ncols, ell)
+            return
+        spend(40 + ncols // 20)
+        many, total = self.sums[factor]
+        if many >= 255 // ell:
+            spend(ncols // 8)
+            many, total = 1, _packed(self._reduced(total, 1), 1)
+        self.sums[factor] = [many + 1, total + row]
+
+    def _reduced(self, total: int, factor: int) -> bytes:
+        return total.to_bytes(self.ncols, "little").translate(multiples(self.ell)[factor])
 
     def is_zero(self) -> bool:
         """Whether the sum so far is 0."""
-        return not any(self.row)
+        if self.ell > SMALL:
+            return not any(self.row)
+        spend(self.ell * (40 + self.ncols // 4))
+        parts = (self._reduced(total, factor) for factor, (_, total) in enumerate(self.sums))
+        return not any(byte_sum(parts, self.ncols, self.ell))
 
 
 def integer_product(A: Table, B: Table, ncols: int) -> list[list[int]]:
@@ -359,9 +378,23 @@ def stack(parts: Iterable[Matrix], ncols: int) -> Matrix:
     spend(budget.fractions(len(denominators), sum(budget.limbs([d]) for d in denominators)))
     d = math.lcm(*denominators)
     nrows, more = sum(part.nrows for part in above), budget.limbs([d])
+    if above and all(isinstance(part, SparseMatrix) for part in above):
+        return _sparse_stack(above, nrows, ncols, d)
     build(nrows, ncols, longest, more)
     rows = [[d // M.denominator * entry for entry in row] for M in above for row in M.rows]
     return Matrix(rows, ncols, d)
+
+
+def _sparse_stack(above: list[Matrix], nrows: int, ncols: int, d: int) -> Matrix:
+    """`stack` of matrices by their entries, over the common denominator d."""
+    start, entries, longest = 0, list[Entry](), max(part.limbs for part in above)
+    many = sum(len(entries_of(part)) for part in above)
+    spend(100 * many + budget.products(many + 1, longest, budget.limbs([d])))
+    for M in above:
+        f = d // M.denominator
+        entries += [(start + i, j, f * x) for i, j, x in entries_of(M)]
+        start += M.nrows
+    return SparseMatrix(nrows, ncols, entries, d)
 
 
 def beside(parts: Iterable[Matrix], nrows: int) -> Matrix:

@@ -11,7 +11,7 @@
   or the number of its states bounds the degree of what divides det(xI − A_F) for all F.  The sum
   over the blocks must equal the degrees of the named factors, as often as they lose rank.  A
   Krylov sequence needs products of rows with a matrix, which are cheap where few entries are
-  nonzero (`SparseStep`).
+  nonzero (`SparseStep`), above all on few diagonals (`DiagonalStep`).
 - A channel does not reach another: an invariant subspace (`zero_transfer`), or no path through
   nonzero entries (`without_path`).  That it does is a Markov parameter that is not 0 modulo ℓ.
 """
@@ -43,6 +43,7 @@ from .arithmetic import (
     coprime,
     entries_of,
     logarithms,
+    most_addends,
     multiples,
     poly_modulo,
     rank,
@@ -104,6 +105,8 @@ def annihilator(
     """
     pivots = positions(columns, f"{place}.pivots", A.nrows)
     W = matrix(rows, f"{place}.annihilator", len(pivots), A.nrows)
+    if not pivots:
+        return W, Matrix.zeros(0, 0)
     require_identity([W.T], pivots, f"{place}.pivots")
     WA = W @ A
     Z = WA.take(cols=pivots)
@@ -339,36 +342,36 @@ Triples = list[tuple[int, int, int]]
 def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] | None:
     """A claimed edge (j, i, k) with C_i A^k B_j = 0 modulo ℓ, or None; ℓ is at most ``SMALL``.
 
-    Each row of A^k [B_1 … B_m] is a string of bytes, and sums of rows are sums of long integers.
+    Each row of A^k [B_1 … B_m] is one long integer, with a byte for each column.
 
     Theorem ``transfer_graph.arc_rule``.
     """
     sizes = [0, *accumulate(B.ncols for B in system.B)]
-    A, width = _lines(residues(system.A, ell), system.n), sizes[-1]
-    outputs = [_lines(residues(C, ell), C.nrows) for C in system.C]
-    power = _inputs(system, sizes, ell)
+    width, power = sizes[-1], _inputs(system, sizes, ell)
+    A, *outputs = (SparseProduct(M, width, ell) for M in (system.A, *system.C))
     wanted: dict[int, dict[int, list[int]]] = {}
     for j, i, k in triples:
         wanted.setdefault(k, {}).setdefault(i, []).append(j)
     for k in counted(range(max(wanted, default=-1) + 1)):
         for i, sources in wanted.get(k, {}).items():
-            seen = _products(outputs[i], power, width, ell)
-            spend(sum(40 + system.B[j].ncols * len(seen) for j in sources))
+            spend(len(outputs[i].lines) * (8 + width // 8))
+            rows = [x.to_bytes(width, "little") for x in outputs[i](power)]
+            spend(sum(40 + system.B[j].ncols * len(rows) for j in sources))
             for j in sources:
-                if not any(any(row[sizes[j] : sizes[j + 1]]) for row in seen):
+                if not any(any(row[sizes[j] : sizes[j + 1]]) for row in rows):
                     return j, i, k
-        power = _products(A, power, width, ell)
+        power = A(power)
     return None
 
 
-def _inputs(system: System, sizes: list[int], ell: int) -> list[bytes]:
-    """The rows of [B_1 … B_m] modulo ℓ, a byte for each column; none for a row of zeros."""
+def _inputs(system: System, sizes: list[int], ell: int) -> list[int]:
+    """The rows of [B_1 … B_m] modulo ℓ, a byte for each column."""
     spend(system.n * (64 + sizes[-1]))
-    rows = [bytearray(sizes[-1]) for _ in range(system.n)]
+    rows = [0] * system.n
     for B, start in zip(system.B, sizes, strict=False):
         for a, u, x in residues(B, ell):
-            rows[a][start + u] = x
-    return [bytes(row) if any(row) else b"" for row in rows]
+            rows[a] |= x << 8 * (start + u)
+    return rows
 
 
 def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
@@ -380,66 +383,92 @@ def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
     return lines
 
 
-def _products(
-    lines: list[list[tuple[int, int]]], power: list[bytes], width: int, ell: int
-) -> list[bytes]:
-    """The rows of the product of a sparse matrix with one of ``width`` columns, modulo ℓ.
+class SparseProduct:
+    """The product of a sparse matrix with one of ``width`` columns, modulo ℓ ≤ ``SMALL``.
 
-    Long lines are added by coefficient.  A row of zeros may be an empty string.
+    A row is one long integer, with a byte for each column.  Multiples of rows are added as long as
+    a byte holds their sum; those of long lines are added by coefficient.
     """
-    tables, long = multiples(ell), [len(line) > 2 * ell for line in lines]
-    terms = sum(len(line) for line, many in zip(lines, long, strict=True) if not many)
-    spend(len(lines) * (60 + width // 8) + terms * (40 + width // 4))
-    numbers = [int.from_bytes(row, "little") for row in power] if any(long) else []
-    made = []
-    for line, many in zip(lines, long, strict=True):
-        if many:
-            spend(by_coefficient_units(len(line), width, ell))
-            pairs = ((x, numbers[j]) for j, x in line)
-            made.append(byte_sum(by_coefficient(pairs, width, ell), width, ell))
-            continue
-        parts = [power[j] if x == 1 else power[j].translate(tables[x]) for j, x in line if power[j]]
-        made.append(byte_sum(parts, width, ell) if len(parts) > 1 else b"".join(parts))
-    return made
+
+    def __init__(self, M: Matrix, width: int, ell: int) -> None:
+        self.width, self.ell, most = width, ell, most_addends(ell)
+        entries, lines = residues(M, ell), [list[tuple[int, int]]() for _ in range(M.nrows)]
+        spend(200 * (len(entries) + M.nrows))
+        for i, j, x in entries:
+            lines[i].append((j, x))
+        self.units = len(lines) * (60 + width // 8) + len(entries) * (20 + width // 16)
+        self.lines: list[tuple[Any, list[int], bool]] = []
+        for line in lines:
+            xs = [x for _, x in line]
+            simple = sum(xs) <= most
+            if not simple:
+                by_one = len(line) * (40 + width // 8)
+                self.units += min(by_one, by_coefficient_units(len(line), width, ell))
+            # of two places or more a tuple is made; those at the end are not looked at
+            places = [j for j, _ in line]
+            gather = itemgetter(*places, 0, 0) if line else itemgetter(slice(0))
+            self.lines.append((gather, xs, simple))
+
+    def __call__(self, power: list[int]) -> list[int]:
+        """The rows of the product; those of the factor are ``power``."""
+        spend(self.units)
+        of, width, table = int.from_bytes, self.width, multiples(self.ell)[1]
+        return [
+            of(
+                sum(map(mul, xs, gather(power))).to_bytes(width, "little").translate(table),
+                "little",
+            )
+            if simple
+            else self._in_parts(xs, gather(power))
+            for gather, xs, simple in self.lines
+        ]
+
+    def _in_parts(self, xs: list[int], rows: Sequence[int]) -> int:
+        """The sum of multiples of rows that a byte does not hold."""
+        width, ell, most = self.width, self.ell, most_addends(self.ell)
+        if len(xs) > 2 * ell:
+            parts = by_coefficient(zip(xs, rows, strict=False), width, ell)
+            return int.from_bytes(byte_sum(parts, width, ell), "little")
+
+        def reduced(total: int, factor: int = 1) -> int:
+            data = total.to_bytes(width, "little").translate(multiples(ell)[factor])
+            return int.from_bytes(data, "little")
+
+        total, room = 0, most
+        for x, row in zip(xs, rows, strict=False):
+            term, size = (x * row, x) if x < most else (reduced(row, x), 1)
+            if size > room:
+                total, room = reduced(total), most - 1
+            total, room = total + term, room - size
+        return reduced(total)
 
 
 # Products of a row with a matrix of few entries, modulo ℓ.
 
 LONG = 32
 """Columns of more entries are added up one by one."""
-FULL = 5
-"""A diagonal of at least n / 5 entries is multiplied as a whole."""
 
 
 class SparseStep:
     """u ↦ uM modulo ℓ for an n × n matrix M, given by its residues that are not 0.
 
-    Modulo a small prime, diagonals of many entries are multiplied by the whole of u, by logarithms.
-    The other entries come in layers: of the columns of at most ``LONG`` of them, those with the
-    most first, all first entries, then the second ones of those columns that have two, and so on.
-    Without diagonals the entries of u are in that ``order`` of the columns.
+    The entries come in layers: of the columns of at most ``LONG`` of them, those with the most
+    first, all first entries, then the second ones of those columns that have two, and so on.  The
+    entries of u are in that ``order`` of the columns, unless they are ``in_place``; then the
+    product has only those of the ``columns`` that are not 0.  Modulo a small prime u is bytes, and
+    products are sums of logarithms.
     """
 
-    def __init__(self, entries: Sequence[Entry], n: int, ell: int) -> None:
+    def __init__(self, entries: Sequence[Entry], n: int, ell: int, in_place: bool = False) -> None:
         self.ell, self.n = ell, n
         spend(300 * (len(entries) + n))
         self.tables = logarithms(ell)
-        full: dict[int, bytearray] = {}
-        if self.tables:
-            often = Counter(i - j for i, j, _ in entries)
-            zeros = bytes([self.tables.zero]) * n
-            full = {k: bytearray(zeros) for k, many in often.items() if FULL * many >= n}
-        self.mask = (1 << 8 * n) - 1
         columns: list[list[tuple[int, int]]] = [[] for _ in range(n)]
         for i, j, x in entries:
-            if self.tables and i - j in full:
-                full[i - j][j] = self.tables.of[x]
-            else:
-                columns[j].append((i, x))
-        self.diagonals = [(8 * k, int.from_bytes(row, "little")) for k, row in full.items()]
+            columns[j].append((i, x))
         sizes = [(len(column) > LONG, -len(column), j) for j, column in enumerate(columns)]
-        self.columns = [j for _, many, j in sorted(sizes) if many or not full]
-        self.order = list(range(n)) if full else self.columns
+        self.columns = [j for _, many, j in sorted(sizes) if many or not in_place]
+        self.order = list(range(n)) if in_place else self.columns
         place = {j: k for k, j in enumerate(self.order)}
         ordered = [[(place[i], x) for i, x in columns[j]] for j in self.columns]
         short = [column for column in ordered if len(column) <= LONG]
@@ -456,8 +485,7 @@ class SparseStep:
             (itemgetter(*(i for i, _ in column)), [x for _, x in column])
             for column in ordered[self.short :]
         ]
-        one_by_one = sum(map(len, columns)) * (1 if self.tables else 4)
-        self.units = 1000 + one_by_one + n * len(self.diagonals) // 8
+        self.units = 1000 + len(entries) * (1 if self.tables else 4)
 
     def start(self, row: Sequence[int]) -> Sequence[int]:
         """A row with its entries in ``order``, as `__call__` takes it."""
@@ -468,30 +496,104 @@ class SparseStep:
         """The product of a row with M; it takes ``units`` of work, which the caller charges."""
         long = [sum(map(mul, gather(u), xs)) % self.ell for gather, xs in self.long]
         if self.tables:
-            return self._added(bytes(u), bytes(long), self.tables)
+            return self._added(bytes(u), self.tables) + bytes(long)
         total = [0] * self.short
         for gather, many, xs in self.layers:
             total[:many] = map(add, total, map(mul, gather(u), xs))
         return [x % self.ell for x in total] + long
 
-    def _added(self, u: bytes, long: bytes, tables: Logarithms) -> bytes:
-        """The same of bytes: sums of logarithms are products."""
-        logs, n = u.translate(tables.of), self.n
+    def _added(self, u: bytes, tables: Logarithms) -> bytes:
+        """The same of bytes, for the columns in layers: sums of logarithms are products."""
+        logs = u.translate(tables.of)
         layers = (
             tables.products(int.from_bytes(bytes(gather(logs)[:many]), "little") + of, many)
             for gather, many, of in self.layers
         )
-        rest = byte_sum(layers, self.short, self.ell) + long
-        if not self.diagonals:
-            return rest
-        row, whole = bytearray(n), int.from_bytes(logs, "little")
-        for j, x in zip(self.columns, rest, strict=True):
-            row[j] = x
-        shifted = (
-            (whole >> k if k >= 0 else whole << -k & self.mask, of) for k, of in self.diagonals
-        )
-        full = (tables.products(moved + of, n) for moved, of in shifted)
-        return byte_sum(chain([bytes(row)], full), n, self.ell)
+        return byte_sum(layers, self.short, self.ell)
+
+
+FULL = 12
+"""A diagonal of at least n / 12 entries is multiplied as a whole."""
+WHOLE = (3, 7, 31)
+"""The primes 2^b − 1 modulo which a row is one long integer, with a byte for each entry."""
+
+
+class DiagonalStep:
+    """u ↦ uM for a matrix with full diagonals, modulo an ℓ of ``WHOLE``, u one long integer.
+
+    An entry of u is from 0 to ℓ, which stands for 0.  A full diagonal multiplies a shifted u, bit
+    by bit of its entries: each bit has a mask, with 255 where it is set.  As 2^b = 1, a byte is
+    reduced by adding what is above its lowest b bits to these (`_folded`).  The other entries are
+    those of a `SparseStep`.
+    """
+
+    def __init__(self, entries: Sequence[Entry], n: int, ell: int) -> None:
+        self.n, self.ell, self.bits = n, ell, ell.bit_length()
+        spend(300 * (len(entries) + n))
+        full = {k: bytearray(n) for k in full_diagonals(entries, n)}
+        rest: list[Entry] = []
+        for i, j, x in entries:
+            if i - j in full:
+                full[i - j][j] = x
+            else:
+                rest.append((i, j, x))
+        tables = [bytes(255 * (x >> b & 1) for x in range(256)) for b in range(self.bits)]
+        spend(len(full) * self.bits * (100 + n))
+        self.diagonals = [
+            (8 * k, [int.from_bytes(row.translate(table), "little") for table in tables])
+            for k, row in full.items()
+        ]
+        self.low = int.from_bytes(bytes([ell]) * n, "little")
+        self.high = int.from_bytes(bytes([255 >> self.bits]) * n, "little")
+        # twice a folded byte, and so many terms, are a byte
+        folded = ell + (255 >> self.bits)
+        self.most, self.again = (255 - 2 * folded) // ell, -(-folded // ell)
+        self.folds, bound = 0, folded + ell
+        while bound > ell:
+            bound = max((x & ell) + (x >> self.bits) for x in range(bound + 1))
+            self.folds += 1
+        self.rest = SparseStep(rest, n, ell, in_place=True) if rest else None
+        self.units = 1000 + n * self.bits * (len(full) + 4) // 40
+        self.units += n // 4 + self.rest.units if self.rest else 0
+
+    def start(self, row: Sequence[int]) -> int:
+        """A row of residues as `__call__` takes it."""
+        return int.from_bytes(bytes(row), "little")
+
+    def residues(self, u: int) -> bytes:
+        """The residues of a row."""
+        return u.to_bytes(self.n, "little").translate(multiples(self.ell)[1])
+
+    def __call__(self, u: int) -> int:
+        """The product of a row with M; it takes ``units`` of work, which the caller charges."""
+        sums, room, total = [0] * self.bits, self.most, 0
+        for shift, masks in self.diagonals:
+            if not room:
+                sums, room = [self._folded(x) for x in sums], self.most - self.again
+            moved = u >> shift if shift >= 0 else u << -shift
+            sums = [x + (moved & mask) for x, mask in zip(sums, masks, strict=True)]
+            room -= 1
+        for x in reversed(sums):
+            total = self._folded(total + total + x)
+        if self.rest:
+            row = bytearray(self.n)
+            for j, x in zip(self.rest.columns, self.rest(self.residues(u)), strict=True):
+                row[j] = x
+            total += int.from_bytes(row, "little")
+        for _ in range(self.folds):
+            total = self._folded(total)
+        return total
+
+    def _folded(self, total: int) -> int:
+        """Bytes that are the same modulo ℓ, and at most ℓ + 255 / 2^b."""
+        return (total & self.low) + (total >> self.bits & self.high)
+
+
+def full_diagonals(entries: Sequence[Entry], n: int) -> list[int]:
+    """The differences i − j that at least n / ``FULL`` of the entries have."""
+    spend(100 * len(entries))
+    often = Counter(i - j for i, j, _ in entries)
+    return sorted(k for k, many in often.items() if FULL * many >= n)
 
 
 def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entry] | None:
@@ -582,8 +684,11 @@ def _numbers(
 
 def _steps(
     system: System, gains: Sequence[Matrix], ell: int, b: Row, c: Row
-) -> tuple[Callable[[Row], tuple[Row, int]], Row, int]:
-    """The step u ↦ (u A_F, u b) modulo ℓ, its first u = c, and the units that a caller charges."""
+) -> tuple[Callable[[Any], tuple[Any, int]], Any, int]:
+    """The step u ↦ (u A_F, u b) modulo ℓ, its first u = c, and the units that a caller charges.
+
+    What stands for u depends on the entries of A_F; a `Combination` takes all of them.
+    """
     n, entries = system.n, loop_entries(system, gains, ell)
     if entries is None:
         pairs = zip(krylov_loop(system, gains, ell), b, strict=True)
@@ -594,6 +699,14 @@ def _steps(
             return product, last
 
         return dense, c, 0
+    if ell in WHOLE and full_diagonals(entries, n):
+        whole, active = DiagonalStep(entries, n, ell), [(k, f) for k, f in enumerate(b) if f]
+
+        def by_diagonals(u: int) -> tuple[int, int]:
+            data = u.to_bytes(n, "little")
+            return whole(u), sum(data[k] * f for k, f in active) % ell
+
+        return by_diagonals, whole.start(c), whole.units + n // 20 + 2 * len(active)
     step = SparseStep(entries, n, ell)
     seen = [(k, b[j]) for k, j in enumerate(step.order) if b[j]]
 

@@ -505,14 +505,14 @@ def transfer_graph_statement(claim: Json, system: System) -> str:
 def read_arcs(value: Json, where: str, system: System) -> list[tuple[int, int, int]]:
     """Read edges (j, i) with a power k each, sorted and none twice."""
     arcs, known = [], {name: i for i, name in enumerate(system.names)}
-    for place, entry in ((f"{where}[{k}]", e) for k, e in enumerate(items(value, where))):
+    spend(60 * len(items(value, where)))
+    for number, entry in enumerate(value):
+        place = f"{where}[{number}]"
         *ends, power = items(entry, place, 3)
-        spend(40)
         for end in ends:
             if type(end) is not str or end not in known:
                 malformed(place, f"expected the name of a channel, found {shown(end)}")
-        j, i = (known[end] for end in ends)
-        arcs.append((j, i, integer(power, place)))
+        arcs.append((known[ends[0]], known[ends[1]], integer(power, place)))
     if [arc[:2] for arc in arcs] != sorted({arc[:2] for arc in arcs}):
         malformed(where, "expected them sorted, none twice")
     return arcs

@@ -594,7 +594,10 @@ def channel_set(names: Iterable[str]) -> str:
 
 def edge_set(edges: Iterable[Any]) -> str:
     """A set of edges [from, to], perhaps with a cost, such as {"1" -> "2", "2" -> "1"}."""
-    ends = [(f"{quoted(j)} -> {quoted(i)}", cost) for j, i, *cost in edges]
+    listed = list(edges)
+    texts = {name: quoted(name) for name in {end for j, i, *_ in listed for end in (j, i)}}
+    budget.spend(sum(100 + len(texts[j]) + len(texts[i]) for j, i, *_ in listed))
+    ends = [(f"{texts[j]} -> {texts[i]}", cost) for j, i, *cost in listed]
     return "{" + ", ".join(": ".join([edge, *map(str, cost)]) for edge, cost in ends) + "}"
 
 

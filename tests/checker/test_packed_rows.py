@@ -156,7 +156,17 @@ def test_rows_that_come_one_after_the_other_are_combined(ell: int) -> None:
     assert Combination(0, ell).is_zero()
 
 
-@pytest.mark.parametrize(("ell", "units"), [(31, 165), (97, 1000)])
+@pytest.mark.parametrize("ell", [3, 7, 31])
+def test_rows_as_long_integers_may_have_the_modulus_in_place_of_zero(ell: int) -> None:
+    for factor in range(1, ell):
+        for many in (1, 255 // ell, 255 // ell + 1, 1000):
+            total, row = Combination(3, ell), int.from_bytes(bytes([ell, ell, 1]), "little")
+            for _ in range(many):
+                total.add(factor, row)
+            assert total.is_zero() == (many * factor % ell == 0)
+
+
+@pytest.mark.parametrize(("ell", "units"), [(31, 90), (97, 1000)])
 def test_a_combination_is_charged_row_by_row(ell: int, units: int) -> None:
     with limited(Budget(units * 3)), pytest.raises(Refused, match="units of work"):
         total = Combination(1000, ell)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix, SparseMatrix, listed
+from mcexact.checker.arithmetic import Matrix, SparseMatrix, beside, listed, stack
 from mcexact.checker.budget import Budget, limited
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import digest, read_matrix, read_plant
@@ -53,6 +53,24 @@ def test_both_forms_are_the_same_matrix(seed: int) -> None:
     assert same(S.times(Fraction(-2, 3)), M.times(Fraction(-2, 3)))
     if S.denominator == 1:
         assert S.modulo(7) == M.modulo(7)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_matrices_stand_beside_each_other_in_both_forms(seed: int) -> None:
+    rng = random.Random(seed)
+    c, sizes = rng.randint(0, 5), [rng.randint(0, 4) for _ in range(rng.randint(1, 4))]
+    parts = [drawn(rng, r, c) for r in sizes]
+    one, other = [S for S, _ in parts], [M for _, M in parts]
+    mixed = [rng.choice(pair) for pair in parts]
+    for found in (stack(one, c), stack(mixed, c)):
+        assert same(found, stack(other, c))
+    turned = [S.T for S in one]
+    assert same(beside(turned, c), beside([M.T for M in other], c))
+    assert isinstance(stack(one, c), SparseMatrix)
+    assert isinstance(beside(turned, c), SparseMatrix)
+    assert not isinstance(stack([*one, other[0]], c), SparseMatrix)
+    with limited(Budget(90)), pytest.raises(Refused, match="units of work"):
+        stack([SparseMatrix(1, 1, [(0, 0, 1)]), SparseMatrix(1, 1, [(0, 0, 1)])], 1)
 
 
 def test_the_longest_of_the_entries_and_the_denominator_counts() -> None:

@@ -18,7 +18,16 @@ from mcexact.checker.arithmetic import (
     within,
 )
 from mcexact.checker.budget import Budget, limited
-from mcexact.checker.evidence import LONG, SparseStep, krylov_loop, loop_entries, split
+from mcexact.checker.evidence import (
+    LONG,
+    WHOLE,
+    DiagonalStep,
+    SparseStep,
+    full_diagonals,
+    krylov_loop,
+    loop_entries,
+    split,
+)
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import System
 from tests.checker.handmade import Document, changed, checked
@@ -64,7 +73,7 @@ def test_rows_are_multiplied_as_number_by_number(ell: int, n: int) -> None:
         assert isinstance(found, bytes) == (ell in {2, 3, 7, 31})
 
 
-@pytest.mark.parametrize("ell", MODULI)
+@pytest.mark.parametrize("ell", WHOLE)
 @pytest.mark.parametrize("n", [1, 4, 12, LONG + 20])
 def test_full_diagonals_are_multiplied_as_number_by_number(ell: int, n: int) -> None:
     rng = random.Random(n)
@@ -78,13 +87,43 @@ def test_full_diagonals_are_multiplied_as_number_by_number(ell: int, n: int) -> 
     for i in range(min(LONG + 1, n)):
         rows[i][n // 2] = 1
     entries = [(i, j, x) for i, row in enumerate(rows) for j, x in enumerate(row) if x]
-    step = SparseStep(entries, n, ell)
-    assert n == 1 or bool(step.diagonals) == (step.tables is not None)
+    step = DiagonalStep(entries, n, ell)
+    assert step.diagonals
+    assert step.rest or n <= 12
     for u in ([rng.randrange(ell) for _ in range(n)], [ell - 1] * n):
         found, expected = step.start(u), u
         for _ in range(3):
             found, expected = step(found), products(rows, expected, ell)
-            assert list(found) == [expected[j] for j in step.order]
+            assert list(step.residues(found)) == expected
+
+
+@pytest.mark.parametrize("ell", WHOLE)
+@pytest.mark.parametrize("size", [1, 5, 6, 25, 26, 41, 42, 70, 103])
+def test_bytes_hold_the_sums_of_any_number_of_diagonals(ell: int, size: int) -> None:
+    """Every bit of every entry is set as often as it can be, and every entry of u is ℓ."""
+    n = 52
+    for x in (ell - 1, ell - 2, ell // 2, 1):
+        rows = [[x * (-size <= 2 * (i - j) <= size) for j in range(n)] for i in range(n)]
+        entries = [(i, j, y) for i, row in enumerate(rows) for j, y in enumerate(row) if y]
+        entries += [(0, 51, 1), (51, 0, ell - 1)] * (size < 70)
+        rows[0][51], rows[51][0] = [1, ell - 1] if size < 70 else [rows[0][51], rows[51][0]]
+        step = DiagonalStep(entries, n, ell)
+        for start in (ell, ell - 1, 1):
+            u = int.from_bytes(bytes([start]) * n, "little")
+            expected = [start % ell] * n
+            for _ in range(4):
+                u, expected = step(u), products(rows, expected, ell)
+                assert list(step.residues(u)) == expected
+                assert max(u.to_bytes(n, "little")) <= ell
+
+
+@pytest.mark.parametrize("ell", WHOLE)
+def test_a_folded_byte_is_the_same_modulo_l(ell: int) -> None:
+    step = DiagonalStep([(k, k, 1) for k in range(256)], 256, ell)
+    found = step._folded(int.from_bytes(bytes(range(256)), "little")).to_bytes(256, "little")
+    assert [x % ell for x in found] == [x % ell for x in range(256)]
+    assert 2 * max(found) + step.most * ell <= 255
+    assert max(found) + (step.most - step.again) * ell <= step.most * ell <= 255
 
 
 @pytest.mark.parametrize("ell", [2, 3, 5, 13, 61])
@@ -119,9 +158,11 @@ def test_columns_of_many_entries_are_not_added_up_in_layers() -> None:
 
 def test_what_a_step_takes_grows_with_the_entries_and_with_the_diagonals() -> None:
     entries = [(i, i, 1 + i % 3) for i in range(640)] + [(0, 1, 1)]
-    assert SparseStep(entries, 640, 31).units == 1000 + 1 + 640 // 8
+    assert SparseStep(entries, 640, 31).units == 1000 + 641
     assert SparseStep(entries, 640, 97).units == 1000 + 641 * 4
     assert SparseStep([], 640, 31).units == 1000
+    assert DiagonalStep(entries[:-1], 640, 31).units == 1000 + 640 * 5 * 5 // 40
+    assert DiagonalStep(entries, 640, 31).units == 2000 + 640 * 5 * 5 // 40 + 160 + 1
 
 
 def drawn_system(rng: random.Random, n: int) -> tuple[System, list[Matrix]]:
@@ -164,11 +205,16 @@ def test_steps_by_entries_are_those_by_rows(seed: int, monkeypatch: pytest.Monke
     by_rows, u, none = evidence._steps(system, gains, ell, b, c)
     monkeypatch.setattr(arithmetic, "SHARE", 0)
     by_entries, v, units = evidence._steps(sparsely(system), gains, ell, b, c)
-    step = SparseStep(loop_entries(sparsely(system), gains, ell) or [], n, ell)
+    entries = loop_entries(sparsely(system), gains, ell) or []
+    whole = ell in WHOLE and bool(full_diagonals(entries, n))
+    step = DiagonalStep(entries, n, ell) if whole else SparseStep(entries, n, ell)
     assert none == 0
-    assert units == step.units + 2 * sum(map(bool, b))
+    assert units == step.units + 2 * sum(map(bool, b)) + (n // 20 if whole else 0)
     for _ in range(4):
-        assert list(v) == [u[j] for j in step.order]
+        if isinstance(step, DiagonalStep):
+            assert list(step.residues(v)) == list(u)
+        else:
+            assert list(v) == [u[j] for j in step.order]
         (u, number), (v, other) = by_rows(u), by_entries(v)
         assert number == other
 
@@ -286,6 +332,8 @@ def test_what_is_sparse_is_charged() -> None:
         lambda: residues(S, 7),
         lambda: SparseStep(S.entries, 1000, 7),
         lambda: SparseStep([], 1000, 7),
+        lambda: DiagonalStep(S.entries, 1000, 7),
+        lambda: full_diagonals(S.entries, 1000),
     ]
     for step in steps:
         with limited(Budget(900)), pytest.raises(Refused, match="units of work"):
