@@ -26,3 +26,13 @@ Lemma inst_strongly_connected : (#|[set component both_ways j | j : 'I_2]| <= 1)
 Proof. by apply/strongly_connected_rule; apply: both_ways_connected. Qed.
 Lemma inst_not_strongly_connected : ~ (#|[set component one_way j | j : 'I_2]| <= 1)%N.
 Proof. by move/strongly_connected_rule/(_ b a); apply/negP/one_way_not_back. Qed.
+(* One arc: each node by itself, the first one before the second. *)
+Lemma inst_ordered (j i : 'I_2) : connect one_way j i && connect one_way i j = (j == i).
+Proof.
+rewrite (@ordered_components _ (fun _ _ => false) one_way (fun k => k : nat)) => [//|//| |j' i' /ord_inj->].
+- by move=> j' i' ij; apply/negP => /andP[/eqP jE /eqP iE]; rewrite jE iE in ij.
+- exact: connect0.
+Qed.
+(* In the other order the arc leads back. *)
+Lemma inst_order_needed : ~ (forall j i : 'I_2, (1 - i < 1 - j)%N -> ~~ one_way j i).
+Proof. by move/(_ a b isT)/negP; apply. Qed.

@@ -1,4 +1,5 @@
-(* checker/structure.py: kind `neighbor_graph`, and the strong components of `transfer_graph`.
+(* checker/structure.py: kind `neighbor_graph`, and the strong components of `transfer_graph`
+   and `assignability`.
 
    The recursion of Roy and Warshall: start from j -> j and the arcs, and for one node k after the other
    let every node that reaches k reach what k reaches.  The order of the nodes does not matter. *)
@@ -77,5 +78,18 @@ split=> [/card_le1_eqP one j i | sc].
   by rewrite !component_rule connect0 /=; case: (connect e j i).
 apply/card_le1_eqP => _ _ /imsetP[j _ ->] /imsetP[i _ ->].
 by apply/setP => k; rewrite !component_rule !sc.
+Qed.
+(* Kind `assignability`: edges that connect each part, and parts in an order in which no edge leads back. *)
+Theorem ordered_components e r (at_ : 'I_m -> nat) : (forall j i, e j i -> r j i) ->
+  (forall j i, (at_ i < at_ j)%N -> ~~ r j i) -> (forall j i, at_ j = at_ i -> connect e j i) ->
+  forall j i, connect r j i && connect r i j = (at_ j == at_ i).
+Proof.
+move=> er back within j i.
+have up a b : connect r a b -> (at_ a <= at_ b)%N.
+  move=> /connectP[w]; elim: w a => [a _ ->//|c w IH a /= /andP[ac cw] bw].
+  by apply: leq_trans (IH c cw bw); rewrite leqNgt; apply: contraL ac; apply: back.
+apply/andP/eqP => [[/up le /up ge]|same]; first by apply/eqP; rewrite eqn_leq le.
+have sub a b : connect e a b -> connect r a b by apply: connect_sub => x y /er; apply: connect1.
+by split; apply: sub; apply: within.
 Qed.
 End Closure.

@@ -51,7 +51,14 @@ from mcexact.analysis.structure import (
     zero_transfer,
 )
 from mcexact.analysis.subspaces import Decision, Obstruction, decide, evidence
-from mcexact.answer.evidence import Block, KrylovSequence, RateInterval, RootDisc, ShrunkSubspace
+from mcexact.answer.evidence import (
+    Block,
+    KrylovSequence,
+    RateInterval,
+    RootDisc,
+    ShrunkSubspace,
+    ZeroTransfer,
+)
 from mcexact.answer.loops import ClosedLoopSpectrum
 from mcexact.answer.modes import (
     Assignability,
@@ -67,6 +74,7 @@ from mcexact.answer.modes import (
     FixedModeWitness,
     FixedSpectrum,
     FreedomWitness,
+    OrderedComponents,
     PathCutWitness,
     PencilRank,
     SpectrumBlock,
@@ -89,7 +97,7 @@ from mcexact.exact.modular import polynomial_residues, primes, random_matrix, re
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.rational import as_fraction
 from mcexact.exact.roots import StabilityRegion, Time
-from mcexact.model.graph import strong_components
+from mcexact.model.graph import components_of, strong_components
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
@@ -411,14 +419,21 @@ def _by_structure(system: MultiChannelSystem, proof: ByBlocks) -> Evidence | Non
     closed = _closed_set(system.m, paths)
     if closed is not None:
         return PathCutWitness(system.named(closed))
+    found = _connecting_arcs(system)
+    return None if found is None else BlocksWitness(proof.blocks, *found)
+
+
+def _connecting_arcs(
+    system: MultiChannelSystem,
+) -> tuple[int, tuple[tuple[str, str, int], ...]] | None:
+    """A modulus, and edges of the least powers that connect all channels of a sparse system."""
     found = edge_powers(system, is_connected)
     if found is None:
         return None
     (ell, powers), names = found, system.names
     edges = {(int(j), int(i)) for j, i in zip(*(powers >= 0).nonzero(), strict=True)}
     chosen = sorted(_connecting_edges(system.m, edges))
-    arcs = tuple((names[j], names[i], int(powers[j, i])) for j, i in chosen)
-    return BlocksWitness(proof.blocks, ell, arcs)
+    return ell, tuple((names[j], names[i], int(powers[j, i])) for j, i in chosen)
 
 
 def _connected(modular: ModularSystem, proof: Freedom, chosen: set[Edge]) -> Evidence:
@@ -519,18 +534,60 @@ def assignability(
     """
     InputError.require(system, MultiChannelSystem, "system")
     known = TransferGraph.known(graph, system, "graph")
-    graph = transfer_graph(system) if known is None else known
+    quick = known is None and is_large_and_sparse(system)
+    found = _connecting_arcs(system) if quick and is_connected(reachable_pairs(system)) else None
+    parts: tuple[tuple[str, ...], ...] = (system.names,)
+    if found is not None:
+        components = OrderedComponents(*found, order=(0,), zeros=())
+    else:
+        graph = transfer_graph(system) if known is None else known
+        parts, components = graph.components, _ordered(graph)
     rng = generator(system, "assignability")
-    arcs = _arcs(system.A) if system.A.is_sparse or len(graph.components) > 1 else None
-    degrees = tuple(_degree(system, system.indices(c), rng, arcs) for c in graph.components)
+    arcs = _arcs(system.A) if system.A.is_sparse or len(parts) > 1 else None
+    degrees = tuple(_degree(system, system.indices(c), rng, arcs) for c in parts)
     blocks = tuple(
-        SpectrumBlock(c, degree.number) for c, degree in zip(graph.components, degrees, strict=True)
+        SpectrumBlock(c, degree.number) for c, degree in zip(parts, degrees, strict=True)
     )
     return Assignability(
         system,
         blocks=blocks,
         fixed_degree=system.n - sum(block.dimension for block in blocks),
-        evidence=ByDegrees(graph, degrees),
+        evidence=ByDegrees(components, degrees),
+    )
+
+
+def _ordered(graph: TransferGraph) -> OrderedComponents:
+    """Edges that connect each component, and what no edge of a transfer graph leads back from."""
+    at = {name: k for k, part in enumerate(graph.components) for name in part}
+    chosen = set[tuple[str, str]]()
+    for k, part in enumerate(graph.components):
+        place = {name: i for i, name in enumerate(part)}
+        inside = {(place[j], place[i]) for j, i in graph.arcs if at[j] == at[i] == k}
+        chosen |= {(part[j], part[i]) for j, i in _connecting_edges(len(part), inside)}
+    into, out = ([list[int]() for _ in graph.components] for _ in range(2))
+    for j, i in graph.arcs:
+        into[at[i]].append(at[j])
+        out[at[j]].append(at[i])
+    order = [k for part in reversed(components_of(into, out)) for k in part]
+    return OrderedComponents(
+        modulus=graph.modulus,
+        arcs=tuple(
+            (*arc, k) for arc, k in zip(graph.arcs, graph.powers, strict=True) if arc in chosen
+        ),
+        order=tuple(order),
+        zeros=tuple(zero for zero in graph.zeros if _leads_back(zero, graph, at, order)),
+    )
+
+
+def _leads_back(
+    zero: ZeroTransfer, graph: TransferGraph, at: dict[str, int], order: list[int]
+) -> bool:
+    """Whether some source does not act on a channel of an earlier component."""
+    place = {k: turn for turn, k in enumerate(order)}
+    return any(
+        place[at[i]] < place[at[j]]
+        for j in zero.channels_from
+        for i in at.keys() - set(graph.successors.get(j, ()))
     )
 
 

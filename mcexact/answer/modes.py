@@ -351,8 +351,45 @@ class Degree(Part):
 
 
 @dataclass(frozen=True)
+class OrderedComponents(Part):
+    """Evidence that the blocks are the strong components of the transfer graph.
+
+    Attributes
+    ----------
+    modulus : int
+        ℓ ≥ 2.
+    arcs : tuple of (str, str, int)
+        Edges (from, to, k) with C_i A^k B_j ≠ 0 modulo ℓ, k < n, which connect each component.
+    order : tuple of int
+        The positions of the blocks, so that no edge leads from a later block to an earlier one.
+    zeros : tuple of ZeroTransfer
+        That no edge does, where a path does.
+    """
+
+    modulus: int
+    arcs: tuple[tuple[str, str, int], ...]
+    order: tuple[int, ...]
+    zeros: tuple[ZeroTransfer, ...]
+
+
+@dataclass(frozen=True)
 class ByDegrees(Part):
     """Evidence by one sequence for each strong component.
+
+    Attributes
+    ----------
+    components : OrderedComponents
+    degrees : tuple of Degree
+        One for each block.
+    """
+
+    components: OrderedComponents
+    degrees: tuple[Degree, ...]
+
+
+@dataclass(frozen=True)
+class ByTransferGraph(Part):
+    """Evidence of certificates written by earlier versions, which is read only.
 
     Attributes
     ----------
@@ -439,13 +476,13 @@ class Assignability(Answer):
     fixed_degree : int
         The number of eigenvalues, with multiplicity, that belong to no block and depend on no gain;
         0 if no mode is fixed.
-    evidence : ByDegrees or ByRealizations
-        The degrees of all blocks, and the transfer graph.
+    evidence : ByDegrees, ByTransferGraph or ByRealizations
+        That the blocks are the strong components, and the degrees of all blocks.
     """
 
     blocks: tuple[SpectrumBlock, ...] = claim()
     fixed_degree: int = claim()
-    evidence: ByDegrees | ByRealizations = witness(whole=True)
+    evidence: ByDegrees | ByTransferGraph | ByRealizations = witness(whole=True)
 
     @property
     def undivided(self) -> bool:

@@ -368,26 +368,32 @@ def _inverse(a: Polynomial, p: Polynomial, ell: int) -> Polynomial:
 def check_assignability(claim: Json, witness: Json, system: System) -> None:
     """Check the components, and the McMillan degree of the transfer within each.
 
-    Theorems ``assignability.assignability_rule``, ``assignability.component_own_gains``,
-    ``assignability.mcmillan_degree``.
+    Theorems ``strong_components.ordered_components``, ``assignability.assignability_rule``,
+    ``assignability.component_own_gains``, ``assignability.mcmillan_degree``.
     """
     listed, left = fields(claim, "claim", "blocks", "fixed_degree")
-    if isinstance(witness, dict) and "degrees" in witness:
-        graph, shown = fields(witness, "witness", "transfer_graph", "degrees")
-        require_degree = _require_degree
-    else:
-        keys = ("modulus", "transfer_graph", "realizations")
-        number, graph, shown = fields(witness, "witness", *keys)
+    keys, require_degree = ["components", "degrees"], _require_degree
+    if isinstance(witness, dict) and "components" not in witness:
+        keys[0] = "transfer_graph"  # as earlier versions wrote, the older ones with realizations
+    if isinstance(witness, dict) and "degrees" not in witness:
+        keys = ["transfer_graph", "realizations"]
+        number, *graph_and_shown = fields(witness, "witness", "modulus", *keys)
         require_degree = partial(_require_minimal, evidence.modulus(number, "witness.modulus"))
-    known, proof = fields(graph, "witness.transfer_graph", "claim", "witness")
-    structure.check_transfer_graph(known, proof, system)
+    else:
+        graph_and_shown = fields(witness, "witness", *keys)
+    graph, shown = graph_and_shown
     place = "claim.blocks"
     blocks = [fields(block, place, "channels", "dimension") for block in items(listed, place)]
-    same = [c for c, _ in blocks] == known["components"]
-    require(same, "component", place, "not the components of the transfer graph")
+    parts = [names(component, place, system.names) for component, _ in blocks]
+    if keys[0] == "components":
+        structure.require_components(graph, f"witness.{keys[0]}", system, parts)
+    else:
+        known, proof = fields(graph, "witness.transfer_graph", "claim", "witness")
+        structure.check_transfer_graph(known, proof, system)
+        same = [c for c, _ in blocks] == known["components"]
+        require(same, "component", place, "not the components of the transfer graph")
     degrees, entries = [], items(shown, "witness", len(blocks))
-    for (component, size), entry in zip(blocks, entries, strict=True):
-        c = names(component, place, system.names)
+    for c, (_, size), entry in zip(parts, blocks, entries, strict=True):
         degrees.append(integer(size, place))
         require_degree(system, c, degrees[-1], entry)
     fixed = integer(left, "claim.fixed_degree")

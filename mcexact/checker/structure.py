@@ -476,20 +476,55 @@ def check_transfer_graph(claim: Json, witness: Json, system: System) -> None:
     arcs = [(j, i) for j, i, _ in triples]
     spend(PAIRS * system.m**2)
     missing = {(j, i) for j in range(system.m) for i in range(system.m)} - set(arcs)
-    for k, entry in enumerate(items(zeros, "witness.zeros")):
-        sources, X = zero_transfer(entry, f"witness.zeros[{k}]", system)
+    _require_no_edges(missing, zeros, "witness.zeros", system)
+    claimed = [names(p, "claim.components", system.names) for p in items(parts, "claim.components")]
+    strong = components(system.m, arcs)
+    require(claimed == strong, "claim", "claim.components", "these are not the strong components")
+    connected = boolean(verdict, "claim.strongly_connected")
+    require(connected == (len(strong) <= 1), "claim", "claim.strongly_connected", "does not follow")
+
+
+def _require_no_edges(
+    missing: set[tuple[int, int]], zeros: Json, place: str, system: System
+) -> None:
+    """Stop unless none of these pairs (j, i) is an edge, by zero transfers or as no path leads.
+
+    Theorems ``transfer_graph.zero_transfer_no_arc``, ``transfer_graph.closed_states_no_arc``.
+    """
+    for k, entry in enumerate(items(zeros, place)):
+        sources, X = zero_transfer(entry, f"{place}[{k}]", system)
         unseen = [i for i, C in enumerate(system.C) if (C @ X).is_zero()]
         spend(10 * len(sources) * len(unseen))
         missing -= {(j, i) for j in sources for i in unseen}
     if missing:
         missing -= without_path(system, missing)
     pair = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
-    require(not missing, "arc", "witness.zeros", f"nothing proves that {pair!a} is not an edge")
-    claimed = [names(p, "claim.components", system.names) for p in items(parts, "claim.components")]
-    strong = components(system.m, arcs)
-    require(claimed == strong, "claim", "claim.components", "these are not the strong components")
-    connected = boolean(verdict, "claim.strongly_connected")
-    require(connected == (len(strong) <= 1), "claim", "claim.strongly_connected", "does not follow")
+    require(not missing, "arc", place, f"nothing proves that {pair!a} is not an edge")
+
+
+def require_components(value: Json, place: str, system: System, parts: list[list[int]]) -> None:
+    """Stop unless these sets of channels are the strong components of the transfer graph.
+
+    Edges connect each of them, and in an order of them none leads from a later one to an earlier
+    one.
+
+    Theorem ``strong_components.ordered_components``.
+    """
+    keys = ("modulus", "arcs", "order", "zeros")
+    number, listed, order, zeros = fields(value, place, *keys)
+    triples = read_arcs(listed, f"{place}.arcs", system)
+    require_arcs(system, triples, modulus(number, f"{place}.modulus"))
+    connected = components(system.m, [(j, i) for j, i, _ in triples])
+    require(connected == parts, "component", f"{place}.arcs", "not the sets that they connect")
+    turns = [integer(k, f"{place}.order") for k in items(order, f"{place}.order", len(parts))]
+    once = sorted(turns) == list(range(len(parts)))
+    require(once, "order", f"{place}.order", "expected every component once")
+    spend(PAIRS * (system.m**2 if len(parts) > 1 else 1))
+    backwards, earlier = set[tuple[int, int]](), list[int]()
+    for k in turns:
+        backwards |= {(j, i) for j in parts[k] for i in earlier}
+        earlier += parts[k]
+    _require_no_edges(backwards, zeros, f"{place}.zeros", system)
 
 
 def transfer_graph_statement(claim: Json, system: System) -> str:

@@ -40,13 +40,15 @@ def degree(proof: Document | None, states: list[int] | None = None, **others: An
 
 
 ALONE = degree(sequence([0, 1]), [0])
-BOTH = {"transfer_graph": {"claim": GRAPH["claim"], "witness": GRAPH["witness"]}}
-ONE = {
-    "transfer_graph": {
-        "claim": {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
-        "witness": {"modulus": 7, "powers": [0], "zeros": []},
-    }
-}
+
+
+def apart(order: list[int], arcs: Any = (), zeros: Any = (), modulus: int = 7) -> Document:
+    """Components in this order, with the edges that connect each."""
+    shown = {"modulus": modulus, "arcs": list(arcs), "order": order, "zeros": list(zeros)}
+    return {"components": shown}
+
+
+BOTH, ONE = apart([0, 1]), apart([0])
 APART = certificate(
     "assignability",
     CHAIN,
@@ -86,26 +88,14 @@ WHOLE_CHAIN = certificate(
     "assignability",
     plant([[0, 0], [1, 0]], ([[1], [0]], [[0, 1]])),
     {"blocks": [{"channels": ["1"], "dimension": 2}], "fixed_degree": 0},
-    {
-        "transfer_graph": {
-            "claim": {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
-            "witness": {"modulus": 7, "powers": [1], "zeros": []},
-        },
-        # s = 0, 1, 0: x² s = 1
-        "degrees": [degree(sequence([0, 0, 1]))],
-    },
+    # s = 0, 1, 0: x² s = 1
+    {**ONE, "degrees": [degree(sequence([0, 0, 1]))]},
 )
 UNUSED = certificate(
     "assignability",
     plant([[1]], ([[0]], [[1]])),
     {"blocks": [{"channels": ["1"], "dimension": 0}], "fixed_degree": 1},
-    {
-        "transfer_graph": {
-            "claim": {"arcs": [], "components": [["1"]], "strongly_connected": True},
-            "witness": {"modulus": 7, "powers": [], "zeros": []},
-        },
-        "degrees": [degree(None, [])],
-    },
+    {**ONE, "degrees": [degree(None, [])]},
 )
 FOUR = certificate(
     "assignability",
@@ -114,13 +104,7 @@ FOUR = certificate(
         ([[1], [0], [0], [0]], [[0, 0, 0, 1]]),
     ),
     {"blocks": [{"channels": ["1"], "dimension": 4}], "fixed_degree": 0},
-    {
-        "transfer_graph": {
-            "claim": {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
-            "witness": {"modulus": 7, "powers": [3], "zeros": []},
-        },
-        "degrees": [degree(sequence([0, 0, 0, 0, 1]))],
-    },
+    {**ONE, "degrees": [degree(sequence([0, 0, 0, 0, 1]))]},
 )
 """A chain of four states, the first of which is driven and the last measured."""
 NO_DEGREE = (("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 4))
@@ -128,6 +112,39 @@ NO_DEGREE = (("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 4))
 NOT_SEEN = degree(None, kernel=matrix([1, 0], [0, 1]), kernel_pivots=[0, 1])
 NOT_MOVED = degree(None, [0, 2], annihilator=matrix([1, 0], [0, 1]), pivots=[0, 1])
 SMALLER = (("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 2))
+
+LOOP = certificate(
+    "assignability",
+    plant([[0, 1], [1, 0]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]])),
+    {"blocks": [{"channels": ["1", "2"], "dimension": 2}], "fixed_degree": 0},
+    {
+        **apart([0], [["1", "2", 1], ["2", "1", 1]]),
+        "degrees": [
+            degree(
+                # y A x, y A² x, … = 1, 0, 1 for x = e_1, y = e_2'
+                sequence([6, 0, 1], gains=[matrix([0, 0], [0, 0])], inputs=[1, 0], outputs=[0, 1])
+            )
+        ],
+    },
+)
+"""Two channels that act on each other."""
+CANCELS = certificate(
+    "assignability",
+    plant([[0, 0], [0, 0]], ([[1], [-1]], [[1, 0]]), ([[0], [1]], [[1, 1]])),
+    {
+        "blocks": [{"channels": ["1"], "dimension": 1}, {"channels": ["2"], "dimension": 1}],
+        "fixed_degree": 0,
+    },
+    {
+        **apart([1, 0], zeros=[{"from": ["1"], "X": matrix([-1], [1]), "pivots": [1]}]),
+        "degrees": [
+            degree(sequence([0, 1]), kernel=matrix([0, 1]), kernel_pivots=[1]),
+            degree(sequence([0, 1]), annihilator=matrix([1, 0]), pivots=[0]),
+        ],
+    },
+)
+"""A path leads from channel 1 to channel 2, and no edge."""
+JOINED = {"channels": ["1", "2"], "dimension": 2}
 
 WRITTEN = [
     ("a chain splits in two, by paths", APART),
@@ -151,6 +168,18 @@ WRITTEN = [
     ))),
     ("a sequence of a loop", changed(
         FIXED_MODE, ("witness.degrees.0.sequence", sequence([5, 1], gains=[matrix([1])])),
+    )),
+    ("channels that act on each other", LOOP),
+    ("edges that are not needed", changed(LOOP, ("witness.components.arcs", [
+        ["1", "1", 0], ["1", "2", 1], ["2", "1", 1], ["2", "2", 0],
+    ]))),
+    ("an edge from an earlier component to a later one", changed(
+        APART, ("witness.components.arcs", [["1", "2", 1]]),
+    )),
+    ("another modulus", changed(LOOP, ("witness.components.modulus", 15))),
+    ("a path that is no edge, by a zero transfer", CANCELS),
+    ("a path forwards needs no zero transfer", changed(
+        CANCELS, ("witness.components", apart([0, 1])["components"]),
     )),
 ]  # fmt: skip
 
@@ -204,7 +233,6 @@ FALSE = [
         WHOLE_CHAIN,
         ("system", plant([[0, 0, 0], [1, 0, 0], [0, 1, 0]], ([[1], [0], [0]], [[0, 0, 1]]))),
         ("claim.blocks.0.dimension", 3),
-        ("witness.transfer_graph.witness.powers", [2]),
         ("witness.degrees.0", degree(sequence([0, 0, 0, 1]))),
     ), (
         ("claim.blocks.0.dimension", 0), ("claim.fixed_degree", 3),
@@ -221,7 +249,54 @@ FALSE = [
     ("states beyond all", APART, ("witness.degrees.0.states", [2]), "MALFORMED"),
     ("states twice", APART, ("witness.degrees.0.states", [0, 0]), "MALFORMED"),
     ("a key more", APART, ("witness.degrees.0.more", 1), "MALFORMED"),
+    ("components in an order in which an edge leads back", APART, (
+        "witness.components.order", [1, 0],
+    )),
+    ("a component twice in the order", APART, ("witness.components.order", [0, 0])),
+    ("a component missing in the order", APART, ("witness.components.order", [0]), "MALFORMED"),
+    ("a component beyond all in the order", APART, ("witness.components.order", [0, 2])),
+    ("channels joined without edges", APART, (
+        ("claim.blocks", [JOINED]), ("witness.components.order", [0]),
+        ("witness.degrees", LOOP["witness"]["degrees"]),
+    ), "INVALID"),
+    ("channels joined by an edge one way", LOOP, ("witness.components.arcs", [["1", "2", 1]])),
+    ("channels joined by an edge that is not there", LOOP, (
+        "witness.components.arcs", [["1", "2", 1], ["2", "1", 0]],
+    )),
+    ("an edge of too high a power", LOOP, (
+        "witness.components.arcs", [["1", "2", 1], ["2", "1", 3]],
+    )),
+    ("channels that act on each other apart", LOOP, (
+        ("claim.blocks", APART["claim"]["blocks"]), ("witness.components", BOTH["components"]),
+        ("witness.degrees", [ALONE, degree(sequence([0, 1]), [1])]),
+    ), "INVALID"),
+    ("a modulus that divides an edge", LOOP, ("system.A.0.1", 7)),
+    ("a path that is no edge, without proof", CANCELS, ("witness.components.zeros", [])),
+    ("a zero transfer of another channel", CANCELS, (
+        "witness.components.zeros.0", {"from": ["2"], "X": matrix([0], [1]), "pivots": [1]},
+    )),
+    ("a zero transfer that the output sees", CANCELS, ("system.channels.1.C", [[1, 2]])),
+    ("edges that are not sorted", LOOP, (
+        "witness.components.arcs", [["2", "1", 1], ["1", "2", 1]],
+    ), "MALFORMED"),
+    ("no modulus", LOOP, ("witness.components.modulus", None), "MALFORMED"),
+    ("components and a transfer graph", APART, (
+        "witness.transfer_graph", {"claim": GRAPH["claim"], "witness": GRAPH["witness"]},
+    ), "MALFORMED"),
+    ("components with realizations", APART, ("witness.realizations", []), "MALFORMED"),
 ]  # fmt: skip
+
+BEFORE = changed(
+    APART,
+    (
+        "witness",
+        {
+            "transfer_graph": {"claim": GRAPH["claim"], "witness": GRAPH["witness"]},
+            "degrees": APART["witness"]["degrees"],
+        },
+    ),
+)
+"""As earlier versions wrote."""
 
 UNIT = matrix([1, 0], [0, 1])
 SPLIT = certificate(
@@ -265,6 +340,7 @@ SPREAD = changed(
 """The input moves both modes, the output sees the first."""
 
 ACCEPTED = [
+    ("degrees beside a transfer graph", BEFORE),
     ("a mode that is moved and not seen", SPREAD),
     ("a chain splits in two", SPLIT),
     ("a mode that no gain moves", STAYS),
@@ -290,6 +366,16 @@ TOO_MUCH = (
 )
 
 REJECTED = [
+    (
+        "blocks that are not those of the transfer graph",
+        BEFORE,
+        (
+            ("claim.blocks", [JOINED]),
+            ("witness.degrees", LOOP["witness"]["degrees"]),
+        ),
+        "INVALID",
+    ),
+    ("an edge that is not there", BEFORE, ("witness.transfer_graph.witness.powers", [0, 0, 0])),
     (
         "a mode that is seen and not moved",
         changed(STAYS, ("system.channels.0.C", [[1, 1]])),

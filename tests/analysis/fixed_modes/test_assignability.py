@@ -6,6 +6,7 @@ import random
 
 from mcexact import MultiChannelSystem, assignability, fixed_spectrum
 from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.exact.linear_algebra import characteristic_polynomial
@@ -58,7 +59,7 @@ def test_without_fixed_modes_the_degrees_are_those_of_reachable_subspaces() -> N
             continue
         found = assignability(system)
         assert found.fixed_degree == 0
-        arcs = set(found.evidence.transfer_graph.arcs)
+        arcs = set(transfer_graph(system).arcs)
         for block in found.blocks:
             T = set(block.channels)
             while new := {i for j, i in arcs if j in T} - T:

@@ -51,6 +51,31 @@ def gains(*rows: list[int], allowed: list[Any] | None = None) -> Document:
     return {"gains": moved, "modulus": 7, "allowed": allowed or [], "arcs": None}
 
 
+NO_DEGREE = {
+    "states": [],
+    "annihilator": matrix(),
+    "pivots": [],
+    "kernel": matrix(),
+    "kernel_pivots": [],
+    "sequence": None,
+}
+"""A component of degree 0, by no states."""
+
+
+def apart(order: list[int]) -> Document:
+    """That two channels which act on each other, and none on itself, are two components."""
+    blocks = [{"channels": [name], "dimension": 0} for name in ("1", "2")]
+    return certificate(
+        "assignability",
+        plant([[0, 0], [0, 0]], ([[1], [0]], [[0, 1]]), ([[0], [1]], [[1, 0]])),
+        {"blocks": blocks, "fixed_degree": 2},
+        {
+            "components": {"modulus": 7, "arcs": [], "order": order, "zeros": []},
+            "degrees": [NO_DEGREE, NO_DEGREE],
+        },
+    )
+
+
 def dimensions(
     system: Document, answer: list[int] | None, cost: int, witness: Document, **parts: Any
 ) -> Document:
@@ -195,10 +220,7 @@ TRAPS: dict[str, Document] = {
         plant([[0, 0, 0], [1, 0, 0], [0, 1, 0]], ([[1], [0], [0]], [[0, 0, 1]])),
         {"blocks": [{"channels": ["1"], "dimension": 0}], "fixed_degree": 3},
         {
-            "transfer_graph": {
-                "claim": {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
-                "witness": {"modulus": 7, "powers": [2], "zeros": []},
-            },
+            "components": {"modulus": 7, "arcs": [], "order": [0], "zeros": []},
             "degrees": [
                 {
                     "states": [0, 2],
@@ -207,6 +229,31 @@ TRAPS: dict[str, Document] = {
                     "kernel": matrix([1, 0]),
                     "kernel_pivots": [0],
                     "sequence": None,
+                }
+            ],
+        },
+    ),
+    "components that an edge leads back to": apart([0, 1]),
+    "components in an order that leaves one out": apart([0, 0]),
+    "components joined without edges": certificate(
+        "assignability",
+        CHAIN,
+        {"blocks": [{"channels": ["1", "2"], "dimension": 2}], "fixed_degree": 0},
+        {
+            "components": {"modulus": 7, "arcs": [], "order": [0], "zeros": []},
+            "degrees": [
+                {
+                    **NO_DEGREE,
+                    "states": None,
+                    "sequence": {
+                        "modulus": 7,
+                        "gains": [matrix([0, 0], [0, 0])],
+                        "channel": "1",
+                        "inputs": [1, 0],
+                        "outputs": [0, 1],
+                        "recurrence": [0, 0, 1],
+                        "cofactors": [[1], []],
+                    },
                 }
             ],
         },

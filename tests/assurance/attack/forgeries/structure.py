@@ -325,9 +325,8 @@ def _by_realizations(document: Document) -> Document:
         V, columns = _controlled(inner.transpose(), seen)
         W = {"W": written(V.transpose()), "columns": columns}
         shown.append({"X": written(X), "pivots": pivots, **W})
-    document["witness"] = {
-        "modulus": PRIME, "transfer_graph": witness["transfer_graph"], "realizations": shown,
-    }  # fmt: skip
+    graph = _whole_graph(document)
+    document["witness"] = {"modulus": PRIME, "transfer_graph": graph, "realizations": shown}
     made: Document = document["witness"]
     return made
 
@@ -340,6 +339,106 @@ def _controlled(A: fmpq_mat, B: fmpq_mat) -> tuple[fmpq_mat, list[int]]:
     rows = reduced.tolist()[:rank]
     pivots = [next(j for j in range(n) if row[j] != 0) for row in rows]
     return fmpq_mat(rank, n, [v for row in rows for v in row]).transpose(), pivots
+
+
+def _whole_graph(document: Document) -> Document:
+    """Claim and witness of the whole transfer graph, as earlier versions had."""
+    witness = document["witness"]
+    if "transfer_graph" in witness:
+        return dict(witness["transfer_graph"])
+    system = subject_of(document)
+
+    def texts(M: fmpq_mat) -> list[list[str]]:
+        return [[str(v) for v in row] for row in M.tolist()]
+
+    found = mcexact.transfer_graph(
+        mcexact.MultiChannelSystem(
+            texts(system.A),
+            [texts(B) for B in system.B],
+            [texts(C) for C in system.C],
+            names=system.names,
+        )
+    )
+    graph = json.loads(protocol.encode(found))
+    return {"claim": graph["claim"], "witness": graph["witness"]}
+
+
+def by_the_whole_graph(rng: random.Random, document: Document) -> Forged:
+    """Degrees beside a transfer graph, as earlier versions wrote, and another claim of edges."""
+    if "degrees" not in document["witness"]:
+        return None
+    graph = _whole_graph(document)
+    document["witness"] = {
+        "transfer_graph": graph, "degrees": document["witness"]["degrees"],
+    }  # fmt: skip
+    if rng.random() < 0.3:
+        return document
+    change = rng.choice((missing_edge, extra_edge))
+    names = list(subject_of(document).names)
+    inner = {**document, **copied(graph)}
+    made = change(rng, inner)
+    if made is None:
+        return None
+    document["witness"]["transfer_graph"] = {key: made[key] for key in ("claim", "witness")}
+    return _of_components(document, made["claim"]["components"], names)
+
+
+def other_components(rng: random.Random, document: Document) -> Forged:
+    """Components in another order, joined, or taken apart, with edges and zero transfers left."""
+    witness, blocks = document["witness"], document["claim"]["blocks"]
+    if "components" not in witness:
+        return None
+    shown = witness["components"]
+    way = rng.randrange(5)
+    if way == 0:
+        rng.shuffle(shown["order"])
+    elif way == 1 and shown["order"]:
+        shown["order"][rng.randrange(len(blocks))] = rng.randint(0, len(blocks))
+    elif way == 2 and shown["arcs"]:
+        shown["arcs"].pop(rng.randrange(len(shown["arcs"])))
+    elif way == 3 and shown["zeros"]:
+        shown["zeros"].pop(rng.randrange(len(shown["zeros"])))
+    else:
+        names = list(subject_of(document).names)
+        listed = [block["channels"] for block in blocks]
+        if rng.random() < 0.5 and len(listed) > 1:
+            i, j = sorted(rng.sample(range(len(listed)), 2))
+            listed[i] = [name for name in names if name in (*listed[i], *listed.pop(j))]
+        else:
+            part = rng.choice([part for part in listed if len(part) > 1] or [None])
+            if part is None:
+                return None
+            listed.append([part.pop(rng.randrange(len(part)))])
+        shown["order"] = rng.sample(range(len(listed)), len(listed))
+        place = {name: k for k, part in enumerate(listed) for name in part}
+        shown["arcs"] = [a for a in shown["arcs"] if place[a[0]] == place[a[1]]]
+        return _of_components(document, sorted(listed, key=lambda p: names.index(p[0])), names)
+    return document
+
+
+def _of_components(document: Document, parts: list[list[str]], names: list[str]) -> Forged:
+    """The claim with these components, and evidence of the degree 0 for those that are new."""
+    claim, witness = document["claim"], document["witness"]
+    known = {
+        tuple(block["channels"]): (block["dimension"], degree)
+        for block, degree in zip(claim["blocks"], witness["degrees"], strict=True)
+    }
+    nothing = {
+        "states": [],
+        "annihilator": {"denominator": 1, "entries": []},
+        "pivots": [],
+        "kernel": {"denominator": 1, "entries": []},
+        "kernel_pivots": [],
+        "sequence": None,
+    }
+    degrees = [known.get(tuple(part), (0, nothing)) for part in parts]
+    total = claim["fixed_degree"] + sum(block["dimension"] for block in claim["blocks"])
+    claim["blocks"] = [
+        {"channels": part, "dimension": d} for part, (d, _) in zip(parts, degrees, strict=True)
+    ]
+    claim["fixed_degree"] = total - sum(d for d, _ in degrees)
+    witness["degrees"] = [degree for _, degree in degrees]
+    return document
 
 
 def smaller_realization(rng: random.Random, document: Document) -> Forged:
@@ -599,7 +698,9 @@ INDICES = (
 )
 GRAPH = (missing_edge, extra_edge, all_edges, unsorted_edges)
 ASSIGNABILITY = (
-    *(other_degree,) * 8,
+    *(other_degree,) * 6,
+    *(other_components,) * 4,
+    by_the_whole_graph,
     smaller_realization,
     outputs_alone,
     larger_realization,
