@@ -157,6 +157,9 @@ from .exact.matrix import Matrix as Matrix
 from .exact.polynomial import Polynomial as Polynomial
 from .exact.roots import StabilityRegion as StabilityRegion
 from .export.code import export_controller as export_controller
+from .export.fixed import FixedPoint as FixedPoint
+from .export.fixed import SafeBits as SafeBits
+from .export.fixed import least_fixed_point as least_fixed_point
 from .model.box import Box as Box
 from .model.controller import AgentProgram as AgentProgram
 from .model.controller import Controller as Controller

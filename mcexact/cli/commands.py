@@ -72,7 +72,7 @@ COMMANDS = {
         "convert:convert_command", "Convert system files of MATLAB, numpy and others."
     ),
     "c2d": Listed("convert:c2d_command", "Sample a plant in continuous time."),
-    "export": Listed("convert:export_command", "Write a controller as C or Structured Text."),
+    "export": Listed("export:command", "Write a controller as C or Structured Text."),
     "schema": Listed("convert:schema_command", "Print a JSON Schema of files or of --json."),
     "sweep": Listed("sweep:command", "Answer the same questions about many systems."),
 }

@@ -1,4 +1,4 @@
-"""Commands that make files: convert, c2d, export, sample, gallery, schema.
+"""Commands that make files: convert, c2d, sample, gallery, schema.
 
 What reads a file of a user runs in a child process, within the limits on time and memory, as it is
 in the commands that decide.  `convert_command` refuses what the output cannot hold, and gives the
@@ -36,7 +36,6 @@ from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Rounding
 from mcexact.exact.rational import Limits
-from mcexact.export.code import EQUATIONS, Language, export_controller
 from mcexact.model.arrays import MARK, Reading
 from mcexact.model.controller import controller_text, read_controller
 from mcexact.model.files import is_folder, read_plant, require_suffix, system_files
@@ -270,64 +269,6 @@ def _sampled(
         controller = read_controller(program[1], Limits(**limits))
         held = sampled_system(system, how["step"], how["late"], decimals=how["decimals"])
         return controller_text(rounded_controller(tustin(controller, held), how["decimals"]))
-
-
-@click.command(name="export", short_help="Write a controller as C or Structured Text.")
-@click.argument("file")
-@click.option(
-    "--to",
-    "language",
-    type=click.Choice(("c", "st", "json")),
-    default="c",
-    show_default=True,
-    help="C99; Structured Text of IEC 61131-3; or the equations of all agents as JSON.",
-)
-@click.option(
-    "-o",
-    "--output",
-    type=options.FOLDER,
-    metavar="OUT",
-    help="Write the code of each agent, and equations.json, into this folder; JSON into this file, "
-    "by default to standard output.",
-)
-@options.as_json
-@options.work_limits
-@options.file_limits
-def export_command(file: str, language: Language, output: Path | None, **values: Any) -> None:
-    """Write the controller in FILE, in discrete time, as code for each agent.
-
-    The code allocates nothing, uses no library, and computes in double precision, in the order of
-    the equations. Its comments say in which order an agent measures, sends, receives and computes,
-    and how many numbers of the controller no double is. Design a controller for the sampled plant,
-    which `mcexact c2d` writes.
-    """
-    run = Run(values)
-    require_other(output, file)
-    if language != "json":
-        if output is None:
-            raise click.UsageError(f"--to {language} needs a folder: -o FOLDER")
-        require_replaceable(output, EQUATIONS)
-    else:
-        require_writable(output)
-    controller = run.read(file)
-    files = run.result(_exported, controller, run.limits, language, doing=f"reading {file}")
-    if output is None:
-        emit(files[EQUATIONS])
-        return
-    if language == "json":
-        write_result(output, files[EQUATIONS])
-    else:
-        write_folder(output, files)
-    if run.as_json:
-        emit(files[EQUATIONS])
-
-
-def _exported(
-    controller: tuple[str, bytes], limits: dict[str, int], language: Language
-) -> dict[str, str]:
-    """Write a controller as code, in the child process."""
-    with InputError.inside(controller[0]):
-        return export_controller(read_controller(controller[1], Limits(**limits)), language)
 
 
 @click.command(name="sample", short_help="Draw systems with known structure.")

@@ -50,6 +50,7 @@ from mcexact.derived.sampling import DECIMALS, sampled_system, tustin
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import Limits, percent, written
 from mcexact.exact.roots import StabilityRegion, is_discrete
+from mcexact.export.fixed import FixedPoint
 from mcexact.model.box import radii_in_words
 from mcexact.model.controller import Controller, controller_text, read_controller
 from mcexact.model.loop import ClosedLoop, closed_loop
@@ -701,6 +702,8 @@ def _realized(system: MultiChannelSystem, real: Mapping[str, Any]) -> dict[str, 
         if texts is not None:
             made = [_converter(each) for each in texts]
             given[name] = made * (count_ if len(made) == 1 else 1)
+    if real["fixed_point"] is not None:
+        given["fixed"] = FixedPoint(real["fixed_point"], real["ranges"])
     return given | ({} if real["code"] is None else {"code": real["code"]})
 
 

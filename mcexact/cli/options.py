@@ -478,6 +478,42 @@ def aims(function: F) -> F:
     return function
 
 
+fixed_point = click.option(
+    "--fixed-point",
+    type=click.IntRange(min=0, max=48),
+    metavar="BITS",
+    help="Compute in integers of 32 bits, with every number of the controller rounded to this many "
+    "fractional bits.",
+)
+
+ranges = click.option(
+    "--range",
+    "ranges",
+    multiple=True,
+    metavar="[KIND=]NUMBER",
+    help="With --fixed-point: the largest modulus of all signals, by default 1000, or of one kind: "
+    "y outputs, r set-points, u inputs, x shared and z private states, such as --range z=50. "
+    "Repeatable.",
+)
+
+
+def ranges_of_signals(values: dict[str, Any]) -> dict[str, Fraction]:
+    """Take the ranges of signals in fixed point from the values of a command, kind by kind."""
+    found = dict[str, Fraction]()
+    for text in values.pop("ranges"):
+        kind, equals, number = text.rpartition("=")
+        if equals and kind not in _KINDS:
+            raise click.BadParameter(
+                f"expected one of {', '.join(_KINDS)} before =, found '{kind}'",
+                param_hint="--range",
+            )
+        found |= dict.fromkeys((kind,) if equals else _KINDS, rational(number))
+    return found
+
+
+_KINDS = ("y", "r", "u", "x", "z")
+
+
 def parameter_value(text: str) -> tuple[str, Fraction]:
     """Parse ``NAME=VALUE`` with an exact number.
 

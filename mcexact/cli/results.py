@@ -70,6 +70,17 @@ class Evidence:
         texts = _certificates(answers)
         return cls(texts, texts, _plants(answers))
 
+    def with_others(self, other: Evidence) -> Evidence:
+        """Return this evidence with other certificates, about plants of their own."""
+
+        def named(each: Evidence) -> dict[str, str]:
+            plants = each.plants
+            return dict.fromkeys(each.files, plants) if isinstance(plants, str) else dict(plants)
+
+        certificates = {**self.certificates, **other.certificates}
+        files = {**self.files, **other.files}
+        return Evidence(certificates, files, named(self) | named(other))
+
 
 def _certificates(answers: Mapping[str, Answer]) -> dict[str, str]:
     """Return the texts of certificates."""
@@ -209,6 +220,14 @@ class Loop(Shown):
 
     verdict: Sequence[str]
     controller: str
+
+
+@dataclass(frozen=True)
+class Exported:
+    """The files of a controller's code, and the verdict on the controller that the code is."""
+
+    files: Mapping[str, str]
+    loop: Loop | None
 
 
 @dataclass(frozen=True)

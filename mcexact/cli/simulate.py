@@ -133,10 +133,12 @@ def converter(text: str) -> tuple[Fraction, ...]:
 )
 @click.option(
     "--code",
-    type=click.Choice(["double", "compiled"]),
-    help="The real loop: the arithmetic of the agents, by default doubles in the order of the "
-    "exported code; or that code in C, compiled here and run.",
+    type=click.Choice(["interpreted", "compiled"]),
+    help="The real loop: whether the sums of the exported code are computed here in its order, or "
+    "the exported C is compiled and run; both give the same bits.",
 )
+@options.fixed_point
+@options.ranges
 @click.option(
     "--fractions",
     is_flag=True,
@@ -158,7 +160,7 @@ def command(file: str, controller: str, **values: Any) -> None:
     stable and nothing changes after the start, bounds on the outputs are proved, too; their
     certificate is checked, and --certificates writes it.
 
-    With --step, --limits, --quantize-outputs, --quantize-inputs or --code the real loop is run: the
+    With --step, --limits, --quantize-outputs, --fixed-point or --code the real loop is run: the
     plant at the samples, inputs that are held, late and limited, converters, and the arithmetic of
     the exported code, from agents at 0. The ideal loop, about which something is proved, is shown
     beside it, with settling times and control effort of both. A controller in continuous time is
@@ -201,20 +203,23 @@ def command(file: str, controller: str, **values: Any) -> None:
     run.conclude(answer, show, about=about, write=write).require_complete()
 
 
-_REAL = ("limits", "quantize_outputs", "quantize_inputs", "code")
+_REAL = ("limits", "quantize_outputs", "quantize_inputs", "code", "fixed_point")
 _IDEAL = {"arithmetic": "--arithmetic", "points": "--points", "fractions": "--fractions"}
 
 
 def _real(values: dict[str, Any]) -> dict[str, Any]:
     """Take what makes the loop real from the values of the command; nothing if it is not."""
-    sampling = options.sampling(values)
+    sampling, ranges = options.sampling(values), options.ranges_of_signals(values)
     real = {name: values.pop(name) for name in _REAL}
-    if not sampling and not any(real.values()):
+    if ranges and real["fixed_point"] is None:
+        raise click.UsageError("--range is for fixed point: add --fixed-point")
+    if not sampling and not any(value not in (None, ()) for value in real.values()):
         return {}
     for name, option in _IDEAL.items():
         if values[name]:
             raise click.UsageError(f"{option} is not for the real loop")
-    return sampling | {name: value or None for name, value in real.items()}
+    given = {name: None if value == () else value for name, value in real.items()}
+    return sampling | given | {"ranges": ranges}
 
 
 def _numbers(text: str | None, name: str) -> list[Fraction] | None:

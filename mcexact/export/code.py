@@ -1,4 +1,4 @@
-"""Controllers as code: C99, and Structured Text of IEC 61131-3.
+"""Controllers as code: C99, and Structured Text of IEC 61131-3, in doubles or in fixed point.
 
 C: a header and a file for each agent, with a structure of its state, a function that resets it, one
 that runs a step, and one for each follower that copies what is sent to it.  Nothing is allocated
@@ -9,6 +9,13 @@ it to gcc and clang); then the last bits differ from those of `AgentRun`.
 Structured Text: a function block for each agent, called once in each sampling period, after it was
 given what was measured and received; then its outputs are the inputs of the plant, and what it
 sends in the next period.  All numbers are of the type LREAL, and all states are 0 at first.
+
+In fixed point (`export.fixed`) signals are integers of 32 bits (int32_t, DINT) and sums have 64
+(int64_t, LINT).  A function rounds a sum to the nearest integer, since `/` truncates in both
+languages, and no expression leaves its type, whatever the signals are.
+
+Beside the code stands ``controller.json``: the controller that the code is, with the numbers of the
+code exactly, so that what runs can be certified.
 """
 
 from __future__ import annotations
@@ -17,20 +24,29 @@ import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal
+from typing import Any
 
 from mcexact.errors import one_of
-from mcexact.exact.matrix import to_float
-from mcexact.export.equations import AgentStep, Row, Signal, equations_document, steps_of
-from mcexact.model.controller import Controller
+from mcexact.exact.matrix import Matrix, to_float
+from mcexact.export.equations import (
+    CONTROLLER,
+    EQUATIONS,
+    AgentStep,
+    Language,
+    Row,
+    Signal,
+    equations_document,
+    steps_of,
+)
+from mcexact.export.fixed import LARGEST, FixedPoint
+from mcexact.model.controller import Controller, controller_text, with_matrices
 
 INDENT = "    "
-Language = Literal["c", "st", "json"]
-EQUATIONS = "equations.json"
-"""The file that every folder of code contains."""
 
 
-def export_controller(controller: Controller, language: Language) -> dict[str, str]:
+def export_controller(
+    controller: Controller, language: Language, fixed: FixedPoint | None = None
+) -> dict[str, str]:
     """Write a controller as code.
 
     Parameters
@@ -39,39 +55,81 @@ def export_controller(controller: Controller, language: Language) -> dict[str, s
         In discrete time.
     language : {"c", "st", "json"}
         C99, Structured Text of IEC 61131-3, or the equations alone.
+    fixed : FixedPoint, optional
+        The arithmetic in integers; by default doubles.
 
     Returns
     -------
     dict of str
-        Files by name: ``equations.json`` with all sums, and the code of each agent.
+        Files by name: ``equations.json`` with all sums, ``controller.json`` with the controller
+        that the code is, and the code of each agent.
 
     Raises
     ------
     UsageError
         If the controller is in continuous time, or the language is another one.
     InputError
-        If a number is beyond double precision.
+        If a number is beyond double precision, or a sum in fixed point could leave 64 bits.
 
     Examples
     --------
     >>> from mcexact import MultiChannelSystem, local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
     >>> sorted(export_controller(local_controllers(plant, [[["-1/2"]]]), "st"))
-    ['agent_1.st', 'equations.json']
+    ['agent_1.st', 'controller.json', 'equations.json']
     """
     one_of(language, ("c", "st", "json"), "language")
-    steps, system = steps_of(controller), controller.system
-    files = {EQUATIONS: json.dumps(equations_document(steps, system), indent=1) + "\n"}
-    for step in steps:
+    code = _Code(steps_of(controller), controller.system, fixed)
+    files = {EQUATIONS: json.dumps(code.document(), indent=1) + "\n"}
+    files[CONTROLLER] = controller_text(in_code(controller, fixed))
+    for step in code.steps:
         if language == "c":
-            files[f"{step.identifier}.h"] = _header(step, steps, system)
-            files[f"{step.identifier}.c"] = _source(step, steps)
+            files[f"{step.identifier}.h"] = _header(step, code)
+            files[f"{step.identifier}.c"] = _source(step, code)
         elif language == "st":
-            files[f"{step.identifier}.st"] = _block(step, steps, system)
+            files[f"{step.identifier}.st"] = _block(step, code)
     return files
 
 
+def in_code(controller: Controller, fixed: FixedPoint | None = None) -> Controller:
+    """Return the controller that its code is: with numbers that doubles, or integers, are.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem, local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
+    >>> [agent] = in_code(local_controllers(plant, [[["-1/10"]]])).agents
+    >>> agent.input.outputs[0][0, 0]
+    Fraction(-3602879701896397, 36028797018963968)
+    """
+    if fixed is not None:
+        return fixed.rounded(controller)
+
+    def nearest(M: Matrix) -> Matrix:
+        rows = [[Fraction(to_float(x)) for x in row] for row in M.rows()]
+        return Matrix.from_rows(rows, ncols=M.ncols)
+
+    return with_matrices(controller, nearest)
+
+
 # What both languages have in common.
+
+
+@dataclass(frozen=True)
+class _Code:
+    """The steps of all agents, the plant that they were made for, and their arithmetic."""
+
+    steps: Sequence[AgentStep]
+    system: str
+    fixed: FixedPoint | None
+
+    def document(self) -> dict[str, Any]:
+        """The sums of all agents as plain data, with the numbers as they are in the code."""
+        document = equations_document(self.steps, self.system)
+        if self.fixed is not None:
+            document["arithmetic"] = "integers of 32 bits, sums of 64 bits, each rounded once"
+            document["fixed point"] = self.fixed.document()
+        return document
 
 
 @dataclass(frozen=True)
@@ -82,46 +140,84 @@ class Dialect:
     ----------
     number : callable
         Writes a double.
+    type, whole : str
+        The types of signals in doubles, and in fixed point.
     x, z : str
         Before the index of its own x, with a field for the steps for which it is held, and z.
+    long, widened : str
+        How an integer of 64 bits is written, and a signal as one.
     break_ : str
         What stands before a further term.
     """
 
     number: Callable[[float], str]
+    type: str
+    whole: str
     x: str
     z: str
+    long: str
+    widened: str
     break_: str
 
-    def sum(self, row: Row, step: AgentStep, steps: Sequence[AgentStep]) -> str:
+    def signals(self, code: _Code) -> str:
+        """The type of signals."""
+        return self.type if code.fixed is None else self.whole
+
+    def zero(self, code: _Code) -> str:
+        """The number 0 as a signal."""
+        return self.number(0.0) if code.fixed is None else "0"
+
+    def sum(self, row: Row, kind: str, step: AgentStep, code: _Code) -> str:
         """The sum as an expression, which both languages add from the left to the right."""
         own = {"y": "y", "r": "r", "x": self.x.format(step.held), "z": self.z}
 
-        def term(c: Fraction, signal: Signal) -> str:
-            theirs = f"{signal.kind}_{steps[signal.agent].identifier}"
-            name = own[signal.kind] if signal.agent == step.position else theirs
-            return f"{self.number(to_float(c))} * {name}[{signal.entry}]"
+        def name(signal: Signal) -> str:
+            theirs = f"{signal.kind}_{code.steps[signal.agent].identifier}"
+            array = own[signal.kind] if signal.agent == step.position else theirs
+            return f"{array}[{signal.entry}]"
 
-        return f"{self.break_}+ ".join(term(c, signal) for c, signal in row) or "0.0"
+        plus = f"{self.break_}+ "
+        if code.fixed is None:
+            terms = [f"{self.number(to_float(c))} * {name(signal)}" for c, signal in row]
+            return plus.join(terms) or self.number(0.0)
+        whole = code.fixed.sum(row, kind, step.name)
+        terms = [
+            f"{self.long.format(m)} * {self.widened.format(name(signal))}"
+            for m, signal in whole.terms
+        ]
+        if not terms:
+            return "0"
+        return f"{step.identifier}_nearest({plus.join(terms)}, {self.long.format(whole.unit)})"
 
-    def sums(self, step: AgentStep, steps: Sequence[AgentStep], assign: str) -> list[str]:
+    def sums(self, step: AgentStep, code: _Code, assign: str) -> list[str]:
         """The statements that compute u and the next states."""
         return [
-            f"{target}[{k}] {assign} {self.sum(row, step, steps)};"
-            for target, rows in (("u", step.u), ("next_x", step.x), ("next_z", step.z))
+            f"{target}[{k}] {assign} {self.sum(row, kind, step, code)};"
+            for target, kind, rows in (
+                ("u", "u", step.u),
+                ("next_x", "x", step.x),
+                ("next_z", "z", step.z),
+            )
             for k, row in enumerate(rows)
         ]
 
 
-def described(step: AgentStep, steps: Sequence[AgentStep], system: str) -> list[str]:
+def described(step: AgentStep, code: _Code) -> list[str]:
     """What the code is, line by line."""
-    rounded, numbers = step.rounded()
+    steps, fixed = code.steps, code.fixed
     lines = [f"Agent {step.name!a} of a distributed controller in discrete time."]
-    if system:
-        lines.append(f"Made for the plant of digest {system}.")
-    exact = f"All {numbers} numbers are those of the controller exactly."
-    nearest = f"{rounded} of its {numbers} numbers are rounded to the nearest double."
+    if code.system:
+        lines.append(f"Made for the plant of digest {code.system}.")
+    numbers = [c for row in step.rows() for c, _ in row]
+    rounded = sum(
+        (Fraction(to_float(c)) if fixed is None else fixed.number(c)) != c for c in numbers
+    )
+    to = "the nearest double" if fixed is None else f"{fixed.bits} fractional bits"
+    exact = f"All {len(numbers)} numbers are those of the controller exactly."
+    nearest = f"{rounded} of its {len(numbers)} numbers are rounded to {to}."
     lines.append(nearest if rounded else exact)
+    if fixed is not None:
+        lines += _scales(step, fixed)
     order = ["measure y", "run the step", "set u"]
     if step.sent or step.received:
         order[1:1] = ["send", "receive"]
@@ -137,63 +233,104 @@ def described(step: AgentStep, steps: Sequence[AgentStep], system: str) -> list[
     return [line.replace("*", "\\x2a") for line in lines]
 
 
+def _scales(step: AgentStep, fixed: FixedPoint) -> list[str]:
+    """What the integers of the signals stand for."""
+    used: dict[str, int] = {
+        "y": step.outputs,
+        "r": step.references,
+        "u": len(step.u),
+        "x": len(step.x),
+    }
+    used.update({kind: size for kind, _, size in step.received}, z=len(step.z))
+    lines = ["Signals are integers, in units of a power of two; beyond its range a value stays at"]
+    lines.append("the end of the range. No sum leaves 64 bits, whatever the signals are.")
+    for kind, size in used.items():
+        if size:
+            f = fixed.fractional(kind)
+            reach = to_float(Fraction(LARGEST, 2**f)) if f >= 0 else LARGEST * 2.0**-f
+            lines.append(f"{kind}: units of 2^{-f}, from {-reach:.6g} to {reach:.6g}.")
+    return lines
+
+
 # C99.
 
-C = Dialect(repr, "s->x[{}]", "s->z", f"\n{INDENT * 2}")
+C = Dialect(repr, "double", "int32_t", "s->x[{}]", "s->z", "INT64_C({})", "{}", f"\n{INDENT * 2}")
+_NEAREST_IN_C = """\
+/* The nearest integer to sum / unit, halves upwards, within 32 bits. */
+static int32_t {0}_nearest(int64_t sum, int64_t unit)
+{{
+    const int64_t moved = sum + unit / 2;
+    int64_t q = moved / unit;
+    if (q * unit > moved)
+        q -= 1;
+    if (q > INT64_C({1}))
+        q = INT64_C({1});
+    if (q < INT64_C(-{1}))
+        q = INT64_C(-{1});
+    return (int32_t)q;
+}}
+"""
 
 
-def signature(step: AgentStep, steps: Sequence[AgentStep]) -> str:
+def signature(step: AgentStep, code: _Code) -> str:
     """The declaration of the function that runs a step, without its semicolon."""
+    type_ = C.signals(code)
     arguments = [f"{step.identifier}_state *s"]
-    arguments += [f"const double y[{step.outputs}]"] * bool(step.outputs)
-    arguments += [f"const double r[{step.references}]"] * bool(step.references)
+    arguments += [f"const {type_} y[{step.outputs}]"] * bool(step.outputs)
+    arguments += [f"const {type_} r[{step.references}]"] * bool(step.references)
     for kind, j, size in step.received:
-        arguments.append(f"const double {kind}_{steps[j].identifier}[{size}]")
-    arguments += [f"double u[{len(step.u)}]"] * bool(step.u)
+        arguments.append(f"const {type_} {kind}_{code.steps[j].identifier}[{size}]")
+    arguments += [f"{type_} u[{len(step.u)}]"] * bool(step.u)
     return f"void {step.identifier}_step({', '.join(arguments)})"
 
 
-def _header(step: AgentStep, steps: Sequence[AgentStep], system: str) -> str:
-    name = step.identifier
+def _header(step: AgentStep, code: _Code) -> str:
+    name, type_ = step.identifier, C.signals(code)
     guard = f"{name.upper()}_H"
-    comment = "\n".join(f" * {line}" for line in described(step, steps, system))
-    members = [f"{INDENT}double x[{step.remembered + 1}][{len(step.x)}];"] * bool(step.x)
-    members += [f"{INDENT}double z[{len(step.z)}];"] * bool(step.z)
+    comment = "\n".join(f" * {line}" for line in described(step, code))
+    members = [f"{INDENT}{type_} x[{step.remembered + 1}][{len(step.x)}];"] * bool(step.x)
+    members += [f"{INDENT}{type_} z[{len(step.z)}];"] * bool(step.z)
     members = members or [f"{INDENT}char none;"]
     parts = [
         f"/*\n{comment}\n */",
         f"#ifndef {guard}\n#define {guard}",
+        *["#include <stdint.h>"] * (code.fixed is not None),
         "typedef struct {\n" + "\n".join(members) + f"\n}} {name}_state;",
         f"void {name}_reset({name}_state *s);",
-        *(f"{_send(step, steps, j)};" for j in step.sent),
-        f"{signature(step, steps)};",
+        *(f"{_send(step, code, j)};" for j in step.sent),
+        f"{signature(step, code)};",
         "#endif",
     ]
     return "\n\n".join(parts) + "\n"
 
 
-def _send(step: AgentStep, steps: Sequence[AgentStep], j: int) -> str:
-    other, name = steps[j].identifier, step.identifier
-    return f"void {name}_send_to_{other}(const {name}_state *s, double x[{len(step.x)}])"
+def _send(step: AgentStep, code: _Code, j: int) -> str:
+    other, name, type_ = code.steps[j].identifier, step.identifier, C.signals(code)
+    return f"void {name}_send_to_{other}(const {name}_state *s, {type_} x[{len(step.x)}])"
 
 
-def _source(step: AgentStep, steps: Sequence[AgentStep]) -> str:
+def _source(step: AgentStep, code: _Code) -> str:
     name, states, kept = step.identifier, len(step.x), len(step.z)
-    reset = [f"s->x[{d}][{k}] = 0.0;" for d in range(step.remembered + 1) for k in range(states)]
-    reset += [f"s->z[{k}] = 0.0;" for k in range(kept)]
+    type_, zero = C.signals(code), C.zero(code)
+    reset = [f"s->x[{d}][{k}] = {zero};" for d in range(step.remembered + 1) for k in range(states)]
+    reset += [f"s->z[{k}] = {zero};" for k in range(kept)]
     reset = reset or ["s->none = 0;"]
     functions = [_function(f"void {name}_reset({name}_state *s)", reset)]
     for j, held in step.sent.items():
         copied = [f"x[{k}] = s->x[{held}][{k}];" for k in range(states)]
-        functions.append(_function(_send(step, steps, j), copied))
-    body = [f"double next_x[{states}];"] * bool(states) + [f"double next_z[{kept}];"] * bool(kept)
-    body += C.sums(step, steps, "=")
+        functions.append(_function(_send(step, code, j), copied))
+    body = [f"{type_} next_x[{states}];"] * bool(states)
+    body += [f"{type_} next_z[{kept}];"] * bool(kept)
+    sums = C.sums(step, code, "=")
+    if any(f"{name}_nearest" in each for each in sums):
+        functions.insert(0, _NEAREST_IN_C.format(name, LARGEST))
+    body += sums
     for d in range(step.remembered, 0, -1):
         body += [f"s->x[{d}][{k}] = s->x[{d - 1}][{k}];" for k in range(states)]
     body += [f"s->x[0][{k}] = next_x[{k}];" for k in range(states)]
     body += [f"s->z[{k}] = next_z[{k}];" for k in range(kept)]
     body += [] if states or kept else ["(void)s;"]
-    functions.append(_function(signature(step, steps), body))
+    functions.append(_function(signature(step, code), body))
     return f'#include "{name}.h"\n\n' + "\n".join(functions)
 
 
@@ -218,19 +355,42 @@ def literal(number: float) -> str:
     return f"{digits}E{exponent}" if mark else digits
 
 
-TEXT = Dialect(literal, "x_{}", "z", f"\n{INDENT}")
+TEXT = Dialect(literal, "LREAL", "DINT", "x_{}", "z", "LINT#{}", "DINT_TO_LINT({})", f"\n{INDENT}")
+_NEAREST_IN_TEXT = """\
+(* The nearest integer to sum / unit, halves upwards, within 32 bits. *)
+FUNCTION {0}_nearest : DINT
+VAR_INPUT
+    sum : LINT;
+    unit : LINT;
+END_VAR
+VAR
+    moved : LINT;
+    q : LINT;
+END_VAR
+moved := sum + unit / LINT#2;
+q := moved / unit;
+IF q * unit > moved THEN q := q - LINT#1; END_IF;
+IF q > LINT#{1} THEN q := LINT#{1}; END_IF;
+IF q < LINT#-{1} THEN q := LINT#-{1}; END_IF;
+{0}_nearest := LINT_TO_DINT(q);
+END_FUNCTION
+
+"""
 
 
-def _block(step: AgentStep, steps: Sequence[AgentStep], system: str) -> str:
-    states, kept = len(step.x), len(step.z)
-    comment = "\n".join(f"   {line}" for line in described(step, steps, system))
+def _block(step: AgentStep, code: _Code) -> str:
+    states, kept, steps = len(step.x), len(step.z), code.steps
+    comment = "\n".join(f"   {line}" for line in described(step, code))
     entering = {"y": step.outputs, "r": step.references}
     entering |= {f"{kind}_{steps[j].identifier}": size for kind, j, size in step.received}
     leaving = {"u": len(step.u)}
     leaving |= {f"sent_to_{steps[j].identifier}": states for j in step.sent}
     kept_names = {f"x_{d}": states for d in range(step.remembered + 1)}
     kept_names |= {"z": kept, "next_x": states, "next_z": kept}
-    body = TEXT.sums(step, steps, ":=")
+    body = TEXT.sums(step, code, ":=")
+    nearest = _NEAREST_IN_TEXT.format(step.identifier, LARGEST)
+    used = any(f"{step.identifier}_nearest" in each for each in body)
+    type_ = TEXT.signals(code)
     for d in range(step.remembered, 0, -1):
         body += [f"x_{d}[{k}] := x_{d - 1}[{k}];" for k in range(states)]
     body += [f"x_0[{k}] := next_x[{k}];" for k in range(states)]
@@ -240,19 +400,19 @@ def _block(step: AgentStep, steps: Sequence[AgentStep], system: str) -> str:
     sections = [
         f"(*\n{comment}\n*)",
         f"FUNCTION_BLOCK {step.identifier}",
-        *_variables("VAR_INPUT", entering),
-        *_variables("VAR_OUTPUT", leaving),
-        *_variables("VAR", kept_names),
+        *_variables("VAR_INPUT", entering, type_),
+        *_variables("VAR_OUTPUT", leaving, type_),
+        *_variables("VAR", kept_names, type_),
         *body,
         "END_FUNCTION_BLOCK",
     ]
-    return "\n".join(sections) + "\n"
+    return nearest * used + "\n".join(sections) + "\n"
 
 
-def _variables(section: str, sizes: dict[str, int]) -> list[str]:
+def _variables(section: str, sizes: dict[str, int], type_: str) -> list[str]:
     """Declare arrays, if there are any."""
     used = {name: size for name, size in sizes.items() if size}
     if not used:
         return []
-    declared = [f"{INDENT}{name} : ARRAY[0..{k - 1}] OF LREAL;" for name, k in used.items()]
+    declared = [f"{INDENT}{name} : ARRAY[0..{k - 1}] OF {type_};" for name, k in used.items()]
     return [section, *declared, "END_VAR"]

@@ -19,8 +19,9 @@ from pathlib import Path
 from typing import Any
 
 from mcexact.errors import InternalError, UsageError
-from mcexact.export.code import EQUATIONS, export_controller
-from mcexact.export.equations import AgentStep, Kind, steps_of
+from mcexact.export.code import export_controller
+from mcexact.export.equations import CONTROLLER, EQUATIONS, AgentStep, Kind, steps_of
+from mcexact.export.fixed import FixedPoint
 from mcexact.model.controller import Controller
 
 FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic", "-ffp-contract=off")
@@ -79,62 +80,78 @@ def compiled_library(files: Mapping[str, str]) -> ctypes.CDLL:
 class CompiledAgent:
     """An agent whose step is a function of a shared library.
 
+    Signals are doubles here, as for `AgentRun` and `FixedAgent`.
+
     Parameters
     ----------
     library : ctypes.CDLL
     steps : sequence of AgentStep
     position : int
+    fixed : FixedPoint, optional
+        The arithmetic of the code, by default doubles.
     """
 
-    number: Any = ctypes.c_double
-
-    def __init__(self, library: ctypes.CDLL, steps: Sequence[AgentStep], position: int) -> None:
+    def __init__(
+        self,
+        library: ctypes.CDLL,
+        steps: Sequence[AgentStep],
+        position: int,
+        fixed: FixedPoint | None = None,
+    ) -> None:
         self._library, self._steps, self.step = library, steps, steps[position]
+        self._fixed = fixed
+        self._type: Any = ctypes.c_double if fixed is None else ctypes.c_int32
         states = (self.step.remembered + 1) * len(self.step.x) + len(self.step.z)
-        self._state = (self.number * (states + _SPARE))()
+        self._state = (self._type * (states + _SPARE))()
         self._call("reset")
 
     def _call(self, function: str, *arguments: Any) -> None:
         getattr(self._library, f"{self.step.identifier}_{function}")(self._state, *arguments)
 
-    def _array(self, values: Sequence[Any]) -> Any:
-        return (self.number * len(values))(*values)
+    def _array(self, kind: str, values: Sequence[float]) -> Any:
+        numbers = values if self._fixed is None else self._fixed.integers(kind, values)
+        return (self._type * len(values))(*numbers)
 
-    def sent_to(self, follower: int) -> list[Any]:
+    def _doubles(self, kind: str, array: Any) -> list[float]:
+        return list(array) if self._fixed is None else self._fixed.doubles(kind, list(array))
+
+    def sent_to(self, follower: int) -> list[float]:
         """What a follower receives of x in this step, before delays."""
-        x = self._array([0] * len(self.step.x))
+        x = self._array("x", [0.0] * len(self.step.x))
         self._call(f"send_to_{self._steps[follower].identifier}", x)
-        return list(x)
+        return self._doubles("x", x)
 
     def __call__(
         self,
-        y: Sequence[Any],
-        r: Sequence[Any],
-        received: Mapping[tuple[Kind, int], Sequence[Any]],
-    ) -> list[Any]:
+        y: Sequence[float],
+        r: Sequence[float],
+        received: Mapping[tuple[Kind, int], Sequence[float]],
+    ) -> list[float]:
         """Run one step, and return the inputs; see `AgentRun`."""
-        step, u = self.step, self._array([0] * len(self.step.u))
-        arguments = [self._array(y[: step.outputs])] * bool(step.outputs)
-        arguments += [self._array(r[: step.references])] * bool(step.references)
-        arguments += [self._array(received[kind, j]) for kind, j, _ in step.received]
+        step, u = self.step, self._array("u", [0.0] * len(self.step.u))
+        arguments = [self._array("y", y[: step.outputs])] * bool(step.outputs)
+        arguments += [self._array("r", r[: step.references])] * bool(step.references)
+        arguments += [self._array(kind, received[kind, j]) for kind, j, _ in step.received]
         self._call("step", *arguments, *[u] * bool(step.u))
-        return list(u)
+        return self._doubles("u", u)
 
 
-def compiled_agents(controller: Controller) -> list[CompiledAgent]:
+def compiled_agents(controller: Controller, fixed: FixedPoint | None = None) -> list[CompiledAgent]:
     """Compile a controller, and return its agents.
 
     Parameters
     ----------
     controller : Controller
         In discrete time.
+    fixed : FixedPoint, optional
+        The arithmetic, by default doubles.
 
     Raises
     ------
     UsageError
         If there is no C compiler, or the controller is in continuous time.
     """
-    steps, files = steps_of(controller), export_controller(controller, "c")
-    del files[EQUATIONS]
+    steps, files = steps_of(controller), export_controller(controller, "c", fixed)
+    del files[EQUATIONS], files[CONTROLLER]
     library = compiled_library(files)
-    return [CompiledAgent(library, steps, i) for i in range(len(steps))]
+    return [CompiledAgent(library, steps, i, fixed) for i in range(len(steps))]

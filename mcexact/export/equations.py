@@ -28,6 +28,9 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.text import quoted
 
 FORMAT = "mcexact-code/1"
+EQUATIONS, CONTROLLER = "equations.json", "controller.json"
+"""The files that every folder of code contains."""
+Language = Literal["c", "st", "json"]
 Kind = Literal["y", "x", "z", "r"]
 
 
@@ -94,11 +97,6 @@ class AgentStep:
     def rows(self) -> Iterator[Row]:
         """All sums."""
         yield from (*self.u, *self.x, *self.z)
-
-    def rounded(self) -> tuple[int, int]:
-        """How many of its numbers no double is, and how many it has."""
-        numbers = [c for row in self.rows() for c, _ in row]
-        return sum(Fraction(to_float(c)) != c for c in numbers), len(numbers)
 
 
 def steps_of(controller: Controller) -> tuple[AgentStep, ...]:

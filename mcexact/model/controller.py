@@ -12,7 +12,8 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, ClassVar
@@ -377,6 +378,29 @@ def _require(M: Matrix, nrows: int, ncols: int, where: str) -> None:
         raise InputError(
             f"expected a {nrows} × {ncols} matrix, found {M.nrows} × {M.ncols}", where=where
         )
+
+
+def with_matrices(controller: Controller, change: Callable[[Matrix], Matrix]) -> Controller:
+    """Apply a function to all matrices of all programs, those of set-points included."""
+
+    def of(each: LinearMap) -> LinearMap:
+        return LinearMap(
+            {j: change(M) for j, M in each.outputs.items()},
+            {j: change(M) for j, M in each.shared.items()},
+            None if each.private is None else change(each.private),
+            None if each.reference is None else change(each.reference),
+        )
+
+    agents = tuple(
+        replace(
+            agent,
+            shared_update=of(agent.shared_update),
+            private_update=of(agent.private_update),
+            input=of(agent.input),
+        )
+        for agent in controller.agents
+    )
+    return replace(controller, agents=agents)
 
 
 def _agent_json(agent: AgentProgram, names: list[str]) -> dict[str, Any]:

@@ -707,8 +707,21 @@ def export() -> Schema:
     return record(
         named("mcexact-code/1")
         | {"arithmetic": TEXT, "system": TEXT, "agents": rows(record(agent, closed=True))},
+        {"fixed point": _fixed_point()},
         closed=True,
         says="what each agent computes in a step: [number, double, signal], added in this order",
+    )
+
+
+def _fixed_point() -> Schema:
+    """The arithmetic of code in integers."""
+    bits = {kind: {"type": "integer"} for kind in ("y", "r", "u", "x", "z")}
+    return record(
+        {
+            "fractional bits of numbers": WHOLE,
+            "fractional bits of signals": record(bits, closed=True),
+        },
+        closed=True,
     )
 
 

@@ -32,6 +32,7 @@ from mcexact.exact.rational import as_fraction, rational_text
 from mcexact.exact.roots import is_discrete
 from mcexact.export.compiled import compiled_agents
 from mcexact.export.equations import AgentRun, AgentStep, Kind, steps_of
+from mcexact.export.fixed import FixedAgent, FixedPoint
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
@@ -132,7 +133,7 @@ class Quantizer:
 
 Limit = tuple[Fraction | None, Fraction | None]
 """The least and the largest value of an input; None where there is no limit."""
-Code = Literal["double", "compiled"]
+Code = Literal["interpreted", "compiled"]
 
 
 class AgentCode(Protocol):
@@ -142,13 +143,6 @@ class AgentCode(Protocol):
     def step(self) -> AgentStep: ...
     def sent_to(self, follower: int) -> list[float]: ...
     def __call__(self, y: Sequence[float], r: Sequence[float], received: Any) -> list[float]: ...
-
-
-class Arithmetic(Protocol):
-    """Another arithmetic of the code than doubles."""
-
-    def agents(self, controller: Controller) -> Sequence[AgentCode]: ...
-    def __str__(self) -> str: ...
 
 
 @dataclass(frozen=True)
@@ -386,7 +380,8 @@ def simulate_real(
     limits: Sequence[Any] | None = None,
     quantized_outputs: Any = None,
     quantized_inputs: Any = None,
-    code: Code | Arithmetic = "double",
+    fixed: FixedPoint | None = None,
+    code: Code = "interpreted",
     initial: Sequence[Any] | None = None,
     horizon: Any = None,
     reference: Sequence[Any] | None = None,
@@ -415,9 +410,11 @@ def simulate_real(
     quantized_outputs, quantized_inputs : optional
         A `Quantizer` or a step for all outputs or inputs, or a list with one for each, None for a
         converter that is exact.
-    code : {"double", "compiled"} or arithmetic
-        The arithmetic of the agents: doubles in the order of the exported code, or that code in C,
-        compiled here; or a `FixedPoint`.
+    fixed : FixedPoint, optional
+        The arithmetic of the agents in integers; by default doubles.
+    code : {"interpreted", "compiled"}
+        Whether the sums of the exported code are computed here, in its order, or the exported C is
+        compiled and called; both give the same bits.
     initial : sequence of numbers, optional
         x(0), by default all ones; agents start at 0, as their code does.
     horizon : rational, optional
@@ -466,6 +463,7 @@ def simulate_real(
     """
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, Controller, "controller")
+    one_of(code, ("interpreted", "compiled"), "code")
     clock = _Clock.of(system, step, late)
     held = system if clock.step is None else sampled_system(system, clock.step, late)
     program = controller
@@ -480,9 +478,10 @@ def simulate_real(
         limits_of(limits, sum(inputs), rounding),
         _converters(quantized_outputs, sum(outputs), "quantized_outputs", rounding),
         _converters(quantized_inputs, sum(inputs), "quantized_inputs", rounding),
-        _code_in_words(code),
+        ("compiled C, " if code == "compiled" else "")
+        + ("double precision" if fixed is None else str(fixed)),
     )
-    agents = _agents(code, program)
+    agents = _agents(code, program, fixed)
     changes = reference, steps, ramps, rounding, ("reference", "steps", "ramps")
     pushed = None, disturbances, (), rounding, ("", "disturbances", "")
     drive = Drive(signal_of(outputs, *changes), signal_of(inputs, *pushed))
@@ -603,18 +602,11 @@ def _converter(given: Any, where: str, rounding: Rounding | None) -> Quantizer |
     return Quantizer(numbers_of([given], rounding, where)[0])
 
 
-def _code_in_words(code: Code | Arithmetic) -> str:
-    if not isinstance(code, str):
-        return str(code)
-    one_of(code, ("double", "compiled"), "code")
-    return "double precision" if code == "double" else "compiled C, double precision"
-
-
-def _agents(code: Code | Arithmetic, program: Controller) -> Sequence[AgentCode]:
-    if not isinstance(code, str):
-        return code.agents(program)
+def _agents(code: Code, program: Controller, fixed: FixedPoint | None) -> Sequence[AgentCode]:
     if code == "compiled":
-        return compiled_agents(program)
+        return compiled_agents(program, fixed)
+    if fixed is not None:
+        return [FixedAgent(step, fixed) for step in steps_of(program)]
     return [AgentRun(step) for step in steps_of(program)]
 
 

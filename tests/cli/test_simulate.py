@@ -101,7 +101,9 @@ def test_options_of_the_real_loop_are_checked(tmp_path: Path) -> None:
         ((*REAL, "--quantize-inputs", "8:1"), "expected BITS:LOW,HIGH"),
         ((*REAL, "--quantize-inputs", "1/2:0,1"), "expected a number of bits, found 1/2"),
         ((*REAL, "--limits=0,1", "--limits=0,1"), "expected 1 pairs (low, high), found 2"),
-        (("--code", "double"), "give the time between samples"),
+        ((*REAL, "--range", "3"), "add --fixed-point"),
+        ((*REAL, "--fixed-point", "8", "--range", "w=3"), "expected one of y, r, u, x, z"),
+        (("--code", "compiled"), "give the time between samples"),
     ):
         status, _, said = call("simulate", *files, *options)
         assert status in (2, 3) and told in said, said

@@ -16,15 +16,26 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem
+from mcexact.derived.sampling import sampled_system
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix
-from mcexact.export.code import EQUATIONS, Language, export_controller
-from mcexact.export.equations import AgentRun, AgentStep, equations_document, steps_of
+from mcexact.export.code import export_controller
+from mcexact.export.compiled import FLAGS, CompiledAgent
+from mcexact.export.equations import (
+    CONTROLLER,
+    EQUATIONS,
+    AgentRun,
+    AgentStep,
+    Language,
+    equations_document,
+    steps_of,
+)
+from mcexact.export.fixed import FixedPoint
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.statespace import local_controllers
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.decentralized import design_extended
+from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.setpoint import design_setpoint
 
@@ -44,6 +55,16 @@ def plant(delays: dict[str, dict[str, int]] | None = None) -> MultiChannelSystem
         time="discrete",
         names=["left", "2nd pump"],
         neighbors=graph,
+    )
+
+
+def tanks() -> MultiChannelSystem:
+    """Three tanks in a row in continuous time; the ends are driven and measured."""
+    return MultiChannelSystem(
+        [["-1/5", "1/5", 0], ["1/5", "-2/5", "1/5"], [0, "1/5", "-1/4"]],
+        [[[1], [0], [0]], [[0], [0], [1]]],
+        [[[1, 0, 0], [0, 1, 0]], [[0, 0, 1]]],
+        names=["left", "2nd pump"],
     )
 
 
@@ -76,16 +97,18 @@ def drawn(seed: int, hold: dict[int, int]) -> Controller:
 
 
 def made() -> dict[str, tuple[MultiChannelSystem, Controller]]:
-    """Controllers without states, with shared ones, with set-points, held and delayed."""
+    """Controllers without states, with shared ones, with set-points, late, held and delayed."""
     network, delayed = plant(), plant({"left": {"2nd pump": 2}, "2nd pump": {"left": 1}})
     static = local_controllers(network, [[["-1/3", "1/7"]], [["-2/7"]]])
     tracking = design_setpoint(
         network, regulate={"left": [1], "2nd pump": [1]}, radius="99/100", aims=Aims(effort=1)
     )
     sharing = design_extended(network, dimensions=[1, 1], arithmetic="float", agent="left")
+    late = sampled_system(tanks(), "1/2", 1)
     return {
         "static": (network, static),
         "set-points": (network, tracking.controller),
+        "sampled and late": (late, design_decentralized(late, aims=Aims(effort=1)).controller),
         "shared states": (network, sharing.controller),
         "every signal": (network, drawn(1, {})),
         "held and delayed": (delayed, drawn(2, {0: 3, 1: 1})),
@@ -95,39 +118,16 @@ def made() -> dict[str, tuple[MultiChannelSystem, Controller]]:
 MADE = made()
 
 
-def code(controller: Controller, language: Language) -> dict[str, str]:
+def code(
+    controller: Controller, language: Language, fixed: FixedPoint | None = None
+) -> dict[str, str]:
     """The files of all agents."""
-    files = export_controller(controller, language)
-    del files[EQUATIONS]
+    files = export_controller(controller, language, fixed)
+    del files[EQUATIONS], files[CONTROLLER]
     return files
 
 
 Signals = dict[Any, Sequence[float]]
-
-
-class CompiledAgent:
-    """An agent of a shared library, called as the run in doubles is."""
-
-    def __init__(self, library: ctypes.CDLL, steps: Sequence[AgentStep], position: int) -> None:
-        self.library, self.steps, self.step = library, steps, steps[position]
-        self.state = (ctypes.c_double * 64)()
-        self._call("reset")
-
-    def _call(self, function: str, *arguments: Any) -> None:
-        getattr(self.library, f"{self.step.identifier}_{function}")(self.state, *arguments)
-
-    def sent_to(self, follower: int) -> list[float]:
-        x = array([0.0] * len(self.step.x))
-        self._call(f"send_to_{self.steps[follower].identifier}", x)
-        return list(x)
-
-    def __call__(self, y: Sequence[float], r: Sequence[float], received: Signals) -> list[float]:
-        step, u = self.step, array([0.0] * len(self.step.u))
-        arguments = [array(y[: step.outputs])] * bool(step.outputs)
-        arguments += [array(r[: step.references])] * bool(step.references)
-        arguments += [array(received[kind, j]) for kind, j, _ in step.received]
-        self._call("step", *arguments, *[u] * bool(step.u))
-        return list(u)
 
 
 class BlockAgent:
@@ -163,10 +163,6 @@ class BlockAgent:
         return list(self.memory["u"]) if step.u else []
 
 
-def array(values: Sequence[float]) -> Any:
-    return (ctypes.c_double * len(values))(*values)
-
-
 def run(
     system: MultiChannelSystem, agents: Sequence[Any], r: Sequence[Sequence[float]], count: int
 ) -> list[list[float]]:
@@ -175,7 +171,8 @@ def run(
         [[float(x) for x in row] for row in M.rows()]
         for M in (system.A, system.input_matrix(), system.output_matrix())
     )
-    graph, x, told = system.neighbors or NeighborGraph.complete(system.names), [1.0, -1.0, 0.5], []
+    graph, told = system.neighbors or NeighborGraph.complete(system.names), []
+    x = [1.0, -1.0, 0.5, *[0.0] * (system.n - 3)]
     late: dict[Any, deque[Any]] = {
         (j, i): deque([None] * graph.delay(i, j)) for j, i in graph.edges() if i != j
     }
@@ -208,9 +205,9 @@ def compiled(files: dict[str, str], folder: Path) -> ctypes.CDLL:
     """Compile the files without a warning into a library."""
     for name, text in files.items():
         (folder / name).write_text(text)
-    flags = ["-Wall", "-Wextra", "-Werror", "-pedantic", "-std=c99", "-O2", "-ffp-contract=off"]
+    assert {"-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"} <= set(FLAGS)
     sources = sorted(name for name in files if name.endswith(".c"))
-    command = [str(COMPILER), *flags, "-shared", "-fPIC", *sources, "-o", "code.so"]
+    command = [str(COMPILER), *FLAGS, "-shared", "-fPIC", *sources, "-o", "code.so"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0 and not done.stderr, done.stderr
     return ctypes.CDLL(str(folder / "code.so"))
@@ -248,7 +245,7 @@ def test_the_run_follows_the_exact_simulation(name: str) -> None:
         system,
         controller,
         horizon=11,
-        initial=[1, -1, "1/2"],
+        initial=[1, -1, "1/2", *[0] * (system.n - 3)],
         reference=[["3/10", -2], ["17/10"]],
         arithmetic="exact",
     )

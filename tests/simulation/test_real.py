@@ -150,7 +150,7 @@ def test_compiled_code_computes_the_same_bits() -> None:
             code=code,  # type: ignore[arg-type]
         )
 
-    assert run("double").signals() == run("compiled").signals()
+    assert run("interpreted").signals() == run("compiled").signals()
     assert "compiled" in repr(run("compiled"))
 
 
@@ -215,7 +215,7 @@ def test_what_cannot_be_run_is_refused() -> None:
         simulate_real(discrete, lags("discrete"), horizon=MOST_STEPS + 1)
     with pytest.raises(UsageError, match=f"1 to {MOST_STEPS} steps"):
         simulate_real(tanks(), lags("continuous"), step="1/1000000", horizon=2)
-    with pytest.raises(UsageError, match='expected "double" or "compiled"'):
+    with pytest.raises(UsageError, match='expected "interpreted" or "compiled"'):
         simulate_real(discrete, lags("discrete"), code="assembler")  # type: ignore[arg-type]
     for limits in ([(0, 1)], [(0, 1), 3], [(0, 1), (2, 1)], [(0, 1), (1, 2, 3)]):
         with pytest.raises(InputError, match="limits"):

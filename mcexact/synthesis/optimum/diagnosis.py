@@ -22,8 +22,8 @@ proved.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from decimal import ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import takewhile
@@ -48,7 +48,7 @@ from mcexact.exact.matrix import (
 from mcexact.exact.roots import StabilityRegion, is_discrete, steady_point
 from mcexact.floating.margins import is_within
 from mcexact.floating.verdicts import distance_at
-from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.controller import AgentProgram, Controller, LinearMap, with_matrices
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.regulated import Selection, positions_of
 from mcexact.model.system import MultiChannelSystem
@@ -606,7 +606,7 @@ def digits_that_suffice(loop: ClosedLoop, region: StabilityRegion) -> int | None
     looks at the frequencies where the margin is small, and all of them confirm its result.
     """
     margin, near = _disk_margins(loop)
-    kept = 0.0 if isnan(margin) else DISK if margin >= DISK else _NEARLY * margin
+    kept = kept_disk_margin(margin)
 
     def holds(digits: int, points: Complexes | None) -> bool:
         rounded = closed_loop(loop.plant, rounded_controller(loop.controller, digits), loop.graph)
@@ -627,6 +627,11 @@ def digits_that_suffice(loop: ClosedLoop, region: StabilityRegion) -> int | None
     while some is not None and suffice < MOST_DIGITS and not holds(suffice, None):
         suffice += 1
     return suffice
+
+
+def kept_disk_margin(margin: float) -> float:
+    """The least disk margin of which rounded gains are to leave a loop of this one."""
+    return 0.0 if isnan(margin) else DISK if margin >= DISK else _NEARLY * margin
 
 
 def _is_inside(M: Matrix, region: StabilityRegion) -> bool:
@@ -657,30 +662,7 @@ def rounded_controller(controller: Controller, digits: int) -> Controller:
     def matrix(M: Matrix) -> Matrix:
         return Matrix.from_rows([[entry(x) for x in row] for row in M.rows()], ncols=M.ncols)
 
-    return _each_matrix(controller, matrix)
-
-
-def _each_matrix(controller: Controller, change: Callable[[Matrix], Matrix]) -> Controller:
-    """Apply a function to all matrices of all programs."""
-
-    def of(each: LinearMap) -> LinearMap:
-        return LinearMap(
-            {j: change(M) for j, M in each.outputs.items()},
-            {j: change(M) for j, M in each.shared.items()},
-            None if each.private is None else change(each.private),
-            None if each.reference is None else change(each.reference),
-        )
-
-    agents = tuple(
-        replace(
-            agent,
-            shared_update=of(agent.shared_update),
-            private_update=of(agent.private_update),
-            input=of(agent.input),
-        )
-        for agent in controller.agents
-    )
-    return replace(controller, agents=agents)
+    return with_matrices(controller, matrix)
 
 
 # Curves of a loop: sensitivity over the frequency, decay and step responses over time.
