@@ -297,6 +297,8 @@ def least_fixed_point(
     from mcexact.floating.margins import is_within
     from mcexact.synthesis.optimum.diagnosis import kept_disk_margin, least_disk_margin
 
+    InputError.require(system, MultiChannelSystem, "system")
+    InputError.require(controller, Controller, "controller")
     loop = closed_loop(system, controller, graph)
     kept, first = kept_disk_margin(least_disk_margin(loop)), MOST_BITS
     for bits in range(MOST_BITS + 1):
