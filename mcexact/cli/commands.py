@@ -69,7 +69,7 @@ COMMANDS = {
     ),
     "sample": Listed("convert:sample_command", "Draw systems with known structure."),
     "convert": Listed(
-        "convert:convert_command", "Convert system files of MATLAB, numpy and others."
+        "convert:convert_command", "Convert system and controller files of other kinds."
     ),
     "c2d": Listed("convert:c2d_command", "Sample a plant in continuous time."),
     "export": Listed("export:command", "Write a controller as C or Structured Text."),

@@ -33,11 +33,17 @@ from mcexact.cli.output import emit, emit_json
 from mcexact.cli.results import Converted
 from mcexact.cli.running import Run, supervised
 from mcexact.derived.drawn.systems import Draw, drawn_system
-from mcexact.errors import InputError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Rounding
 from mcexact.exact.rational import Limits
 from mcexact.model.arrays import MARK, Reading
-from mcexact.model.controller import controller_text, read_controller
+from mcexact.model.controller import (
+    controller_bytes,
+    controller_text,
+    doubts_about_floats,
+    is_controller,
+    read_controller,
+)
 from mcexact.model.files import is_folder, read_plant, require_suffix, system_files
 from mcexact.model.gallery import published
 from mcexact.model.parametric import ParametricSystem
@@ -61,7 +67,7 @@ def sizes(text: str) -> tuple[int, ...]:
         raise click.BadParameter(f"expected integers such as 1,2, found '{text}'") from None
 
 
-@click.command(name="convert", short_help="Convert system files of MATLAB, numpy and others.")
+@click.command(name="convert", short_help="Convert system and controller files of other kinds.")
 @click.argument("file")
 @click.option(
     "-o",
@@ -92,6 +98,9 @@ def sizes(text: str) -> tuple[int, ...]:
 @options.file_limits
 def convert_command(file: str, output: Path | None, **values: Any) -> None:
     """Convert the system in FILE, a .json, .yaml, .mat or .npz file or a folder of .csv files.
+
+    A controller in FILE is converted as well, between .json, .mat and .npz: u_1_y_2 is the matrix
+    of y_2 in u_1, x_1_z that of z_1 in the next x_1, and so on.
 
     Arrays are named A, B_1, C_1, B_2, C_2 and so on; or A, and the stacked B and C, with the sizes
     of the channels in inputs and outputs; in MATLAB B and C may be cells. Optional are time,
@@ -144,6 +153,10 @@ def _converted(
 ) -> Converted:
     """Read a system and return the contents of the output, in the child process."""
     place, data = plant
+    if is_controller(data, Limits(**limits)):
+        if inputs or outputs or at:
+            raise UsageError("found a controller: leave out --inputs, --outputs and --at")
+        return _controller(place, data, Limits(**limits), target, rounding, nearest)
     with InputError.inside(place):
         system = read_plant(data, place, Reading(Limits(**limits), rounding, inputs, outputs))
         if at:
@@ -153,6 +166,31 @@ def _converted(
     with InputError.inside(target):
         content = system_files(system, target, rounding=_used(rounding, target), nearest=nearest)
     return Converted(content, _warnings(system))
+
+
+def _controller(
+    place: str,
+    data: bytes,
+    limits: Limits,
+    target: str,
+    rounding: Rounding | None,
+    nearest: bool,
+) -> Converted:
+    """Read a controller and return the contents of the output."""
+    if Path(target).suffix.lower() not in _CONTROLLERS:
+        kinds = ", ".join(_CONTROLLERS)
+        raise UsageError(f"no controller is written to such a file: choose {kinds}", where=target)
+    with InputError.inside(place):
+        controller = read_controller(data, limits, rounding)
+        doubts = [] if rounding else doubts_about_floats(data, limits)
+    used = _used(rounding, target)
+    with InputError.inside(target):
+        content = controller_bytes(controller, target, rounding=used, nearest=nearest)
+    return Converted(content, doubts)
+
+
+_CONTROLLERS = (".json", ".mat", ".npz")
+"""The ends of the names of files that controllers are written to."""
 
 
 def _warnings(system: MultiChannelSystem | ParametricSystem) -> list[str]:

@@ -308,7 +308,37 @@ class Parts:
     names: Sequence[str] | None = None
 
 
-def require_known(names: Iterable[str], what: str) -> None:
+@dataclass(frozen=True)
+class Vocabulary:
+    """The names of arrays that have a meaning in a kind of file.
+
+    Attributes
+    ----------
+    keys : tuple of str
+        All names but those with numbers.
+    texts : tuple of str
+        Those among them that are texts.
+    numbered : re.Pattern
+        The names with numbers.
+    cells : tuple of str
+        The names of cell arrays of matrices in files of MATLAB, which stand for names with numbers.
+    hint : str
+        What is known, as the end of a message.
+    """
+
+    keys: tuple[str, ...]
+    texts: tuple[str, ...]
+    numbered: re.Pattern[str]
+    cells: tuple[str, ...]
+    hint: str
+
+
+SYSTEM = Vocabulary(
+    KEYS, TEXTS, NUMBERED, ("B", "C"), "; known are A, B_1, C_1, …, or B, C, inputs, outputs"
+)
+
+
+def require_known(names: Iterable[str], what: str, vocabulary: Vocabulary = SYSTEM) -> None:
     """Refuse a name that has no meaning in a file of arrays.
 
     Raises
@@ -317,8 +347,8 @@ def require_known(names: Iterable[str], what: str) -> None:
         If there is one: a misspelled name must not be ignored.
     """
     for name in names:
-        if name not in KEYS and not NUMBERED.fullmatch(name):
-            hint = nearest(name, KEYS) or "; known are A, B_1, C_1, …, or B, C, inputs, outputs"
+        if name not in vocabulary.keys and not vocabulary.numbered.fullmatch(name):
+            hint = nearest(name, vocabulary.keys) or vocabulary.hint
             raise InputError(f"unknown {what} {quoted(name)}{hint}")
 
 
@@ -610,7 +640,7 @@ class _Array:
         return self.shape[0] * self.shape[1]
 
 
-def read_mat(data: bytes, limits: Limits) -> Parts:
+def read_mat(data: bytes, limits: Limits, vocabulary: Vocabulary = SYSTEM) -> Parts:
     """Read the variables of a file: A, B, C and others, as in `Parts`; B and C may be cells.
 
     Raises
@@ -620,7 +650,7 @@ def read_mat(data: bytes, limits: Limits) -> Parts:
         unknown or no matrix of real numbers.
     """
     try:
-        return _File(*_decompressed(data, limits)).parts()
+        return _File(*_decompressed(data, limits)).parts(vocabulary)
     except (struct.error, zlib.error, UnicodeDecodeError) as error:
         raise InputError(f"the file is damaged: {error}") from None
 
@@ -679,16 +709,16 @@ class _File:
     def __init__(self, data: bytes, order: str) -> None:
         self._data, self._order = data, order
 
-    def parts(self) -> Parts:
+    def parts(self, vocabulary: Vocabulary) -> Parts:
         """Read all variables; the cells of B and C become B_1, C_1 and so on."""
         variables = self._variables()
-        _require_variables(variables)
+        _require_variables(variables, vocabulary)
         tables: dict[str, Any] = {}
         texts: dict[str, str] = {}
         names = None
         for variable in variables:
             name = variable.name
-            if name in TEXTS:
+            if name in vocabulary.texts:
                 texts[name] = self._text(variable)
             elif name == "names":
                 names = [self._text(each) for each in self._listed(variable)]
@@ -843,20 +873,21 @@ class _File:
         return text
 
 
-def _require_variables(variables: list[_Array]) -> None:
+def _require_variables(variables: list[_Array], vocabulary: Vocabulary) -> None:
     """Refuse variables that are unknown, given twice, or of another class than their name has."""
     names = [variable.name for variable in variables]
-    require_known(names, "variable")
+    require_known(names, "variable", vocabulary)
     for k, variable in enumerate(variables):
         name = variable.name
         if name in names[:k]:
             raise InputError(f"the variable '{name}' is given twice")
-        if name in ("B", "C") and variable.kind == _CELL:
+        if name in vocabulary.cells and variable.kind == _CELL:
             continue
         if variable.kind == _CELL and name != "names":
             raise InputError("expected a matrix, found a cell array", where=name)
         _require_class(
-            variable, {_CELL} if name == "names" else {_TEXT} if name in TEXTS else _NUMBERS
+            variable,
+            {_CELL} if name == "names" else {_TEXT} if name in vocabulary.texts else _NUMBERS,
         )
 
 
@@ -869,8 +900,14 @@ def _require_class(array: _Array, wanted: frozenset[int] | set[int]) -> None:
         raise InputError(f"expected {what}, found another class", where=array.name)
 
 
-def mat_bytes(parts: Parts, rounding: Rounding | None, *, nearest: bool) -> bytes:
-    """Write the variables of a system, with B and C as cells; equal parts give equal bytes.
+def mat_bytes(
+    parts: Parts,
+    rounding: Rounding | None,
+    *,
+    nearest: bool,
+    vocabulary: Vocabulary = SYSTEM,
+) -> bytes:
+    """Write the variables of a file, of a system with B and C as cells; equal parts, equal bytes.
 
     Raises
     ------
@@ -884,7 +921,7 @@ def mat_bytes(parts: Parts, rounding: Rounding | None, *, nearest: bool) -> byte
             return matrix_to_float(M)
         return floats_of(M, where, rounding, nearest=nearest)
 
-    cells: dict[str, list[Any]] = {"B": [], "C": []}
+    cells: dict[str, list[Any]] = {letter: [] for letter in vocabulary.cells}
     variables: dict[str, Any] = {}
     for name, M in parts.tables.items():
         letter, _, number = name.partition("_")
@@ -921,7 +958,7 @@ def _cell(values: Any) -> Any:
 # Archives of numpy, which ``numpy.savez`` writes; nothing in them is unpickled.
 
 
-def read_npz(files: Mapping[str, bytes], limits: Limits) -> Parts:
+def read_npz(files: Mapping[str, bytes], limits: Limits, vocabulary: Vocabulary = SYSTEM) -> Parts:
     """Read the arrays of an archive: A, B_1, C_1 and others, as in `Parts`.
 
     Parameters
@@ -929,6 +966,8 @@ def read_npz(files: Mapping[str, bytes], limits: Limits) -> Parts:
     files : mapping
         The contents of the members of the archive, by their names.
     limits : Limits
+    vocabulary : Vocabulary, optional
+        The names that are known, by default those of a system.
 
     Raises
     ------
@@ -936,17 +975,16 @@ def read_npz(files: Mapping[str, bytes], limits: Limits) -> Parts:
         If an array is damaged, unknown, or of objects.
     """
     known = {name.removesuffix(".npy"): data for name, data in files.items()}
-    require_known(known, "array")
+    require_known(known, "array", vocabulary)
     tables: dict[str, Any] = {}
     texts: dict[str, str] = {}
     names = None
     for name, data in known.items():
         array = _array(data, name)
-        if name in TEXTS or name == "names":
+        if name in vocabulary.texts or name == "names":
             if array.dtype.kind != "U" or array.ndim != (name == "names"):
-                raise InputError(
-                    "expected a text" if name in TEXTS else "expected texts", where=name
-                )
+                expected = "expected texts" if name == "names" else "expected a text"
+                raise InputError(expected, where=name)
             if name == "names":
                 names = array.tolist()
             else:

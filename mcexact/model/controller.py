@@ -4,7 +4,8 @@ A `Controller` has one `AgentProgram` for each agent: linear equations for its s
 its private state z_i and its input u_i.  Each right side is a `LinearMap` of measured outputs,
 shared sub-states, the private state and the reference.  So the data say whose signals a program
 uses, and `require_fits` compares this with the neighbor graph.  The controller file holds these
-maps by the names of the agents, with exact numbers.
+maps by the names of the agents, with exact numbers.  Files of MATLAB and archives of numpy hold
+each matrix under the name of what it computes from what, such as ``u_1_y_2``.
 """
 
 from __future__ import annotations
@@ -12,17 +13,28 @@ from __future__ import annotations
 import json
 import os
 import re
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast, get_args
 
-from mcexact.errors import InputError, UsageError, place_of
-from mcexact.exact.matrix import Matrix, bit_length, largest_entry
+from mcexact.errors import InputError, RoundingWarning, UsageError, one_of, place_of
+from mcexact.exact.matrix import (
+    BINARY,
+    Matrix,
+    Rounding,
+    bit_length,
+    has_rounded,
+    largest_entry,
+)
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits, decimal_or_quotient
 from mcexact.exact.roots import is_discrete, require_time
+from mcexact.model import arrays
 from mcexact.model.entries import matrix_json, read_matrix
+from mcexact.model.files import members
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.limits import InputLimits, Range, pairs_document, read_input_limits
 from mcexact.model.system import MultiChannelSystem
@@ -40,7 +52,7 @@ from mcexact.model.text import (
     read_bytes,
     require_short_numbers,
     require_start,
-    write_text,
+    write_bytes,
 )
 from mcexact.shown import Shown, fitting, grid
 
@@ -431,37 +443,58 @@ def _agent_json(agent: AgentProgram, names: list[str]) -> dict[str, Any]:
 
 FORMAT = "mcexact-controller/1"
 _OTHERS = (
-    "a controller file is JSON; in Python, local_controllers makes a controller of matrices, "
-    "or of systems of python-control"
+    "a controller file is JSON, .mat or .npz; in Python, local_controllers makes a controller of "
+    "matrices, or of systems of python-control"
 )
 
 
-def load_controller(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Controller:
+def load_controller(
+    path: str | os.PathLike[str],
+    limits: Limits = DEFAULT_LIMITS,
+    *,
+    rounding: Rounding | None = None,
+) -> Controller:
     """Read a controller from a file, or from standard input for ``-``.
 
     Parameters
     ----------
     path : path
-        ``-`` is the standard input.
+        JSON, a file of MATLAB, or an archive of numpy; ``-`` is the standard input.
     limits : Limits, optional
+    rounding : {"decimal", "dyadic", "simplest"}, optional
+        How floats become exact; by default as the file says, or else "simplest".
 
     Raises
     ------
     InputError
         If it is missing, unreadable or malformed; the message says where.
+
+    Warns
+    -----
+    RoundingWarning
+        If numbers were read from floats, and neither the caller nor the file says by which
+        rounding.
     """
     with InputError.inside(place_of(path)):
-        return read_controller(read_bytes(path, limits), limits)
+        data = read_bytes(path, limits)
+        controller = read_controller(data, limits, rounding)
+    for text in [] if rounding else doubts_about_floats(data, limits):
+        warnings.warn(text, RoundingWarning, stacklevel=2)
+    return controller
 
 
-def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Controller:
-    """Read the text of a controller file.
+def read_controller(
+    text: bytes | str, limits: Limits = DEFAULT_LIMITS, rounding: Rounding | None = None
+) -> Controller:
+    """Read the contents of a controller file: JSON, a file of MATLAB or an archive of numpy.
 
     Raises
     ------
     InputError
-        If the text is malformed; the message says where, what was expected and what was found.
+        If it is malformed; the message says where, what was expected and what was found.
     """
+    if isinstance(text, bytes) and is_of_arrays(text):
+        return controller_of(_parts(text, limits), limits, rounding)
     require_start(text, _OTHERS)
     document = expect_format(parse(text, limits), FORMAT)
     expect_object(document, None, ("format", "time", "system", "agents"))
@@ -603,18 +636,213 @@ def _readable(value: Any, *, listed: bool = False) -> Any:
     return value
 
 
-def save_controller(controller: Controller, path: str | os.PathLike[str]) -> None:
+def save_controller(
+    controller: Controller,
+    path: str | os.PathLike[str],
+    *,
+    rounding: Rounding | None = None,
+    nearest: bool = False,
+) -> None:
     """Write a controller file, completely or not at all.
 
     Parameters
     ----------
     controller : Controller
     path : path
+        Its end says the kind: .mat, .npz, or JSON.
+    rounding : {"decimal", "dyadic", "simplest"}, optional
+        For .mat and .npz: numbers are written as floats from which this rounding makes them again.
+        The file names it.
+    nearest : bool
+        For .mat and .npz: whether other numbers are written as the nearest floats, which are
+        another controller.
 
     Raises
     ------
     NotWritten
         If the file cannot be written.
+    InputError
+        If it would not hold the numbers of the controller.
     """
+    contents = controller_bytes(controller, path, rounding=rounding, nearest=nearest)
+    write_bytes(path, contents)
+
+
+def controller_bytes(
+    controller: Controller,
+    path: str | os.PathLike[str],
+    *,
+    rounding: Rounding | None = None,
+    nearest: bool = False,
+) -> bytes:
+    """The contents of the file that `save_controller` writes."""
     InputError.require(controller, Controller, "controller")
-    write_text(path, controller_text(controller))
+    suffix = os.path.splitext(place_of(path))[1].lower()
+    if suffix == ".mat":
+        parts = parts_of_controller(controller)
+        return arrays.mat_bytes(parts, rounding, nearest=nearest, vocabulary=CONTROLLER)
+    if suffix == ".npz":
+        return arrays.npz_bytes(parts_of_controller(controller), rounding, nearest=nearest)
+    if rounding is not None or nearest:
+        raise InputError("floats are for .mat and .npz files: leave out the rounding")
+    return controller_text(controller).encode("ascii")
+
+
+# Controllers as arrays: each matrix by the name of what it computes from what.
+
+_OF = re.compile(r"([xzu])_([1-9][0-9]{0,5})_(?:([yx])_([1-9][0-9]{0,5})|([zr]))")
+_SIZES = ("shared", "private", "hold")
+_TEXTS = ("format", "time", "system", arrays.ROUNDING)
+CONTROLLER = arrays.Vocabulary(
+    (*_TEXTS, *_SIZES, "names"),
+    _TEXTS,
+    _OF,
+    (),
+    "; known are x_1_y_1, x_1_x_2, z_1_z, u_1_r and so on, shared, private, hold and names; in "
+    "Python, local_controllers makes a controller of matrices",
+)
+
+
+def is_of_arrays(data: bytes) -> bool:
+    """Whether a file is one of MATLAB or an archive."""
+    return data.startswith((arrays.MAGIC, b"PK"))
+
+
+def _parts(data: bytes, limits: Limits) -> arrays.Parts:
+    if data.startswith(arrays.MAGIC):
+        return arrays.read_mat(data, limits, CONTROLLER)
+    return arrays.read_npz(members(data, limits), limits, CONTROLLER)
+
+
+def parts_of_controller(controller: Controller) -> arrays.Parts:
+    """The arrays of a controller.
+
+    ``u_1_y_2`` has the coefficients of y_2 in u_1: in the place of u stands what is computed, x for
+    the next x_1 (in continuous time its derivative) and z for the next z_1; in the place of y_2
+    what it is computed from, y_j, x_j, or the agent's own z and r.  What is not there is 0.
+
+    Raises
+    ------
+    InputError
+        If inputs have limits or anti-windup gains, for which there are no arrays.
+    """
+    if any(agent.limits is not None or agent.back_calculation for agent in controller.agents):
+        raise InputError("only .json files keep limits of inputs and anti-windup gains")
+    tables: dict[str, Matrix] = {}
+    m = len(controller.agents)
+    for i, agent in enumerate(controller.agents, start=1):
+        for letter, each in zip("xzu", agent.maps(), strict=True):
+            used = each.without_zeros()
+            tables |= {f"{letter}_{i}_y_{j + 1}": M for j, M in used.outputs.items()}
+            tables |= {f"{letter}_{i}_x_{j + 1}": M for j, M in used.shared.items()}
+            own = {"z": used.private, "r": used.reference}
+            tables |= {f"{letter}_{i}_{kind}": M for kind, M in own.items() if M is not None}
+    for name in ("shared", "private"):
+        sizes = [getattr(agent, name) for agent in controller.agents]
+        tables[name] = Matrix.from_integers([sizes])
+    held = [(i, j, d) for i, a in enumerate(controller.agents) for j, d in a.hold.items() if d]
+    if held:
+        tables["hold"] = Matrix.from_entries((m, m), held)
+    texts = {"format": FORMAT, "time": controller.time, "system": controller.system}
+    return arrays.Parts(tables, texts, [agent.name for agent in controller.agents])
+
+
+def doubts_about_floats(data: bytes, limits: Limits = DEFAULT_LIMITS) -> list[str]:
+    """Say that the numbers of a file were read from floats, if it does not say how to read them."""
+    if not is_of_arrays(data):
+        return []
+    parts = _parts(data, limits)
+    if arrays.ROUNDING in parts.texts or not any(map(has_rounded, parts.tables.values())):
+        return []
+    return [
+        f"numbers of this controller were read from floats by the rounding '{BINARY}': certify the "
+        "controller that was read"
+    ]
+
+
+def is_controller(data: bytes, limits: Limits = DEFAULT_LIMITS) -> bool:
+    """Whether a file is one of a controller, whatever else is wrong with it."""
+    with suppress(InputError):
+        if is_of_arrays(data):
+            return "format" in _parts(data, limits).texts
+        document = parse(data, limits)
+        return isinstance(document, dict) and document.get("format") == FORMAT
+    return False
+
+
+def controller_of(
+    parts: arrays.Parts, limits: Limits = DEFAULT_LIMITS, rounding: Rounding | None = None
+) -> Controller:
+    """Make the controller of arrays; floats become exact by a rounding.
+
+    It is that of the caller, or that which the file names, or else "simplest": the numbers that a
+    person typed, as far as these can be told from floats.
+
+    Raises
+    ------
+    InputError
+        If something is missing, or is not as expected.
+    """
+    for name in ("format", "time"):
+        if name not in parts.texts:
+            raise InputError(f"the text '{name}' is missing", where=name)
+    if parts.texts["format"] != FORMAT:
+        raise InputError(f"expected {FORMAT!r}, found {parts.texts['format']!r}", where="format")
+    require_time(parts.texts["time"])
+    written = parts.texts.get(arrays.ROUNDING, BINARY)
+    one_of(written, get_args(Rounding), arrays.ROUNDING, InputError)
+    arrays.require_entries(parts.tables.values(), limits)
+    reading = arrays.Reading(limits, rounding or cast(Rounding, written))
+    labels = list(parts.names or ())
+    if not labels:
+        raise InputError("expected the names of the agents", where="names")
+    names = checked_names(labels, [f"names[{k}]" for k in range(len(labels))])
+    exact = {
+        name: arrays.exact_matrix(table, name, reading) for name, table in parts.tables.items()
+    }
+    sizes = {name: _row_of(exact, name, len(names)) for name in ("shared", "private")}
+    agents: list[dict[str, Any]] = [
+        {
+            "name": name,
+            "shared": sizes["shared"][i],
+            "private": sizes["private"][i],
+            **{label: {} for label in MAPS},
+        }
+        for i, name in enumerate(names)
+    ]
+    document = {
+        "format": FORMAT,
+        "system": parts.texts.get("system", ""),
+        "time": parts.texts["time"],
+        "agents": agents,
+    }
+    for name, M in exact.items():
+        match = _OF.fullmatch(name)
+        if match is None:
+            continue
+        letter, i, kind, j, own = match.groups()
+        for number in filter(None, (i, j)):
+            if int(number) > len(names):
+                raise InputError(f"there is no agent {number}", where=name)
+        place = agents[int(i) - 1][MAPS["xzu".index(letter)]]
+        if own is not None:
+            place[{"z": "private", "r": "reference"}[own]] = matrix_json(M)
+        else:
+            of = place.setdefault({"y": "outputs", "x": "shared"}[kind], {})
+            of[names[int(j) - 1]] = matrix_json(M)
+    hold = exact.get("hold", Matrix.zeros(len(names), len(names)))
+    if hold.shape != (len(names),) * 2 or hold.denominator != 1:
+        raise InputError(f"expected {len(names)} × {len(names)} integers", where="hold")
+    for i, j, d in hold.nonzero():
+        agents[i].setdefault("hold", {})[names[j]] = d
+    return read_controller(json.dumps(document), limits)
+
+
+def _row_of(exact: Mapping[str, Matrix], name: str, count: int) -> list[int]:
+    """A row or a column of sizes."""
+    if name not in exact:
+        raise InputError(f"the sizes '{name}' are missing", where=name)
+    entries = [x for row in exact[name].rows() for x in row]
+    if len(entries) != count or any(x.denominator != 1 for x in entries):
+        raise InputError(f"expected {count} integers", where=name)
+    return [int(x) for x in entries]

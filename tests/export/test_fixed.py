@@ -63,7 +63,7 @@ class ModelAgent:
         self, y: Sequence[float], r: Sequence[float], received: Mapping[tuple[Kind, int], Any]
     ) -> list[float]:
         i = self.step.position
-        given = {("y", i): y, ("r", i): r, **received}
+        given: dict[tuple[Kind, int], Any] = {("y", i): y, ("r", i): r, **received}
         known = {
             key: [self.nearest(key[0], int(v * 2.0**FINE)) for v in values]
             for key, values in given.items()
