@@ -1,0 +1,19 @@
+/*
+ * Agent 'valve' of a distributed controller in discrete time.
+ * Made for the plant of digest 681984dfb34eb0a48ab5023133c9fc678b4cedef7741f48c4933e1b70240ea93.
+ * 6 of its 9 numbers are rounded to the nearest double.
+ * In each sampling period: measure y, run the step, set u.
+ */
+
+#ifndef VALVE_H
+#define VALVE_H
+
+typedef struct {
+    double z[2];
+} valve_state;
+
+void valve_reset(valve_state *s);
+
+void valve_step(valve_state *s, const double y[1], const double r[1], double u[1]);
+
+#endif
