@@ -68,6 +68,8 @@ class Beside(Protocol):
     @property
     def times(self) -> Sequence[Fraction]: ...
     @property
+    def unit(self) -> str: ...
+    @property
     def ideal(self) -> Run: ...
     @property
     def real(self) -> Run: ...
@@ -129,18 +131,19 @@ def real_responses(run: Beside, ax: Any = None) -> Any:
     for axis, kind in zip(several_axes(ax, 2), ("outputs", "inputs"), strict=True):
         real, ideal = run.real.values(kind), run.ideal.values(kind)
         named = len(real) <= NAMED
-        # The inputs are held between samples, and those of the ideal loop may not be.
+        # Inputs are held between samples, but not those of an ideal loop in continuous time.
         style = "steps-post" if kind == "inputs" else "default"
+        ideally = "steps-post" if is_discrete(run.ideal.time) and kind == "inputs" else "default"
         for k, (name, values) in enumerate(real.items()):
             color, label = f"C{k % 10}", plain_label(name) if named else None
             axis.plot(times, values, color=color, linewidth=1.4, label=label, drawstyle=style)
-            beside = {"color": color, "linewidth": 1, "linestyle": "--", "alpha": 0.8}
+            beside = {"color": color, "linewidth": 1, "linestyle": "--", "drawstyle": ideally}
             axis.plot(times, ideal[name], label=None if k else "ideal loop", **beside)
         what = kind if named else f"{len(real)} {kind}"
         axis.set_title(f"{what} of the real loop", fontsize="medium")
         axis.margins(x=0)
         axis.grid(visible=True, alpha=0.3)
-        figure = finished(axis, across=elapsed_label(run.real.time), columns=4)
+        figure = finished(axis, across=run.unit, columns=4)
     return figure
 
 

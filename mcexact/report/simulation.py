@@ -90,6 +90,11 @@ _COLUMNS = 8
 """The largest number of signals with a column of their own."""
 _TITLES = ("At some times", "Proved bounds: |y(t) − rest| is at most size d(t) + rounding")
 """The titles of the tables on the page."""
+_REAL_TITLES = (
+    "The real loop beside the ideal one",
+    "The real loop at some times",
+    "Proved bounds of the ideal loop: |y(t) − rest| is at most size d(t) + rounding",
+)
 
 
 @dataclass(frozen=True)
@@ -301,7 +306,11 @@ class RealReport:
             note=note,
         )
         ideal = "; ".join(self._ideal.facts())
-        bounds = (replace(each, title=f"Ideal: {ideal}") for each in self._ideal.tables(lines)[1:])
+        counted = "t counts steps; " if is_discrete(self.run.ideal.time) else ""
+        bounds = (
+            replace(each, title=f"Ideal: {ideal}", note=f"{counted}{each.note}")
+            for each in self._ideal.tables(lines)[1:]
+        )
         return compared, self._shown(lines), *bounds
 
     def _shown(self, lines: int) -> Table:
@@ -407,7 +416,10 @@ class RealReport:
                 *(f"warning: {each}" for each in done.warnings),
             ),
             pictures=tuple(each.embedded() for each in real_pictures(self.run, done)),
-            tables=self.tables(),
+            tables=tuple(
+                replace(each, title=title)
+                for each, title in zip(self.tables(), _REAL_TITLES, strict=False)
+            ),
             plant=shown_plant(done.run.loop.plant.plant),
         )
 

@@ -308,6 +308,11 @@ class RealRun(Shown):
         for label, ideal, real in self.compared():
             yield label, f"{ideal} → {real}"
 
+    @property
+    def unit(self) -> str:
+        """What the times count: "time", or "step" where the time between samples is not known."""
+        return "step" if self.realization.step is None else "time"
+
     def compared(self) -> list[tuple[str, str, str]]:
         """Return rows of a label and of texts for the ideal and for the real loop."""
         rows = list[tuple[str, str, str]]()

@@ -33,7 +33,7 @@ def pages(folder: Path) -> list[Path]:
     drawn, crowd, short = (folder / f"{name}.json" for name in ("drawn", "crowd", "short"))
     gains, holding = str(folder / "gains.json"), str(folder / "holding.json")
     linked, shared = str(folder / "linked.json"), str(folder / "shared.json")
-    estimates = str(folder / "estimates.json")
+    estimates, levels = str(folder / "estimates.json"), _of_tanks("plant.json")
     made = {
         "analysis": ("analyze", example),
         "analysis-10": ("analyze", str(drawn)),
@@ -52,6 +52,11 @@ def pages(folder: Path) -> list[Path]:
         "run": (tanks, gains),
         "run-setpoint": (tanks, holding, "--reference=1,-1/2", "--initial=0,0,0,0"),
         "run-observer": (linked, estimates),
+        "run-real": (
+            *(levels, _of_tanks("controller.json"), "--step", "5", "--late", "1"),
+            *("--reference=2,1", "--initial=0", "--limits=-0.3,0.3", "--quantize-outputs=8:-4,4"),
+            *("--fixed-point", "5"),
+        ),
         "run-unstable": (discrete, str(folder / "idle.json")),
     }
     for path, channels in ((drawn, 10), (crowd, 60)):
@@ -67,6 +72,11 @@ def pages(folder: Path) -> list[Path]:
         _run("simulate", *arguments, "-o", str(folder / f"{name}.html"))
     _run("reproduce", "-o", str(folder / "paper"))
     return [folder / "paper" / "report.html", *(folder / f"{name}.html" for name in [*made, *runs])]
+
+
+def _of_tanks(name: str) -> str:
+    """A file of the example that goes from a plant to compiled code."""
+    return str(Path(__file__).parents[3] / "examples" / "tanks" / name)
 
 
 def _idle(plant: str, path: Path) -> None:
