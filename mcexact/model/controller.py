@@ -17,7 +17,6 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, ClassVar, cast, get_args
 
@@ -726,7 +725,10 @@ def parts_of_controller(controller: Controller) -> arrays.Parts:
     InputError
         If inputs have limits or anti-windup gains, for which there are no arrays.
     """
-    if any(agent.limits is not None or agent.back_calculation for agent in controller.agents):
+    if any(
+        agent.limits is not None or agent.back_calculation is not None
+        for agent in controller.agents
+    ):
         raise InputError("only .json files keep limits of inputs and anti-windup gains")
     tables: dict[str, Matrix] = {}
     m = len(controller.agents)
