@@ -55,6 +55,7 @@ from mcexact.synthesis.optimum.diagnosis import (
 )
 from mcexact.synthesis.optimum.figures import (
     DISK,
+    FEW_DIGITS,
     LEAST_DAMPING,
     MARGIN,
     NO_LIMITS,
@@ -83,7 +84,7 @@ LONGEST = 160
 _NO_DISK, _TIMES_THE_BOUND = 0.1, 3.0
 _FAILS, _FAILS_AT_ONCE = Fraction(1, 100), Fraction(1, 1000)
 _SLOWER = 0.99
-_STEP_PEAK, _DIGITS = 2.0, 4
+_STEP_PEAK = 2.0
 _REFUTED = "within the given uncertainty there is a plant whose loop is not stable"
 _OPEN = "stability is not proved for everything within the given uncertainty"
 _NOT_EXAMINED = "the time limit left no time to compute its margins"
@@ -366,7 +367,7 @@ class Assessment(Shown):
         if self.digits is None:
             text = f"rounded to {MOST_DIGITS} digits, the programs lose {self.region} or the margin"
             yield f"{MOST_DIGITS} digits are too few", text
-        elif self.digits > _DIGITS:
+        elif self.digits > FEW_DIGITS:
             text = f"the programs need {self.digits} digits to keep {self.region} and the margin"
             yield f"{self.digits} digits are needed", text
 

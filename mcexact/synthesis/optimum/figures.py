@@ -309,8 +309,8 @@ MARGIN, DISK, TOGETHER = 0.3, 0.4, 0.2
 MARGINS = Limits(DISK, MARGIN)
 """The margins that designs aim at; `TOGETHER` where it costs little."""
 NO_MARGINS = Limits(0.0, 0.0)
-LEAST_DAMPING = 0.05
-"""The damping ratio below which a controller is installed with care."""
+LEAST_DAMPING, FEW_DIGITS = 0.05, 4
+"""A controller of less damping, or whose programs need more digits, is installed with care."""
 
 
 class Margins:

@@ -32,6 +32,7 @@ from mcexact.synthesis.gate import Proposal, Request, Warned, certify
 from mcexact.synthesis.network_design import network_proposals, require_fast
 from mcexact.synthesis.networks import DerivedNetwork, decentralized_network, shared_network
 from mcexact.synthesis.optimum.continuation import (
+    DAMPING,
     fastest,
     more_damped,
     sounder,
@@ -47,6 +48,8 @@ from mcexact.synthesis.optimum.diagnosis import (
     with_diagnosis,
 )
 from mcexact.synthesis.optimum.figures import (
+    FEW_DIGITS,
+    LEAST_DAMPING,
     Aims,
     CentralOptimum,
     Figures,
@@ -56,6 +59,7 @@ from mcexact.synthesis.optimum.figures import (
     central_optimum,
     figures_of,
     least_cost,
+    least_damping,
 )
 from mcexact.synthesis.optimum.problem import (
     PER_SECOND,
@@ -138,6 +142,7 @@ class Family:
 
 _MOST_TRIED, _STARTS_OF_FASTEST = 12, 2
 _LEAST_STORED, _MORE, _CERTIFIED = 3, 3, 20
+_HARDLY_DEARER = 1.1
 _ENOUGH = 1.5
 _GAINS = 10.0
 _LATE = (
@@ -295,17 +300,56 @@ def optimum(
             result = _completed(family, request, aims, weights, ladder, result)
     if not result.candidates:
         raise LimitReached(f"no controller was found for {request.region}: {known}")
-    limit = LimitReached("")
+    found = _rounded(result, figures, aims.digits, f": {known}")
+    slower = request.brisk is None and result.target.region != request.region
+    asked = request.region if slower else None
+    return replace(found, region=result.target.region, notes=result.notes, asked=asked)
+
+
+def _rounded(result: _Result, central: Figures | None, most: int | None, known: str) -> Optimum:
+    """The best candidate that the gate certifies, with few digits.
+
+    A controller that needs many digits is replaced by one that needs few, has the margins and the
+    damping of the best one, and costs hardly more.
+
+    Raises
+    ------
+    LimitReached
+        If none is certified; the message ends with what is known of the plant.
+    """
+    limit, first = LimitReached("no controller was found"), None
+    best = result.candidates[0]
     for each in result.candidates[:_CERTIFIED]:
+        if first is not None and not _is_as_good(result.target, best, each):
+            continue
         try:
-            found = with_few_digits(each, result.target, figures, aims.digits)
+            found = with_few_digits(each, result.target, central, most)
         except LimitReached as reached:
             limit = reached
-        else:
-            slower = request.brisk is None and result.target.region != request.region
-            asked = request.region if slower else None
-            return replace(found, region=result.target.region, notes=result.notes, asked=asked)
-    raise LimitReached(f"{limit}: {known}")
+            continue
+        if _suffices(found, result.target, FEW_DIGITS):
+            return found
+        first = found if first is None else first
+    if first is None:
+        raise LimitReached(f"{limit}{known}")
+    return first
+
+
+def _suffices(found: Optimum, target: Target, digits: int) -> bool:
+    """Whether a controller stays in the region with its margins when it is rounded to digits."""
+    problem, K = found.problem, rounded(found.K, digits)
+    if not target.keeps(problem, problem.entries(K)):
+        return False
+    limits = target.limits
+    return not found.peaks.keep(limits) or Margins(problem, K).peaks(limits).keep(limits)
+
+
+def _is_as_good(target: Target, best: Candidate, other: Candidate) -> bool:
+    """Whether a controller is hardly dearer than the best one, with its margins and damping."""
+    cheap = other.figures.cost <= _HARDLY_DEARER * best.figures.cost
+    keeps = other.peaks.keep(target.limits) or not best.peaks.keep(target.limits)
+    damped = min(best.figures.damping, DAMPING)
+    return cheap and keeps and other.figures.damping >= damped
 
 
 @dataclass(frozen=True, eq=False)
@@ -472,7 +516,7 @@ def with_few_digits(
     Notes
     -----
     At least three digits are kept, unless these are too many or are not certified and fewer are,
-    and up to two more where the margin needs them.
+    and up to two more where the margin or the damping needs them.
     """
     problem, K, least = candidate.problem, candidate.K, None
     for digits in range(1, min(_MOST_TRIED, most or _MOST_TRIED) + 1):
@@ -493,20 +537,27 @@ def with_few_digits(
 
 
 def _stored(candidate: Candidate, target: Target, least: int, tried: Iterable[int]) -> Floats:
-    """Round to the first number of digits with which the margin is as aimed at, if it was before.
+    """Round to the first number of digits with the margin and damping aimed at, if it had them.
 
     Otherwise to the first number with which the loop stays in the region, or else to the least.
     """
     problem, first = candidate.problem, None
-    robust = candidate.peaks.keep(target.limits)
+    kept = candidate.peaks.keep(target.limits)
+    damping = next((d for d in (DAMPING, LEAST_DAMPING) if d <= candidate.figures.damping), 0.0)
     for digits in tried:
         stored = rounded(candidate.K, digits)
         if not target.keeps(problem, problem.entries(stored)):
             continue
-        if not robust or Margins(problem, stored).peaks(target.limits).keep(target.limits):
+        robust = not kept or Margins(problem, stored).peaks(target.limits).keep(target.limits)
+        if robust and _damping(problem, stored) >= damping:
             return stored
         first = stored if first is None else first
     return rounded(candidate.K, least) if first is None else first
+
+
+def _damping(problem: FeedbackProblem, K: Floats) -> float:
+    values = np.linalg.eigvals(problem.closed(K)).astype(np.complex128)
+    return least_damping(values, discrete=problem.discrete)
 
 
 def _certified(problem: FeedbackProblem, K: Floats, target: Target) -> bool:

@@ -301,3 +301,32 @@ def test_digits_are_added_as_long_as_the_margin_needs_them(monkeypatch, needed, 
     robust = replace(known, peaks=replace(known.peaks, margin=0.31))
     found = with_few_digits(robust, target, None, most)
     assert found.K.tolist() == [[expected]]
+
+
+def test_a_controller_that_needs_few_digits_is_better_than_one_that_is_hardly_cheaper():
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    of = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
+    region = request(plant, "0.24449").region
+    # The border is at -1.24449, so that four digits of the first gain are too few.
+    exact, other, dear = (candidate_of(of, np.array([[gain]])) for gain in (-1.244492, -1.26, -1.9))
+    exact = replace(exact, figures=replace(exact.figures, cost=0.99 * other.figures.cost))
+    target = Target(region)
+    assert proposals._rounded(
+        proposals._Result((exact, other), target), None, None, ""
+    ).K.tolist() == [[-1.26]]
+    dear = replace(dear, figures=replace(dear.figures, cost=2 * exact.figures.cost))
+    [[kept]] = proposals._rounded(proposals._Result((exact, dear), target), None, None, "").K
+    assert -1.245 < kept < -1.2444
+    with pytest.raises(LimitReached, match=r"with 1 digits for .*: known"):
+        proposals._rounded(proposals._Result((exact,), target), None, 1, ": known")
+
+
+def test_rounding_keeps_the_damping_that_a_loop_has():
+    plant = MultiChannelSystem([[0, 1], [-1, 0]], [[[0], [1]]], [[[1, 0], [0, 1]]])
+    of = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
+    # with the stiffness 1.00050 the ratio is 0.1000125/2/1.00025
+    candidate = candidate_of(of, np.array([[-0.000503, -0.10003]]))
+    assert candidate.figures.damping > 0.05
+    found = with_few_digits(candidate, Target(request(plant, "1/100").region), None)
+    assert found.figures.damping >= 0.05
+    assert figures_of(of, np.array([[-0.000503, -0.1]])).damping < 0.05
