@@ -69,6 +69,10 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
         every_question.chain_questions, 10_000, 400
     ),
     **{
+        f"questions planted {n} states": partial(every_question.planted_rows, n)
+        for n in every_question.PLANTED
+    },
+    **{
         f"whole analyze {n} states": partial(every_question.whole_rows, n)
         for n in every_question.WHOLE
     },

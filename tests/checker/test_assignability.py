@@ -145,6 +145,19 @@ CANCELS = certificate(
 )
 """A path leads from channel 1 to channel 2, and no edge."""
 JOINED = {"channels": ["1", "2"], "dimension": 2}
+THREE = certificate(
+    "assignability",
+    plant(
+        [[0, 0, 1], [0, 0, 0], [0, 0, 0]],
+        *[([[int(i == k)] for i in range(3)], [[int(i == k) for i in range(3)]]) for k in range(3)],
+    ),
+    {
+        "blocks": [{"channels": [name], "dimension": 1} for name in ("1", "2", "3")],
+        "fixed_degree": 0,
+    },
+    {**apart([2, 1, 0]), "degrees": [degree(sequence([0, 1]), [k]) for k in range(3)]},
+)
+"""Channel 3 acts on channel 1, and nothing else on another."""
 
 WRITTEN = [
     ("a chain splits in two, by paths", APART),
@@ -170,6 +183,8 @@ WRITTEN = [
         FIXED_MODE, ("witness.degrees.0.sequence", sequence([5, 1], gains=[matrix([1])])),
     )),
     ("channels that act on each other", LOOP),
+    ("three components in an order", THREE),
+    ("the same in another order", changed(THREE, ("witness.components.order", [2, 0, 1]))),
     ("edges that are not needed", changed(LOOP, ("witness.components.arcs", [
         ["1", "1", 0], ["1", "2", 1], ["2", "1", 1], ["2", "2", 0],
     ]))),
@@ -251,6 +266,9 @@ FALSE = [
     ("a key more", APART, ("witness.degrees.0.more", 1), "MALFORMED"),
     ("components in an order in which an edge leads back", APART, (
         "witness.components.order", [1, 0],
+    )),
+    ("an edge leads back over a component between", THREE, (
+        "witness.components.order", [0, 1, 2],
     )),
     ("a component twice in the order", APART, ("witness.components.order", [0, 0])),
     ("a component missing in the order", APART, ("witness.components.order", [0]), "MALFORMED"),
