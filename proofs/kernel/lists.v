@@ -334,6 +334,8 @@ Lemma up_monic : up p \is monic.
 Proof. by rewrite monicE lead_coefZ lead_pol ?mulVf // (phi_neq0 h). Qed.
 Lemma up_size : size (up p) = size p.
 Proof. by rewrite size_scale ?invr_eq0 ?size_pol // (phi_neq0 h). Qed.
+Lemma eqp_deriv_up : (up p)^`() %= pol (zderivative p).
+Proof. by rewrite /up derivZ pol_derivative eqp_scale // invr_eq0 (phi_neq0 h). Qed.
 Lemma up_eqp : up p %= pol p.
 Proof. by rewrite /up eqp_scale // invr_eq0 (phi_neq0 h). Qed.
 End Monic.

@@ -15,6 +15,7 @@ Definition zabs_sum (r : zrow) : Z := foldr (fun x acc => Z.abs x + acc)%coqZ z0
 Definition zbound (ds : zrow) (N : zmat) : Z := zprod [seq (dr.1 + zabs_sum dr.2)%coqZ | dr <- zip ds N].
 (* A modulus; the inverses of the denominator of A, of prod d_i and of the product of the moduli before; and H, L, Y. *)
 Record residue_witness := ResidueWitness { m_ell : Z; m_inv : Z; m_scale : Z; m_before : Z; m_similar : similar }.
+Definition no_residue := ResidueWitness z0 z0 z0 z0 (Similar [::] [::] [::]).
 Record spectrum_witness := SpectrumWitness { s_ds : zrow; s_N : zmat; s_moduli : seq residue_witness }.
 Definition check_residue (n : nat) (d : Z) (A : zmat) (scale : Z) (f : zrow) (before : Z) (w : residue_witness) : bool :=
   let l := m_ell w in
@@ -39,11 +40,16 @@ Lemma int_of_Z_lt a b : (a < b)%coqZ -> int_of_Z a < int_of_Z b.
 Proof. by move=> ab; rewrite -lez_addr1 -[1]/(int_of_Z 1) -int_of_ZD; apply/int_of_Z_le/Z.le_succ_l. Qed.
 Lemma int_of_Z_abs z : int_of_Z (Z.abs z) = `|int_of_Z z|%N.
 Proof.
-case: z => [//|p|p] //=; rewrite NegzE abszN /= prednK //; exact/ltP/Pos2Nat.is_pos.
+case: z => [//|p|p] //=; by rewrite (prednK (introT ssrnat.ltP (Pos2Nat.is_pos p))).
 Qed.
 Lemma to_natE z : (0 <= z)%coqZ -> int_of_Z z = Z.to_nat z. Proof. by move=> z_ge0; rewrite -[in LHS](Z2Nat.id z z_ge0) int_of_Z_nat. Qed.
 Lemma zprodE ds : int_of_Z (zprod ds) = \prod_(i < size ds) int_of_Z (nth z0 ds i).
 Proof. by elim: ds => [|d ds IH]; rewrite ?big_ord0 // big_ord_recl /= int_of_ZM IH. Qed.
+Lemma zprod_rcons s x : zprod (rcons s x) = (zprod s * x)%coqZ.
+Proof.
+elim: s => [|y s IH]; first by rewrite [LHS]Z.mul_1_r [RHS]Z.mul_1_l.
+by rewrite -[LHS]/(y * zprod (rcons s x))%coqZ IH Z.mul_assoc.
+Qed.
 Lemma zabs_sumE r b : size r = b -> int_of_Z (zabs_sum r) = \sum_(j < b) `|int_of_Z (nth z0 r j)|%N%:Z.
 Proof.
 elim: r b => [|x r IH] [|b] //=; first by rewrite big_ord0.
@@ -56,11 +62,11 @@ Definition rational_matrix : 'M[rat]_n := over [fieldType of rat] d n n A.
 
 Theorem check_spectrum_rat : check_spectrum n d A f w -> char_poly rational_matrix = up [fieldType of rat] f.
 Proof.
-case: w => ds N ws; rewrite /check_spectrum /=; set scale := zprod ds; set bound := zbound ds N.
+case: w => ds N ws; rewrite /check_spectrum; cbn [s_ds s_N s_moduli]; set scale := zprod ds; set bound := zbound ds N.
 case/and5P=> /Z.ltb_lt d0 sA sN /eqP sds /andP[/(all_nthP z0) dpos] /and5P[/(all_nthP (z0, ([::], [::]))) rows /eqP sf /Z.eqb_eq lf /(all_nthP z0) small].
 case/andP=> /Z.ltb_lt enough oks.
 have dp (i : 'I_n) : (0 < nth z0 ds i)%coqZ by apply/Z.ltb_lt/dpos; rewrite sds.
-pose dn (i : 'I_n) := Z.to_nat (nth z0 ds i); have dnE i : int_of_Z (nth z0 ds i) = dn i by apply/to_natE/Z.lt_le_incl.
+pose dn (i : 'I_n) := Z.to_nat (nth z0 ds i); have dnE (i : 'I_n) : int_of_Z (nth z0 ds i) = dn i by apply/to_natE/Z.lt_le_incl.
 pose M : 'M[int]_n := \matrix_(i, j) int_of_Z (entry N i j).
 have dn0 i : (0 < dn i)%N by rewrite -ltz_nat -dnE; apply: (int_of_Z_lt (dp i)).
 have scaleE : int_of_Z scale = closed_loop_spectrum.scale dn.
@@ -83,21 +89,18 @@ pose p := up [fieldType of rat] f.
 have scale0 : closed_loop_spectrum.scale dn != 0%N by rewrite -lt0n prodn_gt0.
 have pE k : (closed_loop_spectrum.scale dn)%:R * p`_k = (int_of_Z (nth z0 f k))%:~R.
   by rewrite upE lf phi_int scaleE -pmulrn mulrA mulfV ?mul1r // pnatr_eq0.
-pose r := size ws.
+pose r := size ws; pose wit k := nth no_residue ws k.
 have wsP k before : check_residues n d A scale f before (drop k ws) -> (k < r)%N ->
-    check_residue n d A scale f before (nth (ResidueWitness z0 z0 z0 z0 (Similar [::] [::] [::])) ws k) /\
-    check_residues n d A scale f (before * m_ell (nth (ResidueWitness z0 z0 z0 z0 (Similar [::] [::] [::])) ws k))%coqZ (drop k.+1 ws).
-  by move=> ok kr; move: ok; rewrite (drop_nth (ResidueWitness z0 z0 z0 z0 (Similar [::] [::] [::])) kr) /= => /andP[].
-pose wit k := nth (ResidueWitness z0 z0 z0 z0 (Similar [::] [::] [::])) ws k.
+    check_residue n d A scale f before (wit k) /\
+    check_residues n d A scale f (before * m_ell (wit k))%coqZ (drop k.+1 ws).
+  by move=> ok kr; move: ok; rewrite (drop_nth no_residue kr) /= => /andP[].
 pose before k := zprod [seq m_ell v | v <- take k ws].
-have zprod_rcons s x : zprod (rcons s x) = (zprod s * x)%coqZ.
-  by rewrite /zprod; elim: s => [|y s IH] /=; rewrite ?Z.mul_1_r ?Z.mul_1_l // IH Z.mul_assoc.
 have each k : (k < r)%N -> check_residue n d A scale f (before k) (wit k).
   suff both j : (j <= r)%N -> check_residues n d A scale f (before j) (drop j ws).
     by move=> kr; case: (wsP _ _ (both k (ltnW kr)) kr).
   elim: j => [_|j IH jr]; first by rewrite drop0 /before take0.
   have [_] := wsP _ _ (IH (ltnW jr)) jr.
-  by rewrite /before (take_nth (wit j) jr) map_rcons zprod_rcons (set_nth_default (wit j) _ jr).
+  by rewrite /before (take_nth no_residue jr) map_rcons zprod_rcons.
 have ell1 (a : 'I_r) : (1 < m_ell (wit a))%coqZ.
   by have /andP[/andP[/Z.ltb_lt]] := each a (ltn_ord a).
 pose ell (a : 'I_r) := modulus_of (ell1 a).
@@ -105,11 +108,9 @@ have ellE (a : 'I_r) : int_of_Z (m_ell (wit a)) = ell a.
   by rewrite to_natE //; apply/Z.lt_le_incl/(modulus_gt0 (ell1 a)).
 have beforeE k : (k <= r)%N -> int_of_Z (before k) = (\prod_(b < r | (b < k)%N) ell b)%N.
   elim: k => [_|k IH kr]; first by rewrite big_pred0 // /before take0.
-  rewrite /before (take_nth (wit k) kr) map_rcons zprod_rcons int_of_ZM IH ?(ltnW kr) //.
-  rewrite [in RHS](bigD1 (Ordinal kr)) //= PoszM mulrC (set_nth_default (wit 0%N)) // -(ellE (Ordinal kr)) /=.
-  rewrite (set_nth_default (wit k) (ResidueWitness z0 z0 z0 z0 (Similar [::] [::] [::])) kr).
-  congr (_ * _); first by rewrite /= (set_nth_default (wit k)).
-  congr Posz; apply: eq_bigl => b; by rewrite -val_eqE /= ltnS [(b < k)%N]ltn_neqAle andbC.
+  rewrite /before (take_nth no_residue kr) map_rcons zprod_rcons int_of_ZM -/(before k) -/(wit k) IH ?(ltnW kr) //.
+  rewrite [in RHS](bigD1 (Ordinal kr)) //= PoszM mulrC -(ellE (Ordinal kr)); congr (_ * Posz _).
+  by apply: eq_bigl => b; rewrite -val_eqE /= ltnS [(b < k)%N]ltn_neqAle andbC.
 have inv_coprime (a : 'I_r) x i : (0 < x)%coqZ -> inverse_modulo (m_ell (wit a)) x i -> coprime (ell a) (Z.to_nat x).
   by move=> x0 /andP[_ /Z.eqb_eq inv]; apply: (coprime_denominator (ell1 a) x0 inv).
 have scale_pos : (0 < scale)%coqZ.
@@ -129,7 +130,7 @@ rewrite -/p; apply: (@spectrum_by_residues n r ell rational_matrix p dn M dn0 dA
 - have := int_of_Z_lt enough; rewrite int_of_ZM boundE -ltz_nat PoszM => /lt_le_trans; apply.
   have := beforeE r (leqnn r); rewrite /before take_size => ->; rewrite lez_nat leq_eqVlt; apply/orP; left; apply/eqP.
   by apply: eq_bigl => b; rewrite ltn_ord.
-- move=> a; have /and5P[_ is _ _ _] := parts a; have := inv_coprime a _ _ scale_pos is.
+- move=> a; have /and5P[_ isc _ _ _] := parts a; have := inv_coprime a _ _ scale_pos isc.
   suff -> : Z.to_nat scale = closed_loop_spectrum.scale dn by [].
   by apply/eqP; rewrite -eqz_nat -scaleE to_natE //; apply/Z.lt_le_incl.
 move=> a; have /and5P[/andP[_ /Z.eqb_eq invd] /andP[_ /Z.eqb_eq invs] _ okS agree] := parts a.
@@ -141,9 +142,10 @@ rewrite (check_similar_sound (ell1 a) okS); apply/polyP=> k; rewrite coef_poly p
 have cop := coprime_denominator (ell1 a) scale_pos invs.
 have res0 (x : rat) : (int_of_Z (nth z0 f k))%:~R = (closed_loop_spectrum.scale dn)%:R * x ->
     phi Zl scale * residue_rat (ell a) x = phi Zl (nth z0 f k).
-  move=> e; have := @residue_ratE (ell a) x (Z.to_nat scale) (int_of_Z (nth z0 f k)) cop.
-  rewrite /phi (to_natE (Z.lt_le_incl _ _ scale_pos)) mulrC -pmulrn; apply; rewrite e mulrC -pmulrn; congr (_%:R * _).
-  by apply/eqP; rewrite -eqz_nat -scaleE to_natE //; apply/Z.lt_le_incl.
+  move=> e; have ns : Z.to_nat scale = closed_loop_spectrum.scale dn.
+    by apply/eqP; rewrite -eqz_nat -scaleE to_natE //; apply/Z.lt_le_incl.
+  have e2 : x * (Z.to_nat scale)%:~R = (int_of_Z (nth z0 f k))%:~R by rewrite e mulrC ns pmulrn.
+  by have e3 := residue_ratE cop e2; rewrite /phi -e3 scaleE ns mulrC pmulrn.
 have e1 := res0 _ (esym (pE k)).
 have := zmod_nth (modulus_gt0 (ell1 a)) (phi_modulus (ell1 a)) (zaxpy (- scale) (zchar (m_ell (wit a)) (h_H (m_similar (wit a))) n) f) k.
 have -> : phi Zl (nth z0 (zmod (m_ell (wit a)) (zaxpy (- scale) (zchar (m_ell (wit a)) (h_H (m_similar (wit a))) n) f)) k) = 0.
