@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: samples gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs
+.PHONY: samples gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs verified
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -253,6 +253,11 @@ weakened-proofs:
 # Ten theorems of paper.v with a hypothesis that nothing satisfies: each has to be refused.
 impossible-proofs:
 	@$(MAKE) --no-print-directory -C proofs impossible
+
+# The program mcexact-verified: extracted from the kernel of proofs/kernel, compiled, and put beside the
+# command.  Installs Coq, OCaml and Zarith where they are missing and where it may: two minutes.
+verified: $(CORE)
+	@$(MAKE) --no-print-directory -C verified BIN=$(abspath $(BIN))
 
 # What a user needs, without what draws, tests or documents.
 $(CORE): pyproject.toml

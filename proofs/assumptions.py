@@ -40,7 +40,8 @@ def theorems() -> list[str]:
     """Every `Theorem` in the folder as file.name, in the order of the files.
 
     In `paper.v` lemmas and remarks are the paper's; elsewhere they are steps of proofs.  What is
-    said of the real numbers is among them, with its applications.
+    said of the real numbers is among them, with its applications.  The kernel's are those of the
+    folder ``kernel``, whose files have names of their own.
     """
     words = {
         "paper": "Theorem|Corollary|Proposition|Lemma|Remark",
@@ -48,7 +49,7 @@ def theorems() -> list[str]:
     }
     return [
         f"{path.stem}.{name}"
-        for path in sorted(HERE.glob("*.v"))
+        for path in [*sorted(HERE.glob("*.v")), *sorted(HERE.glob("kernel/*.v"))]
         for name in re.findall(
             rf"^(?:{words.get(path.stem, 'Theorem|Corollary|Proposition')}) (\w+)",
             path.read_text(),

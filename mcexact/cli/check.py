@@ -14,7 +14,7 @@ import contextlib
 import io
 import sys
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from importlib import resources
 from pathlib import Path
@@ -31,13 +31,15 @@ from mcexact.checker.command import (
     status_of,
     verdicts,
 )
-from mcexact.checker.kinds import Clock, memory
+from mcexact.checker.kinds import Clock, Found, memory
 from mcexact.checker.reading import Limits
-from mcexact.cli import options
+from mcexact.cli import options, verified
 from mcexact.cli.commands import INTERRUPTED
 from mcexact.cli.output import deliver, json_text
 from mcexact.errors import InputError, NotWritten
 
+BUG = 70
+"""The status if the two checkers disagree."""
 FIRST_DAY = (1980, 1, 1, 0, 0, 0)
 """The earliest time of a member of an archive, whose bytes shall not depend on the time."""
 
@@ -87,6 +89,19 @@ FIRST_DAY = (1980, 1, 1, 0, 0, 0)
     metavar="FILE",
     help="Check nothing, but write the checker to this file, an archive that `python -I` runs.",
 )
+@click.option(
+    "--rocq",
+    type=options.FOLDER,
+    metavar="FILE",
+    help="Write to this file a theorem of Rocq that is the claim of the one CERTIFICATE, proved by "
+    "one computation (needs the program mcexact-verified: make verified).",
+)
+@click.option(
+    "--verified/--no-verified",
+    "ask_verified",
+    default=True,
+    help="Have the program mcexact-verified, where it is installed, confirm what is VALID.",
+)
 @options.as_json
 @click.option(
     "--max-work",
@@ -107,6 +122,8 @@ def command(
     timeout: float | None,
     max_memory: int | None,
     export: Path | None,
+    rocq: Path | None,
+    ask_verified: bool,
     as_json: bool,
     **limits: int | None,
 ) -> int:
@@ -118,6 +135,10 @@ def command(
     VALID; the statement printed for it is made from the certificates, not from the text of the
     sentence. A sentence that claims nothing, such as a title, is a REMARK, and not counted as
     implied.
+
+    Where the program mcexact-verified is installed, a line on standard error says which VALID
+    certificates it confirms, and what of their claims it does not verify. If it finds one false,
+    one of the two has a bug, and the status is 70.
 
     The status is the first that applies of 70, 3 (MALFORMED), 1 (INVALID), 5 (INCOMPLETE) and 0, or
     74 if the verdicts cannot be written. The file that --export writes prints the same verdicts:
@@ -152,9 +173,15 @@ def command(
                 error.exit_status = status_of([refused.found])
                 raise error from None
             judged = [refused.found]
+        second = {} if interrupted or not ask_verified else _confirmed(judged)
         if as_json:
-            rows = [about | asdict(verdict) for about, verdict in judged]
+            rows = [
+                about | asdict(verdict) | ({"verified": second[k]} if k in second else {})
+                for k, (about, verdict) in enumerate(judged)
+            ]
             deliver(json_text({"format": FORMAT, "verdicts": rows}))
+        if rocq is not None:
+            _write_theorem(rocq, certificates)
     except NotWritten as error:
         if not error.reader_left:
             raise
@@ -162,7 +189,55 @@ def command(
     if interrupted:
         click.echo(f"mcexact: interrupted after {progress.done()}", err=True)
         return INTERRUPTED
-    return status_of(judged)
+    contradicted = any(not each.startswith("CONFIRMED") for each in second.values())
+    return BUG if contradicted else status_of(judged)
+
+
+def _confirmed(judged: Sequence[Found]) -> dict[int, str]:
+    """What mcexact-verified says of VALID certificates, by their places; a line of each is printed.
+
+    What it does not verify at all is left out.
+    """
+    places = [
+        k
+        for k, (about, verdict) in enumerate(judged)
+        if verdict.verdict == "VALID" and about.keys() == {"file"} and about["file"] != "-"
+    ]
+    found: dict[int, str] = {}
+    if not places or verified.program() is None:
+        return found
+    files = [judged[k][0]["file"] for k in places]
+    systems = [judged[k][1].system_digest for k in places]
+    answers = verified.confirmations(files, systems)
+    for k, file, answer in zip(places, files, answers, strict=True):
+        if not (answer.confirmed or answer.contradicts):
+            continue
+        found[k] = f"{answer.verdict} {answer.message}".strip()
+        said = "confirms all" if answer.confirmed else f"says {answer.verdict}: {answer.message}"
+        if answer.confirmed and answer.message:
+            said += f" but {answer.message}"
+        click.echo(f"{verified.NAME} {said} of {file!a}", err=True)
+    return found
+
+
+def _write_theorem(file: Path, certificates: Sequence[str]) -> None:
+    """Write the theorem about the plant of the one certificate.
+
+    Raises
+    ------
+    InputError
+        If the program is missing, or does not confirm it.
+    """
+    # The checker shall not need what writes files.
+    from mcexact.cli.files import write_result
+
+    if len(certificates) != 1:
+        raise click.UsageError("--rocq is about one CERTIFICATE")
+    try:
+        text = verified.rocq_file(certificates[0])
+    except LookupError as missing:
+        raise InputError(str(missing), where=certificates[0]) from None
+    write_result(file, text.encode("ascii"))
 
 
 class _Progress:

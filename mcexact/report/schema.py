@@ -646,7 +646,8 @@ def check() -> Schema:
             "place": TEXT,
             "message": TEXT,
             "spent": WHOLE,
-        }
+        },
+        {"verified": TEXT},
     )
     return record(named("mcexact-verdicts/1") | {"verdicts": rows(verdict)})
 

@@ -46,6 +46,7 @@ Definition premise (e : env) k : subject * fact := nth ([::], Bounded 0) e k.
 Record factor_premises := FactorPremises { y_fixed : nat; y_coprime : nat; y_simple : nat; y_most : nat; y_low : nat;
   y_spectrum : nat; y_exponent : exponent_witness }.
 Inductive rule :=
+ | RNothing of subject
  | RKrylov of subject & krylov_witness
  | RTwo of subject & two_witness
  | RShrunk of subject & zrow & shrunk_witness & nat
@@ -98,6 +99,7 @@ Definition check_all_two s t (e : env) (c : zclaim) ps g pm ys : bool :=
 
 Definition step (s0 : zsystem) (e : env) (r : rule) : option (subject * fact) :=
   match r with
+  | RNothing t => Some (t, Bounded 0)
   | RKrylov t c => if check_krylov (resolve s0 t) c then Some (t, Bounded (krylov_degree_of c)) else None
   | RTwo t c => if check_two (resolve s0 t) c then Some (t, Bounded (zn (resolve s0 t))) else None
   | RShrunk t p c d => if check_shrunk (resolve s0 t) p c d then Some (t, Fixed p (b_T c) d) else None
@@ -196,7 +198,8 @@ End Sound.
 
 Lemma step_sound s0 e r f : sized_system s0 -> all_hold s0 e -> step s0 e r = Some f -> holds (resolve s0 f.1) f.2.
 Proof.
-move=> sz ok; case: r => [t c|t c|t g c d|f1 g c|t blk ps|t g w|t g c|t g k c|t g d c|t c pb ys|t c ps g pm ys] /=.
+move=> sz ok; case: r => [t|t c|t c|t g c d|f1 g c|t blk ps|t g w|t g c|t g k c|t g d c|t c pb ys|t c ps g pm ys] /=.
+- by case=> <- K h n m p q S re; apply: nothing_bounded.
 - by case ch: check_krylov => // -[<-] K h n m p q S re; apply: (check_krylov_sound ch h re).
 - by case ch: check_two => // -[<-] K h n m p q S re; rewrite /= -(re_n re); apply: (check_two_sound h re ch).
 - by case ch: check_shrunk => // -[<-] K h n m p q S re; apply: (check_shrunk_sound h re ch).

@@ -1,0 +1,123 @@
+"""The program mcexact-verified beside `mcexact check`: a second checker, made from its own proof.
+
+The program is extracted from the proof of its own soundness (``verified/README.md``).  It verifies
+what it can of certificates that the checker has found VALID, and may confirm them; it can make no
+verdict better.  What it read is compared by digests: that of the plant, and that of the claim as
+canonical JSON.  Where the program is missing, or of another version, nothing is confirmed.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from mcexact.checker.reading import Limits, Refused, parse, read_file
+from mcexact.checker.system import canonical_json, digest_of
+
+NAME = "mcexact-verified"
+VERSION = f"{NAME} 1"
+"""What the program must say of itself: the version of what it prints and of the format it reads."""
+SECONDS = 600.0
+"""After this time the program is stopped, and what it has not confirmed by then is not."""
+PLAIN = {"stable": "stability", "roots": "the discs", "stabilizable": "", "best_rate": "the rate"}
+"""What keys of claims are called here; stability is named once."""
+
+
+@dataclass(frozen=True)
+class Confirmation:
+    """What the program says of one certificate.
+
+    Attributes
+    ----------
+    verdict : str
+        CONFIRMED, INVALID, MALFORMED, INCOMPLETE or ERROR; empty if it says nothing.
+    message : str
+        What of the claim is not verified, or why the certificate is not confirmed.
+    """
+
+    verdict: str = ""
+    message: str = ""
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether what the program verifies of this claim holds."""
+        return self.verdict == "CONFIRMED"
+
+    @property
+    def contradicts(self) -> bool:
+        """Whether the two checkers disagree about a VALID certificate, so that one has a bug."""
+        return self.verdict in ("INVALID", "MALFORMED", "ERROR")
+
+
+@cache
+def program() -> str | None:
+    """The path of the program beside Python or on the search path, if it has the right version."""
+    beside = Path(sys.executable).parent / NAME
+    path = str(beside) if beside.is_file() else shutil.which(NAME)
+    if path is None:
+        return None
+    try:
+        asked = subprocess.run([path, "--version"], capture_output=True, timeout=10, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return path if asked.stdout.decode("ascii", "replace").strip() == VERSION else None
+
+
+def confirmations(paths: Sequence[str], systems: Sequence[str]) -> list[Confirmation]:
+    """What the program says of some files that were found VALID, about plants of these digests."""
+    path = program()
+    if path is None or not paths:
+        return [Confirmation() for _ in paths]
+    named = [f"./{each}" if each.startswith("-") else each for each in paths]  # no options
+    try:
+        run = subprocess.run([path, *named], capture_output=True, timeout=SECONDS, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return [Confirmation() for _ in paths]
+    lines = run.stdout.decode("ascii", "replace").splitlines()
+    if len(lines) != len(paths):
+        return [Confirmation("ERROR", "the program ended early") for _ in paths]
+    return [_read(*each) for each in zip(lines, paths, systems, strict=True)]
+
+
+def _read(line: str, path: str, system: str) -> Confirmation:
+    """One line of the program about one file."""
+    verdict, _, rest = line.partition(" ")
+    if verdict != "CONFIRMED":
+        return Confirmation(verdict, rest)
+    plant, claim, *left = rest.split(" ")
+    if plant != system or claim != _claim(path):
+        return Confirmation("ERROR", "it read another plant or another claim")
+    names = [PLAIN.get(key, key) for each in left for key in each.split(",") if key]
+    return Confirmation(verdict, ", ".join(filter(None, names)))
+
+
+def _claim(path: str) -> str:
+    """The digest of the claim of a certificate."""
+    try:
+        document = parse(read_file(path, Limits()), Limits())
+    except Refused:
+        return ""
+    return digest_of(canonical_json(document["claim"]))
+
+
+def rocq_file(certificate: str) -> str:
+    """A file of Rocq whose theorem is the claim of a certificate, about its plant.
+
+    Raises
+    ------
+    LookupError
+        If the program is missing or cannot verify this certificate; the text says why.
+    """
+    path = program()
+    if path is None:
+        raise LookupError(f"{NAME} is missing, or of another version: make verified")
+    run = subprocess.run([path, "--rocq", certificate], capture_output=True, check=False)
+    text = run.stdout.decode("ascii", "replace")
+    if run.returncode:
+        raise LookupError(f"{NAME} does not confirm this certificate: {text.strip()}")
+    return text

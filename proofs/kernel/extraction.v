@@ -1,0 +1,20 @@
+(* The kernel as OCaml: binary integers are those of Zarith, and numbers of rows are machine integers.  What is trusted
+   here: Coq's extraction, and that the operations named below are what they stand for. *)
+From Coq Require Import ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt.
+From mathcomp Require Import all_ssreflect.
+From mcexact.kernel Require Import lists systems shrunk_rule hessenberg_rule loop_rule facts.
+Extract Inductive positive => "Zarith_integers.t"
+  [ "(fun p -> Zarith_integers.succ (Zarith_integers.shift_left p 1))" "(fun p -> Zarith_integers.shift_left p 1)" "Zarith_integers.one" ]
+  "(fun _ _ _ _ -> assert false)".
+Extract Inductive Z => "Zarith_integers.t" [ "Zarith_integers.zero" "(fun p -> p)" "Zarith_integers.neg" ]
+  "(fun zero positive negative z -> let s = Zarith_integers.sign z in if s = 0 then zero () else if s > 0 then positive z else negative (Zarith_integers.neg z))".
+Extract Constant Z.add => "Zarith_integers.add".
+Extract Constant Z.mul => "Zarith_integers.mul".
+Extract Constant Z.opp => "Zarith_integers.neg".
+Extract Constant Z.abs => "Zarith_integers.abs".
+Extract Constant Z.eqb => "Zarith_integers.equal".
+Extract Constant Z.ltb => "Zarith_integers.lt".
+Extract Constant Z.leb => "Zarith_integers.leq".
+Extract Constant Z.modulo => "Zarith_integers.modulo".
+Set Extraction Output Directory ".".
+Extraction "kernel.ml" check_fixed_spectrum loop_residues completed zchar zpart zpmul zmm.

@@ -1,0 +1,148 @@
+"""The second checker, beside `mcexact check`: what it may say, and what it cannot change."""
+
+from __future__ import annotations
+
+import json
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from mcexact import fixed_spectrum
+from mcexact.answer import protocol
+from mcexact.checker.kinds import check_document
+from mcexact.checker.system import canonical_json, digest_of
+from mcexact.cli import verified
+from mcexact.model import gallery
+from tests.cli.calling import call
+
+PLANT = "liu2020-3ch-no-communication"
+
+
+@pytest.fixture
+def certificate(tmp_path: Path) -> Path:
+    """The fixed spectrum of the paper's example."""
+    path = tmp_path / "fixed_spectrum.json"
+    path.write_text(protocol.encode(fixed_spectrum(gallery.load(PLANT))), "ascii")
+    return path
+
+
+@pytest.fixture
+def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder beside Python and on the search path, for a program that says what a test wants."""
+    folder = tmp_path / "programs"
+    folder.mkdir()
+    monkeypatch.setenv("PATH", str(folder))
+    monkeypatch.setattr("sys.executable", str(folder / "python"))
+    verified.program.cache_clear()
+    yield folder / verified.NAME
+    verified.program.cache_clear()
+
+
+def saying(program: Path, line: str, version: str = verified.VERSION, status: int = 0) -> None:
+    """Make a program that prints a line for every file."""
+    program.write_text(
+        f'#!/bin/sh\n[ "$1" = --version ] && echo "{version}" && exit\n'
+        f'for file in "$@"; do echo "{line}"; done\nexit {status}\n'
+    )
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+
+
+def digests(certificate: Path) -> tuple[str, str]:
+    """The digests of plant and claim."""
+    document = json.loads(certificate.read_text("ascii"))
+    return tuple(digest_of(canonical_json(document[key])) for key in ("system", "claim"))
+
+
+def test_without_the_program_nothing_is_said(program: Path, certificate: Path) -> None:
+    status, out, err = call("check", str(certificate))
+    assert (status, err) == (0, "") and out.startswith("VALID ")
+
+
+def test_a_program_of_another_version_is_not_asked(program: Path, certificate: Path) -> None:
+    saying(program, "INVALID witness: no", version="mcexact-verified 0")
+    status, _, err = call("check", str(certificate))
+    assert (status, err) == (0, "")
+
+
+def test_what_it_confirms_is_said_with_what_it_leaves_out(program: Path, certificate: Path) -> None:
+    plant, claim = digests(certificate)
+    saying(program, f"CONFIRMED {plant} {claim} stable,roots")
+    status, out, err = call("check", str(certificate))
+    assert status == 0 and out.startswith("VALID ")
+    assert "confirms all but stability, the discs of" in err
+    _, out, _ = call("check", "--json", str(certificate))
+    assert json.loads(out)["verdicts"][0]["verified"] == "CONFIRMED stability, the discs"
+
+
+def test_it_is_not_asked_if_it_shall_not_be(program: Path, certificate: Path) -> None:
+    saying(program, "INVALID witness: no")
+    status, out, err = call("check", "--no-verified", "--json", str(certificate))
+    assert (status, err) == (0, "") and "verified" not in json.loads(out)["verdicts"][0]
+
+
+@pytest.mark.parametrize("line", ["INVALID witness: no", "MALFORMED file: no", "ERROR checker: no"])
+def test_a_contradiction_is_a_bug_of_one_of_the_two(
+    program: Path, certificate: Path, line: str
+) -> None:
+    saying(program, line, status=1)
+    status, _, err = call("check", str(certificate))
+    assert status == 70 and line.partition(" ")[0] in err
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_another_plant_or_claim_is_not_confirmed(
+    program: Path, certificate: Path, place: int
+) -> None:
+    read = [*digests(certificate)]
+    read[place] = "0" * 64
+    saying(program, f"CONFIRMED {read[0]} {read[1]} ")
+    status, _, err = call("check", str(certificate))
+    assert status == 70 and "another plant or another claim" in err
+
+
+def test_a_program_that_ends_early_confirms_nothing(program: Path, certificate: Path) -> None:
+    program.write_text(f'#!/bin/sh\n[ "$1" = --version ] && echo "{verified.VERSION}"\n')
+    program.chmod(0o755)
+    status, _, err = call("check", str(certificate))
+    assert status == 70 and "ended early" in err
+
+
+def test_what_it_cannot_verify_is_not_mentioned(program: Path, certificate: Path) -> None:
+    saying(program, "INCOMPLETE kind: not a kind that is verified here", status=5)
+    status, _, err = call("check", str(certificate))
+    assert (status, err) == (0, "")
+
+
+def test_a_false_certificate_is_not_given_to_it(program: Path, certificate: Path) -> None:
+    plant, claim = digests(certificate)
+    saying(program, f"CONFIRMED {plant} {claim} ")
+    certificate.write_text(certificate.read_text("ascii").replace('"rank":2', '"rank":1'), "ascii")
+    status, out, err = call("check", str(certificate))
+    assert (status, err) == (1, "") and out.startswith("INVALID ")
+
+
+def test_a_theorem_needs_the_program_and_one_certificate(program: Path, certificate: Path) -> None:
+    file = str(certificate.parent / "plant.v")
+    status, _, err = call("check", "--rocq", file, str(certificate))
+    assert status == 3 and "make verified" in err
+    saying(program, "INVALID witness: no", status=1)
+    verified.program.cache_clear()
+    status, _, err = call("check", "--no-verified", "--rocq", file, str(certificate))
+    assert status == 3 and "does not confirm" in err
+    assert call("check", "--rocq", file, str(certificate), str(certificate))[0] == 2
+
+
+BUILT = verified.program() is not None
+
+
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+@pytest.mark.parametrize("name", gallery.names())
+def test_both_checkers_agree_about_every_published_plant(name: str, tmp_path: Path) -> None:
+    text = protocol.encode(fixed_spectrum(gallery.load(name)))
+    path = tmp_path / f"{name}.json"
+    path.write_text(text, "ascii")
+    verdict = check_document(text.encode("ascii"))
+    (answer,) = verified.confirmations([str(path)], [verdict.system_digest])
+    assert verdict.verdict == "VALID" and answer.confirmed

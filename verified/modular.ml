@@ -1,0 +1,125 @@
+(* Computations that prepare witnesses.  Not trusted: the kernel refuses what is wrong.  A number that has no inverse
+   modulo l raises Division_by_zero. *)
+
+let inverse l x = Z.invert (Z.erem x l) l
+let reduce l v = List.map (fun x -> Z.erem x l) v
+
+(* Polynomials modulo l, without zeros at the end. *)
+let trim v =
+  let rec go = function x :: rest when Z.sign x = 0 -> go rest | rest -> rest in
+  List.rev (go (List.rev v))
+
+let rec add u v = match u, v with [], w | w, [] -> w | x :: u, y :: v -> Z.add x y :: add u v
+let scale k v = List.map (Z.mul k) v
+let rec shift k v = if k = 0 then v else Z.zero :: shift (k - 1) v
+let lead v = List.nth v (List.length v - 1)
+
+(* Quotient and remainder; the last coefficient of b is a unit. *)
+let divide l a b =
+  let b = trim (reduce l b) in
+  let i = inverse l (lead b) in
+  let rec go q a =
+    if List.length a < List.length b then (trim (reduce l q), a)
+    else
+      let k = Z.erem (Z.mul (lead a) i) l and s = List.length a - List.length b in
+      go (add q (shift s [ k ])) (trim (reduce l (add a (shift s (scale (Z.neg k) b))))) in
+  go [] (trim (reduce l a))
+
+let multiply l a b = trim (reduce l (Kernel.zpmul a b))
+
+(* u p + v q = 1 modulo l. *)
+let bezout l p q =
+  let rec euclid (a, ua, va) (b, ub, vb) =
+    match b with
+    | [] -> (match a with [ g ] -> let i = inverse l g in (reduce l (scale i ua), reduce l (scale i va)) | _ -> Refused.invalid "witness" "a common factor modulo l")
+    | _ ->
+      let q, r = divide l a b in
+      let less u w = trim (reduce l (add u (scale Z.minus_one (multiply l q w)))) in
+      euclid (b, ub, vb) (r, less ua ub, less va vb) in
+  euclid (trim (reduce l p), [ Z.one ], []) (trim (reduce l q), [], [ Z.one ])
+
+(* A L = L H and L Y = I modulo the prime l, H zero below its first subdiagonal. *)
+let hessenberg l rows =
+  let n = List.length rows in
+  let array rows = Array.of_list (List.map (fun row -> Array.of_list (reduce l row)) rows) in
+  let unit () = Array.init n (fun i -> Array.init n (fun j -> if i = j then Z.one else Z.zero)) in
+  let h = array rows and left = unit () and right = unit () in
+  let swap_rows m i j = let t = m.(i) in m.(i) <- m.(j); m.(j) <- t in
+  let swap_columns m i j = Array.iter (fun row -> let t = row.(i) in row.(i) <- row.(j); row.(j) <- t) m in
+  let add_row m i k u = Array.iteri (fun j x -> if Z.sign x <> 0 then m.(i).(j) <- Z.erem (Z.sub m.(i).(j) (Z.mul u x)) l) m.(k) in
+  let add_column m k i u = Array.iter (fun row -> if Z.sign row.(i) <> 0 then row.(k) <- Z.erem (Z.add row.(k) (Z.mul u row.(i))) l) m in
+  for k = 1 to n - 2 do
+    let pivot = ref k in
+    while !pivot < n && Z.sign h.(!pivot).(k - 1) = 0 do incr pivot done;
+    if !pivot < n then begin
+      if !pivot <> k then begin
+        swap_rows h k !pivot; swap_columns h k !pivot; swap_columns left k !pivot; swap_rows right k !pivot
+      end;
+      let i = inverse l h.(k).(k - 1) in
+      for r = k + 1 to n - 1 do
+        if Z.sign h.(r).(k - 1) <> 0 then begin
+          let u = Z.erem (Z.mul h.(r).(k - 1) i) l in
+          add_row h r k u; add_column h k r u; add_column left k r u; add_row right r k u
+        end
+      done
+    end
+  done;
+  let rows m = Array.to_list (Array.map Array.to_list m) in
+  { Kernel.h_H = rows h; h_L = rows left; h_Y = rows right }
+
+let characteristic l n (w : Kernel.similar) = Kernel.zchar l w.Kernel.h_H n
+
+(* Primes from 2^26 downwards. *)
+let primes =
+  let rec from p () = if Z.probab_prime (Z.of_int p) 25 > 0 then Seq.Cons (Z.of_int p, from (p - 1)) else from (p - 1) () in
+  from (1 lsl 26)
+
+(* Integers Y and rationals X with M = Y X, Y some columns of M. *)
+let factorize rows ncols =
+  let a = Array.of_list (List.map (fun row -> Array.of_list (List.map Q.of_bigint row)) rows) in
+  let n = Array.length a and pivots = ref [] and r = ref 0 in
+  for j = 0 to ncols - 1 do
+    let i = ref !r in
+    while !i < n && Q.sign a.(!i).(j) = 0 do incr i done;
+    if !i < n then begin
+      let t = a.(!i) in
+      a.(!i) <- a.(!r); a.(!r) <- t;
+      let p = Q.inv t.(j) in
+      Array.iteri (fun k x -> t.(k) <- Q.mul p x) t;
+      Array.iteri (fun k row ->
+          if k <> !r && Q.sign row.(j) <> 0 then
+            let f = row.(j) in
+            Array.iteri (fun q x -> if Q.sign x <> 0 then row.(q) <- Q.sub row.(q) (Q.mul f x)) t) a;
+      pivots := j :: !pivots; incr r
+    end
+  done;
+  let pivots = List.rev !pivots in
+  (List.map (fun row -> let row = Array.of_list row in List.map (fun j -> row.(j)) pivots) rows,
+   Array.to_list (Array.map Array.to_list (Array.sub a 0 !r)))
+
+(* det(xI - A) over Q, integers with the last one the product of ds, and what proves it (spectrum_rule.v). *)
+let spectrum d rows =
+  let n = List.length rows in
+  let row_denominator row = List.fold_left (fun acc x -> Z.lcm acc (Z.divexact d (Z.gcd d x))) Z.one row in
+  let ds = List.map row_denominator rows in
+  let scaled = List.map2 (fun e row -> List.map (fun x -> Z.divexact (Z.mul e x) d) row) ds rows in
+  let scale = List.fold_left Z.mul Z.one ds in
+  let bound = List.fold_left2 (fun acc e row -> Z.mul acc (List.fold_left (fun acc x -> Z.add acc (Z.abs x)) e row)) Z.one ds scaled in
+  let rec go before moduli value primes =
+    if Z.gt before (Z.mul (Z.of_int 2) bound) then (List.rev moduli, before, value)
+    else match primes () with
+      | Seq.Nil -> assert false
+      | Seq.Cons (l, rest) ->
+        if not (Z.equal (Z.gcd l d) Z.one) then go before moduli value rest
+        else begin
+          let i = inverse l d in
+          let similar = hessenberg l (List.map (fun row -> List.map (fun x -> Z.erem (Z.mul i x) l) row) rows) in
+          let p = List.map (fun c -> Z.erem (Z.mul scale c) l) (characteristic l n similar) in
+          let inv = inverse l before in
+          let value = List.map2 (fun v c -> Z.add v (Z.mul before (Z.erem (Z.mul (Z.sub c v) inv) l))) value p in
+          let w = { Kernel.m_ell = l; m_inv = i; m_scale = inverse l scale; m_before = inv; m_similar = similar } in
+          go (Z.mul before l) (w :: moduli) value rest
+        end in
+  let moduli, product, value = go Z.one [] (List.init (n + 1) (fun _ -> Z.zero)) primes in
+  let lift v = if Z.gt (Z.mul (Z.of_int 2) v) product then Z.sub v product else v in
+  (List.map lift value, { Kernel.s_ds = ds; s_N = scaled; s_moduli = moduli })

@@ -1,0 +1,139 @@
+(* The plant of a certificate, in its canonical form, and its digest.  Trusted: it is what the theorem is about. *)
+open Refused
+
+type matrix = { nrows : int; ncols : int; rows : Q.t list list }
+type channel = { name : string; inputs : matrix; outputs : matrix }
+type t = { time : string; states : matrix; channels : channel list; names : string list; digest : string }
+
+let longest = 1 lsl 20
+
+(* Large matrices of few entries are listed by entries, and no others are, but those without rows. *)
+let is_listed nrows ncols count = nrows * ncols >= 2048 && 8 * count <= nrows * ncols
+
+let read_entries place value =
+  match Json.fields place [ "shape"; "entries" ] value with
+  | [ shape; entries ] ->
+    let nrows, ncols = match List.map (Json.small place) (Json.items ~length:2 place shape) with [ r; c ] -> (r, c) | _ -> assert false in
+    if max nrows ncols > longest then incomplete place "too large";
+    if nrows * ncols > 100_000_000 then incomplete place "too large";
+    let cells = Array.make_matrix nrows ncols Q.zero and last = ref (-1, -1) in
+    let entries = Json.items place entries in
+    List.iter (fun triple ->
+        match Json.items ~length:3 place triple with
+        | [ i; j; x ] ->
+          let i = Json.small place i and j = Json.small place j and x = Json.rational place x in
+          if i >= nrows || j >= ncols || (i, j) <= !last || Q.sign x = 0 then malformed place "expected the canonical form";
+          last := (i, j);
+          cells.(i).(j) <- x
+        | _ -> assert false) entries;
+    (List.length entries, { nrows; ncols; rows = Array.to_list (Array.map Array.to_list cells) })
+  | _ -> assert false
+
+let read_matrix place value =
+  match value with
+  | Json.Object _ ->
+    let count, m = read_entries place value in
+    if not (is_listed m.nrows m.ncols count || (m.nrows = 0 && m.ncols > 0)) then malformed place "expected the canonical form";
+    m
+  | _ ->
+    let rows = List.map (fun row -> List.map (Json.rational place) (Json.items place row)) (Json.items place value) in
+    let nrows = List.length rows and ncols = match rows with [] -> 0 | row :: _ -> List.length row in
+    if List.exists (fun row -> List.length row <> ncols) rows then malformed place "expected rows of one length";
+    let count = List.fold_left (fun acc row -> acc + List.length (List.filter (fun x -> Q.sign x <> 0) row)) 0 rows in
+    if is_listed nrows ncols count then malformed place "expected the canonical form";
+    { nrows; ncols; rows }
+
+(* Names that are not ASCII have normal forms, which are not computed here. *)
+let read_name place value =
+  let name = Json.string place value in
+  if String.exists (fun c -> Char.code c >= 0x80) name then incomplete place "names that are not ASCII are not read here";
+  if name = "" || String.length name > 256 || String.exists (fun c -> Char.code c < 0x20 || Char.code c = 0x7f) name then
+    malformed place "expected 1 to 256 characters that print";
+  name
+
+let read_channel k n value =
+  let place = Printf.sprintf "channels[%d]" k in
+  match Json.fields place [ "name"; "B"; "C" ] value with
+  | [ name; b; c ] ->
+    let inputs = read_matrix (place ^ ".B") b and outputs = read_matrix (place ^ ".C") c in
+    if inputs.nrows <> n || (outputs.ncols <> n && outputs.nrows > 0) then malformed place "expected another shape";
+    let outputs = { outputs with ncols = n } in
+    { name = read_name place name; inputs; outputs }
+  | _ -> assert false
+
+(* Neighbors and delays are in the digest; no claim here depends on them. *)
+let read_graph known heard waits =
+  let by_name place value = match value with
+    | Json.Object l -> List.map (fun (k, v) -> match Json.names place known (Json.List [ Json.String k ]) with [ i ] -> (i, v) | _ -> assert false) l
+    | _ -> malformed place "expected an object" in
+  if heard = Json.Null && waits <> Json.Null then malformed "delays" "expected neighbors, too";
+  if heard <> Json.Null then begin
+    let sets = List.map (fun (i, v) ->
+        let l = Json.names "neighbors" known v in
+        if List.mem i l then malformed "neighbors" "an agent is not listed as its own neighbor";
+        (i, l)) (by_name "neighbors" heard) in
+    if List.length sets <> List.length known then malformed "neighbors" "expected every agent";
+    if waits <> Json.Null then begin
+      let rows = by_name "delays" waits in
+      if rows = [] then malformed "delays" "expected the canonical form";
+      List.iter (fun (i, row) ->
+          let row = by_name "delays" row in
+          if row = [] then malformed "delays" "expected the canonical form";
+          List.iter (fun (j, steps) ->
+              ignore (Json.small ~least:1 "delays" steps);
+              if not (List.mem j (List.assoc i sets)) then malformed "delays" "nothing is received from there") row) rows
+    end
+  end
+
+(* So are radii: the claims that are checked here are about the nominal values. *)
+let read_radii states channels value =
+  if value <> Json.Null then begin
+    let place = "uncertainty" in
+    let part m value =
+      let count, radii = read_entries place value in
+      if (radii.nrows, radii.ncols) <> (m.nrows, m.ncols) || count = 0 || List.exists (List.exists (fun x -> Q.sign x < 0)) radii.rows then
+        malformed place "expected radii above 0" in
+    let absolute = match Json.fields place [ "absolute" ] value with [ x ] -> x | _ -> assert false in
+    if absolute = Json.Object [] then malformed place "expected the canonical form";
+    let ports side = function
+      | Json.Null -> ()
+      | Json.Object (_ :: _ as l) ->
+        List.iter (fun (name, v) -> match List.find_opt (fun each -> each.name = name) channels with
+            | Some each -> part (side each) v | None -> malformed place "unknown key") l
+      | _ -> malformed place "expected the canonical form" in
+    match Json.fields ~optional:[ "A"; "B"; "C" ] place [] absolute with
+    | [ a; b; c ] -> if a <> Json.Null then part states a; ports (fun each -> each.inputs) b; ports (fun each -> each.outputs) c
+    | _ -> assert false
+  end
+
+let read value =
+  (match value with
+   | Json.Object l when List.mem_assoc "parameters" l -> incomplete "system" "plants with parameters are not read here"
+   | Json.String _ -> incomplete "system" "a plant that is named by its digest is not read here"
+   | _ -> ());
+  match Json.fields ~optional:[ "neighbors"; "delays"; "uncertainty" ] "system" [ "time"; "A"; "channels" ] value with
+  | [ time; a; channels; heard; waits; radii ] ->
+    let time = Json.string "time" time in
+    if time <> "continuous" && time <> "discrete" then malformed "time" "expected \"continuous\" or \"discrete\"";
+    let states = read_matrix "A" a in
+    let channels = Json.items "channels" channels in
+    if states.nrows <> states.ncols || channels = [] then malformed "system" "expected a square A and at least one channel";
+    let channels = List.mapi (fun k each -> read_channel k states.nrows each) channels in
+    let names = List.map (fun each -> each.name) channels in
+    if List.length (List.sort_uniq compare names) <> List.length names then malformed "channels" "expected names of their own";
+    read_graph names heard waits;
+    read_radii states channels radii;
+    { time; states; channels; names; digest = Sha256.digest (Json.canonical value) }
+  | _ -> assert false
+
+(* The same as lists of integers over one denominator. *)
+let common_denominator rows = List.fold_left (List.fold_left (fun d x -> Z.lcm d (Q.den x))) Z.one rows
+let times d rows = List.map (List.map (fun x -> Z.divexact (Z.mul d (Q.num x)) (Q.den x))) rows
+
+let listed plant =
+  let d = List.fold_left (fun d each -> Z.lcm (Z.lcm d (common_denominator each.inputs.rows)) (common_denominator each.outputs.rows))
+      (common_denominator plant.states.rows) plant.channels in
+  { Kernel.zn = plant.states.nrows; zD = d; zA = times d plant.states.rows; zfeed = [];
+    zchannels = List.map (fun each ->
+        { Kernel.zp = each.inputs.ncols; zq = each.outputs.nrows; zB = times d each.inputs.rows; zC = times d each.outputs.rows })
+        plant.channels }

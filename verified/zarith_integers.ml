@@ -1,0 +1,5 @@
+(* The operations of Zarith that the kernel's extraction names.  Coq's modulo by a positive number lies from 0 to below
+   it, as Zarith's `erem` does; the kernel asks for no other. *)
+include Z
+
+let modulo a b = if sign b > 0 then erem a b else invalid_arg "modulus"
