@@ -52,7 +52,8 @@ def saying(program: Path, line: str, version: str = verified.VERSION, status: in
 def digests(certificate: Path) -> tuple[str, str]:
     """The digests of plant and claim."""
     document = json.loads(certificate.read_text("ascii"))
-    return tuple(digest_of(canonical_json(document[key])) for key in ("system", "claim"))
+    system, claim = (digest_of(canonical_json(document[key])) for key in ("system", "claim"))
+    return system, claim
 
 
 def test_without_the_program_nothing_is_said(program: Path, certificate: Path) -> None:
