@@ -1,8 +1,9 @@
 (* The claim of the kind `fixed_spectrum`.  Trusted: it is what the theorem says of the plant. *)
 open Refused
 
-type factor = { polynomial : Q.t list; in_A : int option; at_most : int; channels : int list; rank : int }
-type t = { whole : Q.t list; factors : factor list }
+type factor = { polynomial : Q.t list; in_A : int option; at_most : int; channels : int list; rank : int;
+                stable : bool; discs : Q.t list list }
+type t = { whole : Q.t list; factors : factor list; stabilizable : bool; rate : Q.t list }
 
 let read_polynomial place least value =
   let l = List.map (Json.rational place) (Json.items place value) in
@@ -16,29 +17,28 @@ let read_decimal place value =
   let whole, rest = match String.index_opt unsigned '.' with
     | None -> (unsigned, None) | Some i -> (String.sub unsigned 0 i, Some (String.sub unsigned (i + 1) (String.length unsigned - i - 1))) in
   if not (digits whole && (whole = "0" || whole.[0] <> '0') && match rest with None -> true | Some r -> digits r) then
-    malformed place "expected a decimal such as \"-1.25\""
-
-(* Discs, flags and the rate have their forms checked, and are not verified: `unverified` names them. *)
-let unverified = [ "stable"; "roots"; "stabilizable"; "best_rate" ]
+    malformed place "expected a decimal such as \"-1.25\"";
+  let digits, places = match rest with None -> (whole, 0) | Some r -> (whole ^ r, String.length r) in
+  let value = Q.make (Z.of_string digits) (Z.pow (Z.of_int 10) places) in
+  if unsigned = s then value else Q.neg value
 
 let read_factor known value =
   let place = "claim.factors" in
   match Json.fields place [ "polynomial"; "channels"; "stable"; "roots"; "multiplicity_in_A"; "multiplicity_at_most"; "rank" ] value with
   | [ p; s; stable; roots; a; e; r ] ->
     let polynomial = read_polynomial place 1 p in
-    ignore (Json.boolean place stable);
-    List.iter (fun disc -> List.iter (read_decimal place) (Json.fields place [ "re"; "im"; "radius" ] disc))
-      (Json.items ~length:(List.length polynomial - 1) place roots);
-    { polynomial; channels = Json.names place known s; in_A = (if a = Json.Null then None else Some (Json.small ~least:1 place a));
+    let discs = List.map (fun disc -> List.map (read_decimal place) (Json.fields place [ "re"; "im"; "radius" ] disc))
+        (Json.items ~length:(List.length polynomial - 1) place roots) in
+    { polynomial; stable = Json.boolean place stable; discs; channels = Json.names place known s; in_A = (if a = Json.Null then None else Some (Json.small ~least:1 place a));
       at_most = Json.small ~least:1 place e; rank = Json.small place r }
   | _ -> assert false
 
 let read known value =
   match Json.fields "claim" [ "polynomial"; "factors"; "stabilizable"; "best_rate" ] value with
   | [ whole; factors; flag; rate ] ->
-    ignore (Json.boolean "claim.stabilizable" flag);
-    if rate <> Json.Null then List.iter (read_decimal "claim.best_rate") (Json.fields "claim.best_rate" [ "lower"; "upper" ] rate);
-    { whole = read_polynomial "claim.polynomial" 0 whole; factors = List.map (read_factor known) (Json.items "claim.factors" factors) }
+    let rate = if rate = Json.Null then [] else List.map (read_decimal "claim.best_rate") (Json.fields "claim.best_rate" [ "lower"; "upper" ] rate) in
+    { whole = read_polynomial "claim.polynomial" 0 whole; factors = List.map (read_factor known) (Json.items "claim.factors" factors);
+      stabilizable = Json.boolean "claim.stabilizable" flag; rate }
   | _ -> assert false
 
 (* Integers over the last one. *)
@@ -51,3 +51,13 @@ let listed m claim =
     c_factors = List.map (fun f ->
         { Kernel.f_p = integers f.polynomial; f_in_A = f.in_A; f_most = f.at_most; f_rank = f.rank;
           f_channels = List.init m (fun i -> List.mem i f.channels) }) claim.factors }
+
+(* What it says of the complex plane: discs and rate over one denominator. *)
+let regions time claim =
+  let numbers = claim.rate :: List.concat_map (fun f -> f.discs) claim.factors in
+  let w = List.fold_left (List.fold_left (fun d x -> Z.lcm d (Q.den x))) Z.one numbers in
+  let up x = Z.divexact (Z.mul w (Q.num x)) (Q.den x) in
+  let disc = function [ re; im; radius ] -> { Kernel.d_re = up re; d_im = up im; d_rad = up radius } | _ -> assert false in
+  { Kernel.g_w = w; g_continuous = time = "continuous"; g_stable = List.map (fun f -> f.stable) claim.factors;
+    g_discs = List.map (fun f -> List.map disc f.discs) claim.factors; g_stabilizable = claim.stabilizable;
+    g_rate = (match claim.rate with [ low; high ] -> Some (up low, up high) | _ -> None) }

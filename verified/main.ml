@@ -1,7 +1,7 @@
 (* mcexact-verified: checks certificates by the program that Coq extracted from its own proof.
 
    For each file one line: the verdict, and for CONFIRMED the digests of the plant and of the claim that were read, both
-   of their canonical JSON, and the keys of the claim that are not verified here. *)
+   of their canonical JSON. *)
 open Refused
 
 let version = "1"
@@ -21,25 +21,26 @@ let prepared text =
     let plant = Plant.read system in
     let known = plant.Plant.names in
     let listed = Plant.listed plant in
-    let meant = Claim.listed (List.length known) (Claim.read known claim) in
+    let said = Claim.read known claim in
+    let meant = Claim.listed (List.length known) said and regions = Claim.regions plant.Plant.time said in
     let rules = try Witness.fixed_spectrum listed known meant witness with Division_by_zero -> invalid "witness.modulus" "a number is not invertible modulo l" in
-    (plant.Plant.digest, Sha256.digest (Json.canonical claim), listed, meant, rules)
+    (plant.Plant.digest, Sha256.digest (Json.canonical claim), listed, meant, regions, rules)
   | _ -> assert false
 
 let proved text =
-  let (_, _, listed, meant, rules) as parts = prepared text in
-  (match Kernel.check_fixed_spectrum listed rules with
+  let (_, _, listed, meant, regions, rules) as parts = prepared text in
+  (match Kernel.check_whole listed rules regions with
    | Some claim when claim = meant -> ()
    | _ -> invalid "witness" "the rules do not prove the claim");
   parts
 
 let check text =
-  let plant, claim, _, _, _ = proved text in
-  Printf.sprintf "CONFIRMED %s %s %s" plant claim (String.concat "," Claim.unverified)
+  let plant, claim, _, _, _, _ = proved text in
+  Printf.sprintf "CONFIRMED %s %s" plant claim
 
 let rocq text =
-  let plant, _, listed, meant, rules = proved text in
-  Rocq.file plant listed meant rules
+  let plant, _, listed, meant, regions, rules = proved text in
+  Rocq.file plant listed meant regions rules
 
 let read_file path =
   let channel = if path = "-" then stdin else open_in_bin path in

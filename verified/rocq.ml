@@ -17,6 +17,10 @@ let factor f =
   let in_A = match f.f_in_A with None -> "None" | Some a -> Printf.sprintf "(Some %d)" a in
   record "ZFactor" [ row f.f_p; in_A; nat f.f_most; list bool f.f_channels; nat f.f_rank ]
 let claim c = record "ZClaim" [ row c.c_poly; list factor c.c_factors ]
+let disc c = record "ZDisc" [ z c.d_re; z c.d_im; z c.d_rad ]
+let regions g =
+  let rate = match g.g_rate with None -> "None" | Some (low, high) -> Printf.sprintf "(Some (%s, %s))" (z low) (z high) in
+  record "ZRegions" [ z g.g_w; bool g.g_continuous; list bool g.g_stable; list (list disc) g.g_discs; bool g.g_stabilizable; rate ]
 let similar w = record "Similar" [ matrix w.h_H; matrix w.h_L; matrix w.h_Y ]
 let loop w = record "LoopWitness" [ z w.w_ell; z w.w_inv; list matrix w.w_gains; similar w.w_similar ]
 let exponent x = record "ExponentWitness" [ row x.x_w; row x.x_q; row x.x_r; z x.x_k ]
@@ -42,17 +46,20 @@ let rule = function
   | RAllBlocks (t, c, place, ys) -> record "RAllBlocks" [ subject t; claim c; nat place; list premises ys ]
   | RAllTwo (t, c, spectrum, g, moved, ys) -> record "RAllTwo" [ subject t; claim c; nat spectrum; row g; nat moved; list premises ys ]
 
-let file digest s c rules =
+let file digest s c g rules =
   String.concat "\n"
     [ "(* All fixed modes of the plant " ^ digest ^ ".";
-      "   The lists have A, B_i and C_i over one denominator; claim_holds, in mcexact.kernel.fixed_rule, says what the claim means. *)";
+      "   The lists have A, B_i and C_i over one denominator.  claim_holds, in mcexact.kernel.fixed_rule, and regions_hold, in
+   mcexact.kernel.regions_rule, say what the claim means. *)";
       "From Coq Require Import ZArith.";
       "From mathcomp Require Import all_ssreflect all_algebra.";
-      "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule facts.";
+      "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts.";
       "";
       "Definition plant : zsystem := " ^ system s ^ ".";
       "Definition claim : zclaim := " ^ claim c ^ ".";
+      "Definition regions : zregions := " ^ regions g ^ ".";
       "Definition rules : seq rule := " ^ list rule rules ^ ".";
-      "Theorem fixed_spectrum (K : fieldType) (h : {rmorphism rat -> K}) : claim_holds (system_of K plant) claim.";
-      "Proof. by apply: (@check_fixed_spectrum_plant plant rules claim _ K h); vm_compute. Qed.";
+      "Theorem fixed_spectrum : (forall (K : fieldType) (h : {rmorphism rat -> K}), claim_holds (system_of K plant) claim) /\\";
+      "  (forall C : numClosedFieldType, regions_hold (system_of C plant) claim regions).";
+      "Proof. by apply: (@check_whole_plant plant rules regions claim); vm_compute. Qed.";
       "" ]

@@ -1,5 +1,6 @@
 (* The operations of Zarith that the kernel's extraction names.  Coq's modulo by a positive number lies from 0 to below
-   it, as Zarith's `erem` does; the kernel asks for no other. *)
+   it, as Zarith's `erem` does; the kernel asks for no other.  Coq's quotients are rounded down, and by 0 they are 0. *)
 include Z
 
 let modulo a b = if sign b > 0 then erem a b else invalid_arg "modulus"
+let quotient a b = if sign b = 0 then zero else fdiv a b

@@ -137,8 +137,8 @@ def command(
     implied.
 
     Where the program mcexact-verified is installed, a line on standard error says which VALID
-    certificates it confirms, and what of their claims it does not verify. If it finds one false,
-    one of the two has a bug, and the status is 70.
+    certificates it confirms, too. If it finds one false, one of the two has a bug, and the status
+    is 70.
 
     The status is the first that applies of 70, 3 (MALFORMED), 1 (INVALID), 5 (INCOMPLETE) and 0, or
     74 if the verdicts cannot be written. The file that --export writes prints the same verdicts:
@@ -213,10 +213,8 @@ def _confirmed(judged: Sequence[Found]) -> dict[int, str]:
         if not (answer.confirmed or answer.contradicts):
             continue
         found[k] = f"{answer.verdict} {answer.message}".strip()
-        said = "confirms all" if answer.confirmed else f"says {answer.verdict}: {answer.message}"
-        if answer.confirmed and answer.message:
-            said += f" but {answer.message}"
-        click.echo(f"{verified.NAME} {said} of {file!a}", err=True)
+        said = "confirms" if answer.confirmed else f"says {found[k]} of"
+        click.echo(f"{verified.NAME} {said} {file!a}", err=True)
     return found
 
 

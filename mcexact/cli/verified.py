@@ -24,8 +24,6 @@ VERSION = f"{NAME} 1"
 """What the program must say of itself: the version of what it prints and of the format it reads."""
 SECONDS = 600.0
 """After this time the program is stopped, and what it has not confirmed by then is not."""
-PLAIN = {"stable": "stability", "roots": "the discs", "stabilizable": "", "best_rate": "the rate"}
-"""What keys of claims are called here; stability is named once."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +35,7 @@ class Confirmation:
     verdict : str
         CONFIRMED, INVALID, MALFORMED, INCOMPLETE or ERROR; empty if it says nothing.
     message : str
-        What of the claim is not verified, or why the certificate is not confirmed.
+        Why the certificate is not confirmed.
     """
 
     verdict: str = ""
@@ -45,7 +43,7 @@ class Confirmation:
 
     @property
     def confirmed(self) -> bool:
-        """Whether what the program verifies of this claim holds."""
+        """Whether the program has verified the whole claim, too."""
         return self.verdict == "CONFIRMED"
 
     @property
@@ -89,11 +87,9 @@ def _read(line: str, path: str, system: str) -> Confirmation:
     verdict, _, rest = line.partition(" ")
     if verdict != "CONFIRMED":
         return Confirmation(verdict, rest)
-    plant, claim, *left = rest.split(" ")
-    if plant != system or claim != _claim(path):
+    if rest.split(" ") != [system, _claim(path)]:
         return Confirmation("ERROR", "it read another plant or another claim")
-    names = [PLAIN.get(key, key) for each in left for key in each.split(",") if key]
-    return Confirmation(verdict, ", ".join(filter(None, names)))
+    return Confirmation(verdict)
 
 
 def _claim(path: str) -> str:

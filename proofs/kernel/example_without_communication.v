@@ -1,12 +1,15 @@
 (* All fixed modes of the plant 2f9ee962dceb4a28564ae6f6062cd3967f15a4f47bc04ab7a15e3bfffd2477ac.
-   The lists have A, B_i and C_i over one denominator; claim_holds, in mcexact.kernel.fixed_rule, says what the claim means. *)
+   The lists have A, B_i and C_i over one denominator.  claim_holds, in mcexact.kernel.fixed_rule, and regions_hold, in
+   mcexact.kernel.regions_rule, say what the claim means. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule facts.
+From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts.
 
 Definition plant : zsystem := (ZSystem 3 1%coqZ [:: [:: 1%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 1%coqZ]] [:: (ZChannel 1 2 [:: [:: 1%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]] [:: [:: 1%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 1%coqZ]]); (ZChannel 1 1 [:: [:: 0%coqZ]; [:: 1%coqZ]; [:: 0%coqZ]] [:: [:: 0%coqZ; 1%coqZ; 0%coqZ]]); (ZChannel 1 1 [:: [:: 1%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]] [:: [:: 0%coqZ; 1%coqZ; 0%coqZ]])] [::]).
 Definition claim : zclaim := (ZClaim [:: (-1)%coqZ; 1%coqZ] [:: (ZFactor [:: (-1)%coqZ; 1%coqZ] (Some 3) 1 [:: false; true; true] 2)]).
+Definition regions : zregions := (ZRegions 1%coqZ true [:: false] [:: [:: (ZDisc 1%coqZ 0%coqZ 0%coqZ)]] false (Some ((-1)%coqZ, (-1)%coqZ))).
 Definition rules : seq rule := [:: (RKrylov [:: [:: true; false; false]] (KrylovWitness 19%coqZ 1%coqZ [:: [:: [:: 1%coqZ; 16%coqZ]]; [::]; [::]] 0 [:: 1%coqZ] [:: 16%coqZ; 6%coqZ] [:: 17%coqZ; 1%coqZ] [:: 6%coqZ] [::])); (RNothing [:: [:: false; false; true]]); (RKrylov [:: [:: false; true; false]] (KrylovWitness 19%coqZ 1%coqZ [:: [::]; [:: [:: 1%coqZ]]; [::]] 1 [:: 1%coqZ] [:: 1%coqZ] [:: 17%coqZ; 1%coqZ] [:: 1%coqZ] [::])); (RBlocks [::] [:: 0; 2; 1] [:: 0; 1; 2]); (RShrunk [::] [:: (-1)%coqZ; 1%coqZ] (ShrunkWitness [:: true; false; false] [:: [:: [:: 1%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ]]] [:: [:: [:: 0%coqZ; 0%coqZ]]] 1%coqZ [:: 0; 2] 1 [:: [:: 1%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]] [:: [:: [:: 1%coqZ]]; [::]; [::]] 1%coqZ) 1); (RCoprime [:: (-1)%coqZ; 1%coqZ] [:: 1%coqZ] (Bezout 19%coqZ 1%coqZ [::] [:: 1%coqZ])); (RCoprime [:: (-1)%coqZ; 1%coqZ] [:: 1%coqZ] (Bezout 19%coqZ 1%coqZ [::] [:: 1%coqZ])); (RSpectrum [::] [:: (-1)%coqZ; 3%coqZ; (-3)%coqZ; 1%coqZ] (SpectrumWitness [:: 1%coqZ; 1%coqZ; 1%coqZ] [:: [:: 1%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 1%coqZ]] [:: (ResidueWitness 67108859%coqZ 1%coqZ 1%coqZ 1%coqZ (Similar [:: [:: 1%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 1%coqZ]] [:: [:: 1%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 1%coqZ]] [:: [:: 1%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 1%coqZ]]))])); (RAllBlocks [::] (ZClaim [:: (-1)%coqZ; 1%coqZ] [:: (ZFactor [:: (-1)%coqZ; 1%coqZ] (Some 3) 1 [:: false; true; true] 2)]) 3 [:: (FactorPremises 4 5 6 0 0 7 (ExponentWitness [:: 1%coqZ] [::] [:: 1%coqZ] 1%coqZ))])].
-Theorem fixed_spectrum (K : fieldType) (h : {rmorphism rat -> K}) : claim_holds (system_of K plant) claim.
-Proof. by apply: (@check_fixed_spectrum_plant plant rules claim _ K h); vm_compute. Qed.
+Theorem fixed_spectrum : (forall (K : fieldType) (h : {rmorphism rat -> K}), claim_holds (system_of K plant) claim) /\
+  (forall C : numClosedFieldType, regions_hold (system_of C plant) claim regions).
+Proof. by apply: (@check_whole_plant plant rules regions claim); vm_compute. Qed.
 

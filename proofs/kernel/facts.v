@@ -8,9 +8,9 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel fixed_bound.
 From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule.
-From mcexact.kernel Require Import hessenberg_rule spectrum_rule loop_rule fixed_rule.
+From mcexact.kernel Require Import hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
-Import GRing.Theory.
+Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
 
 Inductive fact :=
@@ -243,4 +243,24 @@ Corollary check_fixed_spectrum_plant s rs c : check_fixed_spectrum s rs = Some c
 Proof.
 move=> ok K h; apply: (check_fixed_spectrum_sound ok h); apply: system_of_represents.
 by move: ok; rewrite /check_fixed_spectrum; case: ifP.
+Qed.
+
+(* The whole claim, with what it says of the complex plane, over every closed field with a conjugation and a norm. *)
+Definition check_whole (s : zsystem) (rs : seq rule) (g : zregions) : option zclaim :=
+  if check_fixed_spectrum s rs is Some c then if check_regions c g then Some c else None else None.
+Theorem check_whole_sound s rs g c : check_whole s rs g = Some c ->
+  (forall (K : fieldType) (h : {rmorphism rat -> K}) n m (p q : 'I_m -> nat) (S : multichannel K n p q), represents s S -> claim_holds S c) /\
+  (forall (C : numClosedFieldType) n m (p q : 'I_m -> nat) (S : multichannel C n p q), represents s S -> regions_hold S c g).
+Proof.
+rewrite /check_whole; case ok: check_fixed_spectrum => [c'|] //; case: ifP => // reg -[<-].
+split; first exact: check_fixed_spectrum_sound ok.
+move=> C n m p q S re; apply: check_regions_sound reg.
+exact: (check_fixed_spectrum_sound ok [rmorphism of ratr] re).
+Qed.
+Corollary check_whole_plant s rs g c : check_whole s rs g = Some c ->
+  (forall (K : fieldType) (h : {rmorphism rat -> K}), claim_holds (system_of K s) c) /\
+  (forall C : numClosedFieldType, regions_hold (system_of C s) c g).
+Proof.
+move=> ok; have sz : sized_system s by move: ok; rewrite /check_whole /check_fixed_spectrum; case: ifP.
+have [h1 h2] := check_whole_sound ok; split=> [K h|C]; [apply: (h1 K h) | apply: h2]; exact: system_of_represents.
 Qed.
