@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: samples gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs verified
+.PHONY: samples gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs verified verified-agreement
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -258,6 +258,10 @@ impossible-proofs:
 # command.  Installs Coq, OCaml and Zarith where they are missing and where it may: two minutes.
 verified: $(CORE)
 	@$(MAKE) --no-print-directory -C verified BIN=$(abspath $(BIN))
+
+# Mutants and forgeries of fixed spectra, judged by the checker and by mcexact-verified: minutes.
+verified-agreement: $(STAMP)
+	$(BIN)/python -m tests.assurance.campaigns.verified $(or $(N),10000)
 
 # What a user needs, without what draws, tests or documents.
 $(CORE): pyproject.toml

@@ -1,0 +1,83 @@
+"""Both checkers on mutants and forgeries of fixed spectra: what one accepts and the other does not.
+
+Every try of the attack campaign for the kind is judged by the checker in Python and by the program
+mcexact-verified (`make verified`).  Counted are pairs of verdicts; where both accept, the digests
+of plant and claim have to be equal.  Nothing that is INVALID or MALFORMED may be CONFIRMED.  What
+is VALID and not CONFIRMED is listed with the program's reason.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+
+from mcexact.checker.kinds import check_document
+from mcexact.checker.system import canonical_json, digest_of
+from mcexact.cli import verified
+from tests.assurance.attack.tries import batch_numbers, drawn_batch, tries
+
+KIND = "fixed_spectrum"
+AT_ONCE = 256
+"""Files that the program is given in one call."""
+
+
+def documents(count: int) -> Iterator[bytes]:
+    """The original of each batch about a plant itself, and the texts of its tries."""
+    for number in batch_numbers(50 * count, [KIND]):
+        batch = drawn_batch(number)
+        if batch.original["subject"]:
+            continue
+        yield json.dumps(batch.original).encode("ascii")
+        for each in tries(number, batch):
+            made = each.document
+            text = made if isinstance(made, (str, bytes)) else json.dumps(made)
+            yield text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
+
+
+def answers(program: str, texts: list[bytes], folder: Path) -> list[str]:
+    """The lines of the program about some texts."""
+    paths = [folder / f"{k}.json" for k in range(len(texts))]
+    for path, text in zip(paths, texts, strict=True):
+        path.write_bytes(text)
+    run = subprocess.run([program, *map(str, paths)], capture_output=True, check=False)
+    return run.stdout.decode("ascii", "replace").splitlines()
+
+
+def main(count: int) -> int:
+    """Compare both on this many tries."""
+    program = verified.program()
+    if program is None:
+        print("needs the program mcexact-verified: make verified")
+        return 2
+    pairs, reasons, wrong = Counter[tuple[str, str]](), Counter[str](), list[str]()
+    drawn = islice(documents(count), count)
+    with tempfile.TemporaryDirectory() as folder:
+        while texts := list(islice(drawn, AT_ONCE)):
+            lines = answers(program, texts, Path(folder))
+            for text, line in zip(texts, lines, strict=True):
+                verdict = check_document(text)
+                word, _, rest = line.partition(" ")
+                pairs[verdict.verdict, word] += 1
+                if word == "CONFIRMED":
+                    claim = digest_of(canonical_json(json.loads(text)["claim"]))
+                    if verdict.verdict != "VALID" or rest != f"{verdict.system_digest} {claim}":
+                        wrong.append(f"{verdict.line()[:160]} | {line[:160]} | {text[:2000]!r}")
+                elif verdict.verdict == "VALID":
+                    reasons[line[:100]] += 1
+    for (ours, theirs), many in sorted(pairs.items()):
+        print(f"{ours:12} {theirs:12} {many}")
+    for reason, many in reasons.most_common():
+        print(f"VALID, but {reason}: {many}")
+    print(f"{len(wrong)} accepted by the program alone")
+    print("\n".join(wrong[:5]))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(int(sys.argv[1]) if sys.argv[1:] else 10_000))
