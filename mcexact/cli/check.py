@@ -173,7 +173,7 @@ def command(
                 error.exit_status = status_of([refused.found])
                 raise error from None
             judged = [refused.found]
-        second = {} if interrupted or not ask_verified else _confirmed(judged)
+        second = {} if interrupted or not ask_verified else _confirmed(judged, timeout)
         if as_json:
             rows = [
                 about | asdict(verdict) | ({"verified": second[k]} if k in second else {})
@@ -193,7 +193,7 @@ def command(
     return BUG if contradicted else status_of(judged)
 
 
-def _confirmed(judged: Sequence[Found]) -> dict[int, str]:
+def _confirmed(judged: Sequence[Found], seconds: float | None) -> dict[int, str]:
     """What mcexact-verified says of VALID certificates, by their places; a line of each is printed.
 
     What it does not verify at all is left out.
@@ -208,7 +208,7 @@ def _confirmed(judged: Sequence[Found]) -> dict[int, str]:
         return found
     files = [judged[k][0]["file"] for k in places]
     systems = [judged[k][1].system_digest for k in places]
-    answers = verified.confirmations(files, systems)
+    answers = verified.confirmations(files, systems, seconds)
     for k, file, answer in zip(places, files, answers, strict=True):
         if not (answer.confirmed or answer.contradicts):
             continue

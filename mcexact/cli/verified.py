@@ -22,8 +22,8 @@ from mcexact.checker.system import canonical_json, digest_of
 NAME = "mcexact-verified"
 VERSION = f"{NAME} 1"
 """What the program must say of itself: the version of what it prints and of the format it reads."""
-SECONDS = 600.0
-"""After this time the program is stopped, and what it has not confirmed by then is not."""
+SECONDS = 60.0
+"""After this time, or that of the whole run, the program is stopped and has confirmed nothing."""
 
 
 @dataclass(frozen=True)
@@ -66,14 +66,17 @@ def program() -> str | None:
     return path if asked.stdout.decode("ascii", "replace").strip() == VERSION else None
 
 
-def confirmations(paths: Sequence[str], systems: Sequence[str]) -> list[Confirmation]:
+def confirmations(
+    paths: Sequence[str], systems: Sequence[str], seconds: float | None = None
+) -> list[Confirmation]:
     """What the program says of some files that were found VALID, about plants of these digests."""
     path = program()
     if path is None or not paths:
         return [Confirmation() for _ in paths]
     named = [f"./{each}" if each.startswith("-") else each for each in paths]  # no options
+    limit = SECONDS if seconds is None else seconds
     try:
-        run = subprocess.run([path, *named], capture_output=True, timeout=SECONDS, check=False)
+        run = subprocess.run([path, *named], capture_output=True, timeout=limit, check=False)
     except (OSError, subprocess.TimeoutExpired):
         return [Confirmation() for _ in paths]
     lines = run.stdout.decode("ascii", "replace").splitlines()

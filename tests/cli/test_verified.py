@@ -110,6 +110,15 @@ def test_a_program_that_ends_early_confirms_nothing(program: Path, certificate: 
     assert status == 70 and "ended early" in err
 
 
+def test_a_program_that_takes_too_long_is_stopped(program: Path, certificate: Path) -> None:
+    program.write_text(
+        f'#!/bin/sh\n[ "$1" = --version ] && echo "{verified.VERSION}" && exit\nexec /bin/sleep 9\n'
+    )
+    program.chmod(0o755)
+    status, out, err = call("check", "--timeout", "0.5", str(certificate))
+    assert (status, err) == (0, "") and out.startswith("VALID ")
+
+
 def test_what_it_cannot_verify_is_not_mentioned(program: Path, certificate: Path) -> None:
     saying(program, "INCOMPLETE kind: not a kind that is verified here", status=5)
     status, _, err = call("check", str(certificate))
