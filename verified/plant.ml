@@ -56,8 +56,7 @@ let read_channel k n value =
   match Json.fields place [ "name"; "B"; "C" ] value with
   | [ name; b; c ] ->
     let inputs = read_matrix (place ^ ".B") b and outputs = read_matrix (place ^ ".C") c in
-    if inputs.nrows <> n || (outputs.ncols <> n && outputs.nrows > 0) then malformed place "expected another shape";
-    let outputs = { outputs with ncols = n } in
+    if inputs.nrows <> n || outputs.ncols <> n then malformed place "expected another shape";
     { name = read_name place name; inputs; outputs }
   | _ -> assert false
 
