@@ -255,7 +255,7 @@ impossible-proofs:
 	@$(MAKE) --no-print-directory -C proofs impossible
 
 # The program mcexact-verified: extracted from the kernel of proofs/kernel, compiled, and put beside the
-# command.  Installs Coq, OCaml and Zarith where they are missing and where it may: two minutes.
+# command.  Installs Coq, OCaml and Zarith where they are missing and where it may: minutes.
 verified: $(CORE)
 	@$(MAKE) --no-print-directory -C verified BIN=$(abspath $(BIN))
 
