@@ -199,6 +199,8 @@ from .synthesis.decentralized import design_extended as design_extended
 from .synthesis.design import Design as Design
 from .synthesis.distributed_observer import design_observer as design_observer
 from .synthesis.gate import CertifiedLoop as CertifiedLoop
+from .synthesis.longest_step import LongestStep as LongestStep
+from .synthesis.longest_step import longest_step as longest_step
 from .synthesis.optimum.figures import Aims as Aims
 from .synthesis.performance import Performance as Performance
 from .synthesis.performance import loop_performance as loop_performance

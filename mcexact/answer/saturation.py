@@ -79,14 +79,14 @@ class SaturationStability(Answer):
 
 ALWAYS = Template(
     "saturation-global",
-    "stable with each input cut off at its limits, {limits:input limits}{gains:windup}: any two "
+    "stable with each input cut off at its limits ({limits:input limits}){gains:windup}: any two "
     "solutions with the same set-points and disturbances approach each other exponentially",
     label="inputs at their limits",
 )
 REGION = Template(
     "saturation-region",
-    "stable with each input cut off at its limits, {limits:input limits}{gains:windup}, from every "
-    "state of the plant of norm at most {radius:digits_below} where all else is at rest",
+    "stable with each input cut off at its limits ({limits:input limits}){gains:windup}, from "
+    "every state of the plant of norm at most {radius:digits_below} where all else is at rest",
     label="inputs at their limits",
 )
 FIRST = Template("first-saturation", "stable at every saturation of the inputs")

@@ -74,6 +74,7 @@ from mcexact.errors import LimitReached
 )
 @options.weights
 @options.sizes
+@options.limited
 @options.no_box
 @options.prove_all
 @click.option(
@@ -81,7 +82,7 @@ from mcexact.errors import LimitReached
     "--output",
     type=options.FOLDER,
     metavar="FILE",
-    help="Write the controller that is rounded, or taken at the samples, to this file.",
+    help="Write the controller that is rounded, taken at the samples, or limited to this file.",
 )
 @options.page("figures of the loop and all certificates")
 @options.answering
@@ -112,10 +113,11 @@ def command(file: str, controller: str, **values: Any) -> int:
         raise click.UsageError(
             "--largest-uncertainty takes the gains as they are: leave out --gains"
         )
-    if output is not None and values["round_gains"] is None and not values["sampling"]:
+    changes = values["round_gains"] is not None or values["sampling"] or values["limited"]
+    if output is not None and not changes:
         raise click.UsageError(
-            "-o writes the controller that is rounded, or taken at the samples: give --round-gains "
-            "or --step, too"
+            "-o writes the controller that is rounded, taken at the samples or limited: give "
+            "--round-gains, --step or --limits, too"
         )
     require_other(output, file, controller, weights, sizes)
     require_writable(output, run.certificates)

@@ -84,6 +84,7 @@ def design_options(
         options.arithmetic,
         click.option("--agent", metavar="NAME", help=agent_help),
         options.aims if searches else options.weighed,
+        options.limited,
         options.no_box,
         options.prove_all,
         options.controller_output,
@@ -129,7 +130,7 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
         None if weights is None else run.read(weights),
         None if sizes is None else run.read(sizes),
     )
-    sampling = options.sampling(values)
+    sampling, limited = options.sampling(values), values["limited"]
     keywords = {**wanted, "agent": values["agent"], **{key: values[key] for key in HOW}}
     aimed = {key: values[key] for key in options.AIMS if key in values}
     left = run.deadline.left()
@@ -141,7 +142,7 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
     try:
         result = supervised(
             _designed,
-            *(name, plant, *extra, run.limits, sampling, keywords, aimed),
+            *(name, plant, *extra, limited, run.limits, sampling, keywords, aimed),
             *(not values["no_box"], values["prove_all"]),
             *(html is not None, run.system_by_digest, left),
             doing=f"designing for {plant[0]}",

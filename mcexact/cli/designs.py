@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import shlex
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from math import log10
 from typing import Any
 
@@ -24,15 +25,16 @@ from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.structure import SetpointSolvability
 from mcexact.answer.templates import Sentence
 from mcexact.cli.files import system_in
-from mcexact.cli.loops import assessed, read_weights, sampled, unproved, with_sizes
+from mcexact.cli.loops import assessed, read_weights, sampled, unproved, with_limits, with_sizes
 from mcexact.cli.options import AIMS
 from mcexact.cli.results import DESIGNED, Evidence, Loop, Refused
 from mcexact.cli.running import Reporting
 from mcexact.derived.constructions import augmented_outputs
+from mcexact.derived.sampling import is_sampled
 from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.exact.rational import Limits, written
 from mcexact.exact.roots import StabilityRegion
-from mcexact.model.controller import controller_text
+from mcexact.model.controller import Controller, controller_text
 from mcexact.model.regulated import positions_of, selection_in_words
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import parse
@@ -42,6 +44,7 @@ from mcexact.synthesis.decentralized import design_decentralized, design_extende
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Warned
+from mcexact.synthesis.longest_step import LongestStep, longest_step
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.performance import NO_TIME, Performance, PerformanceSearch
 from mcexact.synthesis.robustness import EveryLoop
@@ -52,6 +55,8 @@ _PROVING = 0.5
 """The part of the rest of the time after which no further proof of the performance is begun."""
 _SHOWING = 0.2
 """The part of the rest of the time that is left for showing the result."""
+_STEPPING = 5.0
+"""The seconds after which no longer step is tried."""
 _NOTHING_ELSE = (
     "the time limit ended the proofs of the cost and of the margins, whose figures are computed, "
     "and no box of plants was sought"
@@ -71,6 +76,7 @@ def designed(
     prescribed: tuple[str, bytes] | None,
     weights: tuple[str, bytes] | None,
     sizes: tuple[str, bytes] | None,
+    limited: Sequence[str],
     limits: Mapping[str, int],
     sampling: Mapping[str, Any],
     wanted: dict[str, Any],
@@ -94,6 +100,8 @@ def designed(
     prescribed, weights, sizes : tuple of str and bytes, or None
         The spectrum, the weights and the typical sizes, with the names by which messages refer to
         them.
+    limited : sequence of str
+        The limits of inputs; if empty, those of the plant.
     limits : mapping
         The limits on input files.
     sampling : mapping
@@ -129,7 +137,8 @@ def designed(
             report.step(step)
 
     spectrum, end = None, None if left is None else time.monotonic() + left
-    system = sampled(with_sizes(system_in(*plant, limits), sizes, limits), sampling)
+    sized = with_sizes(system_in(*plant, limits), sizes, limits)
+    system = sampled(with_limits(sized, limited), sampling)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
     if aimed:
@@ -209,7 +218,36 @@ class _Shaped:
             effort = {"effort": self.aims.effort} if self.aims.effort else {}
             rest = None if end is None else end - _SHOWING * (end - time.monotonic())
             every_loop = design.every_loop(**effort, deadline=rest)
-        return shown(proved)
+        longest = self._longest_step(end, report)
+
+        return self._shown(
+            assessment.with_proofs(design, every_loop, proved), proved, every_loop, longest=longest
+        )
+
+    def _longest_step(self, end: float | None, report: Reporting) -> LongestStep | None:
+        """The longest step of a sampled plant with which the controller keeps its margins."""
+        closed = self.design.loop.closed
+        if not is_sampled(closed.plant):
+            return None
+        report.step("the longest step with these margins")
+        now = time.monotonic()
+        deadline = now + _STEPPING
+        if end is not None:
+            deadline = min(deadline, end - _SHOWING * (end - now))
+        return longest_step(
+            closed.plant,
+            closed.controller,
+            closed.graph,
+            margin=Fraction(str(self.aims.disk)),
+            deadline=deadline,
+        )
+
+    def _saturated(self, proved: Performance | None) -> Controller:
+        """The controller, with the limits of its inputs and anti-windup gains if there are any."""
+        limits = self.design.loop.closed.plant.limits
+        if proved is not None:
+            return proved.saturated(self.design.controller, limits)
+        return self.design.controller.with_saturation(limits)
 
     def _shown(
         self,
@@ -217,6 +255,7 @@ class _Shaped:
         proved: Performance | None,
         every_loop: EveryLoop | None,
         note: str | None = None,
+        longest: LongestStep | None = None,
     ) -> Loop:
         """The design with what is proved of it, and a note of what is left out."""
         design = self.design
@@ -224,6 +263,8 @@ class _Shaped:
             assessment = replace(assessment, notes=(*assessment.notes, note))
         account = design.account_with(every_loop, proved)
         rows = [*unproved(proved), *assessment.rows()]
+        if longest is not None:
+            rows.append(("longest step", longest.explain()))
         figures = measured(design.measures(), rows, account.sentences, design.region.discrete)
         listed = tables(account.sentences, note=account.reading)
         return assessed(
@@ -236,9 +277,10 @@ class _Shaped:
             document=account.as_json(
                 **design.to_dict(),
                 **({} if every_loop is None else {"every_loop": every_loop.to_dict()}),
+                **({} if longest is None else {"longest_step": longest.to_dict()}),
                 assessment=assessment.to_dict(),
             ),
-            controller=controller_text(design.controller),
+            controller=controller_text(self._saturated(proved)),
         )
 
 

@@ -53,6 +53,7 @@ from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.export.fixed import FixedPoint
 from mcexact.model.box import radii_in_words
 from mcexact.model.controller import Controller, controller_text, read_controller
+from mcexact.model.limits import limits_in
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.sizes import read_sizes
@@ -132,7 +133,7 @@ def certified(
         If options contradict each other, or do not apply to the plant.
     """
     gains, effort, at = wanted.pop("gains"), wanted.pop("effort"), dict(wanted.pop("at"))
-    sampling = wanted.pop("sampling")
+    sampling, limited = wanted.pop("sampling"), wanted.pop("limited")
     with_box, prove_all = not wanted.pop("no_box"), wanted.pop("prove_all")
     typed_plant = plant_in(*plant, limits, at)
     with InputError.inside(program[0]):
@@ -140,11 +141,13 @@ def certified(
     if isinstance(typed_plant, ParametricSystem):
         if sampling:
             raise UsageError("a plant with parameters is not sampled: give them values with --at")
+        if limited:
+            raise UsageError("a plant with parameters has no limits: give them values with --at")
         every_option = wanted | {"weights": weights, "sizes": sizes, "effort": effort}
         return _certified_for_all_values(
             typed_plant, controller, gains, every_option, with_page, system_by_digest
         )
-    sized = with_sizes(typed_plant, sizes, limits)
+    sized = with_limits(with_sizes(typed_plant, sizes, limits), limited)
     system, search = uncertainty.with_radii(sized, wanted.pop("uncertainty"))
     system = sampled(system, sampling)
     with InputError.inside(program[0]):
@@ -230,7 +233,9 @@ def certified(
             **uncertainty.view(search),
             assessment=assessment.to_dict(),
         ),
-        controller=controller_text(controller),
+        controller=controller_text(
+            controller if proved is None else proved.saturated(controller, system.limits)
+        ),
     )
 
 
@@ -327,6 +332,16 @@ def with_sizes(
         content = parse(file[1], Limits(**limits))
         sizes = read_sizes(content, system.names, system.n, p, q, Limits(**limits))
     return system.with_typical_sizes(sizes)
+
+
+def with_limits(system: MultiChannelSystem, texts: Sequence[str]) -> MultiChannelSystem:
+    """The plant with the limits of inputs that texts give, or with its own if there are none."""
+    if not texts:
+        return system
+    chosen = limits_in(texts, system.names, [system.p(i) for i in range(system.m)])
+    return system.with_limits(
+        None if chosen is None else dict(zip(system.names, chosen, strict=True))
+    )
 
 
 def at_samples(

@@ -371,6 +371,18 @@ sizes = click.option(
 )
 
 
+limited = click.option(
+    "--limits",
+    "limited",
+    metavar="[AGENT:]LOW,HIGH",
+    multiple=True,
+    help="The least and the largest value of every input, or of those of an agent, such as "
+    "--limits=-1,1, in place of the limits in FILE. Repeatable. Then it is proved that the loop is "
+    "stable while inputs are cut off there, with anti-windup gains that are written into the "
+    "controller.",
+)
+
+
 def weighed(function: F) -> F:
     """Add the options of weights."""
     return weights(sizes(function))

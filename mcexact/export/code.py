@@ -1,18 +1,20 @@
 """Controllers as code: C99, and Structured Text of IEC 61131-3, in doubles or in fixed point.
 
 C: a header and a file for each agent, with a structure of its state, a function that resets it, one
-that runs a step, and one for each follower that copies what is sent to it.  Nothing is allocated
+that puts it at rest for the first outputs and set-points, one that runs a step, and one for each
+follower that copies what is sent to it.  Nothing is allocated
 and no library is used.  A step reads all of its arguments and writes the inputs before it changes
 the state.  Compilers may contract a product and a sum to one rounding (`-ffp-contract=off` forbids
 it to gcc and clang); then the last bits differ from those of `AgentRun`.
 
 Structured Text: a function block for each agent, called once in each sampling period, after it was
 given what was measured and received; then its outputs are the inputs of the plant, and what it
-sends in the next period.  All numbers are of the type LREAL, and all states are 0 at first.
+sends in the next period.  All numbers are of the type LREAL, and all states are 0 at first, unless
+`start` is true in the first period: then they are at rest for what was measured.
 
 In fixed point (`export.fixed`) signals are integers of 32 bits (int32_t, DINT) and sums have 64
 (int64_t, LINT).  A function rounds a sum to the nearest integer, since `/` truncates in both
-languages, and no expression leaves its type, whatever the signals are.
+languages, and no expression leaves its type, whatever the signals are.  All states are 0 at first.
 
 Beside the code stands ``controller.json``: the controller that the code is, with the numbers of the
 code exactly, so that what runs can be certified.
@@ -148,6 +150,8 @@ class Dialect:
         How an integer of 64 bits is written, and a signal as one.
     break_ : str
         What stands before a further term.
+    limited : str
+        A value that is cut off, with fields for the value and both limits.
     """
 
     number: Callable[[float], str]
@@ -158,6 +162,7 @@ class Dialect:
     long: str
     widened: str
     break_: str
+    limited: str
 
     def signals(self, code: _Code) -> str:
         """The type of signals."""
@@ -169,7 +174,7 @@ class Dialect:
 
     def sum(self, row: Row, kind: str, step: AgentStep, code: _Code) -> str:
         """The sum as an expression, which both languages add from the left to the right."""
-        own = {"y": "y", "r": "r", "x": self.x.format(step.held), "z": self.z}
+        own = {"y": "y", "r": "r", "x": self.x.format(step.held), "z": self.z, "e": "e"}
 
         def name(signal: Signal) -> str:
             theirs = f"{signal.kind}_{code.steps[signal.agent].identifier}"
@@ -190,16 +195,27 @@ class Dialect:
         return f"{step.identifier}_nearest({plus.join(terms)}, {self.long.format(whole.unit)})"
 
     def sums(self, step: AgentStep, code: _Code, assign: str) -> list[str]:
-        """The statements that compute u and the next states."""
-        return [
-            f"{target}[{k}] {assign} {self.sum(row, kind, step, code)};"
+        """The statements that compute u, cut off at its limits, and the next states."""
+        u, x, z = (
+            [
+                f"{target}[{k}] {assign} {self.sum(row, kind, step, code)};"
+                for k, row in enumerate(rows)
+            ]
             for target, kind, rows in (
                 ("u", "u", step.u),
                 ("next_x", "x", step.x),
                 ("next_z", "z", step.z),
             )
-            for k, row in enumerate(rows)
-        ]
+        )
+        cut = list[str]()
+        for k, low, high in step.cut():
+            ends = (self.number(end) for end in (low, high))
+            if code.fixed is not None:
+                ends = (str(end) for end in code.fixed.limits(low, high))
+            limited = self.limited.format(f"u[{k}]", *ends)
+            cut += [f"e[{k}] {assign} u[{k}];"] * step.winds + [f"u[{k}] {assign} {limited};"]
+            cut += [f"e[{k}] {assign} u[{k}] - e[{k}];"] * step.winds
+        return [*u, *cut, *x, *z]
 
 
 def described(step: AgentStep, code: _Code) -> list[str]:
@@ -227,10 +243,22 @@ def described(step: AgentStep, code: _Code) -> list[str]:
         lines.append(f"{kind}_{steps[j].identifier}: the {what} that agent {steps[j].name!a} sent.")
     if not step.u:
         lines.append("It sets no input: those of this agent stay 0.")
+    if any(step.cut()):
+        more = ", and its states are corrected by what was cut off" * step.winds
+        lines.append(f"Inputs are cut off at their limits{more}.")
+    if _starts(step, code):
+        lines.append("Start puts the states at rest for the first y, and r if there is any.")
+    elif step.x or step.z:
+        lines.append("All states start at 0.")
     if step.received:
         lines.append("Until a first message has arrived, what is received is 0.")
     # A name must neither end the comment that it stands in nor begin another one.
     return [line.replace("*", "\\x2a") for line in lines]
+
+
+def _starts(step: AgentStep, code: _Code) -> bool:
+    """Whether there is code that starts without a bump, as there is none in fixed point."""
+    return step.start is not None and code.fixed is None
 
 
 def _scales(step: AgentStep, fixed: FixedPoint) -> list[str]:
@@ -254,7 +282,17 @@ def _scales(step: AgentStep, fixed: FixedPoint) -> list[str]:
 
 # C99.
 
-C = Dialect(repr, "double", "int32_t", "s->x[{}]", "s->z", "INT64_C({})", "{}", f"\n{INDENT * 2}")
+C = Dialect(
+    repr,
+    "double",
+    "int32_t",
+    "s->x[{}]",
+    "s->z",
+    "INT64_C({})",
+    "{}",
+    f"\n{INDENT * 2}",
+    "{0} < {1} ? {1} : {0} > {2} ? {2} : {0}",
+)
 _NEAREST_IN_C = """\
 /* The nearest integer to sum / unit, halves upwards, within 32 bits. */
 static int32_t {0}_nearest(int64_t sum, int64_t unit)
@@ -297,6 +335,7 @@ def _header(step: AgentStep, code: _Code) -> str:
         *["#include <stdint.h>"] * (code.fixed is not None),
         "typedef struct {\n" + "\n".join(members) + f"\n}} {name}_state;",
         f"void {name}_reset({name}_state *s);",
+        *[f"{_starting(step)};"] * _starts(step, code),
         *(f"{_send(step, code, j)};" for j in step.sent),
         f"{signature(step, code)};",
         "#endif",
@@ -309,6 +348,27 @@ def _send(step: AgentStep, code: _Code, j: int) -> str:
     return f"void {name}_send_to_{other}(const {name}_state *s, {type_} x[{len(step.x)}])"
 
 
+def _starting(step: AgentStep) -> str:
+    """The declaration of the function that starts without a bump, without its semicolon."""
+    arguments = [f"{step.identifier}_state *s"]
+    arguments += [f"const double y[{step.outputs}]"] * bool(step.outputs)
+    arguments += [f"const double r[{step.references}]"] * bool(step.references)
+    return f"void {step.identifier}_start({', '.join(arguments)})"
+
+
+def _started(step: AgentStep, code: _Code) -> list[str]:
+    """The statements of this function."""
+    states, body = len(step.x), list[str]()
+    rows = [C.sum(row, "x", step, code) for row in step.start or ()]
+    for k, text in enumerate(rows[:states]):
+        body += [f"s->x[0][{k}] = {text};"]
+        body += [f"s->x[{d}][{k}] = s->x[0][{k}];" for d in range(1, step.remembered + 1)]
+    body += [f"s->z[{k}] = {text};" for k, text in enumerate(rows[states:])]
+    used = {signal.kind for row in step.start or () for _, signal in row}
+    sizes = ("y", step.outputs), ("r", step.references)
+    return body + [f"(void){name};" for name, size in sizes if size and name not in used]
+
+
 def _source(step: AgentStep, code: _Code) -> str:
     name, states, kept = step.identifier, len(step.x), len(step.z)
     type_, zero = C.signals(code), C.zero(code)
@@ -316,11 +376,14 @@ def _source(step: AgentStep, code: _Code) -> str:
     reset += [f"s->z[{k}] = {zero};" for k in range(kept)]
     reset = reset or ["s->none = 0;"]
     functions = [_function(f"void {name}_reset({name}_state *s)", reset)]
+    if _starts(step, code):
+        functions.append(_function(_starting(step), _started(step, code)))
     for j, held in step.sent.items():
         copied = [f"x[{k}] = s->x[{held}][{k}];" for k in range(states)]
         functions.append(_function(_send(step, code, j), copied))
     body = [f"{type_} next_x[{states}];"] * bool(states)
     body += [f"{type_} next_z[{kept}];"] * bool(kept)
+    body += [f"{type_} e[{len(step.u)}] = {{{zero}}};"] * step.winds
     sums = C.sums(step, code, "=")
     if any(f"{name}_nearest" in each for each in sums):
         functions.insert(0, _NEAREST_IN_C.format(name, LARGEST))
@@ -355,7 +418,17 @@ def literal(number: float) -> str:
     return f"{digits}E{exponent}" if mark else digits
 
 
-TEXT = Dialect(literal, "LREAL", "DINT", "x_{}", "z", "LINT#{}", "DINT_TO_LINT({})", f"\n{INDENT}")
+TEXT = Dialect(
+    literal,
+    "LREAL",
+    "DINT",
+    "x_{}",
+    "z",
+    "LINT#{}",
+    "DINT_TO_LINT({})",
+    f"\n{INDENT}",
+    "LIMIT({1}, {0}, {2})",
+)
 _NEAREST_IN_TEXT = """\
 (* The nearest integer to sum / unit, halves upwards, within 32 bits. *)
 FUNCTION {0}_nearest : DINT
@@ -386,8 +459,9 @@ def _block(step: AgentStep, code: _Code) -> str:
     leaving = {"u": len(step.u)}
     leaving |= {f"sent_to_{steps[j].identifier}": states for j in step.sent}
     kept_names = {f"x_{d}": states for d in range(step.remembered + 1)}
-    kept_names |= {"z": kept, "next_x": states, "next_z": kept}
-    body = TEXT.sums(step, code, ":=")
+    kept_names |= {"z": kept, "next_x": states, "next_z": kept, "e": len(step.u) * step.winds}
+    starts = _starts(step, code)
+    body = [*(_first_states(step, code) if starts else ()), *TEXT.sums(step, code, ":=")]
     nearest = _NEAREST_IN_TEXT.format(step.identifier, LARGEST)
     used = any(f"{step.identifier}_nearest" in each for each in body)
     type_ = TEXT.signals(code)
@@ -400,7 +474,7 @@ def _block(step: AgentStep, code: _Code) -> str:
     sections = [
         f"(*\n{comment}\n*)",
         f"FUNCTION_BLOCK {step.identifier}",
-        *_variables("VAR_INPUT", entering, type_),
+        *_variables("VAR_INPUT", entering, type_, ["start : BOOL;"] * starts),
         *_variables("VAR_OUTPUT", leaving, type_),
         *_variables("VAR", kept_names, type_),
         *body,
@@ -409,10 +483,23 @@ def _block(step: AgentStep, code: _Code) -> str:
     return nearest * used + "\n".join(sections) + "\n"
 
 
-def _variables(section: str, sizes: dict[str, int], type_: str) -> list[str]:
-    """Declare arrays, if there are any."""
+def _first_states(step: AgentStep, code: _Code) -> list[str]:
+    """The statements that put the states at rest while `start` is true."""
+    states, body = len(step.x), list[str]()
+    rows = [TEXT.sum(row, "x", step, code) for row in step.start or ()]
+    for k, text in enumerate(rows[:states]):
+        every = range(step.remembered + 1)
+        body += [f"x_{d}[{k}] := SEL(start, x_{d}[{k}], {text});" for d in every]
+    return body + [f"z[{k}] := SEL(start, z[{k}], {text});" for k, text in enumerate(rows[states:])]
+
+
+def _variables(
+    section: str, sizes: dict[str, int], type_: str, others: Sequence[str] = ()
+) -> list[str]:
+    """Declare arrays and other variables, if there are any."""
     used = {name: size for name, size in sizes.items() if size}
-    if not used:
+    if not used and not others:
         return []
     declared = [f"{INDENT}{name} : ARRAY[0..{k - 1}] OF {type_};" for name, k in used.items()]
+    declared += [f"{INDENT}{each}" for each in others]
     return [section, *declared, "END_VAR"]

@@ -3,7 +3,13 @@
 A step of an agent has three parts.  It takes its outputs y, its set-points r, and what it received
 from others; it computes its inputs u and its next states x, which it sends, and z, which it keeps;
 and it puts the next states in the place of the old ones.  What others receive of it are its outputs
-and, perhaps held for some steps, its x.
+and, perhaps held for some steps, its x.  Inputs with limits are cut off as soon as they are
+computed, and e, by how much that changed them, is one of the signals of the next states
+(back-calculation).
+
+A run starts with zeros, or without a bump: `AgentStep.start` gives the states in which an agent is
+at rest while y and r stay what they are at first.  It exists where the agent uses no signals of
+others and has no integrator.
 
 `steps_of` writes this as an `AgentStep` for each agent: rows of terms, each a number times a
 signal, to be added from the left to the right.  `AgentRun` carries it out in double precision.  The
@@ -21,28 +27,30 @@ from math import isfinite
 from typing import Any, Literal
 
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.matrix import Matrix, to_float
+from mcexact.exact.linear_algebra import solve
+from mcexact.exact.matrix import Matrix, hstack, to_float, vstack
 from mcexact.exact.rational import rational_text
 from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.limits import Range
 from mcexact.model.text import quoted
 
 FORMAT = "mcexact-code/1"
 EQUATIONS, CONTROLLER = "equations.json", "controller.json"
 """The files that every folder of code contains."""
 Language = Literal["c", "st", "json"]
-Kind = Literal["y", "x", "z", "r"]
+Kind = Literal["y", "x", "z", "r", "e"]
 
 
 @dataclass(frozen=True)
 class Signal:
-    """One entry of y_j, x_j, or of the agent's own z and r.
+    """One entry of y_j, x_j, or of the agent's own z, r and e.
 
     Attributes
     ----------
-    kind : {"y", "x", "z", "r"}
+    kind : {"y", "x", "z", "r", "e"}
     agent : int
-        j; the agent itself for z and r.
+        j; the agent itself for z, r and e.
     entry : int
         From 0 on.
     """
@@ -75,6 +83,11 @@ class AgentStep:
         For how many steps it holds x before it uses it itself.
     u, x, z : tuple of Row
         The inputs, and the next states.
+    limits : tuple of pairs of Fraction, or None
+        At which each input is cut off; None for one without limits.
+    start : tuple of Row, or None
+        The states (x, z) in which the agent is at rest with its first y and r, as sums of these;
+        None where it starts at 0.
     """
 
     name: str
@@ -88,6 +101,19 @@ class AgentStep:
     u: tuple[Row, ...]
     x: tuple[Row, ...]
     z: tuple[Row, ...]
+    limits: tuple[Range | None, ...] = ()
+    start: tuple[Row, ...] | None = None
+
+    @property
+    def winds(self) -> bool:
+        """Whether the next states depend on by how much inputs were cut off."""
+        return any(signal.kind == "e" for row in (*self.x, *self.z) for _, signal in row)
+
+    def cut(self) -> Iterator[tuple[int, float, float]]:
+        """The inputs with limits, as doubles."""
+        for k, pair in enumerate(self.limits):
+            if pair is not None:
+                yield k, to_float(pair[0]), to_float(pair[1])
 
     @property
     def remembered(self) -> int:
@@ -96,7 +122,7 @@ class AgentStep:
 
     def rows(self) -> Iterator[Row]:
         """All sums."""
-        yield from (*self.u, *self.x, *self.z)
+        yield from (*self.u, *self.x, *self.z, *(self.start or ()))
 
 
 def steps_of(controller: Controller) -> tuple[AgentStep, ...]:
@@ -137,6 +163,10 @@ def _step(controller: Controller, i: int, identifier: str) -> AgentStep:
     maps = [each.without_zeros() for each in agent.maps()]
     counts = (agent.shared, agent.private, _inputs(maps[2]))
     x, z, u = (_rows(each, i, size) for each, size in zip(maps, counts, strict=True))
+    if agent.back_calculation is not None:
+        added = _terms("e", i, agent.back_calculation)
+        states = [row + more for row, more in zip((*x, *z), added, strict=True)]
+        x, z = tuple(states[: agent.shared]), tuple(states[agent.shared :])
     received = list[tuple[Kind, int, int]]()
     for kind in ("y", "x"):
         sizes = {
@@ -160,10 +190,46 @@ def _step(controller: Controller, i: int, identifier: str) -> AgentStep:
         u,
         x,
         z,
+        tuple(agent.limits or ()),
+        _start(agent, i, (max(own, default=0), max(asked, default=0))),
     )
     if not all(isfinite(to_float(c)) for row in made.rows() for c, _ in row):
         raise InputError(f"agent {quoted(agent.name)} has a number beyond double precision")
     return made
+
+
+def _start(agent: AgentProgram, i: int, sizes: tuple[int, int]) -> tuple[Row, ...] | None:
+    """The states in which an agent is at rest while its y and r stay as they are.
+
+    With (x, z)' = A (x, z) + B y + R r they are (I − A)⁻¹(B y + R r).
+    """
+    others = any(j != i for each in agent.maps() for j in (*each.outputs, *each.shared))
+    if others or not agent.shared + agent.private or agent.hold.get(i, 0):
+        return None
+    q, asked = sizes
+    A, B, R = list[Matrix](), list[Matrix](), list[Matrix]()
+    for each, size in zip(agent.maps()[:2], (agent.shared, agent.private), strict=True):
+        none = Matrix.zeros(size, agent.private)
+        own = each.private if each.private is not None else none
+        A.append(hstack([each.shared.get(i, Matrix.zeros(size, agent.shared)), own], nrows=size))
+        B.append(each.outputs.get(i, Matrix.zeros(size, q)))
+        R.append(each.reference if each.reference is not None else Matrix.zeros(size, asked))
+    count = agent.shared + agent.private
+    whole = hstack([vstack(B, ncols=q), vstack(R, ncols=asked)], nrows=count)
+    rest = solve(Matrix.identity(count) - vstack(A, ncols=count), whole)
+    if rest is None:
+        return None
+    measured = _terms("y", i, rest.take(cols=range(q)))
+    wanted = _terms("r", i, rest.take(cols=range(q, q + asked)))
+    return tuple(y + r for y, r in zip(measured, wanted, strict=True))
+
+
+def _terms(kind: Kind, j: int, M: Matrix) -> tuple[Row, ...]:
+    """The rows of a matrix times a signal."""
+    return tuple(
+        tuple((M[row, k], Signal(kind, j, k)) for k in range(M.ncols) if M[row, k])
+        for row in range(M.nrows)
+    )
 
 
 def _inputs(each: LinearMap) -> int:
@@ -181,15 +247,10 @@ def _rows(each: LinearMap, i: int, size: int) -> tuple[Row, ...]:
     parts += [("x", j, M) for j, M in each.shared.items()]
     parts += [("z", i, each.private)] if each.private is not None else []
     parts += [("r", i, each.reference)] if each.reference is not None else []
-    return tuple(
-        tuple(
-            (M[row, k], Signal(kind, j, k))
-            for kind, j, M in parts
-            for k in range(M.ncols)
-            if M[row, k]
-        )
-        for row in range(size)
-    )
+    rows: tuple[Row, ...] = ((),) * size
+    for kind, j, M in parts:
+        rows = tuple(row + more for row, more in zip(rows, _terms(kind, j, M), strict=True))
+    return rows
 
 
 def identifiers(names: Sequence[str]) -> list[str]:
@@ -212,7 +273,7 @@ def identifiers(names: Sequence[str]) -> list[str]:
 
 # fmt: off
 _RESERVED = frozenset({
-    "r", "s", "u", "x", "y", "z",
+    "e", "r", "s", "start", "u", "x", "y", "z",
     "and", "array", "auto", "bool", "break", "by", "byte", "case", "char", "const", "continue",
     "default", "do", "double", "else", "end", "enum", "exit", "extern", "false", "float", "for",
     "function", "goto", "if", "inline", "int", "long", "lreal", "mod", "not", "of", "or",
@@ -249,6 +310,17 @@ class AgentRun:
             for part in ("u", "x", "z")
         }
 
+    def start(self, y: Sequence[float], r: Sequence[float]) -> None:
+        """Put the states at rest for these outputs and set-points, or at 0."""
+        own: dict[tuple[Kind, int], Sequence[float]] = {
+            ("y", self.step.position): y,
+            ("r", self.step.position): r,
+        }
+        rows = self.step.start or ((),) * (len(self.step.x) + len(self.step.z))
+        rest = [_sum([(to_float(c), signal) for c, signal in row], own) for row in rows]
+        x, self.z = rest[: len(self.step.x)], rest[len(self.step.x) :]
+        self.past = [list(x) for _ in self.past]
+
     def sent_to(self, follower: int) -> list[float]:
         """What a follower receives of x in this step, before delays."""
         return self.past[self.step.sent[follower]]
@@ -274,7 +346,12 @@ class AgentRun:
             ("z", self.step.position): self.z,
             **received,
         }
-        u, x, z = ([_sum(row, own) for row in self._sums[part]] for part in ("u", "x", "z"))
+        u = [_sum(row, own) for row in self._sums["u"]]
+        computed = list(u)
+        for k, low, high in self.step.cut():
+            u[k] = low if u[k] < low else high if u[k] > high else u[k]
+        own["e", self.step.position] = [a - v for a, v in zip(u, computed, strict=True)]
+        x, z = ([_sum(row, own) for row in self._sums[part]] for part in ("x", "z"))
         self.past, self.z = [x, *self.past[:-1]], z
         return u
 
@@ -306,6 +383,7 @@ def equations_document(steps: Sequence[AgentStep], system: str) -> dict[str, Any
     return {
         "format": FORMAT,
         "arithmetic": "double, products added from the left to the right",
+        "order": "u, cut off at its limits; e, the input less what was computed; next x and z",
         "system": system,
         "agents": [
             {
@@ -322,6 +400,11 @@ def equations_document(steps: Sequence[AgentStep], system: str) -> dict[str, Any
                     key: [terms(row) for row in rows]
                     for key, rows in (("u", step.u), ("next x", step.x), ("next z", step.z))
                 },
+                "limits": [
+                    None if pair is None else [rational_text(end) for end in pair]
+                    for pair in step.limits
+                ],
+                "start": None if step.start is None else [terms(row) for row in step.start],
             }
             for step in steps
         ],

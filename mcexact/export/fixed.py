@@ -23,7 +23,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
-from math import floor
+from math import ceil, floor
 from typing import Any
 
 from mcexact.answer.boxes import BoxStability
@@ -96,8 +96,8 @@ class FixedPoint:
         object.__setattr__(self, "ranges", ranges)
 
     def fractional(self, kind: str) -> int:
-        """The fractional bits of a kind of signal, at most 30."""
-        reach = LARGEST / Fraction(self.ranges.get(kind, USUAL))
+        """The fractional bits of a kind of signal, at most 30; e is as large as u."""
+        reach = LARGEST / Fraction(self.ranges.get("u" if kind == "e" else kind, USUAL))
         return min(int(reach).bit_length(), WORD) - 1
 
     def number(self, c: Fraction) -> Fraction:
@@ -139,6 +139,13 @@ class FixedPoint:
                 "larger ranges, or ranges that differ less"
             )
         return FixedSum(tuple(terms), unit)
+
+    def limits(self, low: float, high: float) -> tuple[int, int]:
+        """The integers of an input nearest to its limits, within them."""
+        scale = 2 ** self.fractional("u")
+        return max(ceil(Fraction(low) * scale), -LARGEST), min(
+            floor(Fraction(high) * scale), LARGEST
+        )
 
     def integers(self, kind: str, values: Sequence[float]) -> list[int]:
         """Signals of a kind as the nearest integers, halves upwards, within the range."""
@@ -224,10 +231,20 @@ class FixedAgent:
         known = {key: self.fixed.integers(key[0], values) for key, values in own.items()}
         known["x", self.step.position] = self._past[self.step.held]
         known["z", self.step.position] = self._z
-        u, x, z = (
-            [each.value(lambda s: known[s.kind, s.agent][s.entry]) for each in self._sums[part]]
-            for part in ("u", "x", "z")
-        )
+
+        def sums(part: str) -> list[int]:
+            return [
+                each.value(lambda s: known[s.kind, s.agent][s.entry]) for each in self._sums[part]
+            ]
+
+        u = sums("u")
+        computed = list(u)
+        for k, *ends in self.step.cut():
+            low, high = self.fixed.limits(*ends)
+            u[k] = min(max(u[k], low), high)
+        # what was cut off is smaller than what was computed, since limits contain 0
+        known["e", self.step.position] = [a - v for a, v in zip(u, computed, strict=True)]
+        x, z = sums("x"), sums("z")
         self._past, self._z = [x, *self._past[:-1]], z
         return self.fixed.doubles("u", u)
 

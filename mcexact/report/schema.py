@@ -384,6 +384,12 @@ ASSESSMENT = record(
 )
 
 
+LONGEST_STEP = record(
+    {"step": some(NUMBER), "margin": NUMBER, "not_proved": some(NUMBER)},
+    closed=True,
+    says="the longest step, of those that were tried, with which the same controller has a disk "
+    "margin at every single input and output",
+)
 EVERY_LOOP = record(
     {"certified": YES, "region": TEXT},
     {
@@ -426,7 +432,10 @@ def design() -> Schema:
         )
     }  # fmt: skip
     refused = {"possible": {"const": False}, "reason": TEXT}
-    schema = _account({"design": TEXT}, designed | parts | refused | {"every_loop": EVERY_LOOP})
+    schema = _account(
+        {"design": TEXT},
+        designed | parts | refused | {"every_loop": EVERY_LOOP, "longest_step": LONGEST_STEP},
+    )
     return schema | {
         "if": {"required": ["possible"]},
         "then": {"required": ["reason"]},

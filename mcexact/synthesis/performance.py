@@ -5,6 +5,8 @@
 - its cost, a lower bound on the cost of every linear time-invariant controller, and where the plant
   and the controller act along the edges of a graph alone, a bound for controllers of that graph;
 - the disk margin of every single input and output, and those of all inputs and all outputs at once;
+- where inputs have limits, that it is stable while they are cut off there, with the anti-windup
+  gains of the controller, or with gains that are chosen if it has none;
 - how large inputs and outputs become after a step at an input, or of a set-point.
 
 One symmetric matrix of the size of the loop proves each of these, and for single margins one for
@@ -42,14 +44,17 @@ from mcexact.analysis.performance import (
     response_of,
     weights_in,
 )
+from mcexact.analysis.saturation import gains_for, gains_of, limits_of, saturation_of
 from mcexact.analysis.steps import SECONDS, Steps, computed_steps, step_curves, steps_of
 from mcexact.answer.performance import CostBound, CostWeights, DiskMargin, LoopCost, StepPeaks
 from mcexact.answer.protocol import Answer, encode
+from mcexact.answer.saturation import SaturationStability
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.matrix import Matrix, finite, matrix_from_float, to_float
 from mcexact.exact.rational import three_digits, written
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.limits import InputLimits
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.units import Units, loop_in
@@ -87,6 +92,7 @@ _LABELS = {
     "output_margin": "disk margin of each output by itself",
     "all_inputs_margin": "disk margin of all inputs together",
     "all_outputs_margin": "disk margin of all outputs together",
+    "saturation": "inputs at their limits",
     "input_steps": "peak of an input after a step there",
     "setpoint_steps": "peak of an output after a step of its set-point",
 }
@@ -154,8 +160,8 @@ class Performance(Shown):
     weights : CostWeights
         Of the cost and of the bounds.
     answers : mapping of str to answer
-        By the names ``loop_cost``, ``cost_bound``, ``graph_cost_bound`` and those of `MARGINS` and
-        `STEPS`.
+        By the names ``loop_cost``, ``cost_bound``, ``graph_cost_bound``, ``saturation`` and those
+        of `MARGINS` and `STEPS`.
     computed : mapping of str to float
         The same figures in floating point, by the same names; they prove nothing.  Of peaks it is
         the largest one where the step is.
@@ -191,6 +197,14 @@ class Performance(Shown):
         single = [self.answers.get(name) for name in ("input_margin", "output_margin")]
         proved = [each.margin for each in single if isinstance(each, DiskMargin)]
         return min(proved) if len(proved) == len(single) else None
+
+    def saturated(self, controller: Controller, limits: InputLimits | None) -> Controller:
+        """The controller with limits, and with the anti-windup gains with which it was proved."""
+        found = self.answers.get("saturation")
+        if isinstance(found, SaturationStability):
+            return controller.with_saturation(found.limits, found.back_calculation)
+        own = any(agent.limits is not None for agent in controller.agents)
+        return controller if own or limits is None else controller.with_saturation(limits)
 
     @property
     def times_the_bound(self) -> float:
@@ -472,7 +486,7 @@ class PerformanceSearch:
         work, left_out = _Work(prove_all=prove_all), dict(self._left_out)
         answers, asked = dict[str, Answer](), self._asked
         if asked:
-            asked = asked | _step_proofs(self._loop, work)
+            asked = asked | _saturation_proofs(self._loop) | _step_proofs(self._loop, work)
         for name, each in asked.items():
             if deadline is not None and time.monotonic() >= deadline:
                 left_out[name] = NO_TIME
@@ -556,7 +570,7 @@ def _names(plant: MultiChannelSystem, size: Callable[[int], int]) -> Iterator[st
             yield f" {k + 1} of agent {name}" if size(i) > 1 else f" of agent {name}"
 
 
-Proved = LoopCost | CostBound | DiskMargin | StepPeaks
+Proved = LoopCost | CostBound | DiskMargin | SaturationStability | StepPeaks
 
 
 @dataclass(frozen=True)
@@ -602,6 +616,21 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
             lambda: bound_of(plant, weights, graph), 2 * groups * [n], groups * of_plant
         )
     return proofs
+
+
+def _saturation_proofs(loop: ClosedLoop) -> dict[str, _Proof]:
+    """That the loop is stable while inputs are cut off, if any have limits."""
+    limits = limits_of(loop)
+    if limits is None:
+        return {}
+    size = loop.dimension + sum(pair is not None for own in limits for pair in own)
+
+    def prove() -> Proved | None:
+        if any(agent.back_calculation is not None for agent in loop.controller.agents):
+            return saturation_of(loop, limits, gains_of(loop))
+        return gains_for(loop, limits)[1]
+
+    return {"saturation": _Proof.of(prove, [loop.dimension], _JOINT * size**3)}
 
 
 def _step_proofs(loop: ClosedLoop, work: _Work) -> dict[str, _Proof]:

@@ -74,7 +74,17 @@ class ModelAgent:
             total = sum(m * known[s.kind, s.agent][s.entry] for m, s in row)
             return self.nearest(kind, total, 2**self.bits)
 
-        u, x, z = ([value(kind, row) for row in self.rows[kind]] for kind in "uxz")
+        u = [value("u", row) for row in self.rows["u"]]
+        known["e", i] = [0] * len(u)
+        for k, pair in enumerate(self.step.limits):
+            if pair is not None:
+                # the multiples of a unit nearest to the limits, within them
+                unit = self.units["u"]
+                low = -(int(-Fraction(float(pair[0])) * 2**FINE) // unit * unit)
+                high = int(Fraction(float(pair[1])) * 2**FINE) // unit * unit
+                limited = min(max(u[k], low), high)
+                known["e", i][k], u[k] = limited - u[k], limited
+        x, z = ([value(kind, row) for row in self.rows[kind]] for kind in "xz")
         self.past, self.z = [x, *self.past[:-1]], z
         return [v / 2**FINE for v in u]
 
@@ -159,7 +169,10 @@ def _long(value: int) -> int:
     return value
 
 
-_LONG = {"quotient": lambda a, b: abs(a) // b * (1 if a >= 0 else -1)}
+_LONG = {
+    "quotient": lambda a, b: abs(a) // b * (1 if a >= 0 else -1),
+    "LIMIT": lambda low, value, high: min(max(low, value), high),
+}
 
 
 @pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")

@@ -1,0 +1,60 @@
+"""The longest step of a controller is proved, and beside what is known of a small loop."""
+
+from __future__ import annotations
+
+import time
+from fractions import Fraction
+
+import pytest
+
+from mcexact import MultiChannelSystem, local_controllers, longest_step, sampled_system
+from mcexact.answer.check import check
+from mcexact.errors import UsageError
+
+INTEGRATOR = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+
+
+@pytest.mark.parametrize(
+    ("gain", "late", "margin"),
+    [(-2, 0, "2/5"), (-2, 0, 1), (-1, 1, "2/5"), ("-1/2", 0, "9/5"), (-3, 2, "1/5")],
+)
+def test_the_step_is_the_longest_of_those_that_have_the_margin(
+    gain: object, late: int, margin: object
+) -> None:
+    sampled = sampled_system(INTEGRATOR, "1/10", late)
+    controller = local_controllers(sampled, [[[gain]]])
+    found = longest_step(sampled, controller, margin=margin)  # type: ignore[arg-type]
+    if found.step is None:
+        assert found.longer == Fraction(1, 10)
+        return
+    assert {each.margin for each in found.answers.values()} == {Fraction(str(margin))}
+    assert len(found.answers) == 2
+    for answer in found.answers.values():
+        assert check(answer).verdict == "VALID"
+        assert answer.about.at_samples.sample_time == found.step
+    assert found.longer is None or found.longer > found.step
+
+
+def test_an_integrator_keeps_a_margin_up_to_the_step_that_is_known() -> None:
+    # 1/(z - 1 + 2h) at z = -1: |S - 1/2| is at most 5/2 up to h = 2/3
+    sampled = sampled_system(INTEGRATOR, "1/10")
+    found = longest_step(sampled, local_controllers(sampled, [[[-2]]]))
+    assert found.step == Fraction(3, 5) and found.longer == Fraction(4, 5)
+    assert found.to_dict() == {"step": "3/5", "margin": "2/5", "not_proved": "4/5"}
+    assert "0.6" in found.explain() and "search" in found.explain()
+
+
+def test_without_time_only_nothing_is_said() -> None:
+    sampled = sampled_system(INTEGRATOR, "1/10")
+    found = longest_step(
+        sampled, local_controllers(sampled, [[[-2]]]), deadline=time.monotonic() - 1
+    )
+    assert found.step is None and found.longer is None and not found.answers
+
+
+def test_what_is_not_sampled_is_refused() -> None:
+    with pytest.raises(UsageError, match="sampled plant"):
+        longest_step(INTEGRATOR, local_controllers(INTEGRATOR, [[[-2]]]))
+    sampled = sampled_system(INTEGRATOR, 1)
+    with pytest.raises(UsageError, match="above 0"):
+        longest_step(sampled, local_controllers(sampled, [[["-1/2"]]]), margin=0)
