@@ -5,7 +5,7 @@ limits, sat(v).  Limits contain 0, so that a plant at rest can stay there.  They
 each input of each channel, which is None for an input without limits.  They say what a controller
 is for, and are no part of a plant: no digest depends on them, and claims about inputs that are cut
 off name their limits themselves.  `read_input_limits` reads them, also from a system file,
-`limits_document` writes them, and `limits_in` reads what the option ``--limit`` takes.
+`limits_document` writes them, and `limits_in` reads what the option ``--limits`` takes.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ def limits_in(
     >>> limits_in(["-1,1", "right:0,1/2"], ["left", "right"], [1, 1])
     (((Fraction(-1, 1), Fraction(1, 1)),), ((Fraction(0, 1), Fraction(1, 2)),))
     """
-    where, chosen = "--limit", dict[str, Any]()
+    where, chosen = "--limits", dict[str, Any]()
     for text in texts:
         name, _, numbers = text.rpartition(":")
         pair = [part.strip() for part in numbers.split(",")]
