@@ -411,7 +411,8 @@ def simulate_real(
     late : int
         By how many steps its inputs are applied late.
     limits : sequence of (low, high), optional
-        Those of every input, in the order of the channels; None where there is none.
+        Those of every input, in the order of the channels, None where there is none; by default
+        those of the controller, or else of the plant.
     quantized_outputs, quantized_inputs : optional
         A `Quantizer` or a step for all outputs or inputs, or a list with one for each, None for a
         converter that is exact.
@@ -480,7 +481,7 @@ def simulate_real(
     realization = Realization(
         clock.step,
         late,
-        limits_of(limits, sum(inputs), rounding),
+        limits_of(_own_limits(plant, program) if limits is None else limits, sum(inputs), rounding),
         _converters(quantized_outputs, sum(outputs), "quantized_outputs", rounding),
         _converters(quantized_inputs, sum(inputs), "quantized_inputs", rounding),
         ("compiled C, " if code == "compiled" else "")
@@ -544,6 +545,14 @@ class _Clock:
     def unit(self) -> Fraction:
         """The time between samples, or 1 where steps are counted."""
         return Fraction(1) if self.step is None else self.step
+
+
+def _own_limits(plant: MultiChannelSystem, controller: Controller) -> list[Any] | None:
+    """The limits of the controller, or else of the plant, for each input; None without any."""
+    own = plant.limits
+    if any(agent.limits is not None for agent in controller.agents):
+        own = tuple(a.limits or (None,) * plant.p(i) for i, a in enumerate(controller.agents))
+    return None if own is None else [pair for each in own for pair in each]
 
 
 def limits_of(

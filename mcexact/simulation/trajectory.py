@@ -686,11 +686,19 @@ def simulate(
         grid.times,
         tuple(snapshots),
         warning,
-        grid.note,
+        _note(grid.note, controller),
         loop,
         drive,
         start,
     )
+
+
+def _note(of_grid: str | None, controller: Controller) -> str | None:
+    """What is to be known about a run, limits of inputs among it."""
+    notes = [of_grid] if of_grid else []
+    if any(agent.limits is not None for agent in controller.agents):
+        notes.append("inputs are not cut off at the limits of the controller in this ideal loop")
+    return "; ".join(notes) or None
 
 
 def _grid(

@@ -10,7 +10,7 @@ import pytest
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.simulation.trajectory import FEWEST, MOST, STEPS, Grid, chosen_grid
+from mcexact.simulation.trajectory import FEWEST, MOST, STEPS, Grid, chosen_grid, simulate
 
 
 def loop_of(A: list[list[Any]], time: str = "continuous") -> ClosedLoop:
@@ -60,3 +60,12 @@ def test_steps_follow_the_radius_and_modes_zero_end() -> None:
     nilpotent = [[int(j == i + 1) for j in range(8)] for i in range(8)]
     assert len(times(nilpotent, "discrete").times) == 12
     assert len(times([[1]], "discrete").times) == STEPS + 1
+
+
+def test_a_run_says_that_limits_of_the_controller_are_left_out() -> None:
+    plant = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
+    controller = local_controllers(plant, [[["-1/4"]]])
+    assert simulate(plant, controller, horizon=2).note is None
+    limited = controller.with_saturation((((Fraction(-1), Fraction(1)),),))
+    found = simulate(plant, limited, horizon=2)
+    assert found.note is not None and "not cut off" in found.note

@@ -240,3 +240,31 @@ def test_a_real_loop_is_drawn_and_told() -> None:
     assert "limits of inputs: -1 to 1, up to 2" in told and "y pump settles after" in told
     assert run.signals()["t"] == [float(t) for t in run.times]
     assert len({len(values) for values in run.signals().values()}) == 1
+
+
+def test_limits_are_those_of_the_controller_or_else_of_the_plant() -> None:
+    limited = tanks().with_limits({"pump": [["-1/2", "1/2"]]})
+    run = simulate_real(limited, lags("discrete"), step=STEP, initial=[4, 4], horizon=4)
+    assert run.inputs[0].at_limit > 0 and run.inputs[1].at_limit == 0
+    assert run.inputs[0].peak[1] == 0.5 < run.inputs[0].peak[0]
+    own = lags("discrete").with_saturation(((None,), ((Fraction(-1, 4), Fraction(1)),)))
+    run = simulate_real(limited, own, step=STEP, initial=[4, 4], horizon=4)
+    assert run.inputs[0].at_limit == 0 and run.inputs[1].peak[1] == 0.25
+
+
+def test_the_code_corrects_its_states_by_what_it_cuts_off() -> None:
+    limits = (((Fraction(-1, 2), Fraction(1, 2)),),) * 2
+    gains = [Matrix.from_rows([["1/3"]]), Matrix.from_rows([["-1/5"]])]
+    runs = [
+        simulate_real(
+            tanks(),
+            lags("discrete").with_saturation(limits, L),
+            step=STEP,
+            initial=[4, 4],
+            horizon=4,
+        )
+        for L in ((), gains)
+    ]
+    for run in runs:
+        assert max(figures.peak[1] for figures in run.inputs) == 0.5
+    assert runs[0].measured != runs[1].measured
