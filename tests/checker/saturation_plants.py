@@ -29,6 +29,10 @@ NEAR = certificate(
 )
 
 
+# x(t+1) = 2x, which no input moves: x² grows, and so does nothing else.
+UNMOVED = plant([[2]], ([[0]], [[1]]), time="discrete")
+
+
 def integral(gain: int = -1) -> Document:
     """The integral of the output, times a gain, as input."""
     agent = {

@@ -19,6 +19,7 @@ from tests.checker.saturation_plants import (
     NEAR,
     ONE_OF_TWO,
     RISEN,
+    UNMOVED,
     gains,
     integral,
 )
@@ -43,6 +44,10 @@ REJECTED: list[tuple[Any, ...]] = [
     ("a form that does not fall", CUT, (P, form([3])), "INVALID"),
     ("M₀ unstable with a form that falls", CUT, (
         ("system", DOUBLED), (P, form([-1])), ("witness.scaling", [1])
+    ), "INVALID"),
+    ("a mode that no input moves, and an indefinite form", CUT, (
+        ("system", UNMOVED), ("subject", [static(UNMOVED, 0)]), (P, form([-1])),
+        ("witness.scaling", [1]),
     ), "INVALID"),
     ("a loop that grows", CUT, ("subject", [static(DOUBLED, 1)]), "INVALID"),
     ("an integral without anti-windup", INTEGRAL, (L, [matrix([0])]), "INVALID"),

@@ -8,7 +8,7 @@ from typing import Any
 
 from tests.checker.handmade import certificate, changed, matrix, plant
 from tests.checker.performance_plants import form, static
-from tests.checker.saturation_plants import DOUBLED, NEAR, RISEN
+from tests.checker.saturation_plants import DOUBLED, NEAR, RISEN, UNMOVED
 from tests.oracle.drawn.plants import Document, number
 
 from .performance import other_form, other_gain
@@ -118,10 +118,10 @@ DRIFTING = plant([[0]], ([[1]], [[1]]))
 TRAPS: dict[str, Document] = {
     "an unstable plant that is held from everywhere": certificate(
         "saturation",
-        DOUBLED,
+        UNMOVED,
         {"limits": [[[-1, 1]]], "back_calculation": [matrix()]},
         {"scaling": [1], "sectors": [0], "P": form([-1])},
-        static(DOUBLED, -2),
+        static(UNMOVED, 0),
     ),
     "a region in which an input leaves its sector": changed(
         NEAR, ("claim.limits", [[["-1/2", 1]]])
@@ -130,17 +130,6 @@ TRAPS: dict[str, Document] = {
         RISEN, ("claim.limits", [[["-1/2", 5]]])
     ),
     "states that are not in the region": changed(NEAR, ("claim.region.radius", 1)),
-    "a sector that is not that of a saturation": certificate(
-        "saturation",
-        DOUBLED,
-        {
-            "limits": [[[-1, 1]]],
-            "back_calculation": [matrix()],
-            "region": {"P": form([1]), "radius": "1/2"},
-        },
-        {"scaling": [1], "sectors": [2]},
-        static(DOUBLED, -1),
-    ),
     "a sector from 3/4 on without a region": certificate(
         "saturation",
         DOUBLED,
