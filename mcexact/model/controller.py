@@ -35,7 +35,13 @@ from mcexact.model import arrays
 from mcexact.model.entries import matrix_json, read_matrix
 from mcexact.model.files import members
 from mcexact.model.graph import NeighborGraph
-from mcexact.model.limits import InputLimits, Range, pairs_document, read_input_limits
+from mcexact.model.limits import (
+    InputLimits,
+    Range,
+    limits_in_words,
+    pairs_document,
+    read_input_limits,
+)
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import (
     checked_names,
@@ -166,7 +172,13 @@ class AgentProgram(Shown):
         return (
             f"Agent {self.name} keeps {self.shared} shared and {self.private} private states, and "
             f"uses {f'signals of {used}' if used else 'no signals'}."
+            f"{'' if self.limits is None else f' {self._saturation()}'}"
         )
+
+    def _saturation(self) -> str:
+        """Say at which limits inputs are cut off."""
+        corrected = "" if self.back_calculation is None else ", and corrects its states by the rest"
+        return f"It cuts off {limits_in_words((self.limits or (),), ('u',))}{corrected}."
 
     def explain(self) -> str:
         """Say in plain words what the agent keeps, and whose signals it uses, by position."""
@@ -201,6 +213,10 @@ class Equations(Shown):
                 yield f"{left} from {signal}", M
         if not used:
             yield "u", "0"
+        if self._agent.limits is not None:
+            yield "u at most", limits_in_words((self._agent.limits,), ("u",))
+        if self._agent.back_calculation is not None:
+            yield "(x, z) from what is cut off", self._agent.back_calculation
 
     def _html(self) -> str:
         """Return the coefficients in HTML, one signal a row."""

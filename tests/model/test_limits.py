@@ -19,9 +19,10 @@ from mcexact import (
     save_system,
 )
 from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import read_system_file
+from mcexact.checker.system import read_controller_file, read_system_file
 from mcexact.derived.sampling import c2d, sampled_system
 from mcexact.errors import InputError, UsageError
+from mcexact.model.controller import read_controller
 from mcexact.model.limits import limits_document, limits_in, limits_in_words, read_input_limits
 from mcexact.model.system_file import read_system, system_text
 
@@ -162,6 +163,8 @@ def test_a_controller_file_keeps_limits_and_anti_windup_gains(tmp_path: Path) ->
     read = load_controller(tmp_path / "controller.json")
     assert read.agents[0].limits == ((-1, HALF),)
     assert read.agents[0].back_calculation == Matrix.from_rows([["1/3"]])
+    assert "It cuts off u from -1 to 1/2, and corrects its states" in read.explain()
+    assert "what is cut off" in read._repr_html_()
     # certificates about linear loops have the linear program alone
     assert read.document() == controller.document() and read == saturated != controller
 
@@ -177,3 +180,40 @@ def test_limits_and_gains_of_other_shapes_do_not_fit_a_plant() -> None:
     wide = controller.with_saturation((((Fraction(-1), HALF),),), [Matrix.from_rows([[1, 2]])])
     with pytest.raises(InputError, match="back_calculation"):
         wide.require_fits(single, graph)
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"limits": [[-1, 1]]},
+        {"limits": [["-1/2", 0.5]], "back_calculation": [["1/3"]]},
+        {"limits": [None]},
+        {"back_calculation": [[0]]},
+        {"limits": [[-1, 1], None]},
+        {"limits": []},
+        {"limits": {}},
+        {"limits": [[1, 2]]},
+        {"limits": [[0, 0]]},
+        {"back_calculation": [[1, 2]]},
+        {"back_calculation": [[1], [2]]},
+        {"back_calculation": []},
+        {"back_calculation": [["x"]]},
+        {"limits": None},
+        {"back_calculation": None},
+    ],
+)
+def test_both_readers_of_controller_files_accept_the_same_limits_and_gains(keys: Any) -> None:
+    single = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    document = local_controllers(single, [([[-1]], [[1]], [[-2]], [[-3]])]).to_dict()
+    document["agents"][0].update(keys)
+    text = json.dumps(document)
+
+    def accepts(read: Any, refusal: type[Exception]) -> bool:
+        try:
+            read()
+        except refusal:
+            return False
+        return True
+
+    ours = accepts(lambda: read_controller(text), InputError)
+    assert ours == accepts(lambda: read_controller_file(text.encode(), Limits()), Refused)
