@@ -14,6 +14,7 @@ from typing import Any
 import click
 
 from mcexact.cli import options
+from mcexact.cli.certify import command as certify
 from mcexact.cli.commands import DEFINITE_NO
 from mcexact.cli.files import (
     emit_tables,
@@ -121,7 +122,8 @@ def command(file: str, language: Language, **values: Any) -> int:
     require_apart(output, html, run.certificates)
     controller = run.read(file)
     plant = None if plant_file is None else run.read(plant_file)
-    how = bits, ranges, sampling, html is not None, run.system_by_digest
+    wanted = asked_by_default() | {"sampling": sampling}
+    how = bits, ranges, wanted, html is not None, run.system_by_digest
     made = run.result(
         _exported, controller, plant, run.limits, language, *how, doing=f"exporting {file}"
     )
@@ -185,7 +187,16 @@ def _require_whole(
         raise click.UsageError("--range is for fixed point: add --fixed-point")
 
 
-_ASKED = ("rate", "radius", "damping", "largest_modulus", "method", "round_gains", "uncertainty")
+def asked_by_default() -> dict[str, Any]:
+    """What `mcexact certify` asks of a plant and a controller without options."""
+    context = certify.make_context("certify", ["PLANT", "CONTROLLER"])
+    values = dict(context.params)
+    Run(values)
+    values["effort"] = options.effort_of_search(values)
+    options.sampling(values)
+    for name in ("file", "controller", "weights", "sizes", "html", "output"):
+        del values[name]
+    return values
 
 
 def _exported(
@@ -195,7 +206,7 @@ def _exported(
     language: Language,
     bits: int | None,
     ranges: dict[str, Fraction],
-    sampling: dict[str, Any],
+    wanted: dict[str, Any],
     with_page: bool,
     system_by_digest: bool,
 ) -> Exported:
@@ -209,7 +220,7 @@ def _exported(
     with InputError.inside(controller[0]):
         program = read_controller(controller[1], Limits(**limits))
         if bits == LEAST and plant is not None:
-            system = sampled(system_in(*plant, limits), sampling)
+            system = sampled(system_in(*plant, limits), wanted["sampling"])
             safe = least_fixed_point(system, program, ranges=ranges)
             fixed, proof = safe.fixed, safe.proof
         elif bits is not None:
@@ -217,10 +228,6 @@ def _exported(
         files = export_controller(program, language, fixed)
     if plant is None:
         return Exported(files, None)
-    wanted: dict[str, Any] = dict.fromkeys(_ASKED) | {
-        "gains": None, "effort": None, "at": (), "sampling": sampling, "no_box": False,
-        "prove_all": False, "largest": False,
-    }  # fmt: skip
     what = CONTROLLER, files[CONTROLLER].encode()
     loop = certified(plant, what, None, None, limits, wanted, with_page, system_by_digest)
     how = "double precision" if fixed is None else str(fixed)
