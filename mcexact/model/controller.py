@@ -408,7 +408,7 @@ def _require(M: Matrix, nrows: int, ncols: int, where: str) -> None:
 
 
 def with_matrices(controller: Controller, change: Callable[[Matrix], Matrix]) -> Controller:
-    """Apply a function to all matrices of all programs, those of set-points included."""
+    """Apply a function to all matrices, those of set-points and anti-windup gains included."""
 
     def of(each: LinearMap) -> LinearMap:
         return LinearMap(
@@ -424,6 +424,9 @@ def with_matrices(controller: Controller, change: Callable[[Matrix], Matrix]) ->
             shared_update=of(agent.shared_update),
             private_update=of(agent.private_update),
             input=of(agent.input),
+            back_calculation=None
+            if agent.back_calculation is None
+            else change(agent.back_calculation),
         )
         for agent in controller.agents
     )
