@@ -713,10 +713,13 @@ def export() -> Schema:
         "u": sums,
         "next x": sums,
         "next z": sums,
+        "limits": LIMITS,
+        "start": some(sums) | {"description": "x, then z, for a start without a bump"},
     }
     return record(
         named("mcexact-code/1")
-        | {"arithmetic": TEXT, "system": TEXT, "agents": rows(record(agent, closed=True))},
+        | {"arithmetic": TEXT, "order": TEXT, "system": TEXT}
+        | {"agents": rows(record(agent, closed=True))},
         {"fixed point": _fixed_point()},
         closed=True,
         says="what each agent computes in a step: [number, double, signal], added in this order",
