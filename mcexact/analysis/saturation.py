@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -243,7 +244,10 @@ class Saturated:
         response = self.response(a)
         if response.unstable:
             return np.inf
-        return response.scaled_norm(range(response.ports))[0]
+        with suppress(np.linalg.LinAlgError):
+            return response.scaled_norm(range(response.ports))[0]
+        # an eigenvalue on the border, up to rounding
+        return np.inf
 
     def first_sector(self) -> int:
         """The position of the widest of `_SECTORS` that seems to be covered, or their number."""
@@ -318,7 +322,9 @@ def _circle(saturated: Saturated, a: Fraction) -> tuple[tuple[Fraction, ...], Sy
     response = saturated.response(a)
     if response.unstable:
         return None
-    part = response.proved(range(response.ports), Fraction(1))
+    part = None
+    with suppress(np.linalg.LinAlgError):
+        part = response.proved(range(response.ports), Fraction(1))
     if part is None:
         return None
     scaling = tuple(t / ((1 - a) / 2) ** 2 for t in part.scaling)
