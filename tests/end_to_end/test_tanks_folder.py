@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
 import re
 import shutil
@@ -14,6 +15,7 @@ import pytest
 
 from mcexact import certify_controller, load_controller, load_system, sampled_system
 from mcexact.export.code import export_controller
+from mcexact.export.equations import EQUATIONS
 from mcexact.simulation.real import Quantizer, simulate_real
 
 FOLDER = Path(__file__).parents[2] / "examples" / "tanks"
@@ -25,7 +27,16 @@ def test_the_code_is_that_of_the_controller() -> None:
     files = export_controller(load_controller(FOLDER / "controller.json"), "c")
     assert {path.name for path in (FOLDER / "code").iterdir()} == set(files)
     for name, text in files.items():
-        assert (FOLDER / "code" / name).read_text(encoding="ascii") == text
+        kept = (FOLDER / "code" / name).read_text(encoding="ascii")
+        if name == EQUATIONS:
+            agents = zip(json.loads(kept)["agents"], json.loads(text)["agents"], strict=True)
+            assert all(old.items() <= new.items() for old, new in agents)
+        else:
+            assert _without_comments(kept) == _without_comments(text), name
+
+
+def _without_comments(text: str) -> str:
+    return re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
 
 
 def test_what_runs_is_stable_for_the_plant_of_the_folder() -> None:
