@@ -52,6 +52,7 @@ from mcexact.answer.protocol import Answer
 from mcexact.answer.rulebook import ALLOCATION, ANALYSIS, LINKS, with_own
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.derived.constructions import Share
+from mcexact.derived.modulo import parts_of
 from mcexact.errors import (
     InputError,
     InternalError,
@@ -499,6 +500,13 @@ class Analysis(ShownByAccount):
         return augmented_outputs(self.plant)
 
     @cached_property
+    def minimal(self) -> MultiChannelSystem:
+        """Return a minimal realization of the system that is asked about."""
+        from mcexact.analysis.modulo import modulo
+
+        return modulo(self.system, "both")
+
+    @cached_property
     def lifted(self) -> MultiChannelSystem:
         """Return the plant with sub-states, as many as the bound, shared over links with delays."""
         from mcexact.derived.constructions import lifted_system
@@ -617,10 +625,25 @@ class Analysis(ShownByAccount):
     def _outcomes(self) -> dict[str, Any]:
         """The outcomes by question, with the change that existing links make to fixed modes."""
         outcomes = self._all_outcomes()
-        if self._chosen or not self._links_may_move_modes(outcomes.get("fixed_spectrum")):
+        more = set[str]()
+        if not self._chosen:
+            if self._links_may_move_modes(outcomes.get("fixed_spectrum")):
+                more.add("linked_fixed_spectrum")
+            if self._has_joint_modes(outcomes):
+                more.add("minimal_fixed_spectrum")
+        if more <= self._asked:
             return outcomes
-        self._asked.add("linked_fixed_spectrum")
+        self._asked |= more
         return self._all_outcomes()
+
+    def _has_joint_modes(self, outcomes: Mapping[str, Any]) -> bool:
+        """Whether all channels together are known not to control or not to observe a mode."""
+        known = [outcomes.get(name) for name in _LACKS]
+        lacks = [each for each in known if each is not None and not isinstance(each, LimitReached)]
+        question = self.questions.get("minimal_fixed_spectrum")
+        if question is None or question.reason_to_leave_out(self.system):
+            return False
+        return any(not each.controllable for each in lacks)
 
     def _links_may_move_modes(self, spectrum: Any) -> bool:
         """Whether modes are fixed without the links of the plant, if this was decided."""
@@ -833,7 +856,8 @@ def _uncertainty(plant: MultiChannelSystem | ParametricSystem) -> Any:
     if isinstance(plant, ParametricSystem):
         ends = [end for bounds in plant.ranges for end in bounds]
         return None if None in ends else plant.ranges
-    return plant.plant.uncertainty
+    # a part of the nominal plant is none of every plant within its radii
+    return None if parts_of(plant) else plant.plant.uncertainty
 
 
 def _written(bound: Fraction | None) -> Any:

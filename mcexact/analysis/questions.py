@@ -76,11 +76,12 @@ class Question:
         Module of `mcexact.analysis` and function, separated by a colon.
     help : str
         A clause that says what is decided.
-    about : {"system", "plant", "linked", "lifted", "held"}
+    about : {"system", "plant", "linked", "minimal", "lifted", "held"}
         What is asked about.  "plant" is the plant, "linked" the plant with the outputs that agents
         receive over the graph, and "system" the one or the other, as the caller chooses what agents
-        feed back.  "lifted" and "held" are the plant with sub-states shared over links with delays,
-        "held" with sub-states that are shared alone, and held for the delays.
+        feed back.  "minimal" is a minimal realization of "system".  "lifted" and "held" are the
+        plant with sub-states shared over links with delays, "held" with sub-states that are shared
+        alone, and held for the delays.
     needs : {"", "neighbors", "uncertainty", "subset", "channel", "channels"}
         What the question needs: a neighbor graph, radii of entries or ranges of parameters, a set
         of channels or a channel.  The last three values name an argument of the function;
@@ -202,6 +203,8 @@ _SHARING = (
 )
 _DENSE = 1500
 """The states of a sparse plant for which exact elimination takes a minute."""
+_MOST_OF_MINIMAL = 300
+"""The states up to which joint fixed modes are told from others by default."""
 _JOINT, _ALONE = _joint(spectrum="fixed_spectrum"), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}
 
@@ -219,6 +222,15 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             about="linked",
             needs="neighbors",
             by_default=False,
+            kind="fixed_spectrum",
+        ),
+        "minimal_fixed_spectrum": Question(
+            "fixed_modes:fixed_spectrum",
+            "which modes are fixed without what all channels together do not control or do not "
+            "observe; by default if there is such a part",
+            about="minimal",
+            by_default=False,
+            most=_MOST_OF_MINIMAL,
             kind="fixed_spectrum",
         ),
         "completeness": Question(

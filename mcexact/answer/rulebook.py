@@ -11,6 +11,7 @@ from mcexact.answer import (
     analysis,
     boxes,
     loops,
+    modulo,
     nearby,
     parameters,
     performance,
@@ -29,10 +30,16 @@ if TYPE_CHECKING:
 
 # Rules that say when a sentence holds; they read checked certificates and nothing else.
 
+_MODES = next(k for k, each in enumerate(analysis.ANALYSIS_RULES) if each.place == "answer.mode")
+"""The first rule about single fixed modes, before which what is said of all of them stands."""
 ANALYSIS = Rulebook(
     [
         *nearby.NEARBY_RULES,
-        *analysis.ANALYSIS_RULES,
+        *modulo.PART_RULES,
+        *analysis.ANALYSIS_RULES[:_MODES],
+        *modulo.OPTION_RULES,
+        *analysis.ANALYSIS_RULES[_MODES:],
+        *modulo.JOINT_RULES,
         *nearby.WHY_RULES,
         *sharing.SHARING_RULES,
         *sharing_gap.GAP_RULES,
@@ -42,7 +49,7 @@ ANALYSIS = Rulebook(
 ALLOCATION = Rulebook([*sharing.ALLOCATION_RULES, *sharing_gap.NOTE_RULES])
 PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 LINKS = sharing.LINK_RULES
-_OF_LOOPS = (*performance.RULES, *saturation.RULES)
+_OF_LOOPS = (*performance.RULES, *saturation.RULES, *modulo.LOOP_PART_RULES)
 DESIGN = Rulebook([*loops.DESIGN, *_OF_LOOPS])
 VERDICT = Rulebook([*loops.VERDICT, *_OF_LOOPS])
 REFUSALS = loops.REFUSAL_RULES
@@ -121,7 +128,7 @@ def in_words(sentences: Iterable[Sentence]) -> str:
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
         Rulebook([*ANALYSIS, *(rule for own in OWN.values() for rule in own)]),
-        (nearby, analysis, boxes, sharing, sharing_gap),
+        (nearby, modulo, analysis, boxes, sharing, sharing_gap),
     ),
     "analyze, with parameters": (PARAMETERS, (parameters,)),
     "allocate": (ALLOCATION, (sharing, sharing_gap)),

@@ -174,6 +174,12 @@ class Certified(Claim):
         """The construction at a place of the subject."""
         return Claim(self._answer.subject[k], self._file, f"/subject/{k}", self._read)
 
+    def made_by_name(self, construction: str, start: int = 0) -> Iterator[Claim]:
+        """Yield the constructions of this name in the subject, from a place on."""
+        for k, each in enumerate(self._answer.subject):
+            if k >= start and each["construction"] == construction:
+                yield self.made_by(k)
+
     @property
     def proof(self) -> Claim:
         """The part of the witness that the checker verifies independently, such as cuts."""

@@ -180,6 +180,11 @@ def _agreeing(one: str, more: str) -> Write:
 _TIMES = {1: "once", 2: "twice", 3: "three times"}
 
 
+def _times(most: int) -> str:
+    """Write how often a fixed mode is fixed, of which a bound from above is known."""
+    return "once" if most == 1 else f"at most {_TIMES.get(most, f'{most} times')}"
+
+
 def _often(multiplicities: tuple[int | None, int]) -> str:
     """Write the multiplicity of a mode in A, and how many of its eigenvalues are fixed at most."""
     times, stuck = multiplicities
@@ -439,6 +444,8 @@ FORMS: dict[str, Write] = {
     "noun": _agreeing("mode", "modes"),
     "are": _agreeing("is", "are"),
     "them": _agreeing("it", "them"),
+    "stay": _agreeing("stays", "stay"),
+    "times": _times,
     "escape": _agreeing("which does not satisfy", "which do not all satisfy"),
     "need": _agreeing("needs", "need"),
     "unstable": _agreeing("it is not stable", "not all of them are stable"),

@@ -25,6 +25,7 @@ from typing import Any
 
 from .arithmetic import exponent
 from .constructions import SHARED
+from .evidence import require_coprime
 from .modes import no_fixed_mode
 from .reading import polynomial, require
 from .roots import in_stability_region
@@ -237,6 +238,8 @@ HAUTUS = "joint_controllability.controllable_hautus"
 DAVISON = "setpoint.setpoint_rank; E. J. Davison 1976"
 
 SIDES = ("controllable", "observable")
+LARGE = 2**61 - 1
+"""A prime, modulo which polynomials that are coprime nearly always stay so."""
 
 FIXED = Role(("fixed_spectrum",))
 COMPLETE = Role(("completeness",))
@@ -348,6 +351,81 @@ def _blame(key: str, why: str, wanted: Callable[[int, int], bool]) -> None:
 _blame("fixed-mode", "not controlled by {} and not observed by {}", lambda size, m: 0 < size < m)
 _blame("fixed-mode-uncontrolled", "not controlled by all of {}", lambda size, m: size == 0)
 _blame("fixed-mode-unobserved", "not observed by all of {1}", lambda size, m: size == m)
+
+
+# Parts that no controller changes: left out of the plant, or told from other fixed modes.
+
+PART_OF = ("uncontrollable", "unobservable")
+LEFT_OUT = ", ".join(f"modulo.{side}_part" for side in PART_OF)
+MINIMAL = Role(FIXED.kinds, tuple((*path, *["modulo"] * k) for path in SYSTEM for k in (1, 2)))
+remark(" ".join(f"modulo-option-{which}" for which in (*PART_OF, "both")))
+
+
+def left_out(premise: Premise) -> list[dict[str, Any]]:
+    """What constructions left out of the state."""
+    return [step for step in premise.document["subject"] if step["construction"] == "modulo"]
+
+
+REST = Role(
+    (*FIXED.kinds, *SPECTRUM.kinds, "stability", "distributed_observer"),
+    (*SYSTEM, ("closed_loop",)),
+)
+
+
+def stays(side: str) -> None:
+    """Enter the rule about modes that stay in every loop, as a part of this side has them."""
+
+    @rule(f"modulo-{side}", REST, theorem=f"modulo.{side}_loop")
+    def _say(rest: Premise) -> str:
+        chis = [polynomial_text(s["polynomial"]) for s in left_out(rest) if s["part"] == side]
+        rest.expect(bool(chis), f"no {side} part is left out")
+        parts = " and of ".join(chis)
+        return f"For {rest.plant.words}: the roots of {parts} are eigenvalues of every loop"
+
+
+for _side in PART_OF:
+    stays(_side)
+
+
+def joint(rest: Premise) -> str:
+    """What the last constructions left out, by the characteristic polynomials."""
+    parts = left_out(rest)[-(rest.path or ()).count("modulo") :]
+    return ", ".join(polynomial_text(step["polynomial"]) for step in parts)
+
+
+@rule("joint-fixed", MINIMAL, theorem=LEFT_OUT)
+def _joint_fixed(rest: Premise) -> str:
+    """The modes of what was left out, with their multiplicities."""
+    return f"For {rest.meant.words}: the roots of {joint(rest)} are fixed, each as often as a root"
+
+
+@rule("decentralized-none", MINIMAL, theorem=LEFT_OUT)
+def _none_besides(rest: Premise) -> str:
+    """Nothing else is fixed."""
+    rest.expect(free(rest), "a mode is fixed besides")
+    return f"For {rest.meant.words}: besides the roots of {joint(rest)} nothing is fixed"
+
+
+@rule("fixed-besides", MINIMAL, theorem=LEFT_OUT)
+def besides(rest: Premise) -> str:
+    """What else is fixed."""
+    factors = rest.cited("claim", "factors")
+    rest.expect(bool(factors), "nothing is fixed besides")
+    named = [(polynomial_text(f["polynomial"]), f["multiplicity_at_most"]) for f in factors]
+    modes = ", ".join(f"of {p} at most {k} times" for p, k in named)
+    return f"For {rest.meant.words}: besides the roots of {joint(rest)} those {modes} are fixed"
+
+
+@rule("decentralized-fixed", MINIMAL, CONTROLLABLE, OBSERVABLE, theorem=f"{LEFT_OUT}, {HAUTUS}")
+def _decentralized(rest: Premise, controls_: Premise, observes: Premise) -> str:
+    """What else is fixed, and all channels together control and observe it."""
+    for premise in (controls_, observes):
+        premise.expect(everywhere(premise), "not about all channels together")
+        lost = polynomial(premise["uncontrollable_polynomial"], premise.file)
+        for factor in rest.cited("claim", "factors"):
+            p = polynomial(factor["polynomial"], rest.file, 1)
+            require_coprime(p, lost, LARGE, "a mode and those that all channels do not move")
+    return f"{besides(rest)}; all channels together control and observe them"
 
 
 # How the spectrum can be assigned.

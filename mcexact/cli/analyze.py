@@ -16,7 +16,7 @@ from typing import Any
 import click
 
 from mcexact.analysis.questions import QUESTIONS
-from mcexact.cli import options
+from mcexact.cli import options, parts
 from mcexact.cli.commands import DEFINITE_NO, one_message
 from mcexact.cli.files import (
     emit_tables,
@@ -57,6 +57,7 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     show_default=True,
     help="The outputs that agent i feeds back: its own, or those of all its neighbors.",
 )
+@parts.option("Ask about")
 @_also
 @click.option(
     "--subset",
@@ -156,7 +157,8 @@ def command(
     if nearby is not None and no_nearby:
         raise click.UsageError("--nearby and --no-nearby contradict each other: give one of them")
     also = [option for option in _ALSO if values[option.replace("-", "_")]]
-    plant = run.read(file)
+    require_other(html, parts.file_of(values))
+    plant, part = run.read(file), parts.taken(values, run)
     doing = f"analyzing {plant[0]}"
     answer, ended = run.result_in_parts(
         _analyzed,
@@ -174,6 +176,7 @@ def command(
             at=dict(at),
             nearby=not no_nearby,
             seconds=run.deadline.left(),
+            part=part,
         ),
         html is not None,
         latex,

@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from mcexact.cli import options
+from mcexact.cli import options, parts
 from mcexact.cli.commands import DEFINITE_NO, GroupedCommand
 from mcexact.cli.files import (
     emit_tables,
@@ -35,6 +35,7 @@ from mcexact.errors import LimitReached
 )
 @click.argument("file")
 @click.argument("controller")
+@parts.option("Certify the loop of")
 @options.step
 @options.late
 @options.rate
@@ -119,13 +120,16 @@ def command(file: str, controller: str, **values: Any) -> int:
             "-o writes the controller that is rounded, taken at the samples or limited: give "
             "--round-gains, --step or --limits, too"
         )
-    require_other(output, file, controller, weights, sizes)
+    if values["modulo"] is not None and values["sampling"]:
+        raise click.UsageError(parts.NOT_SAMPLED)
+    require_other(output, file, controller, weights, sizes, parts.file_of(values))
     require_writable(output, run.certificates)
     require_page(html, run.certificates, file, controller, weights, sizes)
     require_apart(output, html, run.certificates)
     about = place_of(controller)
     read = (None if each is None else run.read(each) for each in (weights, sizes))
     programs = run.read(file), run.read(controller), *read
+    values["part"] = parts.taken(values, run)
     answer = run.result(
         _certified,
         *programs,

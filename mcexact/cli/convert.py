@@ -15,7 +15,7 @@ from typing import Any, get_args
 
 import click
 
-from mcexact.cli import options
+from mcexact.cli import options, parts
 from mcexact.cli.files import (
     Deadline,
     directory,
@@ -92,6 +92,7 @@ def sizes(text: str) -> tuple[int, ...]:
 )
 @click.option("--inputs", type=sizes, metavar="SIZES", help="Columns of a stacked B per channel.")
 @click.option("--outputs", type=sizes, metavar="SIZES", help="Rows of a stacked C per channel.")
+@parts.option("Write")
 @options.at_values("write the system at this value of a parameter", "Repeat it for each parameter.")
 @options.as_json
 @options.work_limits
@@ -107,17 +108,18 @@ def convert_command(file: str, output: Path | None, **values: Any) -> None:
     sample_time, names, neighbors (row i marks whose messages agent i receives), delays, name and
     source. Nothing is lost: numbers that the output cannot hold are an error. Of a plant in floats
     it warns where an answer is another one but for rounding errors. A system with
-    parameters is written as JSON, which YAML is too, or with --at in every kind.
+    parameters is written as JSON, which YAML is too, or with --at in every kind. With --modulo both
+    the system is a minimal realization: the fewest states with the same transfer matrix.
     """
     run = Run(values)
     if output is not None:
         require_suffix(output)
-    require_other(output, file)
+    require_other(output, file, parts.file_of(values))
     if output is not None and is_folder(output):
         require_replaceable(output, MARK)
     else:
         require_writable(output)
-    plant = run.read(file)
+    plant, part = run.read(file), parts.taken(values, run)
     target = "plant.json" if output is None else str(output)
     made = run.result(
         _converted,
@@ -129,6 +131,7 @@ def convert_command(file: str, output: Path | None, **values: Any) -> None:
         values["outputs"],
         values["nearest"],
         dict(values["at"]),
+        part,
         doing=f"converting {plant[0]}",
     )
     for warning in made.warnings:
@@ -150,6 +153,7 @@ def _converted(
     outputs: tuple[int, ...] | None,
     nearest: bool,
     at: dict[str, Fraction],
+    part: parts.Part,
 ) -> Converted:
     """Read a system and return the contents of the output, in the child process."""
     place, data = plant
@@ -163,6 +167,7 @@ def _converted(
             if not isinstance(system, ParametricSystem):
                 raise InputError("found a system without parameters: leave out --at")
             system = system.at(at)
+    system = parts.without(system, part, limits)
     with InputError.inside(target):
         content = system_files(system, target, rounding=_used(rounding, target), nearest=nearest)
     return Converted(content, _warnings(system))

@@ -28,7 +28,7 @@ from mcexact.analysis.analyze import (
 from mcexact.analysis.questions import QUESTIONS, questions_about
 from mcexact.answer.account import Account
 from mcexact.answer.sharing import ROW_BOUND
-from mcexact.cli import options, uncertainty
+from mcexact.cli import options, parts, uncertainty
 from mcexact.cli.files import plant_in, system_in
 from mcexact.cli.results import PART_OF_SEARCH, Allocated, Analyzed, Asked, Evidence
 from mcexact.cli.running import Known, Reporting
@@ -101,11 +101,18 @@ def analyzed(
     """
     began = time.monotonic()
     typed = plant_in(*plant, limits, asked.at)
+    if asked.part is not None and (asked.radii or asked.effort):
+        raise UsageError(
+            "--modulo is about the values of a plant: leave out --uncertainty and "
+            "--largest-uncertainty"
+        )
     if isinstance(typed, ParametricSystem):
+        parts.without(typed, asked.part, limits)
         return _for_all_values(
             typed, asked, with_page, with_latex, system_by_digest, known=known, report=report
         )
-    system, search = _searched(typed, asked, known, report)
+    given, search = _searched(typed, asked, known, report)
+    system = parts.without(given, asked.part, limits)
     analysis = analyze(
         system,
         also=asked.questions,
@@ -144,7 +151,7 @@ def analyzed(
             ),
         )
     return Analyzed(
-        evidence=Evidence.of(account, system_by_digest and system is typed),
+        evidence=Evidence.of(account, system_by_digest and given is typed),
         document=analysis.to_dict() | uncertainty.view(search),
         words=uncertainty.lead(account, search) + in_lines(account.sentences, lines),
         tables=(

@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 import click
 
-from mcexact.cli import options
+from mcexact.cli import options, parts
 from mcexact.cli.commands import Commands, GroupedCommand, Listed
 from mcexact.cli.files import (
     emit_tables,
@@ -76,6 +76,7 @@ def design_options(
 ) -> Callable[[F], F]:
     """Add the options of every design command, and those of a search if there is one."""
     every_option = (
+        parts.option("Design for"),
         options.step,
         options.late,
         options.rate,
@@ -121,7 +122,7 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
     run, spectrum, weights = Run(values), values["spectrum"], values["weights"]
     sizes = values["sizes"]
     output, html = values["output"], values["html"]
-    require_other(output, file, spectrum, weights, sizes)
+    require_other(output, file, spectrum, weights, sizes, parts.file_of(values))
     require_writable(output, run.certificates)
     require_page(html, run.certificates, file, spectrum, weights, sizes)
     require_apart(output, html, run.certificates)
@@ -131,6 +132,9 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
         None if sizes is None else run.read(sizes),
     )
     sampling, limited = options.sampling(values), values["limited"]
+    part = parts.taken(values, run)
+    if part is not None and sampling:
+        raise click.UsageError(parts.NOT_SAMPLED)
     keywords = {**wanted, "agent": values["agent"], **{key: values[key] for key in HOW}}
     aimed = {key: values[key] for key in options.AIMS if key in values}
     left = run.deadline.left()
@@ -142,7 +146,7 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
     try:
         result = supervised(
             _designed,
-            *(name, plant, *extra, limited, run.limits, sampling, keywords, aimed),
+            *(name, plant, *extra, limited, run.limits, sampling, part, keywords, aimed),
             *(not values["no_box"], values["prove_all"]),
             *(html is not None, run.system_by_digest, left),
             doing=f"designing for {plant[0]}",

@@ -20,10 +20,11 @@ from typing import Any
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.account import Account
 from mcexact.answer.modes import FixedSpectrum
-from mcexact.answer.protocol import Answer
+from mcexact.answer.protocol import Answer, is_about_dual
 from mcexact.answer.sentence import Context, Sentences
-from mcexact.answer.structure import SetpointSolvability
+from mcexact.answer.structure import JointControllability, SetpointSolvability
 from mcexact.answer.templates import Sentence
+from mcexact.cli import parts
 from mcexact.cli.files import system_in
 from mcexact.cli.loops import assessed, read_weights, sampled, unproved, with_limits, with_sizes
 from mcexact.cli.options import AIMS
@@ -79,6 +80,7 @@ def designed(
     limited: Sequence[str],
     limits: Mapping[str, int],
     sampling: Mapping[str, Any],
+    part: parts.Part,
     wanted: dict[str, Any],
     aimed: Mapping[str, Any],
     with_box: bool,
@@ -106,6 +108,8 @@ def designed(
         The limits on input files.
     sampling : mapping
         The step and the delay with which the plant is sampled; empty if it is not.
+    part : str, or tuple of str and bytes, or None
+        The part of the state that is left out, or a file with a subspace.
     wanted : dict
         Keyword arguments of the function.
     aimed : mapping
@@ -139,6 +143,7 @@ def designed(
     spectrum, end = None, None if left is None else time.monotonic() + left
     sized = with_sizes(system_in(*plant, limits), sizes, limits)
     system = sampled(with_limits(sized, limited), sampling)
+    system = parts.without(system, part, limits)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
     if aimed:
@@ -301,6 +306,9 @@ def _advice(
     This is a design over the links of the plant, if sharing outputs over these leaves no fixed mode
     outside the region; otherwise a search of links to add.
     """
+    if lacking(proof, region):
+        command = f"mcexact design {name} {file} --modulo unobservable"
+        return f"; `{command}` designs for the plant modulo what no output shows"
     if name != "decentralized" or not isinstance(proof, FixedSpectrum):
         return ""
     if all(len(factor.channels) in (0, system.m) for factor in proof.factors):
@@ -314,6 +322,14 @@ def _advice(
             return f"; over the links of this plant, `{command}` designs one"
         links = "more links between agents change"
     return f"; `mcexact allocate {file} --links` says whether {links} this"
+
+
+def lacking(proof: Answer, region: StabilityRegion) -> bool:
+    """Whether a proof that no controller exists is only about modes that no output shows."""
+    if isinstance(proof, FixedSpectrum):
+        outside = proof.outside(region)
+        return bool(outside) and all(len(f.channels) == proof.about.m for f in outside)
+    return isinstance(proof, JointControllability) and is_about_dual(proof.subject)
 
 
 def _held(file: str, proof: Answer, system: MultiChannelSystem, regulate: Any) -> str:

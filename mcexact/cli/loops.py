@@ -43,7 +43,7 @@ from mcexact.answer.loops import (
 from mcexact.answer.protocol import Answer
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import count
-from mcexact.cli import uncertainty
+from mcexact.cli import parts, uncertainty
 from mcexact.cli.files import plant_in, system_in
 from mcexact.cli.results import Evidence, Loop, Simulated
 from mcexact.derived.sampling import DECIMALS, sampled_system, tustin
@@ -134,6 +134,7 @@ def certified(
     """
     gains, effort, at = wanted.pop("gains"), wanted.pop("effort"), dict(wanted.pop("at"))
     sampling, limited = wanted.pop("sampling"), wanted.pop("limited")
+    part = wanted.pop("part")
     with_box, prove_all = not wanted.pop("no_box"), wanted.pop("prove_all")
     typed_plant = plant_in(*plant, limits, at)
     with InputError.inside(program[0]):
@@ -143,13 +144,14 @@ def certified(
             raise UsageError("a plant with parameters is not sampled: give them values with --at")
         if limited:
             raise UsageError("a plant with parameters has no limits: give them values with --at")
+        parts.without(typed_plant, part, limits)
         every_option = wanted | {"weights": weights, "sizes": sizes, "effort": effort}
         return _certified_for_all_values(
             typed_plant, controller, gains, every_option, with_page, system_by_digest
         )
     sized = with_limits(with_sizes(typed_plant, sizes, limits), limited)
     system, search = uncertainty.with_radii(sized, wanted.pop("uncertainty"))
-    system = sampled(system, sampling)
+    system = parts.without(sampled(system, sampling), part, limits)
     with InputError.inside(program[0]):
         digits, notes = wanted.pop("round_gains"), tuple[str, ...]()
         warnings = list(controller.warnings_for(system))
@@ -271,6 +273,7 @@ def assessed(
     """
     lines = [assessment.first_line(account.sentences.at("first"))]
     lines += [each.line for each in account.sentences if each.template in _OF_EVERY_LOOP]
+    lines += [each.line for each in account.sentences.at("modulo")]
     lines += [f"warning: {each}" for each in assessment.warnings if each not in lines[0]]
     lines += [f"note: {each}" for each in assessment.notes]
     page = None

@@ -148,6 +148,8 @@ class Asked:
         Whether plants nearby are looked for.
     seconds : float or None
         What is left of the time limit at the beginning; None without a limit.
+    part : str, or tuple of str and bytes, or None
+        The part of the state that is left out, or a file with a subspace.
     """
 
     options: Sequence[str]
@@ -161,6 +163,7 @@ class Asked:
     at: Mapping[str, Fraction]
     nearby: bool = True
     seconds: float | None = None
+    part: str | tuple[str, bytes] | None = None
 
     @property
     def questions(self) -> list[str]:

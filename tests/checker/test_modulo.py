@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,6 +20,7 @@ from tests.checker.handmade import (
     matrix,
     plant,
 )
+from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.tables import accepts, rejects
 
 
@@ -158,3 +160,22 @@ def test_all_states_may_go(side: str) -> None:
     with pytest.raises(Refused) as found:
         read_subject([part(side, matrix([1, 0]), [0], [0, 1])], read_plant(idle))
     assert found.value.verdict == "INVALID"
+
+
+def about_the_rest(folder: Path, *keys: str) -> list[Any]:
+    """The verdicts on sentences about a plant modulo what no output shows."""
+    evidence = {"fixed": DISTANCE}
+    listed = {**manifest(evidence, [sentence(key, "fixed", evidence=evidence) for key in keys])}
+    return said(write(folder, evidence, listed | {"subject": [TOGETHER]}))
+
+
+def test_modes_of_the_part_stay_in_every_loop(tmp_path: Path) -> None:
+    found = about_the_rest(tmp_path, "modulo-unobservable", "modulo-uncontrollable")
+    assert [each.verdict for each in found] == ["IMPLIED", "INVALID"]
+    assert "the roots of x are eigenvalues of every loop" in found[0].statement
+
+
+def test_of_a_plant_without_a_part_nothing_stays(tmp_path: Path) -> None:
+    evidence = {"fixed": FREE}
+    what = sentence("modulo-unobservable", "fixed", evidence=evidence)
+    assert one(tmp_path, what, evidence).verdict == "INVALID"

@@ -135,16 +135,18 @@ OPPOSITE = [
     ("subsystem-zeros", "subsystem-no-zeros"),
     ("lifted-nothing-fixed", "lifted-fixed"),
     ("held-nothing-fixed", "held-fixed"),
+    ("decentralized-none", "fixed-besides"),
 ]
-ELSEWHERE = ("nearby-", "law-", *OF_DESIGNS, "performance-", "first-", "parametric-")
+ELSEWHERE = ("modulo-", "nearby-", "law-", *OF_DESIGNS, "performance-", "first-", "parametric-")
 """How the rules begin that other files hold against certificates: of designs, of performance, of
-parameters, of plants nearby."""
+parameters, of plants nearby, of plants without a part."""
 ALWAYS = {
     *("picture-transfer-graph", "complete"),
     *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),
     *("members-stabilizable", "members-setpoints"),
     "allocate-links-proof",
     "sharing-gap",
+    "joint-fixed",
 }
 """What holds of every certificate of its kind: the words say what it is that holds."""
 
@@ -161,9 +163,19 @@ def infeasible() -> Iterator[Any]:
     yield minimal_shared_dimensions(apart, silent, free_assignability=True)
 
 
+def with_hidden_mode(mode: int) -> MultiChannelSystem:
+    """The paper's example, of which 1 is a fixed mode, beside a state that no output shows."""
+    return MultiChannelSystem(
+        [[*row, 0] for row in PAPER.A.tolist()] + [[0, 0, 0, mode]],
+        [[*B.tolist(), [1]] for B in PAPER.B],
+        [[[*row, 0] for row in C.tolist()] for C in PAPER.C],
+    )
+
+
 def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path) -> None:
     evidence = [answers(PAPER), answers(PAPER.with_neighbors(RING))]
     evidence += map(answers, [gallery.load("quadruple-tank-pminus"), *map(drawn, range(12))])
+    evidence += map(answers, [with_hidden_mode(1), with_hidden_mode(2)])
     evidence += [{"a": TWICE}, {"a": BLIND}, {"a": CUT}]
     evidence += [{"a": changed(BLIND, ("claim.channels", ["1"]))}]
     evidence += [{"a": changed(CUT, ("claim.property", "both"))}]

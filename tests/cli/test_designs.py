@@ -236,7 +236,7 @@ def handed_over(plant: str, left: float | None) -> tuple[Loop, list[Loop]]:
     options |= {"margin": 0.3, "disk": 0.4, "seeds": 4, "seconds": left}
     sent = list[Any]()
     made = designs.designed(
-        "decentralized", ("plant.json", content), None, None, None, (), {}, {},
+        "decentralized", ("plant.json", content), None, None, None, (), {}, {}, None,
         {"rate": None, "radius": None, "arithmetic": "exact", "agent": None}, options,
         with_box=True, with_page=False, prove_all=False, system_by_digest=False, left=left,
         tell=print, report=Reporting(sent.append),

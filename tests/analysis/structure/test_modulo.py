@@ -184,3 +184,61 @@ def test_a_step_behind_another_construction_has_coordinates_of_its_own():
 def test_what_is_no_part_is_refused(part, message):
     with pytest.raises((InputError, UsageError), match=message):
         modulo(gallery.load("relative-positions-4"), part)
+
+
+def realized(*columns):
+    """One companion form beside the other for each entry (numerator, denominator) of columns."""
+    entries = [(i, j, *each) for j, column in enumerate(columns) for i, each in column.items()]
+    sizes = [len(den) - 1 for *_, den in entries]
+    n, rows = sum(sizes), 1 + max(i for i, *_ in entries)
+    A = [[Fraction(0)] * n for _ in range(n)]
+    B = [[0] * len(columns) for _ in range(n)]
+    C = [[Fraction(0)] * n for _ in range(rows)]
+    start = 0
+    for (i, j, num, den), size in zip(entries, sizes, strict=True):
+        last = start + size - 1
+        for k in range(size):
+            if k:
+                A[start + k - 1][start + k] = Fraction(1)
+            A[last][start + k] = -Fraction(den[k], den[-1])
+        B[last][j] = 1
+        for k, c in enumerate(num):
+            C[i][start + k] = Fraction(c, den[-1])
+        start += size
+    return MultiChannelSystem(A, [B], [C])
+
+
+def times(p, q):
+    """The product of two polynomials, constant terms first."""
+    found = [0] * (len(p) + len(q) - 1)
+    for i, x in enumerate(p):
+        for j, y in enumerate(q):
+            found[i + j] += x * y
+    return found
+
+
+def test_two_public_reports_of_numerical_realizations_have_exact_orders():
+    """ControlSystems.jl, issues 992 (5 of 7 states were left) and 890 (21 of 21), without D.
+
+    The first is [W1, -W1 G; 0, W2; 0, W3 G; 1, -G], the second one has the entries s^k/(s - 1)^4
+    for k = -1, 0, 1, 2, 3; each entry is realized by itself.
+    """
+    G, W1, W2, W3 = [3, 2], [6, 5], [9, 8], [12, 11]
+    weights = realized(
+        {0: ([4], W1)},
+        {
+            0: ([-4], times(W1, G)),
+            1: ([7], W2),
+            2: ([10], times(W3, G)),
+            3: ([-1], G),
+        },
+    )
+    fourth = times(times([-1, 1], [-1, 1]), times([-1, 1], [-1, 1]))
+    powers = realized(
+        {0: ([1], times([0, 1], fourth)), **{k + 1: ([0] * k + [1], fourth) for k in range(4)}}
+    )
+    for system, n, order in ((weights, 7, 4), (powers, 21, 5)):
+        made = minimal_realization(system)
+        assert (system.n, made.order, order_by_hankel(system)) == (n, order, order)
+        assert check(made.controllability).valid and check(made.observability).valid
+        assert parameters(made.system, 2 * n) == parameters(system, 2 * n)

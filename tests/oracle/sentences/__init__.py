@@ -12,6 +12,7 @@ from __future__ import annotations
 from tests.oracle.sentences import (
     designs,
     members,
+    modulo,
     nearby,
     parameters,
     performance,
@@ -24,6 +25,7 @@ from tests.oracle.sentences.cases import Case, Facts, Region, Said, UnjudgedErro
 _LONG = "that a question was left out since it takes long claims nothing of the plant"
 _SEARCH = "that a search ended at its limit depends on the search"
 _TITLE = "a title claims nothing"
+_OPTION = "which option asks further claims nothing of the plant"
 _PROOF = "how long or by which method a proof is says nothing of the plant"
 UNJUDGED = {
     "controllability-indices-left-out": _LONG,
@@ -31,6 +33,9 @@ UNJUDGED = {
     "table-links-limit": _SEARCH,
     "least-outputs-states-limit": _SEARCH,
     "least-states-limit": _SEARCH,
+    "modulo-option-unobservable": _OPTION,
+    "modulo-option-uncontrollable": _OPTION,
+    "modulo-option-both": _OPTION,
     "picture-graphs": _TITLE,
     "picture-graphs-outputs": _TITLE,
     "picture-dimensions": _TITLE,
@@ -55,5 +60,6 @@ def verdict(sentence: Said, case: Case) -> bool | None:
 
 __all__ = [
     "JUDGES", "UNJUDGED", "Case", "Facts", "Region", "Said", "UnjudgedError", "designs", "members",
-    "nearby", "parameters", "performance", "plant_of", "said", "saturation", "sharing", "verdict",
+    "modulo", "nearby", "parameters", "performance", "plant_of", "said", "saturation", "sharing",
+    "verdict",
 ]  # fmt: skip
