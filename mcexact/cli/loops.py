@@ -46,6 +46,7 @@ from mcexact.answer.templates import count
 from mcexact.cli import parts, uncertainty
 from mcexact.cli.files import plant_in, system_in
 from mcexact.cli.results import Evidence, Loop, Simulated
+from mcexact.derived.modulo import states_of_rest
 from mcexact.derived.sampling import DECIMALS, sampled_system, tustin
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import Limits, percent, written
@@ -659,7 +660,8 @@ def simulated(
     limits : mapping
         The limits on input files.
     wanted : dict
-        The arguments of `simulated_loop`; one number as the initial state is that of every state.
+        The arguments of `simulated_loop`, and the part that is left out; one number as the initial
+        state is that of every state of the plant.
     suffix : str
         The end of the name of the file that is written: ".csv", ".png", ".html" or nothing.
     fractions : bool
@@ -673,11 +675,15 @@ def simulated(
     InputError
         If a file is malformed, or the controller does not fit the plant.
     """
-    system = system_in(*plant, limits)
+    given = system_in(*plant, limits)
+    system = parts.without(given, wanted.pop("part"), limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
-    if wanted["initial"] is not None and len(wanted["initial"]) == 1:
-        wanted = wanted | {"initial": wanted["initial"] * system.n}
+    initial = wanted["initial"]
+    if initial is not None:
+        initial = initial * given.n if len(initial) == 1 else initial
+        own = system is given or len(initial) != given.n
+        wanted = wanted | {"initial": initial if own else states_of_rest(system, initial)}
     report: SimulationReport | RealReport
     if real:
         run = simulate_real(system, controller, **_realized(system, real), **_signals(wanted))

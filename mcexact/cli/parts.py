@@ -27,6 +27,7 @@ NOT_SAMPLED = (
     "--modulo is about the plant in FILE as it is: leave out --step, or sample it with `mcexact "
     "c2d` first"
 )
+NOT_REAL = "--modulo is about the ideal loop: leave it out where the real loop is run"
 _NAMED = ("unobservable", "uncontrollable", "both")
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import click
 
-from mcexact.cli import options
+from mcexact.cli import options, parts
 from mcexact.cli.files import (
     emit_tables,
     require_apart,
@@ -106,6 +106,7 @@ def converter(text: str) -> tuple[Fraction, ...]:
     type=click.Choice(["exact", "multiprecision", "float"]),
     help="By default exact in discrete time and float in continuous time.",
 )
+@parts.option("Run the loop of")
 @options.step
 @options.late
 @click.option(
@@ -172,7 +173,7 @@ def command(file: str, controller: str, **values: Any) -> None:
     suffix = "" if output is None else output.suffix
     if output is not None and suffix not in _FILES:
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
-    require_other(output, file, controller)
+    require_other(output, file, controller, parts.file_of(values))
     require_writable(output, run.certificates)
     require_apart(output, run.certificates)
     require_drawable(output if suffix in (".png", ".html") else None)
@@ -181,6 +182,9 @@ def command(file: str, controller: str, **values: Any) -> None:
         "reference": _numbers(values["reference"], "--reference"),
         **{name: _changes(values[name], name) for name in ("steps", "ramps", "disturbances")},
     }
+    wanted["part"] = parts.taken(wanted, run)
+    if real and wanted["part"] is not None:
+        raise click.UsageError(parts.NOT_REAL)
     plant, program = run.read(file), run.read(controller)
     doing = f"simulating {plant[0]}"
     how = suffix, fractions, run.system_by_digest, real

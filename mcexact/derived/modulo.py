@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, Literal, get_args
 
 from mcexact.errors import InputError, UsageError, one_of
@@ -205,3 +206,41 @@ def parts_of(system: MultiChannelSystem) -> tuple[LeftOut, ...]:
         for each in system.subject
         if each["construction"] == MODULO
     )
+
+
+def states_of_rest(system: MultiChannelSystem, states: Sequence[Fraction]) -> list[Fraction]:
+    """Return the states of a system without parts, from those of the system it was made from.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        Made by `without_part`, once or several times.
+    states : sequence of n rationals
+
+    Raises
+    ------
+    InputError
+        If a part that no input moves was left out, and these states are not 0 along it.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[0, 0], [0, 0]], [[[1], [0]]], [[[1, -1]]])
+    >>> states_of_rest(without_part(plant, "unobservable", [[1, 1]]), [Fraction(3), Fraction(5)])
+    [Fraction(2, 1)]
+    """
+    x = Matrix.column(states)
+    for step in system.subject:
+        if step["construction"] != MODULO:
+            continue
+        W, pivots = step["annihilator"], step["pivots"]
+        kept = [j for j in range(W.ncols) if j not in set(pivots)]
+        along = W @ x
+        if step["part"] == "uncontrollable" and not along.is_zero():
+            raise InputError(
+                "expected an initial state without the part that no input moves", where="initial"
+            )
+        own = x.take(rows=kept)
+        if step["part"] == "unobservable":
+            own = own - W.take(cols=kept).T @ x.take(rows=pivots)
+        x = own
+    return [row[0] for row in x.rows()]

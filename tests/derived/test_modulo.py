@@ -5,8 +5,9 @@ import random
 import pytest
 
 from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.modulo import modulo
 from mcexact.derived.constructions import dual
-from mcexact.derived.modulo import parts_of, without_part
+from mcexact.derived.modulo import parts_of, states_of_rest, without_part
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.sizes import TypicalSizes
@@ -88,3 +89,27 @@ def test_all_states_may_be_left_out():
     idle = MultiChannelSystem([[2, 1], [0, 3]], [[[0], [0]]], [[[1, 1]]])
     left = without_part(idle, "uncontrollable", [[1, 0], [0, 1]])
     assert left.n == 0 and str(parts_of(left)[0].polynomial) == "x^2 - 5*x + 6"
+
+
+def test_states_of_the_rest_move_as_those_of_the_plant():
+    compared = 0
+    for seed in range(60):
+        system = exact(sparse_system(random.Random(seed)))
+        rest = modulo(system)
+        if rest is system:
+            continue
+        x = Matrix.column([random.Random(seed + k).randint(-3, 3) for k in range(system.n)])
+        moved = [row[0] for row in (system.A @ x).rows()]
+        z = Matrix.column(states_of_rest(rest, [row[0] for row in x.rows()]))
+        assert states_of_rest(rest, moved) == [row[0] for row in (rest.A @ z).rows()]
+        assert rest.output_matrix() @ z == system.output_matrix() @ x
+        compared += 1
+    assert compared > 20
+
+
+def test_a_start_that_inputs_do_not_reach_is_refused():
+    still = MultiChannelSystem([[0, 0], [0, 2]], [[[1], [0]]], [[[1, 1]]])
+    rest = without_part(still, "uncontrollable", [[0, 1]])
+    assert states_of_rest(rest, [5, 0]) == [5]
+    with pytest.raises(InputError, match="without the part that no input moves"):
+        states_of_rest(rest, [5, 1])

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import random
 
+from flint import fmpq, fmpq_mat
+
+from tests.oracle.certificates.algebra import selection
 from tests.oracle.certificates.constructions import subject_of
 from tests.oracle.certificates.reading import Unspecified
 from tests.oracle.drawn.plants import Document
-from tests.oracle.drawn.subjects import CONSTRUCTIONS, drawn_step
+from tests.oracle.drawn.subjects import CONSTRUCTIONS, drawn_step, text_of
 
 from ..mutators import PARTS, renamed
 
@@ -56,6 +59,37 @@ def other_line(rng: random.Random, document: Document) -> Document | None:
         line["parameter"] = rng.choice(("x", "1", *sorted(values)))
     else:
         document["subject"] = steps[1:]
+    return document
+
+
+def other_part(rng: random.Random, document: Document) -> Document | None:
+    """Another subspace, whose polynomial fits: no part of the state that no controller changes."""
+    k = next((k for k, s in enumerate(document["subject"]) if "annihilator" in s), None)
+    if k is None:
+        return None
+    step, system = document["subject"][k], subject_of(document, k)
+    if rng.random() < 0.3:
+        sides = {"unobservable": "uncontrollable", "uncontrollable": "unobservable"}
+        step["part"] = sides.get(step["part"], step["part"])
+    size, n = len(step["pivots"]), system.n
+    pivots = sorted(rng.sample(range(n), size))
+    known = step["annihilator"]["denominator"]
+    rows = [
+        [known * (pivots.index(j) == i) if j in pivots else rng.choice((0, 0, 1, -1, known))
+         for j in range(n)]
+        for i in range(size)
+    ]  # fmt: skip
+    if rng.random() < 0.5 and pivots == step["pivots"]:
+        rows = step["annihilator"]["entries"]
+        rows[rng.randrange(size)][rng.randrange(n)] += rng.choice((1, -1))
+    A = system.A.transpose() if step["part"] == "unobservable" else system.A
+    W = fmpq_mat(size, n, [fmpq(x, known) for row in rows for x in row])
+    own = W * A * selection(n, pivots).transpose()
+    step |= {
+        "annihilator": {"denominator": known, "entries": rows},
+        "pivots": pivots,
+        "polynomial": [text_of(x) for x in own.charpoly().coeffs()],
+    }
     return document
 
 
