@@ -35,7 +35,6 @@ def test_an_analysis_of_the_rest_says_what_stays(tmp_path: Path) -> None:
     told = json.loads(done.stdout)
     assert done.status == 0 and told["fixed_spectrum"]["empty"]
     spoken = run("analyze", RELATIVE, "--modulo", "unobservable").stdout
-    assert said == [] or any("modulo 1 state" in each for each in said)
     assert spoken.startswith("These answers are about the plant modulo 1 state that no output")
     own = run(
         "analyze", RELATIVE, "--modulo", own_subspace(tmp_path, '{"unobservable": [[2, 2, 2, 2]]}')
