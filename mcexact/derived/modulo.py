@@ -208,7 +208,7 @@ def parts_of(system: MultiChannelSystem) -> tuple[LeftOut, ...]:
     )
 
 
-def states_of_rest(system: MultiChannelSystem, states: Sequence[Fraction]) -> list[Fraction]:
+def states_of_rest(system: MultiChannelSystem, states: Sequence[Fraction | int]) -> list[Fraction]:
     """Return the states of a system without parts, from those of the system it was made from.
 
     Parameters
