@@ -143,6 +143,7 @@ def without_part(
         construction,
         neighbors=system.neighbors,
         regulated=system.regulated,
+        limits=system.limits,
         typical_sizes=_sizes_of(system.typical_sizes, kept),
     )
 
