@@ -519,7 +519,8 @@ def polished(
     Notes
     -----
     A round penalizes the highest peaks that this round and all before it have met, so that a peak
-    that was lowered does not return; the weight of the penalty grows threefold.
+    that was lowered does not return; the weight of the penalty grows threefold.  Light penalties
+    leave the margins more room than was asked; the last round, with a heavy one, takes it back.
     """
     objective, first = _objective(problem, x, target), effort.part(0.5)
     counted = _counted(objective, first)

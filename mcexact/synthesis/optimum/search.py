@@ -455,8 +455,9 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     best two of them to the end; a start that lies inside the region counts as it is, too.  For a
     large plant 1.5 times the price that is enough ends the search after a step.  Where drafts take
     much of the effort a step has only one; if its cost is far too high it is followed after all
-    other steps, unless its agents are tied.  A draft of hopeless cost always comes last.  Where the
-    deadline has passed before anything was found, the starts that are left count as they are.
+    other steps, unless its agents are tied.  A draft of hopeless cost always comes last, and one
+    that has become far dearer than the best controller is given up.  Where the deadline has passed
+    before anything was found, the starts that are left count as they are.
     """
     candidates: list[Candidate] = []
     later: list[tuple[float, Start]] = []
