@@ -3,6 +3,7 @@
  * Made for the plant of digest 681984dfb34eb0a48ab5023133c9fc678b4cedef7741f48c4933e1b70240ea93.
  * 6 of its 9 numbers are rounded to the nearest double.
  * In each sampling period: measure y, run the step, set u.
+ * All states start at 0.
  */
 
 #ifndef VALVE_H
