@@ -47,6 +47,8 @@ from tests.checker.handmade import Document, changed
 from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.parameter_plants import HELD, LOOP_DAMPED, LOOP_SAMPLED, OBSERVED, QUARTERS
 from tests.checker.polynomials import generous
+from tests.checker.saturation_plants import CUT as CUT_OFF
+from tests.checker.saturation_plants import NEAR
 from tests.checker.test_complementary_subsystem import TWICE
 from tests.checker.test_fixed_spectrum import UNEVEN
 from tests.checker.test_sentences_design import OF_DESIGNS
@@ -187,7 +189,7 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
     evidence += [{"a": each} for each in OF_ONE_PLANT]
     near = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/100").system
     evidence += [{"a": document(box_setpoints(near))}]
-    evidence += [{"a": each} for each in margins_in_boxes()]
+    evidence += [{"a": each} for each in (*margins_in_boxes(), CUT_OFF, NEAR)]
     dual = changed(CUT, ("claim.property", "observable"), ("witness.side", "observable"))
     implied, denied = (dict[str, set[Any]]((key, set()) for key in RULES) for _ in range(2))
     for number, documents in enumerate([*evidence, {"a": dual}]):
