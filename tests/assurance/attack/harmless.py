@@ -15,6 +15,12 @@ CANONICAL = "the object `system` has to be equal to its canonical form as well"
 # The keys are conditions as they stand in the checker.
 # ruff: noqa: E501
 HARMLESS: dict[str, str] = {
+    "kinds.py: require_statement: saturation.agrees(claim, self.saturation)": USERS,
+    "saturation.py: check_saturation: form is None": UNREAD,
+    "saturation.py: check_region: nearer > 0": RAISES,
+    "saturation.py: check_region: radius > 0": (
+        "no state has a norm below 0, and with 0 there is an error"
+    ),
     "boxes.py: read_disk: box.plant is not None": (
         "places of states are taken for those of ports then, and no frame proves of a state on the "
         "whole border what is asked of a signal"

@@ -378,6 +378,19 @@ TRAPS: dict[str, Document] = {
             "compressions": [matrix([0, 0], [0, 0]), matrix([1, 0], [0, 1])],
         },
     ),
+    "another mode of what no output shows": certificate(
+        "fixed_spectrum",
+        plant([[0, 0], [0, 0]], ([[1], [0]], [[1, -1]]), ([[0], [1]], [[-1, 1]])),
+        FREE["claim"],
+        {**FREE["witness"], "gains": [matrix([1]), matrix([1])]},
+        {
+            "construction": "modulo",
+            "part": "unobservable",
+            "annihilator": matrix([1, 1]),
+            "pivots": [0],
+            "polynomial": [1, 1],
+        },
+    ),
     "channels merged without one of them": changed(
         UNCONTROLLABLE,
         ("system.channels", [*PAIR["channels"], {"name": "2", "B": [[0], [1]], "C": [[0, 1]]}]),

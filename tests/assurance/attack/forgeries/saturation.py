@@ -8,7 +8,7 @@ from typing import Any
 
 from tests.checker.handmade import certificate, changed, matrix, plant
 from tests.checker.performance_plants import form, static
-from tests.checker.saturation_plants import DOUBLED, NEAR, RISEN, UNMOVED
+from tests.checker.saturation_plants import CUT, DOUBLED, NEAR, RISEN, UNMOVED
 from tests.oracle.drawn.plants import Document, number
 
 from .performance import other_form, other_gain
@@ -123,6 +123,7 @@ TRAPS: dict[str, Document] = {
         {"scaling": [1], "sectors": [0], "P": form([-1])},
         static(UNMOVED, 0),
     ),
+    "limits that do not contain 0": changed(CUT, ("claim.limits", [[[1, 2]]])),
     "a region in which an input leaves its sector": changed(
         NEAR, ("claim.limits", [[["-1/2", 1]]])
     ),
