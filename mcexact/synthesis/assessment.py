@@ -347,13 +347,13 @@ class Assessment(Shown):
         elif not self.shape.met(seen.damping, seen.fastest):
             text = (
                 f"the least damping ratio is {damping} and the largest modulus of an eigenvalue "
-                f"{shown(seen.fastest)}, not as aimed at"
+                f"{located(seen.fastest)}, not as aimed at"
             )
             yield f"damping {damping}", text
         if alone is not None and self._pace(seen) < _SLOWER * self._pace(alone):
             text = (
-                f"the slowest eigenvalue has {self.region.measure} = {shown(seen.bound)}, and "
-                f"{shown(alone.bound)} without the controller"
+                f"the slowest eigenvalue has {self.region.measure} = {located(seen.bound)}, and "
+                f"{located(alone.bound)} without the controller"
             )
             yield "slower than the open loop", text
 
@@ -393,9 +393,9 @@ class Assessment(Shown):
         return [
             ("states of each agent", per_agent),
             (f"largest gain{unit}", compared("largest_gain")),
-            ("slowest eigenvalue", f"{self.region.measure} = {shown(seen.bound)}"),
+            ("slowest eigenvalue", f"{self.region.measure} = {located(seen.bound)}"),
             *self._alone(),
-            ("fastest eigenvalue", f"|λ| = {shown(seen.fastest)}"),
+            ("fastest eigenvalue", f"|λ| = {located(seen.fastest)}"),
             ("least damping ratio", shown(seen.damping)),
             *self._margins(),
             ("margin at the plant's inputs", compared("margin")),
@@ -431,7 +431,7 @@ class Assessment(Shown):
         if alone is None:
             return []
         cost = f"cost {shown(alone.cost)}" if isfinite(alone.cost) else "not stable"
-        return [("without a controller", f"{self.region.measure} = {shown(alone.bound)}, {cost}")]
+        return [("without a controller", f"{self.region.measure} = {located(alone.bound)}, {cost}")]
 
     def _margins(self) -> Iterator[tuple[str, str]]:
         """The least disk margin of a single input or output."""
@@ -482,6 +482,18 @@ def shown(value: float) -> str:
     if isnan(value):
         return "not known"
     return f"{value:.3g}" if not 1000 <= abs(value) < 1e6 else f"{value:.0f}"
+
+
+def located(value: float) -> str:
+    """Three digits, or as many as tell a modulus from 1, the border of stability.
+
+    >>> located(0.99998414), located(1.0)
+    ('0.99998', '1')
+    """
+    if not 0.99 < value < 1.01:
+        return shown(value)
+    texts = (f"{value:.{digits}g}" for digits in range(3, 12))
+    return next((text for text in texts if text != "1"), "1")
 
 
 def _finite(value: float) -> str:
