@@ -35,3 +35,60 @@ apply: (@global_continuous _ 2 2 (times (-2%:R)) I I (times (-1)) ones low ones 
 rewrite /decrease_continuous /= products_of means_of diag_ones !timesE.
 exact: posdef_block.
 Qed.
+
+(* The unit row of an input takes at most so much of a multiple of the identity. *)
+Lemma posdef_less (p u s : rat) k : 0 <= s -> s * u ^+ 2 < p ->
+  posdef (times p - ratr s *: ((row k (times u))^H *m row k (times u))).
+Proof.
+move=> s0 sp z nz; rewrite formD formN formZ -[(row k _)^H]mulmx1 form_sub form1 big_ord1 -row_mul mxE times_form.
+rewrite mul_scalar_mx mxE normrM exprMn -ratr_norm -!rmorphX mulrA -rmorphM subr_gt0.
+have less : ratr (s * `|u| ^+ 2) * `|z k 0| ^+ 2 <= ratr (s * `|u| ^+ 2) * form 1%:M z :> algC.
+  rewrite ler_wpmul2l ?ler0q ?mulr_ge0 ?exprn_ge0// form1 (bigD1 k)//= ler_addl sumr_ge0// => i _.
+  by rewrite exprn_ge0.
+by rewrite (le_lt_trans less)// ltr_pmul2r ?form1_gt0// ltr_rat real_normK ?num_real.
+Qed.
+
+Local Notation far := (const_mx 2%:R : 'rV[algC]_2).
+Lemma ones_ge0 k : 0 <= ones 0 k. Proof. by rewrite mxE ler01. Qed.
+Lemma far_gt0 k : 0 < far 0 k. Proof. by rewrite mxE ltr0n. Qed.
+Lemma far_low k : (- far) 0 k <= - far 0 k. Proof. by rewrite [(- far) 0 k]mxE. Qed.
+Lemma far_high k : far 0 k <= far 0 k. Proof. exact: lexx. Qed.
+Lemma quarter k : (ones 0 k / far 0 k) ^+ 2 = ratr (1 / 4%:R).
+Proof. by rewrite !mxE !fmorph_div /= !ratr_nat rmorph1 expr_div_n expr1n -natrX. Qed.
+Lemma products_ones : products ones ones ones = times 1.
+Proof. by apply: diag_row => k; rewrite !mxE !mul1r rmorph1. Qed.
+Lemma means_ones : means ones ones ones = times 1.
+Proof. by apply: diag_row => k; rewrite !mxE mul1r -[1 + 1]/(2%:R) mulfV ?pnatr_eq0// rmorph1. Qed.
+
+(* x(t+1) = 3/2 x + u, w what is cut off of u = -x at -2 and 2: where x'x <= 2 the solution stays, and it tends to 0. *)
+Lemma inst_region_discrete : exists rho : algC, [/\ 0 <= rho, rho < 1 & forall z w : nat -> 'cV[algC]_2,
+  form (times (1 / 2%:R)) (z 0%N) <= 1 ->
+  (forall t, [/\ real_mx (z t), real_mx (w t), cut_off_at (- far) far (times (-1) *m z t) (w t) &
+    z t.+1 = times (1 / 2%:R) *m z t + I *m (w t - times (-1) *m z t)]) ->
+  forall t, form (times (1 / 2%:R)) (z t) <= 1 /\ form (times (1 / 2%:R)) (z t) <= rho ^+ t * form (times (1 / 2%:R)) (z 0%N)].
+Proof.
+apply: (region_discrete (real_times _) ones0 (posdef_times _) ones_ge0 far_gt0 far_low far_high) => // [k|].
+  by rewrite quarter; apply: posdef_less.
+rewrite /decrease_discrete /= products_ones means_ones diag_ones !timesE.
+exact: posdef_block.
+Qed.
+
+(* x' = x + u, w what is cut off of u = -2 x. *)
+Lemma inst_region_continuous : exists2 e : algC, 0 < e & forall z rate w : 'cV[algC]_2,
+  real_mx z -> real_mx w -> form (times (3%:R / 2%:R)) z <= 1 -> cut_off_at (- far) far (times (-2%:R) *m z) w ->
+  rate = times (-1) *m z + I *m (w - times (-2%:R) *m z) ->
+  (rate^H *m times (3%:R / 2%:R) *m z + z^H *m times (3%:R / 2%:R) *m rate) 0 0 <= - (e * form (times (3%:R / 2%:R)) z).
+Proof.
+apply: (region_continuous (real_times _) ones0 (posdef_times _) ones_ge0 far_gt0 far_low far_high) => // [k|].
+  by rewrite quarter; apply: posdef_less.
+rewrite /decrease_continuous /= products_ones means_ones diag_ones !timesE.
+exact: posdef_block.
+Qed.
+
+(* What falls at the rate 1 from 0 on stays below 0. *)
+Lemma inst_ellipsoid_stays (R : rcfType) (sup : convergence.complete_order R) (b : R) : 0 <= b -> - b <= 0.
+Proof.
+apply: (@ellipsoid_stays R sup -%R 0) => [|t _]; first by rewrite oppr0.
+exists (- 1) => [|_]; last by rewrite ltrN10.
+by exists (fun=> - 1) => [|h]; [exact: convergence.limit_constant | rewrite mulN1r opprD].
+Qed.

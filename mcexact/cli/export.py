@@ -13,7 +13,7 @@ from typing import Any
 
 import click
 
-from mcexact.cli import options
+from mcexact.cli import options, parts
 from mcexact.cli.certify import command as certify
 from mcexact.cli.commands import DEFINITE_NO
 from mcexact.cli.files import (
@@ -191,9 +191,10 @@ def asked_by_default() -> dict[str, Any]:
     """What `mcexact certify` asks of a plant and a controller without options."""
     context = certify.make_context("certify", ["PLANT", "CONTROLLER"])
     values = dict(context.params)
-    Run(values)
+    run = Run(values)
     values["effort"] = options.effort_of_search(values)
     options.sampling(values)
+    values["part"] = parts.taken(values, run)
     for name in ("file", "controller", "weights", "sizes", "html", "output"):
         del values[name]
     return values

@@ -49,6 +49,7 @@ from mcexact.synthesis.setpoint import design_setpoint
 from tests.answer.test_sentences import drawn
 from tests.checker import (
     test_complementary_subsystem,
+    test_modulo,
     test_nearby,
     test_sentences_design,
     test_sentences_performance,
@@ -252,6 +253,8 @@ def crafted() -> dict[str, MultiChannelSystem]:
     found["apart"] = MultiChannelSystem(
         [[1]], [[[1]], [[0]]], [[[1]], [[0]]], neighbors={"1": [], "2": []}
     )
+    # the first mode is fixed, although both channels together move it, and none moves the second
+    found["besides"] = MultiChannelSystem([[1, 0], [0, 2]], [first, nothing], [rows[2], rows[0]])
     mutual = {"1": ["2"], "2": ["1"]}
     for time in ("continuous", "discrete"):
         B, C = [[[1], [1]], [[1], [0]]], [[[1, 1]], [[0, 1]]]
@@ -387,6 +390,8 @@ def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
         yield f"based_{name}", found, base
     for name, listed in (("alone", [HELD_ALONE, HELD_LOOP]), ("around", [HELD_AROUND])):
         yield f"based_samples_{name}", listed, [AT_SAMPLES]
+    for name, rest in (("moved", test_modulo.MOVED), ("seen", test_modulo.DISTANCE)):
+        yield f"based_{name}", [rest], rest["subject"]
 
 
 def margins_in_boxes() -> Iterator[Document]:
@@ -454,7 +459,12 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
             of_loops.setdefault(json.dumps(found["system"], sort_keys=True), []).append(found)
     for k, listed in enumerate(of_loops.values()):
         yield f"design_{k}", listed
-    for module in (test_complementary_subsystem, test_setpoint, test_single_channel_gains):
+    for module in (
+        test_complementary_subsystem,
+        test_modulo,
+        test_setpoint,
+        test_single_channel_gains,
+    ):
         yield from alone(module)
     for seed in range(6):
         observer = drawn_observer(random.Random(seed))

@@ -12,6 +12,7 @@ from mcexact.checker.reading import Refused
 from mcexact.checker.system import read_plant
 from tests.checker.handmade import (
     FREE,
+    PAIR,
     UNCONTROLLABLE,
     Document,
     certificate,
@@ -62,6 +63,7 @@ FIRST = changed(
     ),
     ("witness", {"modulus": 7, "annihilator": {"denominator": 1, "entries": []}, "pivots": []}),
 )
+MOVED = certificate("fixed_spectrum", PAIR, FREE["claim"], FREE["witness"], UNMOVED)
 SLANTED = plant([[1, 0], [1, 2]], ([[1], [-1]], [[1, 1]]))
 """x_1 + x_2 is multiplied by 2 and no input moves it."""
 ALONG = certificate(
@@ -84,6 +86,7 @@ ACCEPTED = [
     ("nothing is fixed modulo what two integrators have in common", DISTANCE),
     ("the same by the other state", changed(DISTANCE, ("subject.0.pivots", [1]))),
     ("the state that the channel moves is controlled", FIRST),
+    ("nothing is fixed of the state that the channel moves", MOVED),
     ("A on a slanted subspace", ALONG),
     ("A modulo a slanted subspace", ACROSS),
     (

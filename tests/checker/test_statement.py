@@ -176,6 +176,11 @@ def same_meaning(claim: Any, mutant: Any, system: System) -> bool:
     """Whether matrices are the same numbers, or a bound of stability is null and was 0 or 1."""
     if "M" in claim and isinstance(mutant["M"], dict) and mutant["M"].get("denominator"):
         return meaning(claim) == meaning(mutant)
+    if "back_calculation" in claim:
+        try:
+            return meaning(without_zeros(claim)) == meaning(without_zeros(mutant))
+        except (TypeError, KeyError, ZeroDivisionError):
+            return False
     others = [{key: v for key, v in each.items() if key != "bound"} for each in (claim, mutant)]
     of_loops = claim.keys() in ({"bound", "stable"}, {"bound", "gain_radii"})
     if not of_loops or canonical_json(others[0]) != canonical_json(others[1]):
@@ -183,6 +188,15 @@ def same_meaning(claim: Any, mutant: Any, system: System) -> bool:
     default = int(system.time == "discrete")
     bounds = [default if each["bound"] is None else each["bound"] for each in (claim, mutant)]
     return bounds[0] == bounds[1]
+
+
+def without_zeros(claim: Any) -> Any:
+    """The claim, with None for anti-windup gains that are all 0."""
+    gains = claim["back_calculation"]
+    return {
+        **claim,
+        "back_calculation": [L if any(map(any, L["entries"])) else None for L in gains],
+    }
 
 
 def meaning(value: Any) -> Any:

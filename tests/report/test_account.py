@@ -318,4 +318,6 @@ def test_the_answer_fits_a_terminal_and_five_lines_of_words_come_first(name: str
     table = plain(tables(sentences, most_modes=6)).splitlines()
     shown = [*words, "", *table, "", "10 certificates re-checked"]
     assert 1 <= len(words) <= 5
-    assert len(shown) <= 32 and max(map(len, shown)) <= 80
+    # where all channels together miss a mode, five lines more tell it from the other fixed modes
+    most = 37 if any(line.startswith("  joint fixed modes") for line in table) else 32
+    assert len(shown) <= most and max(map(len, shown)) <= 80

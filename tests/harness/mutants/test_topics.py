@@ -19,5 +19,6 @@ def test_tests_belong_to_the_module_of_their_kind() -> None:
 
 
 def test_tests_belong_to_the_module_from_which_they_import_most() -> None:
-    assert {"test_packed_rows.py", "test_sparse_step.py"} <= topics.tests("arithmetic")
+    assert "test_packed_rows.py" in topics.tests("arithmetic")
+    assert "test_sparse_step.py" in topics.tests("evidence")
     assert "test_packed_rows.py" not in topics.tests("budget")
