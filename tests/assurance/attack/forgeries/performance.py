@@ -212,6 +212,8 @@ HELPED = plant(
     ([[0], ["1/16"]], [[0, 1]]),
     time="discrete",
 )
+# Nothing is measured of a state that grows.
+BLIND = plant([[1]], ([[1]], {"shape": [0, 1], "entries": []}))
 PRECISE = {"states": [1], "inputs": [1], "disturbances": [1], "noise": ["1/1000000"]}
 TRAPS: dict[str, Document] = {
     "a share below 0": certificate(
@@ -260,6 +262,13 @@ TRAPS: dict[str, Document] = {
         {"weights": weights(1, 1), "cost": 3},
         {"P": form([1])},
         static(FALLING, -1),
+    ),
+    "no margins of a loop that is not stable": certificate(
+        "disk_margin",
+        BLIND,
+        {"at": "outputs", "together": False, "margin": 1},
+        {"parts": []},
+        static(BLIND, 0),
     ),
     "a scaling below 0": certificate(
         "disk_margin",

@@ -11,6 +11,7 @@ from tests.checker.handmade import (
     FIXED,
     FREE,
     GENERIC,
+    GRAPH,
     INTEGRATOR,
     OSCILLATION,
     PAIR,
@@ -355,6 +356,77 @@ TRAPS: dict[str, Document] = {
         plant([[-1]], ([[1]], [[1]])),
         {"bound": None, "stable": False},
         {"method": "instability", "P": matrix([1]), "R2": matrix([1]), "v": matrix([1])},
+    ),
+    "a mode that another channel does not move": certificate(
+        "single_channel_gains",
+        plant([[1]], ([[0]], [[1]]), ([[1]], [[0]])),
+        {
+            "channels": ["2"],
+            "property": "controllable",
+            "exists": False,
+            "cyclic": False,
+            "indices": None,
+        },
+        {
+            "channel": "2",
+            "side": "controllable",
+            "polynomial": AT_ONE,
+            "subspace": MEASURED,
+        },
+    ),
+    "no direction": certificate(
+        "stability",
+        plant([[-1]], ([[1]], [[1]])),
+        {"bound": None, "stable": False},
+        {"method": "instability", "P": matrix([1]), "R2": matrix([1]), "v": matrix([0])},
+    ),
+    "blocks that act on each other": certificate(
+        "stability",
+        plant([[-1, 10], [10, -1]], ([[1], [0]], [[1, 0]])),
+        {"bound": None, "stable": True},
+        {
+            "method": "lyapunov",
+            "transformation": None,
+            "blocks": [{"size": 1, "P": matrix([1]), "R": matrix([1]), "R2": matrix([1])}] * 2,
+        },
+    ),
+    "two components taken as one": certificate(
+        "assignability",
+        CHAIN,
+        {"blocks": [{"channels": ["1", "2"], "dimension": 2}], "fixed_degree": 0},
+        {
+            "transfer_graph": {"claim": GRAPH["claim"], "witness": GRAPH["witness"]},
+            "degrees": [
+                {
+                    "states": None,
+                    "annihilator": matrix(),
+                    "pivots": [],
+                    "kernel": matrix(),
+                    "kernel_pivots": [],
+                    "sequence": {
+                        "modulus": 7,
+                        "gains": [matrix([0, 0], [0, 0])],
+                        "channel": "1",
+                        "inputs": [1, 0],
+                        "outputs": [0, 1],
+                        "recurrence": [0, 0, 1],
+                        "cofactors": [[1], []],
+                    },
+                }
+            ],
+        },
+    ),
+    "a plant without channels": certificate(
+        "controllability",
+        PAIR,
+        {
+            "channels": [],
+            "dimension": 0,
+            "controllable": False,
+            "uncontrollable_polynomial": [2, -3, 1],
+        },
+        {"modulus": 7, "annihilator": matrix([1, 0], [0, 1]), "pivots": [0, 1]},
+        {"construction": "restricted", "channels": []},
     ),
     "a row that annihilates the pencil at 0 alone": certificate(
         "setpoint",
