@@ -121,6 +121,15 @@ def test_an_option_of_another_form_is_refused(text: str) -> None:
 TEXT = system_text(plant({"left": [[-1, "1/3"], None]}))
 
 
+def accepts(read: Any, refusal: type[Exception]) -> bool:
+    """Whether a reader does not refuse."""
+    try:
+        read()
+    except refusal:
+        return False
+    return True
+
+
 @pytest.mark.parametrize(
     "limits",
     [
@@ -141,13 +150,6 @@ TEXT = system_text(plant({"left": [[-1, "1/3"], None]}))
 )
 def test_both_readers_of_system_files_accept_the_same_limits(limits: Any) -> None:
     text = json.dumps(json.loads(TEXT) | {"limits": limits})
-
-    def accepts(read: Any, refusal: type[Exception]) -> bool:
-        try:
-            read()
-        except refusal:
-            return False
-        return True
 
     ours = accepts(lambda: read_system(text), InputError)
     assert ours == accepts(lambda: read_system_file(text.encode(), Limits()), Refused)
@@ -207,13 +209,6 @@ def test_both_readers_of_controller_files_accept_the_same_limits_and_gains(keys:
     document = local_controllers(single, [([[-1]], [[1]], [[-2]], [[-3]])]).to_dict()
     document["agents"][0].update(keys)
     text = json.dumps(document)
-
-    def accepts(read: Any, refusal: type[Exception]) -> bool:
-        try:
-            read()
-        except refusal:
-            return False
-        return True
 
     ours = accepts(lambda: read_controller(text), InputError)
     assert ours == accepts(lambda: read_controller_file(text.encode(), Limits()), Refused)

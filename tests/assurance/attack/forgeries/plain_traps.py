@@ -61,6 +61,20 @@ NO_DEGREE = {
     "sequence": None,
 }
 """A component of degree 0, by no states."""
+WHOLE_CHAIN = {
+    **NO_DEGREE,
+    "states": None,
+    "sequence": {
+        "modulus": 7,
+        "gains": [matrix([0, 0], [0, 0])],
+        "channel": "1",
+        "inputs": [1, 0],
+        "outputs": [0, 1],
+        "recurrence": [0, 0, 1],
+        "cofactors": [[1], []],
+    },
+}
+"""The degree 2 of both channels of :data:`CHAIN` together."""
 
 
 def apart(order: list[int]) -> Document:
@@ -242,21 +256,7 @@ TRAPS: dict[str, Document] = {
         {"blocks": [{"channels": ["1", "2"], "dimension": 2}], "fixed_degree": 0},
         {
             "components": {"modulus": 7, "arcs": [], "order": [0], "zeros": []},
-            "degrees": [
-                {
-                    **NO_DEGREE,
-                    "states": None,
-                    "sequence": {
-                        "modulus": 7,
-                        "gains": [matrix([0, 0], [0, 0])],
-                        "channel": "1",
-                        "inputs": [1, 0],
-                        "outputs": [0, 1],
-                        "recurrence": [0, 0, 1],
-                        "cofactors": [[1], []],
-                    },
-                }
-            ],
+            "degrees": [WHOLE_CHAIN],
         },
     ),
     "a row of zeros for a pencil of full rank": certificate(
@@ -396,24 +396,7 @@ TRAPS: dict[str, Document] = {
         {"blocks": [{"channels": ["1", "2"], "dimension": 2}], "fixed_degree": 0},
         {
             "transfer_graph": {"claim": GRAPH["claim"], "witness": GRAPH["witness"]},
-            "degrees": [
-                {
-                    "states": None,
-                    "annihilator": matrix(),
-                    "pivots": [],
-                    "kernel": matrix(),
-                    "kernel_pivots": [],
-                    "sequence": {
-                        "modulus": 7,
-                        "gains": [matrix([0, 0], [0, 0])],
-                        "channel": "1",
-                        "inputs": [1, 0],
-                        "outputs": [0, 1],
-                        "recurrence": [0, 0, 1],
-                        "cofactors": [[1], []],
-                    },
-                }
-            ],
+            "degrees": [WHOLE_CHAIN],
         },
     ),
     "a plant without channels": certificate(
