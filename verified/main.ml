@@ -69,5 +69,5 @@ let () =
   | [ _; "--rocq"; path ] -> let status, text = verdict rocq path in print_endline text; exit status
   | _ :: (_ :: _ as paths) ->
     let statuses = List.map (fun path -> let status, line = verdict check path in print_endline line; status) paths in
-    exit (List.fold_left max 0 statuses)
+    exit (Option.value (List.find_opt (fun status -> List.mem status statuses) [ 70; 3; 1; 5 ]) ~default:0)
   | _ -> prerr_endline "usage: mcexact-verified FILE... | --rocq FILE | --version"; exit 2

@@ -93,8 +93,8 @@ FIRST_DAY = (1980, 1, 1, 0, 0, 0)
     "--rocq",
     type=options.FOLDER,
     metavar="FILE",
-    help="Write to this file a theorem of Rocq that is the claim of the one CERTIFICATE, proved by "
-    "one computation (needs the program mcexact-verified: make verified).",
+    help="Write to this file a theorem of Coq (now Rocq) that is the claim of the one CERTIFICATE, "
+    "proved by one computation (needs the program mcexact-verified: make verified).",
 )
 @click.option(
     "--verified/--no-verified",

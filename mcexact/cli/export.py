@@ -94,7 +94,7 @@ def bits_of_numbers(text: str) -> int:
     help="Write the code of each agent, equations.json, and controller.json, the controller that "
     "the code is, into this folder; JSON into this file, by default to standard output.",
 )
-@options.page("what is certified of the code, and all certificates")
+@options.page("what is certified of that controller, and all certificates")
 @options.answering
 def command(file: str, language: Language, **values: Any) -> int:
     """Write the controller in FILE, in discrete time, as code for each agent.
