@@ -64,8 +64,10 @@ PART_RULES, LOOP_PART_RULES = Rulebook(), Rulebook()
 OPTION_RULES, JOINT_RULES = Rulebook(), Rulebook()
 
 
-def _stays(claim: Certified) -> Said:
-    """Say of each part that was left out which modes stay."""
+def _stays(claim: Certified, context: Context) -> Said:
+    """Say of each part that was left out of the plant itself which modes stay."""
+    if any(step["construction"] != MODULO for step in context.system.subject):
+        return
     for step in claim.made_by_name(MODULO):
         chi: Polynomial = step.polynomial
         yield STAYS[step.part](k=chi.degree, p=chi)
@@ -73,12 +75,12 @@ def _stays(claim: Certified) -> Said:
 
 @PART_RULES.rule("answer", *STAYS.values(), premises=("fixed_spectrum",))
 def _rest(fixed_spectrum: Certified, context: Context) -> Said:
-    yield from _stays(fixed_spectrum)
+    yield from _stays(fixed_spectrum, context)
 
 
 @LOOP_PART_RULES.rule("modulo", *STAYS.values(), premises=("loop",))
 def _rest_of_loop(loop: Certified, context: Context) -> Said:
-    yield from _stays(loop)
+    yield from _stays(loop, context)
 
 
 @OPTION_RULES.rule(

@@ -27,7 +27,8 @@ class Ellipsoid(Part):
     ----------
     P : Symmetric
     radius : Fraction
-        Every state of the plant of this norm or a smaller one is in it, where all else is 0.
+        Every state of the system that is controlled, of this norm or a smaller one, is in it, where
+        all else is 0.
     """
 
     P: Symmetric
@@ -86,7 +87,8 @@ ALWAYS = Template(
 REGION = Template(
     "saturation-region",
     "stable with each input cut off at its limits ({limits:input limits}){gains:windup}, from "
-    "every state of the plant of norm at most {radius:digits_below} where all else is at rest",
+    "every state of the controlled system of norm at most {radius:digits_below} where all else is "
+    "at rest",
     label="inputs at their limits",
 )
 FIRST = Template("first-saturation", "stable at every saturation of the inputs")

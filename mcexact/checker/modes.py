@@ -372,21 +372,21 @@ def check_assignability(claim: Json, witness: Json, system: System) -> None:
     ``assignability.component_own_gains``, ``assignability.mcmillan_degree``.
     """
     listed, left = fields(claim, "claim", "blocks", "fixed_degree")
-    keys, require_degree = ["components", "degrees"], _require_degree
-    if isinstance(witness, dict) and "components" not in witness:
-        keys[0] = "transfer_graph"  # as earlier versions wrote, the older ones with realizations
-    if isinstance(witness, dict) and "degrees" not in witness:
-        keys = ["transfer_graph", "realizations"]
-        number, *graph_and_shown = fields(witness, "witness", "modulus", *keys)
+    require_degree = _require_degree
+    # earlier versions wrote a transfer graph, and the oldest ones realizations
+    earlier = isinstance(witness, dict) and "components" not in witness
+    if earlier and "degrees" not in witness:
+        keys = ("modulus", "transfer_graph", "realizations")
+        number, graph, shown = fields(witness, "witness", *keys)
         require_degree = partial(_require_minimal, evidence.modulus(number, "witness.modulus"))
     else:
-        graph_and_shown = fields(witness, "witness", *keys)
-    graph, shown = graph_and_shown
+        key = "transfer_graph" if earlier else "components"
+        graph, shown = fields(witness, "witness", key, "degrees")
     place = "claim.blocks"
     blocks = [fields(block, place, "channels", "dimension") for block in items(listed, place)]
     parts = [names(component, place, system.names) for component, _ in blocks]
-    if keys[0] == "components":
-        structure.require_components(graph, f"witness.{keys[0]}", system, parts)
+    if not earlier:
+        structure.require_components(graph, "witness.components", system, parts)
     else:
         known, proof = fields(graph, "witness.transfer_graph", "claim", "witness")
         structure.check_transfer_graph(known, proof, system)

@@ -50,7 +50,7 @@ def check_saturation(claim: Json, witness: Json, system: System) -> None:
     # z' = M₀z + E₀ φ for the inputs φ that are cut off, which are v = Uz before; the corner of the
     # inequality is positive for scalings above 0 alone
     U = loop.U.at(cut)
-    E = (loop.E + windup(gains, plant, system)).take(cols=cut)
+    E = (loop.E + windup(gains, plant, system.loop)).take(cols=cut)
     apart = loop.M - E @ U
     scaling = nonnegative(theta, "witness.scaling", len(cut))
     lower = nonnegative(ends, "witness.sectors", len(cut))
@@ -71,10 +71,9 @@ def ranges_of(value: Json, plant: System) -> Ranges:
     return [pair for own, B_i in channels for pair in read_limits(own, "claim.limits", B_i.ncols)]
 
 
-def windup(value: Json, plant: System, system: System) -> Matrix:
+def windup(value: Json, plant: System, loop: Loop) -> Matrix:
     """The anti-windup gains of all agents, with the rows of the states of the loop."""
-    place, loop = "claim.back_calculation", system.loop
-    widths = [width for _, width in loop.order] if isinstance(loop, Loop) else []
+    place, widths = "claim.back_calculation", [width for _, width in loop.order]
     listed = items(value, place, plant.m)
     gains = [
         matrix(L, place, widths[2 * i + 1] + widths[2 * i + 2], B_i.ncols)
@@ -168,7 +167,8 @@ def saturation_statement(claim: Json, system: System) -> str:
         "every solution without set-points and disturbances that starts where z'Pz <= 1 stays "
         f"there and tends to 0 exponentially, z the state of the loop, {cut}; P_ij = s_ij "
         f"2^(e_i + e_j) with e = {e} and the lower triangle s = {s}, row by row; z'Pz <= 1 holds "
-        f"for every state of the plant of norm at most {region['radius']}, where all else is 0"
+        "for every state of the system that is controlled, of norm at most "
+        f"{region['radius']}, where all else is 0"
     )
 
 

@@ -361,11 +361,6 @@ MINIMAL = Role(FIXED.kinds, tuple((*path, *["modulo"] * k) for path in SYSTEM fo
 remark(" ".join(f"modulo-option-{which}" for which in (*PART_OF, "both")))
 
 
-def left_out(premise: Premise) -> list[dict[str, Any]]:
-    """What constructions left out of the state."""
-    return [step for step in premise.document["subject"] if step["construction"] == "modulo"]
-
-
 REST = Role(
     (*FIXED.kinds, *SPECTRUM.kinds, "stability", "distributed_observer"),
     (*SYSTEM, ("closed_loop",)),
@@ -377,7 +372,12 @@ def stays(side: str) -> None:
 
     @rule(f"modulo-{side}", REST, theorem=f"modulo.{side}_loop")
     def _say(rest: Premise) -> str:
-        chis = [polynomial_text(s["polynomial"]) for s in left_out(rest) if s["part"] == side]
+        subject = rest.document["subject"]
+        base = subject[: len(subject) - len(rest.path or ())]
+        # of a system that was made from the plant in another way, the loops are other ones
+        own = all(step["construction"] == "modulo" for step in base)
+        rest.expect(own, "the parts are not those of the plant itself")
+        chis = [polynomial_text(step["polynomial"]) for step in base if step["part"] == side]
         rest.expect(bool(chis), f"no {side} part is left out")
         parts = " and of ".join(chis)
         return f"For {rest.plant.words}: the roots of {parts} are eigenvalues of every loop"
@@ -389,21 +389,24 @@ for _side in PART_OF:
 
 def joint(rest: Premise) -> str:
     """What the last constructions left out, by the characteristic polynomials."""
-    parts = left_out(rest)[-(rest.path or ()).count("modulo") :]
-    return ", ".join(polynomial_text(step["polynomial"]) for step in parts)
+    path = rest.path or ()
+    parts = rest.document["subject"][-path.count("modulo") :]
+    chis = ", ".join(polynomial_text(step["polynomial"]) for step in parts)
+    heard = ", each agent measuring what it receives of its neighbors too" * (HEARD[0][0] in path)
+    return f"For {rest.meant.words}{heard}: the roots of {chis} are fixed, each as often as a root"
 
 
 @rule("joint-fixed", MINIMAL, theorem=LEFT_OUT)
 def _joint_fixed(rest: Premise) -> str:
     """The modes of what was left out, with their multiplicities."""
-    return f"For {rest.meant.words}: the roots of {joint(rest)} are fixed, each as often as a root"
+    return joint(rest)
 
 
 @rule("decentralized-none", MINIMAL, theorem=LEFT_OUT)
 def _none_besides(rest: Premise) -> str:
     """Nothing else is fixed."""
     rest.expect(free(rest), "a mode is fixed besides")
-    return f"For {rest.meant.words}: besides the roots of {joint(rest)} nothing is fixed"
+    return f"{joint(rest)}, and nothing else is"
 
 
 @rule("fixed-besides", MINIMAL, theorem=LEFT_OUT)
@@ -413,7 +416,7 @@ def besides(rest: Premise) -> str:
     rest.expect(bool(factors), "nothing is fixed besides")
     named = [(polynomial_text(f["polynomial"]), f["multiplicity_at_most"]) for f in factors]
     modes = ", ".join(f"of {p} at most {k} times" for p, k in named)
-    return f"For {rest.meant.words}: besides the roots of {joint(rest)} those {modes} are fixed"
+    return f"{joint(rest)}, and besides those {modes}"
 
 
 @rule("decentralized-fixed", MINIMAL, CONTROLLABLE, OBSERVABLE, theorem=f"{LEFT_OUT}, {HAUTUS}")

@@ -22,6 +22,7 @@ from tests.checker.handmade import (
     plant,
 )
 from tests.checker.manifests import manifest, one, said, sentence, write
+from tests.checker.performance_plants import static
 from tests.checker.tables import accepts, rejects
 
 
@@ -182,3 +183,59 @@ def test_of_a_plant_without_a_part_nothing_stays(tmp_path: Path) -> None:
     evidence = {"fixed": FREE}
     what = sentence("modulo-unobservable", "fixed", evidence=evidence)
     assert one(tmp_path, what, evidence).verdict == "INVALID"
+
+
+RESTRICTED: Document = {"construction": "restricted", "channels": ["1"]}
+SAMPLED: Document = {"construction": "sampled", "step": 1, "late": 0, "decimals": 3}
+APART = plant([[1, 0], [0, 2]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]]))
+STILL = plant([[0, 0], [0, 0]], ([[1], [0]], [[1, 0]]))
+OF_OTHER_LOOPS = {
+    "a mode that a channel left out moves": certificate(
+        "fixed_spectrum", APART, FREE["claim"], FREE["witness"], RESTRICTED, UNMOVED
+    ),
+    "a mode of one loop": certificate(
+        "closed_loop_spectrum",
+        APART,
+        {"polynomial": [-1, 1]},
+        {"moduli": [7]},
+        static(APART, 0, 0),
+        UNMOVED,
+    ),
+    "a mode of the plant at its samples": certificate(
+        "fixed_spectrum",
+        STILL,
+        FREE["claim"],
+        FREE["witness"],
+        SAMPLED,
+        part("uncontrollable", matrix([0, 1]), [1], [-1, 1]),
+    ),
+}
+
+
+@pytest.mark.parametrize("of_other_loops", OF_OTHER_LOOPS.values(), ids=list(OF_OTHER_LOOPS))
+def test_modes_of_another_system_are_not_those_of_every_loop_of_the_plant(
+    tmp_path: Path, of_other_loops: Document
+) -> None:
+    assert checked(of_other_loops).verdict == "VALID"
+    evidence = {"fixed": of_other_loops}
+    what = sentence("modulo-uncontrollable", "fixed", evidence=evidence)
+    listed = manifest(evidence, [what]) | {"subject": of_other_loops["subject"]}
+    [found] = said(write(tmp_path, evidence, listed))
+    assert found.verdict == "INVALID"
+
+
+def test_what_is_fixed_besides_is_about_what_the_agents_receive(tmp_path: Path) -> None:
+    heard = plant(
+        [[1, 0], [0, 2]],
+        ([[1], [0]], [[0, 0]]),
+        ([[0], [0]], [[1, 0]]),
+        neighbors={"1": ["2"], "2": []},
+    )
+    steps = {"construction": "augmented_outputs"}, UNMOVED
+    gains = {**FREE["witness"], "gains": [matrix([0, 1]), matrix([0])]}
+    evidence = {"fixed": certificate("fixed_spectrum", heard, FREE["claim"], gains, *steps)}
+    found = one(tmp_path, sentence("decentralized-none", "fixed", evidence=evidence), evidence)
+    assert found.verdict == "IMPLIED"
+    assert (
+        "each agent measuring what it receives of its neighbors too: the roots" in found.statement
+    )

@@ -256,7 +256,8 @@ def _saturation(claim: Any, system: System) -> str:
         "every solution without set-points and disturbances that starts where z'Pz <= 1 stays "
         f"there and tends to 0 exponentially, z the state of the loop, {cut}; P_ij = s_ij "
         f"2^(e_i + e_j) with e = {P['exponents']} and the lower triangle s = {P['entries']}, row "
-        f"by row; z'Pz <= 1 holds for every state of the plant of norm at most {radius}, where all "
+        f"by row; z'Pz <= 1 holds for every state of the system that is controlled, of norm at "
+        f"most {radius}, where all "
         "else is 0"
     )
 
