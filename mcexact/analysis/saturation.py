@@ -176,20 +176,12 @@ def _closed(
 
 def _limits_of(loop: ClosedLoop, chosen: Mapping[Any, Any] | None) -> InputLimits:
     """The limits that are asked for, or else those of the controller, or those of the plant."""
-    plant, own = loop.plant, limits_of(loop)
+    plant, own = loop.plant, loop.controller.limits_for(loop.plant)
     if chosen is not None:
         own = read_input_limits(chosen, plant.names, [plant.p(i) for i in range(plant.m)])
     if own is None:
         raise UsageError("no input has limits", where="limits")
     return own
-
-
-def limits_of(loop: ClosedLoop) -> InputLimits | None:
-    """The limits of the controller, or else those of the plant; None without any."""
-    agents, plant = loop.controller.agents, loop.plant
-    if any(agent.limits is not None for agent in agents):
-        return tuple(agent.limits or (None,) * plant.p(i) for i, agent in enumerate(agents))
-    return plant.limits
 
 
 def gains_of(loop: ClosedLoop) -> tuple[Matrix, ...]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -32,12 +32,15 @@ from mcexact.cli.results import Evidence, Exported, Loop
 from mcexact.cli.running import Rechecked, Run
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
+from mcexact.export import MOST_BITS
 from mcexact.export.equations import CONTROLLER, EQUATIONS, Language
 from mcexact.model.controller import read_controller
 
+if TYPE_CHECKING:
+    from mcexact.export.fixed import FixedPoint
+
 LEAST = -1
 """The value of --fixed-point without a number."""
-_MOST = 48
 _PROOF = "rounded_gains.json"
 """The file of the proof about all controllers that are rounded to so many bits."""
 
@@ -52,8 +55,8 @@ def bits_of_numbers(text: str) -> int:
     """
     if text == "least":
         return LEAST
-    if not text.isascii() or not text.isdigit() or int(text) > _MOST:
-        raise click.BadParameter(f"expected 0 to {_MOST} bits, found '{text}'")
+    if not text.isascii() or not text.isdigit() or int(text) > MOST_BITS:
+        raise click.BadParameter(f"expected 0 to {MOST_BITS} bits, found '{text}'")
     return int(text)
 
 
@@ -81,8 +84,9 @@ def bits_of_numbers(text: str) -> int:
 @click.option(
     "--plant",
     metavar="PLANT",
-    help="Certify the controller that the code is, with the numbers of the code, for this plant, "
-    "and write the code only if its loop is stable.",
+    help="Certify the controller with the numbers of the code for this plant, and write the code "
+    "only if its loop is stable. The rounding of signals in each step is not part of the verdict, "
+    "nor are, in fixed point, signals beyond their ranges.",
 )
 @options.step
 @options.late
@@ -104,8 +108,8 @@ def command(file: str, language: Language, **values: Any) -> int:
     receives and computes, and how many numbers of the controller were rounded. Design a controller
     for the sampled plant, with --step of `mcexact design`.
 
-    With --plant the first lines are those of `mcexact certify` about the controller that the code
-    is, and --json prints that verdict; otherwise --json prints the equations.
+    With --plant the first lines are those of `mcexact certify` about the controller with the
+    numbers of the code, and --json prints that verdict; otherwise --json prints the equations.
     """
     run, html = Run(values), values.pop("html")
     output, plant_file, bits = values["output"], values["plant"], values["fixed_point"]
@@ -200,6 +204,17 @@ def asked_by_default() -> dict[str, Any]:
     return values
 
 
+def _about(fixed: FixedPoint | None) -> str:
+    """What the verdict is about, and what is not part of it."""
+    how = "double precision" if fixed is None else str(fixed)
+    about = f"the verdict is about a controller with the numbers of the code ({how}); "
+    if fixed is None:
+        return about + "the rounding of sums in each step is not part of it"
+    return about + (
+        "the rounding of signals in each step, and signals beyond their ranges, are not part of it"
+    )
+
+
 def _exported(
     controller: tuple[str, bytes],
     plant: tuple[str, bytes] | None,
@@ -231,8 +246,7 @@ def _exported(
         return Exported(files, None)
     what = CONTROLLER, files[CONTROLLER].encode()
     loop = certified(plant, what, None, None, limits, wanted, with_page, system_by_digest)
-    how = "double precision" if fixed is None else str(fixed)
-    verdict = [*loop.verdict, f"note: the verdict is about the controller that the code is: {how}"]
+    verdict = [*loop.verdict, f"note: {_about(fixed)}"]
     evidence = loop.evidence
     if proof is not None:
         evidence = evidence.with_others(Evidence.about_own_plants({_PROOF: proof}))

@@ -4,7 +4,7 @@ Values are parsed as exact numbers by the grammar of numbers in files (`rational
 value that does not fit is a click.BadParameter, which names the option.  Options that always come
 together are one decorator: `answering` for every command with certificates, `aims` for a search,
 `draws` for drawn systems, `file_limits` and `work_limits`.  Every command imports this module, and
-it loads none of the package besides errors and rational numbers.
+it loads none of the package besides errors, rational numbers and a constant of exports.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from click.core import ParameterSource
 
 from mcexact.errors import InputError
 from mcexact.exact.rational import parse_rational
+from mcexact.export import MOST_BITS
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -492,7 +493,7 @@ def aims(function: F) -> F:
 
 fixed_point = click.option(
     "--fixed-point",
-    type=click.IntRange(min=0, max=48),
+    type=click.IntRange(min=0, max=MOST_BITS),
     metavar="BITS",
     help="Compute in integers of 32 bits, with every number of the controller rounded to this many "
     "fractional bits.",

@@ -5,3 +5,6 @@
 `code`        the sums as C, and as function blocks
 `compiled`    the C, compiled and called
 """
+
+MOST_BITS = 48
+"""The most fractional bits of a number in fixed point."""

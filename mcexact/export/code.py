@@ -23,8 +23,8 @@ code exactly, so that what runs can be certified.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -41,7 +41,8 @@ from mcexact.export.equations import (
     steps_of,
 )
 from mcexact.export.fixed import LARGEST, FixedPoint
-from mcexact.model.controller import Controller, controller_text, with_matrices
+from mcexact.model.controller import Controller, controller_text, with_limits, with_matrices
+from mcexact.model.limits import Range
 
 INDENT = "    "
 
@@ -94,7 +95,12 @@ def export_controller(
 
 
 def in_code(controller: Controller, fixed: FixedPoint | None = None) -> Controller:
-    """Return the controller that its code is: with numbers that doubles, or integers, are.
+    """Return the controller that its code is: numbers and limits that doubles, or integers, are.
+
+    Raises
+    ------
+    InputError
+        If no value of the code lies between the limits of an input.
 
     Examples
     --------
@@ -111,7 +117,12 @@ def in_code(controller: Controller, fixed: FixedPoint | None = None) -> Controll
         rows = [[Fraction(to_float(x)) for x in row] for row in M.rows()]
         return Matrix.from_rows(rows, ncols=M.ncols)
 
-    return with_matrices(controller, nearest)
+    return with_limits(with_matrices(controller, nearest), _as_doubles)
+
+
+def _as_doubles(pair: Range) -> Range:
+    """Limits as they are in the code in doubles."""
+    return Fraction(to_float(pair[0])), Fraction(to_float(pair[1]))
 
 
 # What both languages have in common.
@@ -125,9 +136,31 @@ class _Code:
     system: str
     fixed: FixedPoint | None
 
+    def number(self, c: Fraction) -> Fraction:
+        """A number as it is in the code, exactly."""
+        return Fraction(to_float(c)) if self.fixed is None else self.fixed.number(c)
+
+    def _rows(self, rows: Sequence[Row]) -> tuple[Row, ...]:
+        return tuple(tuple((self.number(c), signal) for c, signal in row) for row in rows)
+
+    def ends(self, pair: Range) -> Range:
+        """Limits of an input as they are in the code, exactly."""
+        return _as_doubles(pair) if self.fixed is None else self.fixed.ends(pair)
+
     def document(self) -> dict[str, Any]:
-        """The sums of all agents as plain data, with the numbers as they are in the code."""
-        document = equations_document(self.steps, self.system)
+        """The sums of all agents as plain data, with numbers and limits as they are in the code."""
+        steps = [
+            replace(
+                step,
+                u=self._rows(step.u),
+                x=self._rows(step.x),
+                z=self._rows(step.z),
+                limits=tuple(None if pair is None else self.ends(pair) for pair in step.limits),
+                start=self._rows(step.start or ()) if _starts(step, self) else None,
+            )
+            for step in self.steps
+        ]
+        document = equations_document(steps, self.system)
         if self.fixed is not None:
             document["arithmetic"] = "integers of 32 bits, sums of 64 bits, each rounded once"
             document["fixed point"] = self.fixed.document()
@@ -224,14 +257,7 @@ def described(step: AgentStep, code: _Code) -> list[str]:
     lines = [f"Agent {step.name!a} of a distributed controller in discrete time."]
     if code.system:
         lines.append(f"Made for the plant of digest {code.system}.")
-    numbers = [c for row in step.rows() for c, _ in row]
-    rounded = sum(
-        (Fraction(to_float(c)) if fixed is None else fixed.number(c)) != c for c in numbers
-    )
-    to = "the nearest double" if fixed is None else f"{fixed.bits} fractional bits"
-    exact = f"All {len(numbers)} numbers are those of the controller exactly."
-    nearest = f"{rounded} of its {len(numbers)} numbers are rounded to {to}."
-    lines.append(nearest if rounded else exact)
+    lines += _counted(step.rows(), "", code)
     if fixed is not None:
         lines += _scales(step, fixed)
     order = ["measure y", "run the step", "set u"]
@@ -246,8 +272,12 @@ def described(step: AgentStep, code: _Code) -> list[str]:
     if any(step.cut()):
         more = ", and its states are corrected by what was cut off" * step.winds
         lines.append(f"Inputs are cut off at their limits{more}.")
+        if _limits_are_rounded(step, code):
+            how = "to the nearest doubles" if fixed is None else "inwards to units of u"
+            lines.append(f"These limits are those of the controller, rounded {how}.")
     if _starts(step, code):
         lines.append("Start puts the states at rest for the first y, and r if there is any.")
+        lines += _counted(step.start or (), " for start", code)
     elif step.x or step.z:
         lines.append("All states start at 0.")
     if step.received:
@@ -259,6 +289,29 @@ def described(step: AgentStep, code: _Code) -> list[str]:
 def _starts(step: AgentStep, code: _Code) -> bool:
     """Whether there is code that starts without a bump, as there is none in fixed point."""
     return step.start is not None and code.fixed is None
+
+
+def _counted(rows: Iterable[Row], what: str, code: _Code) -> list[str]:
+    """How many numbers are rounded; nothing where there are none."""
+    numbers = [c for row in rows for c, _ in row]
+    rounded = sum(code.number(c) != c for c in numbers)
+    fixed, count = code.fixed, len(numbers)
+    if not numbers:
+        return []
+    if not rounded:
+        if what:
+            return [f"The code has its numbers{what} exactly."]
+        if count == 1:
+            return ["Its only number is that of the controller exactly."]
+        return [f"All {count} numbers are those of the controller exactly."]
+    of = f"Its only number{what}" if count == 1 else f"{rounded} of its {count} numbers{what}"
+    to = "the nearest double" if fixed is None else f"{fixed.bits} fractional bits"
+    return [f"{of} {'is' if rounded == 1 else 'are'} rounded to {to}."]
+
+
+def _limits_are_rounded(step: AgentStep, code: _Code) -> bool:
+    """Whether the code cuts off at other limits than the controller."""
+    return any(pair is not None and code.ends(pair) != pair for pair in step.limits)
 
 
 def _scales(step: AgentStep, fixed: FixedPoint) -> list[str]:

@@ -26,7 +26,6 @@ from mcexact.model.controller import Controller
 
 FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic", "-ffp-contract=off")
 """How exported code compiles; the last one forbids that a product and a sum are rounded once."""
-_SPARE = 64
 
 
 def compiler() -> list[str]:
@@ -102,7 +101,7 @@ class CompiledAgent:
         self._fixed = fixed
         self._type: Any = ctypes.c_double if fixed is None else ctypes.c_int32
         states = (self.step.remembered + 1) * len(self.step.x) + len(self.step.z)
-        self._state = (self._type * (states + _SPARE))()
+        self._state = (self._type * max(states, 1))()
         self._call("reset")
 
     def _call(self, function: str, *arguments: Any) -> None:

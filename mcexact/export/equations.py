@@ -20,7 +20,7 @@ compute the same bits where a compiler does not contract a product and a sum.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
@@ -87,7 +87,7 @@ class AgentStep:
         At which each input is cut off; None for one without limits.
     start : tuple of Row, or None
         The states (x, z) in which the agent is at rest with its first y and r, as sums of these;
-        None where it starts at 0.
+        None where it starts at 0, or one of their numbers is beyond double precision.
     """
 
     name: str
@@ -121,8 +121,8 @@ class AgentStep:
         return max([self.held, *self.sent.values()], default=0)
 
     def rows(self) -> Iterator[Row]:
-        """All sums."""
-        yield from (*self.u, *self.x, *self.z, *(self.start or ()))
+        """The sums of a step, whose numbers are those of the controller."""
+        yield from (*self.u, *self.x, *self.z)
 
 
 def steps_of(controller: Controller) -> tuple[AgentStep, ...]:
@@ -193,9 +193,15 @@ def _step(controller: Controller, i: int, identifier: str) -> AgentStep:
         tuple(agent.limits or ()),
         _start(agent, i, (max(own, default=0), max(asked, default=0))),
     )
-    if not all(isfinite(to_float(c)) for row in made.rows() for c, _ in row):
+    limits = (end for pair in made.limits if pair is not None for end in pair)
+    if not (_are_doubles(made.rows()) and all(isfinite(to_float(end)) for end in limits)):
         raise InputError(f"agent {quoted(agent.name)} has a number beyond double precision")
     return made
+
+
+def _are_doubles(rows: Iterable[Row]) -> bool:
+    """Whether all numbers are within double precision."""
+    return all(isfinite(to_float(c)) for row in rows for c, _ in row)
 
 
 def _start(agent: AgentProgram, i: int, sizes: tuple[int, int]) -> tuple[Row, ...] | None:
@@ -221,7 +227,8 @@ def _start(agent: AgentProgram, i: int, sizes: tuple[int, int]) -> tuple[Row, ..
         return None
     measured = _terms("y", i, rest.take(cols=range(q)))
     wanted = _terms("r", i, rest.take(cols=range(q, q + asked)))
-    return tuple(y + r for y, r in zip(measured, wanted, strict=True))
+    rows = tuple(y + r for y, r in zip(measured, wanted, strict=True))
+    return rows if _are_doubles(rows) else None
 
 
 def _terms(kind: Kind, j: int, M: Matrix) -> tuple[Row, ...]:
@@ -370,7 +377,7 @@ def _sum(
 def equations_document(steps: Sequence[AgentStep], system: str) -> dict[str, Any]:
     """Return the sums of all agents, made for the plant of this digest, as plain data.
 
-    Each term is ``[number, double, signal]``, the number exactly as certified.
+    Each term is ``[number, double, signal]``, the number exactly.
     """
     names = [step.name for step in steps]
 

@@ -28,12 +28,14 @@ from typing import Any
 
 from mcexact.answer.boxes import BoxStability
 from mcexact.errors import InputError, LimitReached, UsageError, shown_value
-from mcexact.exact.matrix import Matrix, as_requested, matrix_to_float
+from mcexact.exact.matrix import Matrix, as_requested, matrix_to_float, to_float
 from mcexact.exact.rational import Entry, rational_text
 from mcexact.exact.roots import StabilityRegion
+from mcexact.export import MOST_BITS
 from mcexact.export.equations import AgentStep, Kind, Row, Signal, steps_of
-from mcexact.model.controller import Controller, with_matrices
+from mcexact.model.controller import Controller, with_limits, with_matrices
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.limits import Range
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 
@@ -41,7 +43,6 @@ WORD, LONG = 31, 63
 """The bits of a signal and of a sum, without the sign."""
 LARGEST: int = 2**WORD - 1
 """The largest integer of a signal; the least is its negative."""
-MOST_BITS = 48
 USUAL = Fraction(1000)
 """The range of signals for which none is given."""
 SIGNALS = ("y", "r", "u", "x", "z")
@@ -64,7 +65,7 @@ class FixedPoint:
     Raises
     ------
     UsageError
-        If bits are not from 0 to 48, a kind does not exist, or a range is not above 0.
+        If bits are below 0 or above `MOST_BITS`, a kind does not exist, or a range is not above 0.
 
     Examples
     --------
@@ -106,13 +107,19 @@ class FixedPoint:
         return Fraction(steps if c >= 0 else -steps, 2**self.bits)
 
     def rounded(self, controller: Controller) -> Controller:
-        """The controller that the code is."""
+        """The controller that the code is, its limits those at which the code cuts off.
+
+        Raises
+        ------
+        InputError
+            If the limits of an input are nearer to 0 than a unit of u.
+        """
 
         def matrix(M: Matrix) -> Matrix:
             entries = ((i, j, Fraction(x, M.denominator)) for i, j, x in M.nonzero())
             return Matrix.from_entries(M.shape, [(i, j, self.number(c)) for i, j, c in entries])
 
-        return with_matrices(controller, matrix)
+        return with_limits(with_matrices(controller, matrix), self.ends)
 
     def sum(self, row: Row, kind: str, agent: str = "") -> FixedSum:
         """Return a sum for a signal of a kind.
@@ -146,6 +153,12 @@ class FixedPoint:
         return max(ceil(Fraction(low) * scale), -LARGEST), min(
             floor(Fraction(high) * scale), LARGEST
         )
+
+    def ends(self, pair: Range) -> Range:
+        """The limits of an input at which the code cuts it off, exactly."""
+        unit = Fraction(1, 2 ** self.fractional("u"))
+        low, high = self.limits(to_float(pair[0]), to_float(pair[1]))
+        return low * unit, high * unit
 
     def integers(self, kind: str, values: Sequence[float]) -> list[int]:
         """Signals of a kind as the nearest integers, halves upwards, within the range."""
@@ -318,6 +331,7 @@ def least_fixed_point(
     InputError.require(controller, Controller, "controller")
     loop = closed_loop(system, controller, graph)
     kept, first = kept_disk_margin(least_disk_margin(loop)), MOST_BITS
+    steps = steps_of(controller)
     for bits in range(MOST_BITS + 1):
         if bits - first >= _MORE:
             break
@@ -328,7 +342,7 @@ def least_fixed_point(
         if kept > 0 and least_disk_margin(rounded) < kept:
             continue
         first = min(first, bits)
-        for step in steps_of(controller):
+        for step in steps:
             for kind, rows in (("u", step.u), ("x", step.x), ("z", step.z)):
                 for row in rows:
                     fixed.sum(row, kind, step.name)

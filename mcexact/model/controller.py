@@ -304,6 +304,14 @@ class Controller(Shown):
             f"not for this one, of digest {digest[:12]}…",
         )
 
+    def limits_for(self, system: MultiChannelSystem) -> InputLimits | None:
+        """The limits of the agents, or else those of the system; None without any."""
+        if any(agent.limits is not None for agent in self.agents):
+            return tuple(
+                agent.limits or (None,) * system.p(i) for i, agent in enumerate(self.agents)
+            )
+        return system.limits
+
     def require_fits(self, system: MultiChannelSystem, graph: NeighborGraph) -> None:
         """Check that this controller can run on a system over a graph.
 
@@ -408,7 +416,10 @@ def _require(M: Matrix, nrows: int, ncols: int, where: str) -> None:
 
 
 def with_matrices(controller: Controller, change: Callable[[Matrix], Matrix]) -> Controller:
-    """Apply a function to all matrices, those of set-points and anti-windup gains included."""
+    """Apply a function to all matrices, those of set-points and anti-windup gains included.
+
+    The limits of inputs stay as they are; see `with_limits`.
+    """
 
     def of(each: LinearMap) -> LinearMap:
         return LinearMap(
@@ -431,6 +442,30 @@ def with_matrices(controller: Controller, change: Callable[[Matrix], Matrix]) ->
         for agent in controller.agents
     )
     return replace(controller, agents=agents)
+
+
+def with_limits(controller: Controller, change: Callable[[Range], Range]) -> Controller:
+    """Apply a function to the limits of all inputs that have any.
+
+    Raises
+    ------
+    InputError
+        If nothing is left between the limits of an input.
+    """
+
+    def of(agent: AgentProgram) -> AgentProgram:
+        if agent.limits is None:
+            return agent
+        pairs = tuple(None if pair is None else change(pair) for pair in agent.limits)
+        for k, pair in enumerate(pairs):
+            if pair is not None and pair[0] >= pair[1]:
+                raise InputError(
+                    f"the limits of input {k + 1} of agent {quoted(agent.name)} are so near to 0 "
+                    "that no value of the code lies between them"
+                )
+        return replace(agent, limits=pairs)
+
+    return replace(controller, agents=tuple(map(of, controller.agents)))
 
 
 def _agent_json(agent: AgentProgram, names: list[str]) -> dict[str, Any]:

@@ -6,7 +6,7 @@ some steps late, limits of inputs, converters with finite steps, and the code of
 own arithmetic.  In each step k,
 
     y = C x(k),  what is measured: y in steps of the converters,
-    v = what the code computes,  u = v within the limits, in steps of the converters,
+    v = what the code gives,  u = v within the limits, in steps of the converters,
     x(k+1) = A_h x(k) + B_h (u(k − d) + w),
 
 A_h and B_h the nearest doubles to the exact samples, the sums from the left to the right.  Beside
@@ -30,6 +30,7 @@ from mcexact.errors import InputError, LimitReached, UsageError, one_of, several
 from mcexact.exact.matrix import Matrix, Rounding, as_requested, to_float
 from mcexact.exact.rational import as_fraction, rational_text
 from mcexact.exact.roots import is_discrete
+from mcexact.export.code import in_code
 from mcexact.export.compiled import compiled_agents
 from mcexact.export.equations import AgentRun, AgentStep, Kind, steps_of
 from mcexact.export.fixed import FixedAgent, FixedPoint
@@ -156,7 +157,8 @@ class Realization:
     late : int
         By how many steps inputs are applied late.
     limits : tuple of (Fraction or None, Fraction or None)
-        Those of every input, in the order of the channels.
+        Those of every input, in the order of the channels: the tighter ends of those at which the
+        code cuts off and those of the actuators.
     outputs, inputs : tuple of Quantizer or None
         The converters of every output and every input.
     code : str
@@ -277,8 +279,9 @@ class RealRun(Shown):
         At the same times, which each of them counts in steps, or in time if the controller is in
         continuous time.  The inputs are those that are set, before they are applied late.
     measured, computed : tuple of lists of float
-        For each time all outputs as the agents measured them, and all inputs as the code computed
-        them, before limits and converters.
+        For each time all outputs as the agents measured them, and all inputs as the code gave
+        them: cut off at the limits of the controller if it has any, but not yet at those of the
+        actuators, and not converted.
     realization : Realization
     outputs : tuple of OutputFigures
     inputs : tuple of InputFigures
@@ -411,8 +414,9 @@ def simulate_real(
     late : int
         By how many steps its inputs are applied late.
     limits : sequence of (low, high), optional
-        Those of every input, in the order of the channels, None where there is none; by default
-        those of the controller, or else of the plant.
+        Those of the actuators for every input, in the order of the channels, None where there is
+        none; by default those of the plant if the controller has no limits.  The code of a
+        controller with limits cuts off at these first, whatever is given here.
     quantized_outputs, quantized_inputs : optional
         A `Quantizer` or a step for all outputs or inputs, or a list with one for each, None for a
         converter that is exact.
@@ -442,7 +446,8 @@ def simulate_real(
         If the plant needs a step or must not have one, the run has more than a million steps, or
         code is to be compiled and there is no compiler.
     InputError
-        If the controller does not fit, or a number is malformed.
+        If the controller does not fit, a number is malformed, or limits leave an input no room
+        beside those of the controller.
     LimitReached
         If a number exceeds double precision.
 
@@ -481,7 +486,7 @@ def simulate_real(
     realization = Realization(
         clock.step,
         late,
-        limits_of(_own_limits(plant, program) if limits is None else limits, sum(inputs), rounding),
+        _effective_limits(plant, in_code(program, fixed), limits, rounding),
         _converters(quantized_outputs, sum(outputs), "quantized_outputs", rounding),
         _converters(quantized_inputs, sum(inputs), "quantized_inputs", rounding),
         ("compiled C, " if code == "compiled" else "")
@@ -547,12 +552,32 @@ class _Clock:
         return Fraction(1) if self.step is None else self.step
 
 
-def _own_limits(plant: MultiChannelSystem, controller: Controller) -> list[Any] | None:
-    """The limits of the controller, or else of the plant, for each input; None without any."""
-    own = plant.limits
-    if any(agent.limits is not None for agent in controller.agents):
-        own = tuple(a.limits or (None,) * plant.p(i) for i, a in enumerate(controller.agents))
-    return None if own is None else [pair for each in own for pair in each]
+def _effective_limits(
+    plant: MultiChannelSystem,
+    code: Controller,
+    given: Sequence[Any] | None,
+    rounding: Rounding | None,
+) -> tuple[Limit, ...]:
+    """The tighter ends of the limits of the code and of the actuators."""
+    inputs = sum(plant.p(i) for i in range(plant.m))
+    listed = code.limits_for(plant)
+    own = limits_of(None if listed is None else [pair for each in listed for pair in each], inputs)
+    if given is None:
+        return own
+    actuators = limits_of(given, inputs, rounding)
+    if all(agent.limits is None for agent in code.agents):
+        return actuators
+    return tuple(
+        _tighter(a, b, f"limits[{k}]") for k, (a, b) in enumerate(zip(own, actuators, strict=True))
+    )
+
+
+def _tighter(own: Limit, given: Limit, where: str) -> Limit:
+    low = max((end for end in (own[0], given[0]) if end is not None), default=None)
+    high = min((end for end in (own[1], given[1]) if end is not None), default=None)
+    if low is not None and high is not None and low >= high:
+        raise InputError("expected limits that meet those of the controller", where=where)
+    return low, high
 
 
 def limits_of(

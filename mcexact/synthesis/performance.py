@@ -44,7 +44,7 @@ from mcexact.analysis.performance import (
     response_of,
     weights_in,
 )
-from mcexact.analysis.saturation import gains_for, gains_of, limits_of, saturation_of
+from mcexact.analysis.saturation import gains_for, gains_of, saturation_of
 from mcexact.analysis.steps import SECONDS, Steps, computed_steps, step_curves, steps_of
 from mcexact.answer.performance import CostBound, CostWeights, DiskMargin, LoopCost, StepPeaks
 from mcexact.answer.protocol import Answer, encode
@@ -620,7 +620,7 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
 
 def _saturation_proofs(loop: ClosedLoop) -> dict[str, _Proof]:
     """That the loop is stable while inputs are cut off, if any have limits."""
-    limits = limits_of(loop)
+    limits = loop.controller.limits_for(loop.plant)
     if limits is None:
         return {}
     size = loop.dimension + sum(pair is not None for own in limits for pair in own)

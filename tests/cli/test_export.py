@@ -83,6 +83,8 @@ def test_the_code_is_certified_with_its_numbers(tmp_path: Path) -> None:
     status, told, err = call("export", gains, "--fixed-point", *options)
     assert status == 0, err
     assert "Proved: cost" in told and "fixed point, " in told and "VALID" in told
+    about = "note: the verdict is about a controller with the numbers of the code (fixed point, "
+    assert about in told and "signals beyond their ranges, are not part of it" in told
     bits = int(told.split("fixed point, ")[1].split()[0])
     controller = Path(code, "controller.json")
     [agent] = load_controller(controller).agents

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import json
 import random
 import re
 import shutil
@@ -27,6 +28,7 @@ from mcexact.export.equations import (
     AgentRun,
     AgentStep,
     Language,
+    Signal,
     equations_document,
     steps_of,
 )
@@ -111,6 +113,8 @@ def made() -> dict[str, tuple[MultiChannelSystem, Controller]]:
         ],
     )
     cut = static.with_saturation((((Fraction(0), Fraction(1, 3)),), (None,)))
+    third = Fraction(1, 3)
+    thirds = static.with_saturation((((-third, third),), ((Fraction(-1, 7), third),)))
     sharing = design_extended(network, dimensions=[1, 1], arithmetic="float", agent="left")
     late = sampled_system(tanks(), "1/2", 1)
     return {
@@ -121,6 +125,7 @@ def made() -> dict[str, tuple[MultiChannelSystem, Controller]]:
         "every signal": (network, drawn(1, {})),
         "limits and anti-windup": (network, saturated),
         "limits of one agent": (network, cut),
+        "limits that no code has": (network, thirds),
         "held and delayed": (delayed, drawn(2, {0: 3, 1: 1})),
     }
 
@@ -302,8 +307,55 @@ def test_the_document_has_every_number_exactly_and_as_it_is_used() -> None:
 def test_the_code_says_how_many_numbers_were_rounded() -> None:
     text = code(MADE["static"][1], "c")["left.h"]
     assert "2 of its 2 numbers are rounded to the nearest double" in text
-    halves = local_controllers(plant(), [[["-1/2", 0]], [[0]]])
-    assert "All 1 numbers are those of the controller exactly" in code(halves, "c")["left.h"]
+    halves = local_controllers(plant(), [[["-1/2", 0]], [["1/3"]]])
+    texts = code(halves, "c")
+    assert "Its only number is that of the controller exactly." in texts["left.h"]
+    assert "Its only number is rounded to the nearest double." in texts["agent_2nd_pump.h"]
+    mixed = code(local_controllers(plant(), [[["-1/2", "1/3"]], [[0]]]), "c")
+    assert "1 of its 2 numbers is rounded to the nearest double." in mixed["left.h"]
+    assert "number" not in mixed["agent_2nd_pump.h"]
+    both = code(local_controllers(plant(), [[["-1/2", "1/4"]], [[0]]]), "c")
+    assert "All 2 numbers are those of the controller exactly." in both["left.h"]
+
+
+def test_numbers_for_start_are_counted_where_there_is_code_for_it_alone() -> None:
+    M = Matrix.from_rows
+    halves = AgentProgram(
+        "left",
+        0,
+        1,
+        private_update=LinearMap({0: M([["1/2"]])}, {}, M([["-1/2"]])),
+        input=LinearMap({}, {}, M([[1]])),
+    )
+    controller = Controller("discrete", "", (halves,))
+    [step] = steps_of(controller)
+    assert step.start == (((Fraction(1, 3), Signal("y", 0, 0)),),)
+    assert sum(map(len, step.rows())) == 3
+    for language, name in (("c", "left.h"), ("st", "left.st")):
+        text = code(controller, language)[name]  # type: ignore[arg-type]
+        assert "All 3 numbers are those of the controller exactly." in text
+        assert "Its only number for start is rounded to the nearest double." in text
+        integers = code(controller, language, FixedPoint(4))[name]  # type: ignore[arg-type]
+        assert "All 3 numbers are those of the controller exactly." in integers
+        assert "start is rounded" not in integers
+    document = json.loads(export_controller(controller, "json", FixedPoint(4))[EQUATIONS])
+    assert document["agents"][0]["start"] is None
+
+
+def test_an_agent_starts_at_zero_where_its_rest_is_beyond_doubles() -> None:
+    M = Matrix.from_rows
+    near = AgentProgram(
+        "left",
+        0,
+        1,
+        private_update=LinearMap({0: M([[10**300]])}, {}, M([[1 - Fraction(1, 10**100)]])),
+        input=LinearMap({}, {}, M([[1]])),
+    )
+    [step] = steps_of(Controller("discrete", "", (near,)))
+    assert step.start is None
+    large = lag().with_saturation((((Fraction(-1), Fraction(10**400)),),))
+    with pytest.raises(InputError, match="beyond double precision"):
+        steps_of(large)
 
 
 def test_no_name_of_an_agent_ends_a_comment_or_is_a_word_of_the_language() -> None:

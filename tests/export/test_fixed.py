@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -227,9 +228,8 @@ def test_many_bits_follow_the_run_in_doubles(name: str) -> None:
 def test_signals_at_the_ends_of_their_ranges_overflow_nothing(tmp_path: Path) -> None:
     """Sums that nearly fill 64 bits, with every sign: partial sums stay within them, too."""
     controller = MADE["every signal"][1]
-    large = in_code(controller, FixedPoint(0)).system, controller
     fixed = FixedPoint(27, dict.fromkeys("yruxz", Fraction(1)))
-    steps = steps_of(large[1])
+    steps = steps_of(controller)
     for step in steps:
         for kind, rows in (("u", step.u), ("x", step.x), ("z", step.z)):
             for row in rows:
@@ -295,6 +295,48 @@ def test_the_controller_beside_the_code_is_what_the_code_is(language: Any) -> No
         assert any(a != b for a, b in entries)
         for a, b in entries:
             assert a == (Fraction(float(b)) if fixed is None else fixed.number(b))
+
+
+@pytest.mark.parametrize("fixed", [None, FixedPoint(7), FixedPoint(12, {"u": 3})])
+@pytest.mark.parametrize("name", MADE)
+def test_controller_and_equations_have_the_numbers_and_the_limits_of_the_code(
+    name: str, fixed: FixedPoint | None
+) -> None:
+    _, controller = MADE[name]
+    files, steps = export_controller(controller, "c", fixed), steps_of(controller)
+    beside = steps_of(read_controller(files["controller.json"]))
+    document = json.loads(files["equations.json"])
+    for own, step, told in zip(beside, steps, document["agents"], strict=True):
+        # the ends at which the C cuts off, read in its text
+        source = files[f"{step.identifier}.c"]
+        found = {
+            int(k): (Fraction(float(low)), Fraction(float(high)))
+            for k, low, high in re.findall(r"u\[(\d+)\] < (\S+) .* > (\S+) \?", source)
+        }
+        scale = 1 if fixed is None else 2 ** fixed.fractional("u")
+        ends = [
+            None if k not in found else (found[k][0] / scale, found[k][1] / scale)
+            for k in range(len(step.limits))
+        ]
+        assert list(own.limits) == ends
+        assert [each and tuple(map(Fraction, each)) for each in told["limits"]] == ends
+        for key, rows in (("u", own.u), ("next x", own.x), ("next z", own.z)):
+            terms = [[Fraction(c) for c, _, _ in row if Fraction(c)] for row in told[key]]
+            assert terms == [[c for c, _ in row] for row in rows]
+        if "no code has" in name:
+            assert all(pair not in ends for pair in step.limits)
+            assert (
+                "These limits are those of the controller, rounded" in files[f"{step.identifier}.h"]
+            )
+
+
+def test_limits_between_which_no_value_of_the_code_lies_are_refused() -> None:
+    near = MADE["limits that no code has"][1]
+    with pytest.raises(InputError, match="no value of the code lies between"):
+        export_controller(near, "c", FixedPoint(4, {"u": 2**30}))
+    nearer = near.with_saturation((((Fraction(0), Fraction(1, 10**400)),), (None,)))
+    with pytest.raises(InputError, match="no value of the code lies between"):
+        export_controller(nearer, "c")
 
 
 def two() -> MultiChannelSystem:

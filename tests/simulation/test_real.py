@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import shutil
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
 from mcexact.derived.sampling import sampled_system
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
+from mcexact.export.fixed import FixedPoint
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.statespace import local_controllers
@@ -250,6 +252,38 @@ def test_limits_are_those_of_the_controller_or_else_of_the_plant() -> None:
     own = lags("discrete").with_saturation(((None,), ((Fraction(-1, 4), Fraction(1)),)))
     run = simulate_real(limited, own, step=STEP, initial=[4, 4], horizon=4)
     assert run.inputs[0].at_limit == 0 and run.inputs[1].peak[1] == 0.25
+
+
+def test_limits_of_actuators_are_further_ones_where_the_controller_has_limits() -> None:
+    half = Fraction(1, 2)
+    own = lags("discrete").with_saturation((((-half, half),), ((-half, half),)))
+
+    def run(limits: Any) -> RealRun:
+        return simulate_real(tanks(), own, step=STEP, initial=[4, 4], horizon=4, limits=limits)
+
+    wide, tight = run([(-1, 1), None]), run([("-1/4", None), None])
+    assert wide.realization.limits == ((-half, half),) * 2
+    assert "limits of inputs: -0.5 to 0.5" in wide.explain()
+    assert [each.peak[1] for each in wide.inputs] == [0.5, 0.5]
+    assert min(each.at_limit for each in wide.inputs) > 0
+    assert tight.realization.limits == ((Fraction(-1, 4), half), (-half, half))
+    assert tight.inputs[0].peak[1] == 0.25 and tight.inputs[0].at_limit > 0
+    assert min(u for u, _ in tight.computed) == -0.5
+    with pytest.raises(InputError, match="meet those of the controller"):
+        run([(1, 2), None])
+
+
+def test_steps_at_a_limit_are_counted_in_fixed_point() -> None:
+    """The code in integers cuts off a little within limits that are no integers."""
+    third = Fraction(1, 3)
+    own = lags("discrete").with_saturation((((-third, third),), (None,)))
+    counts = [
+        simulate_real(tanks(), own, step=STEP, initial=[4, 4], horizon=4, fixed=fixed)
+        .inputs[0]
+        .at_limit
+        for fixed in (None, FixedPoint(20, dict.fromkeys("yruxz", 16)))
+    ]
+    assert counts[0] == counts[1] > 3
 
 
 def test_the_code_corrects_its_states_by_what_it_cuts_off() -> None:
