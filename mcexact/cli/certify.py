@@ -122,9 +122,10 @@ def command(file: str, controller: str, **values: Any) -> int:
         )
     if values["modulo"] is not None and values["sampling"]:
         raise click.UsageError(parts.NOT_SAMPLED)
-    require_other(output, file, controller, weights, sizes, parts.file_of(values))
+    inputs = file, controller, weights, sizes, parts.file_of(values)
+    require_other(output, *inputs)
     require_writable(output, run.certificates)
-    require_page(html, run.certificates, file, controller, weights, sizes)
+    require_page(html, run.certificates, *inputs)
     require_apart(output, html, run.certificates)
     about = place_of(controller)
     read = (None if each is None else run.read(each) for each in (weights, sizes))

@@ -149,6 +149,10 @@ def command(
             raise click.UsageError("--export checks nothing: give it alone")
         _export(export)
         return 0
+    if rocq is not None and (len(certificates) != 1 or manifest is not None):
+        raise click.UsageError("--rocq is about one CERTIFICATE")
+    if rocq is not None and certificates[0] == "-":
+        raise click.UsageError("--rocq needs a CERTIFICATE in a file")
     asking = None if system is None else _plant_file(system), controller, expect
     if wrong := misuse(certificates, manifest, asking, bool(timeout or max_memory)):
         raise click.UsageError(wrong)
@@ -180,8 +184,8 @@ def command(
                 for k, (about, verdict) in enumerate(judged)
             ]
             deliver(json_text({"format": FORMAT, "verdicts": rows}))
-        if rocq is not None:
-            _write_theorem(rocq, certificates)
+        if rocq is not None and not interrupted:
+            _write_theorem(rocq, certificates[0], timeout)
     except NotWritten as error:
         if not error.reader_left:
             raise
@@ -218,7 +222,7 @@ def _confirmed(judged: Sequence[Found], seconds: float | None) -> dict[int, str]
     return found
 
 
-def _write_theorem(file: Path, certificates: Sequence[str]) -> None:
+def _write_theorem(file: Path, certificate: str, seconds: float | None) -> None:
     """Write the theorem about the plant of the one certificate.
 
     Raises
@@ -229,12 +233,10 @@ def _write_theorem(file: Path, certificates: Sequence[str]) -> None:
     # The checker shall not need what writes files.
     from mcexact.cli.files import write_result
 
-    if len(certificates) != 1:
-        raise click.UsageError("--rocq is about one CERTIFICATE")
     try:
-        text = verified.rocq_file(certificates[0])
+        text = verified.rocq_file(certificate, seconds)
     except LookupError as missing:
-        raise InputError(str(missing), where=certificates[0]) from None
+        raise InputError(str(missing), where=certificate) from None
     write_result(file, text.encode("ascii"))
 
 

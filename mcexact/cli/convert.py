@@ -158,8 +158,8 @@ def _converted(
     """Read a system and return the contents of the output, in the child process."""
     place, data = plant
     if is_controller(data, Limits(**limits)):
-        if inputs or outputs or at:
-            raise UsageError("found a controller: leave out --inputs, --outputs and --at")
+        if inputs or outputs or at or part is not None:
+            raise UsageError("found a controller: leave out --inputs, --outputs, --at and --modulo")
         return _controller(place, data, Limits(**limits), target, rounding, nearest)
     with InputError.inside(place):
         system = read_plant(data, place, Reading(Limits(**limits), rounding, inputs, outputs))

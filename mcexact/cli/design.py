@@ -122,9 +122,10 @@ def answer(name: str, file: str, values: dict[str, Any], wanted: Mapping[str, An
     run, spectrum, weights = Run(values), values["spectrum"], values["weights"]
     sizes = values["sizes"]
     output, html = values["output"], values["html"]
-    require_other(output, file, spectrum, weights, sizes, parts.file_of(values))
+    inputs = file, spectrum, weights, sizes, parts.file_of(values)
+    require_other(output, *inputs)
     require_writable(output, run.certificates)
-    require_page(html, run.certificates, file, spectrum, weights, sizes)
+    require_page(html, run.certificates, *inputs)
     require_apart(output, html, run.certificates)
     extra = (
         None if spectrum is None else read_spectrum(spectrum, run),

@@ -26,7 +26,15 @@ from mcexact.answer.structure import JointControllability, SetpointSolvability
 from mcexact.answer.templates import Sentence
 from mcexact.cli import parts
 from mcexact.cli.files import system_in
-from mcexact.cli.loops import assessed, read_weights, sampled, unproved, with_limits, with_sizes
+from mcexact.cli.loops import (
+    assessed,
+    limited_controller,
+    read_weights,
+    sampled,
+    unproved,
+    with_limits,
+    with_sizes,
+)
 from mcexact.cli.options import AIMS
 from mcexact.cli.results import DESIGNED, Evidence, Loop, Refused
 from mcexact.cli.running import Reporting
@@ -35,7 +43,7 @@ from mcexact.derived.sampling import is_sampled
 from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.exact.rational import Limits, written
 from mcexact.exact.roots import StabilityRegion
-from mcexact.model.controller import Controller, controller_text
+from mcexact.model.controller import controller_text
 from mcexact.model.regulated import positions_of, selection_in_words
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import parse
@@ -63,6 +71,7 @@ _NOTHING_ELSE = (
     "and no box of plants was sought"
 )
 _NO_BOX = "the time limit ended the search of a box of plants"
+_NO_STEP = "the time limit ended the search of the longest time between samples"
 _DESIGNERS: dict[str, Callable[..., Design]] = {
     "decentralized": design_decentralized,
     "extended": design_extended,
@@ -165,8 +174,8 @@ def designed(
             evidence=Evidence.of(account, system_by_digest),
             document=account.as_json(design=name, possible=False, reason=reason),
             reason=str(refused),
-            advice=_advice(name, plant[0], proof, system, region)
-            + _held(plant[0], proof, system, wanted.get("regulate")),
+            advice=_advice(name, plant[0], proof, system, region, sampling)
+            + _held(plant[0], proof, system, wanted.get("regulate"), sampling),
         )
     _require_readable(design, Limits(**limits))
     shape = _Shaped(design, aims, weighed, prove_all, with_box, with_page, system_by_digest)
@@ -223,17 +232,18 @@ class _Shaped:
             effort = {"effort": self.aims.effort} if self.aims.effort else {}
             rest = None if end is None else end - _SHOWING * (end - time.monotonic())
             every_loop = design.every_loop(**effort, deadline=rest)
-        longest = self._longest_step(end, report)
-
+        longest = None
+        if is_sampled(design.loop.closed.plant):
+            if end is not None:
+                report.keep(DESIGNED, shown(proved, _NO_STEP))
+            longest = self._longest_step(end, report)
         return self._shown(
             assessment.with_proofs(design, every_loop, proved), proved, every_loop, longest=longest
         )
 
-    def _longest_step(self, end: float | None, report: Reporting) -> LongestStep | None:
+    def _longest_step(self, end: float | None, report: Reporting) -> LongestStep:
         """The longest step of a sampled plant with which the controller keeps its margins."""
         closed = self.design.loop.closed
-        if not is_sampled(closed.plant):
-            return None
         report.step("the longest step with these margins")
         now = time.monotonic()
         deadline = now + _STEPPING
@@ -246,13 +256,6 @@ class _Shaped:
             margin=Fraction(str(self.aims.disk)),
             deadline=deadline,
         )
-
-    def _saturated(self, proved: Performance | None) -> Controller:
-        """The controller, with the limits of its inputs and anti-windup gains if there are any."""
-        limits = self.design.loop.closed.plant.limits
-        if proved is not None:
-            return proved.saturated(self.design.controller, limits)
-        return self.design.controller.with_saturation(limits)
 
     def _shown(
         self,
@@ -267,16 +270,15 @@ class _Shaped:
         if note is not None:
             assessment = replace(assessment, notes=(*assessment.notes, note))
         account = design.account_with(every_loop, proved)
-        rows = [*unproved(proved), *assessment.rows()]
-        if longest is not None:
-            rows.append(("longest step", longest.explain()))
+        rows = (*unproved(proved), *assessment.rows())
         figures = measured(design.measures(), rows, account.sentences, design.region.discrete)
         listed = tables(account.sentences, note=account.reading)
-        return assessed(
+        limits = design.loop.closed.plant.limits
+        told = assessed(
             account,
             assessment,
             design.loop.closed,
-            tables=(*listed, *_box(every_loop), figures),
+            tables=(*listed, *_box(every_loop), *_steps(longest), figures),
             with_page=self.with_page,
             system_by_digest=self.system_by_digest,
             document=account.as_json(
@@ -285,8 +287,13 @@ class _Shaped:
                 **({} if longest is None else {"longest_step": longest.to_dict()}),
                 assessment=assessment.to_dict(),
             ),
-            controller=controller_text(self._saturated(proved)),
+            controller=controller_text(limited_controller(design.controller, limits, proved)),
         )
+        if longest is None:
+            return told
+        names = {f"longest_step_{name}.json": proof for name, proof in longest.answers.items()}
+        others = Evidence.about_own_plants(names)
+        return replace(told, evidence=told.evidence.with_others(others))
 
 
 def _aims(aimed: Mapping[str, Any], weights: Mapping[str, Any] | None) -> Aims:
@@ -299,16 +306,27 @@ def _aims(aimed: Mapping[str, Any], weights: Mapping[str, Any] | None) -> Aims:
 
 
 def _advice(
-    name: str, file: str, proof: Answer, system: MultiChannelSystem, region: StabilityRegion
+    name: str,
+    file: str,
+    proof: Answer,
+    system: MultiChannelSystem,
+    region: StabilityRegion,
+    sampling: Mapping[str, Any],
 ) -> str:
     """Return which command may help where no controller without communication exists.
 
     This is a design over the links of the plant, if sharing outputs over these leaves no fixed mode
-    outside the region; otherwise a search of links to add.
+    outside the region; otherwise a search of links to add.  A command without --step is advised for
+    the file of the sampled plant.
     """
+    about, held = "; ", file
+    if sampling:
+        held = "sampled.json"
+        command = f"mcexact c2d {file}{_options_of(sampling)} -o {held}"
+        about = f"; of the plant at the samples, which `{command}` writes, "
     if lacking(proof, region):
-        command = f"mcexact design {name} {file} --modulo unobservable"
-        return f"; `{command}` designs for the plant modulo what no output shows"
+        command = f"mcexact design {name} {held} --modulo unobservable"
+        return f"{about}`{command}` designs for the plant modulo what no output shows"
     if name != "decentralized" or not isinstance(proof, FixedSpectrum):
         return ""
     if all(len(factor.channels) in (0, system.m) for factor in proof.factors):
@@ -318,10 +336,18 @@ def _advice(
         left = fixed_spectrum(augmented_outputs(system)).factors
         if all(region.contains_roots_of(factor.polynomial) for factor in left):
             asked = "" if region.bound is None else f" --{region.word} {written(region.bound)}"
-            command = f"mcexact design extended {file}{asked}"
+            command = f"mcexact design extended {file}{_options_of(sampling)}{asked}"
             return f"; over the links of this plant, `{command}` designs one"
         links = "more links between agents change"
-    return f"; `mcexact allocate {file} --links` says whether {links} this"
+    return f"{about}`mcexact allocate {held} --links` says whether {links} this"
+
+
+def _options_of(sampling: Mapping[str, Any]) -> str:
+    """The options with which a command samples the plant in the same way."""
+    if not sampling:
+        return ""
+    late = f" --late {sampling['late']}" if sampling["late"] else ""
+    return f" --step {written(sampling['step'])}{late}"
 
 
 def lacking(proof: Answer, region: StabilityRegion) -> bool:
@@ -332,7 +358,13 @@ def lacking(proof: Answer, region: StabilityRegion) -> bool:
     return isinstance(proof, JointControllability) and is_about_dual(proof.subject)
 
 
-def _held(file: str, proof: Answer, system: MultiChannelSystem, regulate: Any) -> str:
+def _held(
+    file: str,
+    proof: Answer,
+    system: MultiChannelSystem,
+    regulate: Any,
+    sampling: Mapping[str, Any],
+) -> str:
     """Return which outputs can be held together where not all that were asked for can be."""
     if not isinstance(proof, SetpointSolvability):
         return ""
@@ -344,7 +376,7 @@ def _held(file: str, proof: Answer, system: MultiChannelSystem, regulate: Any) -
     if any(positions is None for _, positions in chosen):
         return said
     texts = [f"{name}:{','.join(map(str, positions))}" for name, positions in chosen if positions]
-    command = shlex.join(["mcexact", "design", "setpoint", file])
+    command = shlex.join(["mcexact", "design", "setpoint", file]) + _options_of(sampling)
     asked = " ".join(f"--regulate {shlex.quote(text)}" for text in texts)
     return f"{said}: `{command} {asked}` asks for these"
 
@@ -353,6 +385,13 @@ def _box(every_loop: EveryLoop | None) -> tuple[Table, ...]:
     """The table of what is not proved of every loop in a box, if there is anything."""
     rows = () if every_loop is None else tuple(every_loop.rows())
     return (Table("plants near this one", (), rows),) if rows else ()
+
+
+def _steps(longest: LongestStep | None) -> tuple[Table, ...]:
+    """The table of the longest step, whose certificates are among the evidence."""
+    if longest is None:
+        return ()
+    return (Table("other times between samples", (), (("longest step", longest.explain()),)),)
 
 
 def _require_readable(design: Design, limits: Limits) -> None:

@@ -41,6 +41,7 @@ from mcexact.answer.loops import (
     StabilityVerdict,
 )
 from mcexact.answer.protocol import Answer
+from mcexact.answer.saturation import SaturationStability
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import count
 from mcexact.cli import parts, uncertainty
@@ -54,7 +55,7 @@ from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.export.fixed import FixedPoint
 from mcexact.model.box import radii_in_words
 from mcexact.model.controller import Controller, controller_text, read_controller
-from mcexact.model.limits import limits_in
+from mcexact.model.limits import InputLimits, limits_in
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.sizes import read_sizes
@@ -236,9 +237,7 @@ def certified(
             **uncertainty.view(search),
             assessment=assessment.to_dict(),
         ),
-        controller=controller_text(
-            controller if proved is None else proved.saturated(controller, system.limits)
-        ),
+        controller=controller_text(limited_controller(controller, system.limits, proved)),
     )
 
 
@@ -346,6 +345,20 @@ def with_limits(system: MultiChannelSystem, texts: Sequence[str]) -> MultiChanne
     return system.with_limits(
         None if chosen is None else dict(zip(system.names, chosen, strict=True))
     )
+
+
+def limited_controller(
+    controller: Controller, limits: InputLimits | None, proved: Performance | None
+) -> Controller:
+    """The controller with limits of its inputs, and with the anti-windup gains of a proof.
+
+    Without a proof it has its own limits, or else those of the plant, and its own gains.
+    """
+    found = None if proved is None else proved.answers.get("saturation")
+    if isinstance(found, SaturationStability):
+        return controller.with_saturation(found.limits, found.back_calculation)
+    own = any(agent.limits is not None for agent in controller.agents)
+    return controller if own or limits is None else controller.with_saturation(limits)
 
 
 def at_samples(

@@ -378,9 +378,9 @@ limited = click.option(
     metavar="[AGENT:]LOW,HIGH",
     multiple=True,
     help="The least and the largest value of every input, or of those of an agent, such as "
-    "--limits=-1,1, in place of the limits in FILE. Repeatable. Then it is proved that the loop is "
-    "stable while inputs are cut off there, with anti-windup gains that are written into the "
-    "controller.",
+    "--limits=-1,1, in place of the limits in FILE. Repeatable. Then a proof is sought that the "
+    "loop is stable while inputs are cut off there; with it anti-windup gains are written into the "
+    "controller, beside the limits.",
 )
 
 

@@ -161,11 +161,12 @@ def command(file: str, controller: str, **values: Any) -> None:
     stable and nothing changes after the start, bounds on the outputs are proved, too; their
     certificate is checked, and --certificates writes it.
 
-    With --step, --limits, --quantize-outputs, --fixed-point or --code the real loop is run: the
-    plant at the samples, inputs that are held, late and limited, converters, and the arithmetic of
-    the exported code, from agents at 0. The ideal loop, about which something is proved, is shown
-    beside it, with settling times and control effort of both. A controller in continuous time is
-    taken at the samples by Tustin's rule; the ideal loop is then the one in continuous time.
+    With --step, --limits, --quantize-outputs, --quantize-inputs, --fixed-point or --code the real
+    loop is run: the plant at the samples, inputs that are held, late and limited, converters, and
+    the arithmetic of the exported code, from agents at 0. The ideal loop, about which something is
+    proved, is shown beside it, with settling times and control effort of both. A controller in
+    continuous time is taken at the samples by Tustin's rule; the ideal loop is then the one in
+    continuous time.
     """
     run = Run(values)
     real = _real(values)

@@ -71,18 +71,25 @@ def confirmations(
 ) -> list[Confirmation]:
     """What the program says of some files that were found VALID, about plants of these digests."""
     path = program()
-    if path is None or not paths:
-        return [Confirmation() for _ in paths]
-    named = [f"./{each}" if each.startswith("-") else each for each in paths]  # no options
-    limit = SECONDS if seconds is None else seconds
-    try:
-        run = subprocess.run([path, *named], capture_output=True, timeout=limit, check=False)
-    except (OSError, subprocess.TimeoutExpired):
+    run = None if path is None or not paths else _run([path], paths, seconds)
+    if run is None:
         return [Confirmation() for _ in paths]
     lines = run.stdout.decode("ascii", "replace").splitlines()
     if len(lines) != len(paths):
         return [Confirmation("ERROR", "the program ended early") for _ in paths]
     return [_read(*each) for each in zip(lines, paths, systems, strict=True)]
+
+
+def _run(
+    call: Sequence[str], files: Sequence[str], seconds: float | None
+) -> subprocess.CompletedProcess[bytes] | None:
+    """Run the program on files; None where it cannot be run, or not within the time."""
+    named = [f"./{each}" if each.startswith("-") else each for each in files]  # no options
+    limit = SECONDS if seconds is None else seconds
+    try:
+        return subprocess.run([*call, *named], capture_output=True, timeout=limit, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return None
 
 
 def _read(line: str, path: str, system: str) -> Confirmation:
@@ -104,18 +111,22 @@ def _claim(path: str) -> str:
     return digest_of(canonical_json(document["claim"]))
 
 
-def rocq_file(certificate: str) -> str:
+def rocq_file(certificate: str, seconds: float | None = None) -> str:
     """A file of Rocq whose theorem is the claim of a certificate, about its plant.
 
     Raises
     ------
     LookupError
-        If the program is missing or cannot verify this certificate; the text says why.
+        If the program is missing, takes too long or cannot verify this certificate; the text says
+        which.
     """
     path = program()
     if path is None:
         raise LookupError(f"{NAME} is missing, or of another version: make verified")
-    run = subprocess.run([path, "--rocq", certificate], capture_output=True, check=False)
+    run = _run([path, "--rocq"], [certificate], seconds)
+    if run is None:
+        limit = SECONDS if seconds is None else seconds
+        raise LookupError(f"{NAME} could not be run, or not within {limit:g} s")
     text = run.stdout.decode("ascii", "replace")
     if run.returncode:
         raise LookupError(f"{NAME} does not confirm this certificate: {text.strip()}")

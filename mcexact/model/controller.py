@@ -821,6 +821,8 @@ def is_controller(data: bytes, limits: Limits = DEFAULT_LIMITS) -> bool:
     with suppress(InputError):
         if is_of_arrays(data):
             return "format" in _parts(data, limits).texts
+        if FORMAT.encode() not in data and b"\\" not in data:  # letters can be written as \u006d
+            return False
         document = parse(data, limits)
         return isinstance(document, dict) and document.get("format") == FORMAT
     return False

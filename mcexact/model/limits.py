@@ -145,14 +145,15 @@ def limits_in(
     Raises
     ------
     InputError
-        If two numbers do not follow the last colon, or the channel does not exist.
+        If two numbers do not follow the last colon, the channel does not exist, or its limits are
+        given twice.
 
     Examples
     --------
     >>> limits_in(["-1,1", "right:0,1/2"], ["left", "right"], [1, 1])
     (((Fraction(-1, 1), Fraction(1, 1)),), ((Fraction(0, 1), Fraction(1, 2)),))
     """
-    where, chosen = "--limits", dict[str, Any]()
+    where, chosen, given = "--limits", dict[str, Any](), set[str]()
     for text in texts:
         name, _, numbers = text.rpartition(":")
         pair = [part.strip() for part in numbers.split(",")]
@@ -164,6 +165,10 @@ def limits_in(
             raise InputError(
                 f"expected two numbers, as in -1,1 or left:-1,1, found {quoted(text)}", where=where
             )
+        if name in given:
+            of = f"the channel {quoted(name)}" if name else "every input"
+            raise InputError(f"limits of {of} are given twice", where=where)
+        given.add(name)
         for each, p in zip(names, counts, strict=True):
             if each == name or (not name and each not in chosen):
                 chosen[each] = [pair] * p

@@ -38,7 +38,7 @@ class LongestStep(Shown):
     Attributes
     ----------
     step : Fraction or None
-        None where not even the step of the plant has the margin.
+        None where not even for the step of the plant a proof was found, or no time was left.
     margin : Fraction
         The disk margin at every single input and output.
     longer : Fraction or None
@@ -55,8 +55,10 @@ class LongestStep(Shown):
     def explain(self) -> str:
         """Say what was found, in one line."""
         kept = f"a disk margin of {approximated(self.margin)} at every single input and output"
+        if self.step is None and self.longer is None:
+            return "not sought: no time was left"
         if self.step is None:
-            return f"none that was tried has {kept}"
+            return f"no proof was found for the step of the plant, with {kept}"
         end = "" if self.longer is None else f"; not proved for {approximated(self.longer)}"
         return f"{approximated(self.step)}, with {kept}, the longest one of a search{end}"
 

@@ -54,7 +54,6 @@ from mcexact.exact.matrix import Matrix, finite, matrix_from_float, to_float
 from mcexact.exact.rational import three_digits, written
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
-from mcexact.model.limits import InputLimits
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.units import Units, loop_in
@@ -197,14 +196,6 @@ class Performance(Shown):
         single = [self.answers.get(name) for name in ("input_margin", "output_margin")]
         proved = [each.margin for each in single if isinstance(each, DiskMargin)]
         return min(proved) if len(proved) == len(single) else None
-
-    def saturated(self, controller: Controller, limits: InputLimits | None) -> Controller:
-        """The controller with limits, and with the anti-windup gains with which it was proved."""
-        found = self.answers.get("saturation")
-        if isinstance(found, SaturationStability):
-            return controller.with_saturation(found.limits, found.back_calculation)
-        own = any(agent.limits is not None for agent in controller.agents)
-        return controller if own or limits is None else controller.with_saturation(limits)
 
     @property
     def times_the_bound(self) -> float:

@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from mcexact.model import gallery
+from mcexact.model.controller import is_controller, save_controller
 from mcexact.model.files import load_parametric_system, load_system, save_system
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.statespace import local_controllers
+from mcexact.model.system import MultiChannelSystem
 from tests.cli.calling import call
 from tests.model.formats.hostile import mat
 
@@ -124,6 +127,30 @@ def test_a_file_of_another_program_gets_a_hint(text: str, tmp_path: Path) -> Non
     status, _, said = call("analyze", str(path))
     assert status == 3 and "Expecting value" not in said
     assert "a system file is JSON ('mcexact sample --template' prints one), .yaml, .mat" in said
+
+
+@pytest.mark.parametrize(
+    "option", [("--modulo", "both"), ("--at", "t=1"), ("--inputs", "1"), ("--outputs", "1")]
+)
+def test_options_about_plants_are_refused_for_controllers(
+    tmp_path: Path, option: tuple[str, str]
+) -> None:
+    plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+    save_controller(local_controllers(plant, [[[-1]]]), tmp_path / "c.json")
+    status, _, said = call("convert", str(tmp_path / "c.json"), *option)
+    assert status == 2 and "found a controller" in said and option[0] in said
+
+
+def test_a_plant_is_not_read_in_order_to_know_that_it_is_no_controller(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fails(*_: object) -> None:
+        raise AssertionError("the file is read")
+
+    named = b'{"format": "mcexact-controller/1"}'
+    assert is_controller(named) and is_controller(named.replace(b"/", rb"\/"))
+    monkeypatch.setattr("mcexact.model.controller.parse", fails)
+    assert not is_controller(b'{"format": "mcexact-system/1"}')
 
 
 PARAMETRIC = "gallery:quadruple-tank-parametric"

@@ -3,19 +3,24 @@
 import json
 import re
 import time
+from fractions import Fraction
 from html import unescape
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from mcexact.checker.kinds import check_document
 from mcexact.cli import designs
+from mcexact.cli.loops import limited_controller
 from mcexact.cli.options import AIMS
-from mcexact.cli.results import DESIGNED, Loop
+from mcexact.cli.results import DESIGNED, Loop, Refused
 from mcexact.cli.running import Reporting
 from mcexact.model import gallery
 from mcexact.model.files import save_system
+from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import system_text
 from mcexact.synthesis.design import Design
 from tests.answer.written import with_graph
 from tests.cli.calling import call
@@ -220,6 +225,61 @@ def test_a_link_that_the_plant_has_is_used_and_not_advised(
     assert done.status == 1 and f"`{advised.format(path)}`" in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("neighbors", "advised"),
+    [
+        (None, "`mcexact allocate sampled.json --links`"),
+        ({"a": ["b"]}, "`mcexact design extended plant.json --step 1/10 --late 1`"),
+    ],
+)
+def test_a_design_at_the_samples_is_advised_with_the_same_samples(
+    neighbors: dict[str, list[str]] | None, advised: str
+) -> None:
+    A, B, C = [[-1, 0], [1, 0]], [[[1], [0]], [[0], [0]]], [[[1, 0]], [[0, 1]]]
+    plant = MultiChannelSystem(A, B, C, names=["a", "b"], neighbors=neighbors)
+    sampling = {"step": Fraction(1, 10), "late": 1}
+    refused = designed(system_text(plant).encode(), sampling, None, list[Any]())
+    assert isinstance(refused, Refused) and advised in refused.advice
+    written = "which `mcexact c2d plant.json --step 1/10 --late 1 -o sampled.json` writes"
+    assert (written in refused.advice) is (neighbors is None)
+
+
+def test_the_rest_of_a_sampled_plant_is_advised_as_a_file_of_its_samples() -> None:
+    plant = gallery.load("relative-positions-4")
+    sampling = {"step": Fraction(1, 10), "late": 0}
+    refused = designed(system_text(plant).encode(), sampling, None, list[Any]())
+    assert isinstance(refused, Refused)
+    assert "`mcexact c2d plant.json --step 1/10 -o sampled.json` writes" in refused.advice
+    assert "`mcexact design decentralized sampled.json --modulo unobservable`" in refused.advice
+
+
+def test_the_proofs_of_the_longest_step_are_shown_and_checked_with_the_others() -> None:
+    integrator = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+    made, handed = at_samples(integrator, 600.0)
+    names = {f"longest_step_{side}_margin.json" for side in ("input", "output")}
+    assert names < made.evidence.files.keys() and names < made.evidence.certificates.keys()
+    for name in names:
+        verdict = check_document(made.evidence.files[name].encode("ascii"))
+        assert verdict.verdict == "VALID" and made.evidence.plants[name]
+    (row,) = [t.rows for t in made.tables if t.title == "other times between samples"]
+    assert row[0][0] == "longest step" and made.document["longest_step"]["step"]
+    assert all("longest step" not in str(t) for t in made.tables if "not certified" in t.title)
+    # what is handed over last before the search of the step has the box
+    assert "box_stability.json" in handed[-1].evidence.files
+    assert any("longest time between samples" in line for line in handed[-1].verdict)
+
+
+def test_limits_are_written_where_nothing_is_proved_of_them() -> None:
+    integrator = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+    controller = local_controllers(integrator, [[[-1]]])
+    limits = ((((Fraction(-1), Fraction(1)),)),)
+    (agent,) = limited_controller(controller, limits, None).agents
+    assert agent.limits == limits[0] and agent.back_calculation is None
+    own = controller.with_saturation((((Fraction(-2), Fraction(2)),),))
+    assert limited_controller(own, limits, None) == own
+    assert limited_controller(controller, None, None) == controller
+
+
 def test_a_box_and_disk_margins_are_aims_of_a_search(plant: str) -> None:
     done = run("design", "decentralized", plant, "--box", "10%", "--disk", "0.8", "--json")
     assert done.status == 0, done.stderr
@@ -231,19 +291,36 @@ def test_a_box_and_disk_margins_are_aims_of_a_search(plant: str) -> None:
 
 def handed_over(plant: str, left: float | None) -> tuple[Loop, list[Loop]]:
     """The design for a plant, and what is handed over before it is complete."""
-    content = Path(plant).read_bytes()
+    return parts_of(Path(plant).read_bytes(), {}, left)
+
+
+def at_samples(system: MultiChannelSystem, left: float) -> tuple[Loop, list[Loop]]:
+    """The same for a plant that is sampled."""
+    return parts_of(system_text(system).encode(), {"step": Fraction(1, 10), "late": 0}, left)
+
+
+def parts_of(
+    content: bytes, sampling: dict[str, Any], left: float | None
+) -> tuple[Loop, list[Loop]]:
+    """The design for the content of a file, and what is handed over before it is complete."""
+    sent = list[Any]()
+    made = designed(content, sampling, left, sent)
+    assert isinstance(made, Loop)
+    return made, [each.value for each in sent if getattr(each, "name", "") == DESIGNED]
+
+
+def designed(
+    content: bytes, sampling: dict[str, Any], left: float | None, sent: list[Any]
+) -> Loop | Refused:
+    """Design for the content of a file, in this process."""
     options: dict[str, object] = dict.fromkeys(AIMS)
     options |= {"margin": 0.3, "disk": 0.4, "seeds": 4, "seconds": left}
-    sent = list[Any]()
-    made = designs.designed(
-        "decentralized", ("plant.json", content), None, None, None, (), {}, {}, None,
+    return designs.designed(
+        "decentralized", ("plant.json", content), None, None, None, (), {}, sampling, None,
         {"rate": None, "radius": None, "arithmetic": "exact", "agent": None}, options,
         with_box=True, with_page=False, prove_all=False, system_by_digest=False, left=left,
         tell=print, report=Reporting(sent.append),
     )  # fmt: skip
-    assert isinstance(made, Loop)
-    parts = [each.value for each in sent if getattr(each, "name", "") == DESIGNED]
-    return made, parts
 
 
 def test_with_a_time_limit_a_design_is_handed_over_before_each_further_proof(plant: str) -> None:

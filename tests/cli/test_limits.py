@@ -98,6 +98,34 @@ def test_limits_that_make_no_sense_are_refused(folder: Path, text: str) -> None:
     assert done.status == 3 and "--limits" in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("given", "what"),
+    [
+        (("--limits=-1,1", "--limits=-2,2"), "limits of every input"),
+        (("--limits=heat:-1,1", "--limits=heat:-1,1"), "limits of the channel 'heat'"),
+    ],
+)
+def test_limits_that_are_given_twice_are_refused(
+    folder: Path, given: tuple[str, ...], what: str
+) -> None:
+    done = run("certify", str(folder / "stable.json"), str(folder / "integral.json"), *given)
+    assert done.status == 3 and f"{what} are given twice" in done.stderr, done.stderr
+
+
+def test_limits_are_written_for_a_loop_that_is_not_stable(folder: Path) -> None:
+    out = str(folder / "limited.json")
+    loose = Controller(
+        "continuous",
+        load_controller(folder / "gain.json").system,
+        (AgentProgram("heat", 0, 0, input=LinearMap({0: Matrix.from_rows([[1]])})),),
+    )
+    save_controller(loose, folder / "loose.json")
+    files = str(folder / "unstable.json"), str(folder / "loose.json")
+    assert run("certify", *files, "--limits=-1,1", "--no-box", "-o", out).status == 1
+    (agent,) = load_controller(out).agents
+    assert agent.limits == ((-1, 1),) and agent.back_calculation is None
+
+
 @pytest.mark.slow
 def test_a_design_at_samples_has_limits_gains_and_its_longest_step(folder: Path) -> None:
     out = str(folder / "made.json")

@@ -79,6 +79,18 @@ def test_what_does_not_go_together_is_refused(arguments: tuple[str, ...], messag
     assert done.status in (2, 3) and message in done.stderr, done.stderr
 
 
+@pytest.mark.parametrize("command", [("design", "decentralized"), ("certify",), ("analyze",)])
+def test_a_page_does_not_replace_the_file_of_the_subspace(
+    tmp_path: Path, command: tuple[str, ...]
+) -> None:
+    content = '{"unobservable": [[1, 1, 1, 1]]}'
+    subspace = own_subspace(tmp_path, content)
+    files = (RELATIVE, RELATIVE) if command == ("certify",) else (RELATIVE,)
+    done = run(*command, *files, "--modulo", subspace, "--html", subspace)
+    assert done.status in (2, 3) and "subspace.json" in done.stderr, done.stderr
+    assert Path(subspace).read_text("ascii") == content
+
+
 def test_a_design_that_is_refused_names_the_option() -> None:
     done = run("design", "decentralized", RELATIVE)
     assert done.status == 1

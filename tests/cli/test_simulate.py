@@ -112,3 +112,10 @@ def test_options_of_the_real_loop_are_checked(tmp_path: Path) -> None:
 def test_a_controller_for_another_step_is_warned_about(tmp_path: Path) -> None:
     status, _, said = call("simulate", *tank(tmp_path), "--step", "1/8", "--horizon", "3")
     assert status == 0 and "made for another plant" in said
+
+
+def test_the_help_names_every_option_that_makes_the_loop_real() -> None:
+    told = " ".join(call("simulate", "--help")[1].split())
+    listed = told.partition("the real loop is run")[0].rpartition("With ")[2]
+    options = ("step", "limits", "quantize-outputs", "quantize-inputs", "fixed-point", "code")
+    assert [name for name in options if f"--{name}" not in listed] == []

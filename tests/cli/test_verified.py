@@ -144,6 +144,45 @@ def test_a_theorem_needs_the_program_and_one_certificate(program: Path, certific
     assert call("check", "--rocq", file, str(certificate), str(certificate))[0] == 2
 
 
+@pytest.mark.parametrize("given", [0, 2])
+def test_a_theorem_about_no_single_certificate_is_refused_before_the_work(
+    program: Path, certificate: Path, given: int
+) -> None:
+    rest = [str(certificate)] * given if given else ["--manifest", str(certificate.parent)]
+    status, out, err = call("check", "--rocq", str(certificate.parent / "plant.v"), *rest)
+    assert (status, out) == (2, "") and "--rocq is about one CERTIFICATE" in err
+    status, out, err = call("check", "--rocq", str(certificate.parent / "plant.v"), "-")
+    assert (status, out) == (2, "") and "in a file" in err
+
+
+def test_a_theorem_of_a_file_whose_name_is_like_an_option(
+    program: Path, certificate: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(certificate.parent)
+    certificate.rename(certificate.parent / "-s.json")
+    program.write_text(
+        f'#!/bin/sh\n[ "$1" = --version ] && echo "{verified.VERSION}" && exit\necho "$1 $2"\n'
+    )
+    program.chmod(0o755)
+    assert verified.rocq_file("-s.json") == "--rocq ./-s.json\n"
+
+
+def test_a_theorem_that_takes_too_long_or_cannot_be_made_is_an_error(
+    program: Path, certificate: Path
+) -> None:
+    program.write_text(
+        f'#!/bin/sh\n[ "$1" = --version ] && echo "{verified.VERSION}" && exit\nexec /bin/sleep 9\n'
+    )
+    program.chmod(0o755)
+    file = certificate.parent / "plant.v"
+    asked = ("check", "--no-verified", "--rocq", str(file), str(certificate))
+    status, _, err = call(*asked, "--timeout", "0.5")
+    assert status == 3 and "not within 0.5 s" in err and not file.exists()
+    program.unlink()  # after its version was read
+    status, _, err = call(*asked)
+    assert status == 3 and "could not be run" in err
+
+
 BUILT = verified.program() is not None
 
 

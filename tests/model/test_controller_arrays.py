@@ -210,6 +210,7 @@ def test_controllers_are_converted_and_used_by_commands(tmp_path: Path) -> None:
     for options, told in (
         (("-o", str(tmp_path / "c.yaml")), "choose .json, .mat, .npz"),
         (("-o", str(mat), "--inputs", "1"), "leave out --inputs"),
+        (("-o", str(mat), "--modulo", "both"), "--at and --modulo"),
     ):
         status, _, said = call("convert", str(start), *options)
         assert status in (2, 3) and told in said, said

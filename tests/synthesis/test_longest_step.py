@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from mcexact import MultiChannelSystem, local_controllers, longest_step, sampled_system
@@ -12,6 +13,17 @@ from mcexact.answer.check import check
 from mcexact.errors import UsageError
 
 INTEGRATOR = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+
+
+def margin_on_a_grid(gain: float, step: float, late: int) -> float:
+    """The disk margin 1/max|S - 1/2| of the integrator with a gain; 0 if the loop is not stable."""
+    characteristic = np.array([1.0, -1.0, *[0.0] * late])
+    characteristic[-1] -= gain * step
+    if max(abs(np.roots(characteristic))) >= 1:
+        return 0.0
+    z = np.exp(1j * np.linspace(1e-3, np.pi, 10_000))
+    S = 1 / (1 - gain * step / ((z - 1) * z**late))
+    return float(1 / max(abs(S - 0.5)))
 
 
 @pytest.mark.parametrize(
@@ -24,9 +36,14 @@ def test_the_step_is_the_longest_of_those_that_have_the_margin(
     sampled = sampled_system(INTEGRATOR, "1/10", late)
     controller = local_controllers(sampled, [[[gain]]])
     found = longest_step(sampled, controller, margin=margin)  # type: ignore[arg-type]
+    asked = float(Fraction(str(margin)))
+    if found.longer is not None:
+        assert margin_on_a_grid(float(Fraction(str(gain))), float(found.longer), late) < asked
     if found.step is None:
-        assert found.longer == Fraction(1, 10)
+        assert found.longer == Fraction(1, 10) and not found.answers
+        assert found.explain().startswith("no proof was found for the step of the plant")
         return
+    assert margin_on_a_grid(float(Fraction(str(gain))), float(found.step), late) >= asked - 1e-6
     assert {each.margin for each in found.answers.values()} == {Fraction(str(margin))}
     assert len(found.answers) == 2
     for answer in found.answers.values():
@@ -50,6 +67,7 @@ def test_without_time_only_nothing_is_said() -> None:
         sampled, local_controllers(sampled, [[[-2]]]), deadline=time.monotonic() - 1
     )
     assert found.step is None and found.longer is None and not found.answers
+    assert found.explain() == "not sought: no time was left"
 
 
 def test_what_is_not_sampled_is_refused() -> None:
