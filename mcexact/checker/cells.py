@@ -14,7 +14,7 @@ entries (`along_line`).  Other constructions are refused as INCOMPLETE.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, count
 from math import comb, lcm, prod
 from operator import add
 from typing import Any
@@ -240,8 +240,10 @@ OF_SEVERAL = ("parametric_box_controllable", "parametric_box_fixed")
 def rearranged(steps: Json, plant: FunctionSystem) -> FunctionSystem:
     """Apply constructions, which make a matrix of entries of the plant, of 0 and of 1.
 
-    So they are applied to numbers in the places of the entries, 0 for 0 and else 2, 3, …, which
-    tell from the result which entry stands where.  The plant has the neighbor graph without edges.
+    So they are applied to numbers in the places of the entries, 0 for 0 and else 2k, 2k + 2, …,
+    which tell from the result which entry stands where: with k the number of all entries and more,
+    sums and products of such numbers, and those with 1 added, are none of them.  The plant has the
+    neighbor graph without edges.
 
     A line comes before all of them, and its system is then what they are applied to.
 
@@ -256,19 +258,24 @@ def rearranged(steps: Json, plant: FunctionSystem) -> FunctionSystem:
         plant, steps, before = along_line(plant, first, "subject[0]"), steps[1:], 1
     if not steps:
         return plant
-    known = [plant.number(0), plant.number(1)]
+    known = {0: plant.number(0), 1: plant.number(1)}
+    numbers = count(2 * sum(len(rows) * ncols + 1 for rows, ncols in plant.tables), 2)
+
+    def number_of(entry: Quotient) -> int:
+        if not entry[0]:
+            return 0
+        known[number := next(numbers)] = entry
+        return number
 
     def numbered(table: Table) -> Matrix:
         rows, ncols = table
         budget.spend(budget.table(len(rows), ncols, 1))
-        result = []
-        for row in rows:
-            result.append([len(known) + j if entry[0] else 0 for j, entry in enumerate(row)])
-            known.extend(row)
-        return Matrix(result, ncols)
+        return Matrix([[number_of(entry) for entry in row] for row in rows], ncols)
 
     def entries(M: Matrix) -> Table:
         budget.spend(budget.table(M.nrows, M.ncols))
+        if M.denominator != 1 or not all(k in known for row in M.rows for k in row):
+            incomplete("construction", "subject", "it does not only place entries elsewhere")
         return [[known[k] for k in row] for row in M.rows], M.ncols
 
     A, *ports = map(numbered, plant.tables)

@@ -136,7 +136,7 @@ def modulus(value: Json, place: str) -> int:
 
 
 def require_coprime(a: Polynomial, b: Polynomial, ell: int, what: str) -> None:
-    """Stop unless two monic polynomials are coprime modulo ℓ, and therefore over Q.
+    """Stop unless two polynomials, the first one monic, are coprime modulo ℓ and so over Q.
 
     Theorems ``arithmetic.coprime_modulo``, ``arithmetic.no_common_root``.
     """

@@ -23,6 +23,7 @@ from .arithmetic import (
     Polynomial,
     coprime,
     exponent,
+    inverse,
     poly_divide,
     poly_modulo,
     poly_product,
@@ -177,8 +178,8 @@ class MovedModes:
     ) -> None:
         """Stop unless every other t is no root of Res(ψ_0, ψ_1), or none of Res(ψ_0, χ_G).
 
-        The first one is divided by powers of values that divide it over Q, not modulo ℓ alone.  Its
-        leading coefficient is a unit: one that only ℓ makes vanish could hide a common root.
+        The first one is divided by powers of values that divide it over Q, not modulo ℓ alone, and
+        is monic: a leading coefficient that only ℓ makes vanish could hide a common root.
 
         Theorem ``arithmetic.no_common_root``.  Open: see ``proofs/OPEN.md``.
         """
@@ -186,7 +187,6 @@ class MovedModes:
         rest = self._exact(values, moduli) if moduli else self._modular(values, listed)
         # det(xI - A_G) undivided: over Q and modulo ℓ different powers of p could divide it
         other = resultant(residues(self.psi, self.ell), self.chi_G, self.ell)
-        # this order, in which Euclid's algorithm inverts the leading coefficient of the rest
         good = coprime(other, rest, self.ell)
         require(good, "common_factor", "witness", "other values may be exceptional")
 
@@ -221,7 +221,9 @@ class MovedModes:
         first = resultant(residues(self.psi, ell), residues(self.moved, ell), ell)
         most = degree_bound(self.psi, difference(self.moved, self.psi))
         require(len(first) > most, "degree", "witness.gains", f"expected a degree of {most}")
-        return poly_divide(first, known, ell)[0]
+        rest = poly_divide(first, known, ell)[0]
+        unit = inverse(rest[-1], ell)
+        return [c * unit % ell for c in rest]
 
 
 def _closed(value: Json, system: ParametricSystem) -> Layers:

@@ -26,6 +26,7 @@ from typing import Any
 from .arithmetic import exponent
 from .constructions import SHARED
 from .evidence import require_coprime
+from .kinds import same
 from .modes import no_fixed_mode
 from .reading import polynomial, require
 from .roots import in_stability_region
@@ -109,13 +110,15 @@ class Role:
     """The requirements on a premise: one of these kinds, with one of these subjects.
 
     With ``many``, all fitting premises, at least one, are taken as a list; with ``nearby`` those
-    about another plant than that of the manifest, and no others.
+    about another plant than that of the manifest, and no others.  With ``apart``, what premises
+    show is true by itself of the manifest's system, so that their constructions may differ.
     """
 
     kinds: Path
     paths: tuple[Path, ...] = SYSTEM
     many: bool = False
     nearby: bool = False
+    apart: bool = False
 
     def fits(self, premise: Premise, heard: bool) -> bool:
         """Whether a premise can play the role, for agents with or without their neighbors' outputs.
@@ -165,6 +168,7 @@ class Rule:
         if len(cast) < len(self.roles):
             wanted = self.roles[len(cast)].words()
             require(False, "premise", "because", f"expected {wanted}")
+        self._require_same_steps(cast)
         return self.say(*cast)
 
     def _cast(self, cited: list[Premise], heard: bool) -> Iterator[Any]:
@@ -174,6 +178,19 @@ class Rule:
             if not able:
                 return
             yield able if role.many else able[0]
+
+    def _require_same_steps(self, cast: list[Any]) -> None:
+        """Stop if constructions of the same names are others in two premises.
+
+        Paths are names alone: with other parts, or another controller, a premise of the same path
+        is about another system.
+        """
+        first: dict[tuple[Path | None, bool], Premise] = {}
+        for role, part in zip(self.roles, cast, strict=True):
+            for premise in [] if role.apart else part if role.many else [part]:
+                other = first.setdefault((premise.path, premise.nearby), premise)
+                alike = same(premise.document["subject"], other.document["subject"])
+                premise.expect(alike, "its constructions are others than those of another premise")
 
 
 RULES: dict[str, Rule] = {}

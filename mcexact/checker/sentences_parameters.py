@@ -247,8 +247,9 @@ restate(NEVER, STEADY, lambda c: not solvable(c), RANK_RULE)
 
 
 def on_a_line(role: Role) -> Role:
-    """The role for premises whose subject is constructed from the plant on a line."""
-    return Role(role.kinds, tuple(("line", *path) for path in role.paths), role.many)
+    """The role for premises whose subject is constructed from the plant on a line, each its own."""
+    paths = tuple(("line", *path) for path in role.paths)
+    return Role(role.kinds, paths, role.many, apart=True)
 
 
 LINES, LINE_RANKS = on_a_line(MODES), on_a_line(RANKS)

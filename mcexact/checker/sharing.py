@@ -103,7 +103,10 @@ class Program:
         longest += budget.limbs(most for most in high if most is not None)
         budget.spend(budget.fractions(2 * len(reduced) + 2, longest))
         for r, least, most in zip(reduced, low, high, strict=True):
-            bound += r * least if r >= 0 else r * (most or 0)
+            end = least if r >= 0 else most
+            if end is None:
+                malformed(place, "a variable without an upper bound costs less the larger it is")
+            bound += r * end
         grid = math.lcm(1, *(c.denominator for c in self.costs))
         proved = Fraction(math.ceil(bound * grid), grid)
         require(proved >= (self.value or 0), "leaf", place, f"proves only {proved}")

@@ -306,3 +306,16 @@ def test_a_certificate_is_about_what_was_constructed() -> None:
         assert checked({**found, "subject": steps}).verdict in ("INVALID", "MALFORMED")
     with pytest.raises(UsageError, match="feedback does not apply"):
         constructions.rearranged(plant, lambda bare: feedback(bare, [[[1, 1]], [[1]], [[1]]]))
+
+
+def test_a_construction_that_adds_entries_is_told_from_one_that_places_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rows = [[1, 0]], [[1]], [[1]]
+    gains = [{"denominator": 1, "entries": entries} for entries in rows]
+    fed = {"construction": "feedback", "gains": gains}
+    monkeypatch.setattr("mcexact.checker.cells.REARRANGING", (*REARRANGING, "feedback"))
+    with pytest.raises(Refused) as refused:
+        made([fed])
+    assert refused.value.place == "subject"
+    assert refused.value.code == "construction"

@@ -33,6 +33,8 @@ from tests.checker.test_sentences_design import STABLE, judged, rows
 
 TOGETHER = ("claim.together", True)
 ALL_INPUTS, ALL_OUTPUTS = changed(MARGIN, TOGETHER), changed(OUTPUT_MARGIN, TOGETHER)
+GAIN = "subject.0.controller.agents.0.input.outputs.1"
+OTHER_LOOP = changed(OUTPUT_MARGIN, (GAIN, [["-3/4"]]))
 OTHER_WEIGHTS = changed(STEP_BOUND, ("claim.weights.noise", [2]), ("witness.groups.0.noise", [2]))
 NOTHING = changed(STEP_BOUND, ("claim.cost", 0))
 IMPLIED: list[tuple[str, list[Document]]] = [
@@ -75,6 +77,7 @@ DENIED: list[tuple[str, list[Document]]] = [
     ("performance-all-inputs-margin", [ALL_OUTPUTS]),
     ("first-margin", [MARGIN]),
     ("first-margin", [OUTPUT_MARGIN, ALL_OUTPUTS]),
+    ("first-margin", [MARGIN, OTHER_LOOP]),
     ("performance-sectors", [MARGIN]),
     ("saturation-global first-saturation", [NEAR]),
     ("saturation-region first-saturation-region", [CUT]),
