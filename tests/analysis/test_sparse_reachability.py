@@ -51,9 +51,9 @@ def test_the_structure_gives_the_same_graph(monkeypatch: pytest.MonkeyPatch) -> 
             counted["zeros" if found.zeros else "paths"] += 1
         counted["cuts"] += isinstance(answer.evidence, PathCutWitness)
         if answer.complete and isinstance(answer.evidence, BlocksWitness):
-            counted[f"modulus {answer.evidence.modulus}"] += 1
+            counted["small moduli"] += answer.evidence.modulus < 100
     assert counted["paths"] > 50 > counted["zeros"] > 1, counted
-    assert counted["modulus 31"] > 5, counted
+    assert counted["small moduli"] > 5, counted
     assert counted["cuts"] > 5, counted
 
 
