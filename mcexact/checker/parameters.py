@@ -187,7 +187,7 @@ class MovedModes:
         rest = self._exact(values, moduli) if moduli else self._modular(values, listed)
         # det(xI - A_G) undivided: over Q and modulo ℓ different powers of p could divide it
         other = resultant(residues(self.psi, self.ell), self.chi_G, self.ell)
-        good = coprime(other, rest, self.ell)
+        good = coprime(rest, other, self.ell)
         require(good, "common_factor", "witness", "other values may be exceptional")
 
     def _exact(self, values: Sequence[Polynomial], moduli: list[int]) -> Polynomial:

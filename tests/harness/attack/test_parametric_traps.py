@@ -15,7 +15,7 @@ from mcexact import MultiChannelSystem, fixed_spectrum
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer import protocol
 from mcexact.checker import parameters
-from mcexact.checker.arithmetic import cleared, coprime, poly_modulo
+from mcexact.checker.arithmetic import cleared, poly_modulo
 from mcexact.checker.bivariate import characteristic, without
 from mcexact.checker.kinds import check_document
 from mcexact.model.system_file import read_parametric_system
@@ -96,7 +96,7 @@ SHORT_CUTS: list[tuple[str, Any, str, Callable[..., Any]]] = [
     ),
     (DIVIDED[0], parameters, "poly_modulo", multiple_modulo),
     (DIVIDED[1], parameters, "poly_modulo", multiple_modulo),
-    (NO_UNIT, parameters, "coprime", lambda a, b, ell: coprime(b, a, ell)),
+    (NO_UNIT, parameters, "inverse", lambda number, ell: 1),
     (
         "powers of a generic polynomial are divided out modulo ℓ",
         parameters,
