@@ -34,6 +34,7 @@ from typing import Any, get_args
 import numpy as np
 
 from mcexact.analysis.boxes.cells import Cell, values_in_words, whole_cell
+from mcexact.analysis.boxes.corners import PencilFamily, first_to_fail
 from mcexact.analysis.boxes.cover import Outside
 from mcexact.analysis.boxes.failure import (
     FailingPlant,
@@ -656,7 +657,8 @@ def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
 
     A plant exactly on the border can differ in numbers of thousands of digits; then one that is
     1e-5 farther is given, which differs in numbers of six digits.  Of large loops it is 1e-3
-    farther, and no plant on the border is computed.
+    farther, and no plant on the border is computed.  Corners of the box are tried as well
+    (`boxes.corners`), and one is given if it is nearer: its entries differ by so much, too.
 
     Parameters
     ----------
@@ -694,12 +696,38 @@ def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
         found = pencil.exact(near, freedom)
         if found is not None and (best is None or found[1] < best[0]):
             best = found[1], found[0], near.point
+    corner = _failing_corner(search, signals, D)
+    known = beyond if best is None else FailingPlant(nominal, best[0], best[2], ())
+    if corner is not None and (known is None or corner.distance < _NEARER * known.distance):
+        return corner
     if best is None:
         return beyond
     distance, change, point = best
     if _has_long_numbers(change) and (member := farther(change, _BEYOND, point)) is not None:
         return member
     return FailingPlant(_changed(nominal, signals, change), distance, point, ())
+
+
+_NEARER, _CORNERS, _MOST_MODES = Fraction(999, 1000), 240, 6
+"""How much nearer a corner has to be, and how many modes of a loop are followed to corners, times
+the dimension of the loop."""
+
+
+def _failing_corner(search: StabilitySearch, signals: LoopPencil, D: Matrix) -> FailingPlant | None:
+    """The plant at the nearest corner that is found, a little beyond where its loop fails."""
+    region, nominal = search.region, Box(search.loop.plant).nominal
+    Z, radii = matrix_to_float(signals.matrix), matrix_to_float(D)
+    family = PencilFamily(Z, radii, signals.states, to_float(region.limit), region.discrete)
+    modes = min(_MOST_MODES, max(1, _CORNERS // max(signals.states, 1)))
+    for distance, (signs,) in first_to_fail(family, modes)[:1]:
+        beyond = _FAR_BEYOND if signals.dimension > _MOST_EXACT else _BEYOND
+        factor = Fraction(f"{distance * beyond:.6e}")
+        entries = ((i, j, factor * int(signs[i, j]) * D[i, j]) for i, j, _ in D.nonzero())
+        change = Matrix.from_entries(D.shape, entries)
+        plant = _changed(nominal, signals, change)
+        if _is_outside(replace(search.loop, plant=plant).system.A, region):
+            return FailingPlant(plant, factor, complex("nan"), ())
+    return None
 
 
 _LONG = 64

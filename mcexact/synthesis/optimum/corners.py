@@ -1,11 +1,7 @@
-"""Corners of a box of plants, in floating point: those at which a loop fails first.
+"""Corners of a box of plants at which the loops of a problem fail first, in floating point.
 
-The members of a box differ in each entry by at most its radius, and a corner is one in which all
-entries differ by as much.  To the first order an eigenvalue moves most towards the border of
-stability at the corner that the signs of its derivatives give; from where this corner fails the
-signs are taken again.  Some rounds for the eigenvalues that seem to be nearest give corners at
-which the loop fails at a small part of the box.  There may be nearer ones, and nothing is proved: a
-search of controllers counts the costs of the plants at these corners (`Objective.members`).
+`boxes.corners` searches them.  A search of controllers counts the costs of the plants at these
+corners (`Objective.members`).
 """
 
 from __future__ import annotations
@@ -13,15 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
+from mcexact.analysis.boxes.corners import WORK, Signs, distance_of, first_to_fail
 from mcexact.exact.matrix import matrix_to_float
-from mcexact.floating.margins import spectral_bound
 from mcexact.model.box import Box
-from mcexact.synthesis.optimum.figures import Eigenvalues
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Floats, Places
 
-_MODES, _ROUNDS, _HALVINGS = 6, 3, 12
-_FIRST = 1e-4
+Complexes = npt.NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,10 +33,14 @@ class Corner:
     B: Floats
     C: Floats
 
+    @property
+    def signs(self) -> Signs:
+        """The three matrices."""
+        return self.A, self.B, self.C
+
     def same(self, other: Corner) -> bool:
         """Whether all signs are equal."""
-        pairs = (self.A, other.A), (self.B, other.B), (self.C, other.C)
-        return all(np.array_equal(*pair) for pair in pairs)
+        return all(map(np.array_equal, self.signs, other.signs))
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,21 +109,8 @@ class Corners:
         return replace(problem, A=A, B=B, C=C)
 
     def distance(self, K: Floats, corner: Corner) -> float:
-        """The size of the box at which a loop fails at a corner; infinite above 1."""
-        edge, time = (1.0 if self.problem.discrete else 0.0), self.problem.network.plant.time
-
-        def holds(size: float) -> bool:
-            return spectral_bound(self.member(corner, size).closed(K), time) < edge
-
-        low, high = 0.0, _FIRST
-        while holds(high):
-            low, high = high, 2 * high
-            if high > 1:
-                return np.inf
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            low, high = (middle, high) if holds(middle) else (low, middle)
-        return high
+        """The size of the box at which a loop fails at a corner; infinite from 1 on."""
+        return distance_of(_Loops(self, K), corner.signs)
 
     def failing(self, K: Floats, effort: Effort) -> list[tuple[float, Corner]]:
         """Search corners at which a stable loop fails, and the sizes of the box: the least first.
@@ -135,47 +121,43 @@ class Corners:
         effort : Effort
             Of which the work is taken.
         """
-        problem = self.problem
-        seen = Eigenvalues.of(problem, problem.closed(K))
-        upper = [k for k, value in enumerate(seen.values) if value.imag >= 0]
-        moves = [self._towards_border(problem, seen, K, k) for k in upper]
-        gaps = 1 - np.abs(seen.values) if problem.discrete else -seen.values.real
-        order = sorted(range(len(upper)), key=lambda i: gaps[upper[i]] / max(moves[i][0], 1e-300))
-        tried = [self._nearest(K, moves[i][1], effort) for i in order[:_MODES]]
-        return sorted((each for each in tried if np.isfinite(each[0])), key=lambda each: each[0])
+        found = first_to_fail(_Loops(self, K), spend=lambda: effort.take(len(self.problem.A), WORK))
+        return [(distance, Corner(*signs)) for distance, signs in found]
 
-    def _nearest(self, K: Floats, corner: Corner, effort: Effort) -> tuple[float, Corner]:
-        """Go on from a corner to those that the eigenvalue on the border gives."""
-        best = np.inf, corner
-        for _ in range(_ROUNDS):
-            distance = self.distance(K, corner)
-            effort.take(len(self.problem.A), 2 * _HALVINGS)
-            if distance < best[0]:
-                best = distance, corner
-            if not np.isfinite(distance):
-                break
-            member = self.member(corner, distance)
-            seen = Eigenvalues.of(member, member.closed(K))
-            sizes = np.abs(seen.values) if member.discrete else seen.values.real
-            _, other = self._towards_border(member, seen, K, int(np.argmax(sizes)))
-            if other.same(corner):
-                break
-            corner = other
-        return best
 
-    def _towards_border(
-        self, member: FeedbackProblem, seen: Eigenvalues, K: Floats, k: int
-    ) -> tuple[float, Corner]:
-        """How fast an eigenvalue moves towards the border of stability, and at which corner."""
-        n, p, value = self.problem.n, self.problem.p, seen.values[k]
-        w, v = seen.left[:, k].conj(), seen.right[:, k]
-        paired = complex(w @ v) or 1e-13
-        direction = (value.conjugate() / max(abs(value), 1e-300) if member.discrete else 1) / paired
+@dataclass(frozen=True, eq=False)
+class _Loops:
+    """The loops of the members of a box with the gain K."""
+
+    box: Corners
+    K: Floats
+
+    @property
+    def discrete(self) -> bool:
+        """Whether time is discrete."""
+        return self.box.problem.discrete
+
+    @property
+    def edge(self) -> float:
+        """The border of stability."""
+        return 1.0 if self.discrete else 0.0
+
+    @property
+    def radii(self) -> Signs:
+        """Those of A, B and C."""
+        return self.box.A, self.box.B, self.box.C
+
+    def loop(self, signs: Signs, size: float) -> Floats:
+        """A + BKC of a member."""
+        return self.box.member(Corner(*signs), size).closed(self.K)
+
+    def slopes(
+        self, signs: Signs, size: float, left: Complexes, right: Complexes
+    ) -> tuple[Complexes, ...]:
+        """The derivatives of w(A + BKC)v in the entries of A, B and C."""
+        box, K, w, v = self.box, self.K, left, right
+        n, p, member = box.problem.n, box.problem.p, box.member(Corner(*signs), size)
         driven, leaving = (K @ (member.C @ v))[:p], (w @ member.B) @ K
-        slopes = [np.real(direction * np.outer(w[:n], each)) for each in (v[:n], driven)]
-        seen_by = np.zeros(len(self.C), dtype=np.complex128)
-        np.add.at(seen_by, self.outputs, leaving[self.rows])
-        slopes.append(np.real(direction * np.outer(seen_by, v[:n])))
-        radii = self.A, self.B, self.C
-        speed = sum(float(np.sum(np.abs(S) * D)) for S, D in zip(slopes, radii, strict=True))
-        return speed, Corner(*map(np.sign, slopes))
+        seen_by = np.zeros(len(box.C), dtype=np.complex128)
+        np.add.at(seen_by, box.outputs, leaving[box.rows])
+        return np.outer(w[:n], v[:n]), np.outer(w[:n], driven), np.outer(seen_by, v[:n])
