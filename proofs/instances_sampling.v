@@ -54,3 +54,34 @@ Lemma column_last (i : 'I_1) : `|col ord0 (v (2 + 0)%N) i 0| <= half * 1.
 Proof. by rewrite mxE !ord1 /v mxE eqxx mulr1n mulr1 ger0_norm ?invr_ge0 ?ler0n. Qed.
 Definition inst_tail_within J := @tail_within _ 1 one one (fun=> 1) 1 2 (fun j => col ord0 (v (2 + j)%N)) half
   (fun=> ltr01) member growth ler01 isT column_series column_last J ord0.
+
+(* x' = u, held for h = 1: the one term is 1, to which the sums tend. *)
+Local Notation zero := (0 : 'M[rat]_1).
+Definition v0 k : 'M[rat]_1 := (k == 1%N)%:R%:M.
+Lemma zero_member (M : 'M[rat]_1) : within zero (map_mx (fun x : rat => `|x|) M).
+Proof. by move=> i j; rewrite !mxE normr0 normr_ge0. Qed.
+Lemma zero_near : within (zero - zero) zero. Proof. by move=> i j; rewrite subrr !mxE normr0. Qed.
+Lemma zero_first : within (v0 1%N - v0 1%N) zero. Proof. by move=> i j; rewrite subrr !mxE normr0. Qed.
+Lemma zero_series k : (0 < k)%N -> k.+1%:R *: v0 k.+1 = zero *m v0 k.
+Proof. by case: k => // k _; rewrite mul0mx /v0 /= raddf0 scaler0. Qed.
+Lemma zero_errors k : (0 < k < 2)%N -> forall i j,
+  (map_mx (fun x : rat => `|x|) zero *m zero + zero *m map_mx (fun x : rat => `|x|) (v0 k)
+    + map_mx (fun x : rat => `|x|) (zero *m v0 k - k.+1%:R *: v0 k.+1)) i j <= k.+1%:R * zero i j.
+Proof.
+case: k => [|[|]]// _ i j; rewrite -zero_series// subrr mulmx0 mul0mx !add0r !mxE normr0.
+by rewrite mulr0.
+Qed.
+Lemma zero_last_built : v0 2%N = 0. Proof. by rewrite /v0 raddf0. Qed.
+Lemma zero_growth (i : 'I_1) : \sum_j map_mx (fun x : rat => `|x|) zero i j * 1 <= 0 * 1 :> rat.
+Proof. by rewrite big_ord1 !mxE normr0 mul0r. Qed.
+Lemma zero_last (i j : 'I_1) : zero i j <= 0 * 1. Proof. by rewrite mxE mul0r. Qed.
+Lemma sums_tend : forall eps : rat, 0 < eps -> exists N0, forall N, (N0 <= N)%N -> forall i j,
+  `|(\sum_(1 <= k < N.+1) v0 k) i j - one i j| <= eps.
+Proof.
+move=> eps e0; exists 1%N => -[//|N] _ i j; rewrite big_nat_recl// big1_seq => [|k /andP[_]]; last first.
+  by rewrite mem_index_iota => /andP[k0 _]; rewrite /v0 eqSS (gtn_eqF k0) raddf0.
+by rewrite addr0 /v0 eqxx subrr normr0 ltW.
+Qed.
+Definition inst_sampled_limit := @sampled_limit _ 1 1 zero zero _ zero v0 v0 (fun=> zero) (fun=> 1) 0 2 (fun=> 0)
+  (fun _ _ => true) (zero_member zero) zero_near zero_first zero_series zero_errors isT zero_last_built (fun=> ltr01) zero_growth
+  (lexx 0) isT zero_last (fun i j no => False_ind _ (notF no)) (fun i l j no => False_ind _ (notF no)) one sums_tend.

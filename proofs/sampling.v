@@ -2,8 +2,8 @@
    are built.
 
    The terms of the series are v 1 = h[A, B], (k + 1) v (k + 1) = hA v k, for a member; V k are those that
-   are built, and F k bounds the distance.  All sums of the series are within the radii, so that their limit
-   is, which is the exponential less its constant term. *)
+   are built, and F k bounds the distance.  All sums of the series are within the radii, and what they tend to, which
+   is the exponential less its constant term. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
@@ -164,6 +164,21 @@ have := @tail_within n X' P w nu K u (c j) weights member growth nu_ge0 far su _
 rewrite (eq_bigr (fun t : 'I_(N - K) => `|v (K + t.+1) i j|)) => [|t _]; last by rewrite mxE.
 apply=> l; rewrite mxE addn0 (le_trans _ (last l j))//.
 by have := near_terms (k := K); rewrite K_gt0 leqnn last_built subr0 => /(_ isT l j).
+Qed.
+
+(* What the sums tend to is within the radii, too: the exponential less its constant term. *)
+Theorem sampled_limit (L : 'M[R]_(n, m)) :
+  (forall eps, 0 < eps -> exists N0, forall N, (N0 <= N)%N -> forall i j,
+    `|(\sum_(1 <= k < N.+1) v k) i j - L i j| <= eps) ->
+  within (L - \sum_(1 <= k < K.+1) V k)
+    (\sum_(1 <= k < K.+1) F k +
+     \matrix_(i, j) (if reached i j then c j * w i * (nu / (K.+1%:R - nu)) else 0)).
+Proof.
+move=> tends i j; apply/ler_addgt0Pr => eps /tends[N0 h]; rewrite [X in _ <= X]addrC.
+have := h _ (leq_maxl N0 K) i j; have := sampled_within (leq_maxr N0 K) i j.
+set s := \sum_(1 <= k < (maxn N0 K).+1) v k; set b := \sum_(1 <= k < K.+1) V k => near_sum close.
+have -> : (L - b) i j = (L i j - s i j) + (s - b) i j by rewrite !mxE addrA subrK.
+by rewrite (le_trans (ler_norm_add _ _))// ler_add// distrC.
 Qed.
 End Series.
 End Sampling.

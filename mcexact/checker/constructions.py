@@ -413,7 +413,7 @@ def slow(system: System, step: dict[str, Json], place: str) -> System:
 def sampled(system: System, step: dict[str, Json], place: str) -> System:
     """A_h, B_h to some decimals, and registers of the inputs that are not in use yet.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorem ``servo.registered_late``.
     """
     certain = [Matrix.zeros(system.n, B_i.ncols) for B_i in system.B]
     D = replace(system, A=Matrix.zeros(system.n, system.n), B=certain)
@@ -425,7 +425,7 @@ def sampled_within(
 ) -> tuple[System, System]:
     """The sampled system, and the radii for all systems within radii of the one in continuous time.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorem ``servo.registered_within``.
     """
     length, waits, digits = fields(step, place, "step", "late", "decimals")
     h, late = rational(length, f"{place}.step"), integer(waits, f"{place}.late")
@@ -611,7 +611,7 @@ def read_selection(value: Json, place: str, system: System) -> list[Matrix]:
 def regulated(system: System, step: dict[str, Json], place: str) -> System:
     """S_i y_i in place of y_i.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``servo.regulated_loop``, ``servo.regulated_fixed``.
     """
     (listed,) = fields(step, place, "gains")
     S = read_selection(listed, place, system)
@@ -624,7 +624,8 @@ def regulated(system: System, step: dict[str, Json], place: str) -> System:
 def servo(system: System, step: dict[str, Json], place: str) -> System:
     """z' = S y or z(t+1) = z + S y, and agent i measures its z_i and y_i.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``servo.servo_loop``, ``servo.servo_fixed``, ``servo.servo_equilibrium``,
+    ``servo.servo_solvable``.
     """
     (listed,) = fields(step, place, "gains")
     S = read_selection(listed, place, system)

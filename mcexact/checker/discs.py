@@ -393,6 +393,8 @@ def _radii(steps: Json, plant: System) -> System:
 
     Each construction adds and multiplies; it is applied to absolute values, those of gains too,
     and to the same with the radii added.  What is sampled has radii by a rule of its own.
+
+    Theorem ``servo.selected_within``.
     """
     radii = read_radii(plant.uncertainty, plant.names, [plant.A, *plant.B, *plant.C])
     A, *ports = radii

@@ -29,7 +29,7 @@ def enclosure(M: Matrix, D: Matrix, h: Fraction, decimals: int) -> tuple[Matrix,
 
     The former do not depend on D.
 
-    Theorems ``sampling.term_within``, ``sampling.sampled_within``.
+    Theorems ``sampling.term_within``, ``sampling.sampled_within``, ``sampling.sampled_limit``.
     """
     n, ncols = M.nrows, M.ncols
     X = M.times(h)
