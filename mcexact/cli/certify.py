@@ -108,8 +108,6 @@ def command(file: str, controller: str, **values: Any) -> int:
     sizes = values.pop("sizes")
     output, values["effort"] = values.pop("output"), options.effort_of_search(values)
     values["sampling"] = options.sampling(values)
-    if values["sampling"] and values["effort"] is not None:
-        raise click.UsageError("--largest-uncertainty is about plants that are not sampled")
     if values["effort"] is not None and values["gains"] is not None:
         raise click.UsageError(
             "--largest-uncertainty takes the gains as they are: leave out --gains"

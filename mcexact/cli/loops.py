@@ -48,7 +48,7 @@ from mcexact.cli import parts, uncertainty
 from mcexact.cli.files import plant_in, system_in
 from mcexact.cli.results import Evidence, Loop, Simulated
 from mcexact.derived.modulo import states_of_rest
-from mcexact.derived.sampling import DECIMALS, sampled_system, tustin
+from mcexact.derived.sampling import DECIMALS, is_sampled, sampled_system, tustin
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import Limits, percent, written
 from mcexact.exact.roots import StabilityRegion, is_discrete
@@ -461,7 +461,8 @@ def loops_within(
         neither = "".join(f", and neither is {each}" for each in unproved[1:])
         rows.append(("eigenvalues of every loop", f"{unproved[0]} is not proved{neither}"))
     view: dict[str, Any] = {"certified": proof is not None, "region": str(region)}
-    if proof is None and verdict.stable and uncertain and not system.subject:
+    sampled_or_own = not system.subject or is_sampled(system)
+    if proof is None and verdict.stable and uncertain and sampled_or_own:
         failing = failing_plant(closed_loop(system, controller))
     if failing is not None:
         view |= {"fails_within": written(failing.distance), "failing": failing.plant.to_dict()}

@@ -15,6 +15,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.account import Account
+from mcexact.derived.sampling import is_sampled, resampled
 from mcexact.model.box import Box
 from mcexact.model.properties import PROPERTIES, Property
 from mcexact.model.system import MultiChannelSystem
@@ -53,8 +54,14 @@ def with_radii(
 
 
 def with_proved_radii(system: MultiChannelSystem, search: LargestUncertainty) -> MultiChannelSystem:
-    """Return the system with the radii for which the search has a proof, if it has one."""
-    return system if search.proof is None else search.proof.about.plant
+    """Return the system with the radii for which the search has a proof, if it has one.
+
+    A sampled system is sampled again, from the plant with these radii.
+    """
+    if search.proof is None:
+        return system
+    plant = search.proof.about.plant
+    return resampled(system, plant) if is_sampled(system) else plant
 
 
 def leading(account: Account, search: LargestUncertainty | None) -> tuple[str, ...]:

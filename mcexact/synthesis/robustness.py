@@ -21,6 +21,7 @@ from mcexact.analysis.boxes.largest import failing_loop, refuted_loop, short
 from mcexact.analysis.boxes.loops import StabilitySearch, gain_radii
 from mcexact.analysis.boxes.margins import SIDES, margin_in_box
 from mcexact.analysis.boxes.pencils import one_thread
+from mcexact.analysis.boxes.samples import failing_samples
 from mcexact.answer.boxes import BoxStability
 from mcexact.derived.sampling import is_sampled, resampled
 from mcexact.errors import LimitReached, require_seconds
@@ -328,14 +329,18 @@ def failing_plant(loop: ClosedLoop) -> FailingPlant | None:
     Parameters
     ----------
     loop : ClosedLoop
-        Of a plant with radii.
+        Of a plant with radii, or of its samples.
 
     Returns
     -------
     FailingPlant or None
         None if none was found, which proves nothing.
     """
-    units, region = Units.of(loop.plant), StabilityRegion(loop.plant.time)
+    region = StabilityRegion(loop.plant.time)
+    if is_sampled(loop.plant):
+        with one_thread():
+            return _failing_at_samples(loop, region)
+    units = Units.of(loop.plant)
     measured = loop if units is None else loop_in(units, loop)
     with one_thread():
         failing = _failing(StabilitySearch(measured, region))
@@ -381,6 +386,7 @@ def _searched_at_samples(loop: ClosedLoop, region: StabilityRegion, work: _Work)
     whole, plant = StabilityRegion(loop.plant.time), loop.plant.plant
     own = plant.uncertainty is not None
     with one_thread():
+        failing = _failing_at_samples(loop if own else _with_part(loop, Fraction(1)), whole)
         if own:
             boxes = [(loop, StabilityRegion(whole.time, region.bound)), (loop, whole)]
         else:
@@ -397,9 +403,9 @@ def _searched_at_samples(loop: ClosedLoop, region: StabilityRegion, work: _Work)
                 part = Box(about.plant.plant).part or Fraction(0)
                 inside = about if own else _with_part(loop, part * _HALF)
                 margins = margins_within(inside, work.left)
-                return EveryLoop(wanted, proof, gains, None, margins=margins)
+                return EveryLoop(wanted, proof, gains, failing, margins=margins)
     box = f"every plant within the radii{_ASK_OWN}" if own else f"the exact samples{_ASK}"
-    return EveryLoop(whole, None, None, None, f"{whole} is not proved for {box}")
+    return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
 
 
 def _with_part(loop: ClosedLoop, part: Fraction) -> ClosedLoop:
@@ -417,11 +423,23 @@ def _smaller(search: StabilitySearch, parts: tuple[float, ...]) -> Iterator[Clos
             yield replace(search.loop, plant=Box(search.loop.plant).scaled(part).system)
 
 
+def _failing_at_samples(loop: ClosedLoop, region: StabilityRegion) -> FailingPlant | None:
+    """As `_failing`, for a sampled plant: a plant in continuous time whose samples fail."""
+    search, box = StabilitySearch(loop, region), Box(loop.plant.plant)
+    known = [*failing_samples(loop, region, _POINTS), *severed_plants(box.system, box.radii)]
+    return _refuted(search, known)
+
+
 def _failing(search: StabilitySearch) -> FailingPlant | None:
     """A plant nearby whose loop is not stable, which is decided exactly."""
     nearest = failing_loop(search, _POINTS)
     plant = search.loop.plant
     known = [*([] if nearest is None else [nearest]), *severed_plants(plant, Box(plant).radii)]
+    return _refuted(search, known)
+
+
+def _refuted(search: StabilitySearch, known: list[FailingPlant]) -> FailingPlant | None:
+    """The nearest of some plants whose loop is decided not to be stable."""
     for near in sorted(known, key=lambda each: each.distance):
         refutation = refuted_loop(search, near.plant)
         if refutation is not None:

@@ -59,12 +59,15 @@ def test_every_claim_of_a_design_is_about_the_plant_in_continuous_time(
     around = design.every_loop()
     account = design.account_with(around)
     assert around.proof is not None and around.part is not None and around.part > 0
-    for each in account.answers.values():
-        assert each.about.plant == CART.with_uncertainty(each.about.plant.uncertainty)
+    assert around.failing is not None
+    for name, each in account.answers.items():
+        plant = around.failing.plant if name == "failing_loop" else CART
+        assert each.about.plant == plant.with_uncertainty(each.about.plant.uncertainty)
         assert each.subject[0]["construction"] == "sampled"
     account.save(tmp_path)
     known = {sentence.template.key for sentence in account.sentences}
-    assert {"sampled-loop", "members-sampled-region-part"} <= known
+    rules = {"sampled-loop", "members-sampled-region-part", "certify-failing-plant"}
+    assert rules <= known
     for about, verdict in manifest_verdicts(str(tmp_path), Expectation(), Limits()):
         good = {"IMPLIED", "REMARK"} if "text" in about else {"VALID"}
         assert verdict.verdict in good, (about, verdict.line())

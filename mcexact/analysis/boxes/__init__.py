@@ -7,6 +7,7 @@
 `members`    fixed modes, controllability and set-points of every member
 `loops`      closed loops of every member
 `failure`    nearby members that fail, by small changes with which a pencil loses rank
+`samples`    nearby sampled plants whose loop fails, by gradients of the exponential
 `largest`    the largest box or ranges with a proof, and the nearest member that fails
 ===========  ==================================================================================
 """

@@ -47,15 +47,22 @@ from mcexact.analysis.boxes.failure import (
 from mcexact.analysis.boxes.loops import LoopSearch, StabilitySearch, gain_radii
 from mcexact.analysis.boxes.members import ControllabilitySearch, FixedModeSearch
 from mcexact.analysis.boxes.pencils import Floats, Members, one_thread, radii_of
+from mcexact.analysis.boxes.samples import failing_samples
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.stability import Method, certify_stability
-from mcexact.answer.boxes import BoxControllability, BoxFixedModes, ParametricBoxStability
+from mcexact.answer.boxes import (
+    BoxControllability,
+    BoxFixedModes,
+    BoxStability,
+    ParametricBoxStability,
+)
 from mcexact.answer.check import constructed
 from mcexact.answer.loops import StabilityVerdict
 from mcexact.answer.protocol import Answer
 from mcexact.answer.templates import blame
 from mcexact.derived.constructions import dual
+from mcexact.derived.sampling import is_sampled, resampled
 from mcexact.errors import InputError, LimitReached, UsageError, require_seconds
 from mcexact.exact.matrix import (
     Matrix,
@@ -69,7 +76,7 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
-from mcexact.model.loop import LoopPencil, closed_loop
+from mcexact.model.loop import ClosedLoop, LoopPencil, closed_loop
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.properties import Property
 from mcexact.model.radii import Radii
@@ -81,6 +88,8 @@ from mcexact.shown import Shown
 
 _STEPS = 14
 _CLOSE = 1.03
+_SMALL = Fraction(1, 1000)
+"""A part of the radii of a plant for which those of its samples are about in proportion."""
 _LEAST = 1e-12
 """A computed largest factor below this is reported as 0."""
 _SQUARES, _TRIES = 2000, 4
@@ -583,8 +592,9 @@ def largest_loop_uncertainty(
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant.  If it has radii, boxes are multiples of these; otherwise each radius is a part of
-        the modulus of its entry, so that entries that are 0 stay 0.
+        A plant, or a sampled one, whose boxes are those of the plant in continuous time.  If it has
+        radii, boxes are multiples of these; otherwise each radius is a part of the modulus of its
+        entry, so that entries that are 0 stay 0.
     controller : Controller
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
@@ -599,7 +609,13 @@ def largest_loop_uncertainty(
     -------
     LargestUncertainty
         The loop of the failing plant, with unchanged gains, has an eigenvalue on the border of the
-        region, or outside of it.
+        region, or outside of it.  Of a sampled plant the proof is about the exact samples of every
+        member, and the failure about the samples of one, to the decimals of the given ones.
+
+    Raises
+    ------
+    UsageError
+        If the system is derived in another way.
 
     Examples
     --------
@@ -611,35 +627,108 @@ def largest_loop_uncertainty(
     """
     InputError.require(system, MultiChannelSystem, "system")
     region = StabilityRegion.of(system.time, rate, radius)
-    relative = system.uncertainty is None
-    unit = Box.relative(system, 1).system if relative else system
-    loop = closed_loop(unit, controller, graph)
-
+    relative = system.plant.uncertainty is None
+    unit = _with_box(system, Box.relative(system.plant, 1)) if relative else system
+    loop, wanted = closed_loop(unit, controller, graph), f"every eigenvalue satisfies {region}"
     with one_thread():
-        search = StabilitySearch(loop, region, gain_radii(controller, 1) if gains else None)
-        tested, itself = 0, FailingPlant(Box(unit).nominal, Fraction(0), complex("nan"), ())
+        search = _SampledBoxes if is_sampled(system) else _PlantBoxes
+        boxes = search(loop, region, gains)
+        proofs = Proofs(boxes.capacity, boxes.proof, lambda: boxes.tested)
+        return two_sided(proofs, boxes.failures(), wanted, relative, effort)
 
-        def proof(factor: Fraction) -> Answer | None:
-            nonlocal tested
-            answer = search.border(factor)
-            tested += 100 if answer is None else len(answer.segments)
-            return answer
 
-        proofs = Proofs(
-            lambda: min((each for each, _ in search.margins()), default=0.0), proof, lambda: tested
+def _with_box(system: MultiChannelSystem, box: Box) -> MultiChannelSystem:
+    """The plant of a box, sampled as the system is."""
+    return resampled(system, box.system) if is_sampled(system) else box.system
+
+
+@dataclass
+class _PlantBoxes:
+    """Multiples of the box of the plant of a loop: which are proved, and which plants fail.
+
+    Attributes
+    ----------
+    loop : ClosedLoop
+    region : StabilityRegion
+    gains : bool
+        Whether gains differ by the same part.
+    tested : int
+        The work so far, as parts of the border.
+    """
+
+    loop: ClosedLoop
+    region: StabilityRegion
+    gains: bool
+    tested: int = 0
+
+    def __post_init__(self) -> None:
+        self.search = self.searched(self.loop, 1)
+
+    def searched(self, loop: ClosedLoop, factor: Fraction | int) -> StabilitySearch:
+        """The search about a loop whose gains differ by a part."""
+        radii = gain_radii(loop.controller, factor) if self.gains else None
+        return StabilitySearch(loop, self.region, radii)
+
+    def capacity(self) -> float:
+        """About how far the radii can grow."""
+        return min((each for each, _ in self.search.margins()), default=0.0)
+
+    def border(self, factor: Fraction) -> BoxStability | None:
+        """The proof for a multiple of the box, if there is one."""
+        return self.search.border(factor)
+
+    def proof(self, factor: Fraction) -> Answer | None:
+        """The same, counting the work."""
+        answer = self.border(factor)
+        self.tested += 100 if answer is None else len(answer.segments)
+        return answer
+
+    def near(self, tries: int) -> FailingPlant | None:
+        """A plant whose loop seems to fail."""
+        return failing_loop(self.search, tries)
+
+    def failures(self) -> Failures:
+        """The functions that look for a plant whose loop fails."""
+        box = Box(self.loop.plant.plant)
+        itself = FailingPlant(box.nominal, Fraction(0), complex("nan"), ())
+        return Failures(
+            self.near,
+            lambda: (itself, *severed_plants(box.system, box.radii)),
+            lambda plant: refuted_loop(self.search, plant),
         )
-        failures = Failures(
-            lambda tries: failing_loop(search, tries),
-            lambda: (itself, *severed_plants(unit, Box(unit).radii)),
-            lambda plant: refuted_loop(search, plant),
-        )
-        wanted = f"every eigenvalue satisfies {region}"
-        return two_sided(proofs, failures, wanted, relative, effort)
+
+
+class _SampledBoxes(_PlantBoxes):
+    """The same for a sampled plant, whose radii are not in proportion to those of the plant."""
+
+    def capacity(self) -> float:
+        """About how far the radii can grow, from how far small ones can."""
+        small = StabilitySearch(self._scaled(_SMALL), self.region).margins()
+        return float(_SMALL) * min((each for each, _ in small), default=0.0)
+
+    def border(self, factor: Fraction) -> BoxStability | None:
+        """The proof for the samples of a multiple of the box."""
+        try:
+            return self.searched(self._scaled(factor), factor).border(Fraction(1))
+        except LimitReached:
+            return None
+
+    def near(self, tries: int) -> FailingPlant | None:
+        """The nearest plant whose loop is proved to fail."""
+        near = failing_samples(self.loop, self.region, tries)
+        refuted = (each for each in near if refuted_loop(self.search, each.plant) is not None)
+        return next(refuted, None)
+
+    def _scaled(self, factor: Fraction) -> ClosedLoop:
+        plant = self.loop.plant
+        return replace(self.loop, plant=resampled(plant, Box(plant.plant).scaled(factor).system))
 
 
 def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> StabilityVerdict | None:
-    """The exact answer that the loop of a plant leaves the region; None if it does not."""
-    loop = replace(search.loop, plant=plant).system
+    """The exact answer that the loop of a plant, or of its samples, leaves the region; or None."""
+    sampled = search.loop.plant
+    about = resampled(sampled, plant) if is_sampled(sampled) else plant
+    loop = replace(search.loop, plant=about).system
     # An eigenvalue on the border is for the polynomial alone, which takes long for many states.
     method: Method = "polynomial" if loop.n <= _MOST_EXACT else "lyapunov"
     with suppress(UsageError):
