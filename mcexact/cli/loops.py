@@ -734,8 +734,9 @@ def _realized(system: MultiChannelSystem, real: Mapping[str, Any]) -> dict[str, 
         "quantized_inputs": real["quantize_inputs"],
     }
     given: dict[str, Any] = {name: real[name] for name in ("step", "late") if name in real}
-    if real["limits"] is not None:
-        given["limits"] = list(real["limits"]) * (p if len(real["limits"]) == 1 else 1)
+    if real["limited"] is not None:
+        chosen = limits_in(real["limited"], system.names, [system.p(i) for i in range(system.m)])
+        given["limits"] = [pair for own in chosen or () for pair in own]
     for (name, texts), count_ in zip(converters.items(), (q, p), strict=True):
         if texts is not None:
             made = [_converter(each) for each in texts]

@@ -372,15 +372,25 @@ sizes = click.option(
 )
 
 
-limited = click.option(
-    "--limits",
-    "limited",
-    metavar="[AGENT:]LOW,HIGH",
-    multiple=True,
-    help="The least and the largest value of every input, or of those of an agent, such as "
-    "--limits=-1,1, in place of the limits in FILE. Repeatable. Then a proof is sought that the "
-    "loop is stable while inputs are cut off there; with it anti-windup gains are written into the "
-    "controller, beside the limits.",
+def limits(then: str) -> Callable[[F], F]:
+    """Return the option of the limits of inputs; ``then`` says what the command does with them.
+
+    Texts are read where the plant is known, by `mcexact.model.limits.limits_in`.
+    """
+    return click.option(
+        "--limits",
+        "limited",
+        metavar="[AGENT:]LOW,HIGH",
+        multiple=True,
+        help="The least and the largest value of every input, such as --limits=-1,1, of those of "
+        "an agent, such as left:-1,1, or of one of them, such as left[2]:-1,1, in place of the "
+        f"limits in FILE. Repeatable. {then}",
+    )
+
+
+limited = limits(
+    "Then a proof is sought that the loop is stable while inputs are cut off there; with it "
+    "anti-windup gains are written into the controller, beside the limits."
 )
 
 

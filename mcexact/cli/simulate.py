@@ -40,21 +40,6 @@ def change_option(name: str, what: str) -> Callable[[options.F], options.F]:
     )
 
 
-def limit(text: str) -> tuple[Fraction | None, Fraction | None]:
-    """Parse LOW,HIGH; either may be left out.
-
-    Examples
-    --------
-    >>> limit("-1,1/2"), limit(",3")
-    ((Fraction(-1, 1), Fraction(1, 2)), (None, Fraction(3, 1)))
-    """
-    low, comma, high = text.partition(",")
-    if not comma:
-        raise click.BadParameter(f"expected LOW,HIGH such as -1,1, found '{text}'")
-    ends = [options.rational(each.strip()) if each.strip() else None for each in (low, high)]
-    return ends[0], ends[1]
-
-
 def converter(text: str) -> tuple[Fraction, ...]:
     """Parse a step, or BITS:LOW,HIGH.
 
@@ -109,13 +94,9 @@ def converter(text: str) -> tuple[Fraction, ...]:
 @parts.option("Run the loop of")
 @options.step
 @options.late
-@click.option(
-    "--limits",
-    multiple=True,
-    type=limit,
-    metavar="LOW,HIGH",
-    help="The real loop: the least and the largest value of inputs, such as --limits=-1,1; once "
-    "for all inputs, or once for each in the order of the channels. Either may be left out.",
+@options.limits(
+    "They are those of the actuators in the real loop; a controller with limits cuts off at its "
+    "own ones first."
 )
 @click.option(
     "--quantize-outputs",
@@ -208,7 +189,7 @@ def command(file: str, controller: str, **values: Any) -> None:
     run.conclude(answer, show, about=about, write=write).require_complete()
 
 
-_REAL = ("limits", "quantize_outputs", "quantize_inputs", "code", "fixed_point")
+_REAL = ("limited", "quantize_outputs", "quantize_inputs", "code", "fixed_point")
 _IDEAL = {"arithmetic": "--arithmetic", "points": "--points", "fractions": "--fractions"}
 
 

@@ -10,6 +10,7 @@ off name their limits themselves.  `read_input_limits` reads them, also from a s
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
@@ -137,42 +138,65 @@ def pairs_document(own: Sequence[Range | None]) -> list[Any]:
     return [None if each is None else [written(x) for x in each] for each in own]
 
 
+_NUMBERED = re.compile(r"(.+)\[([0-9]{1,6})\]")
+
+
 def limits_in(
     texts: Sequence[str], names: Sequence[str], counts: Sequence[int]
 ) -> InputLimits | None:
-    """Read limits from texts such as ``-1,1`` for every input, or ``left:0,2`` for those of left.
+    """Read limits from texts such as ``-1,1``, ``left:0,2`` or ``left[2]:0,2``.
+
+    They are those of every input, of every input of an agent, and of one input of an agent, counted
+    from 1 on.  The closer text is the one that holds.
 
     Raises
     ------
     InputError
-        If two numbers do not follow the last colon, the channel does not exist, or its limits are
-        given twice.
+        If two numbers do not follow the last colon, the channel or its input does not exist, or
+        limits are given twice.
 
     Examples
     --------
     >>> limits_in(["-1,1", "right:0,1/2"], ["left", "right"], [1, 1])
     (((Fraction(-1, 1), Fraction(1, 1)),), ((Fraction(0, 1), Fraction(1, 2)),))
+    >>> limits_in(["left[2]:0,1/2"], ["left", "right"], [2, 1])
+    ((None, (Fraction(0, 1), Fraction(1, 2))), (None,))
     """
-    where, chosen, given = "--limits", dict[str, Any](), set[str]()
+    where, chosen = "--limits", dict[tuple[str, int | None], list[str]]()
     for text in texts:
-        name, _, numbers = text.rpartition(":")
+        of, _, numbers = text.rpartition(":")
         pair = [part.strip() for part in numbers.split(",")]
-        if name and name not in names:
-            raise InputError(
-                f"there is no channel {quoted(name)}{nearest(name, names)}", where=where
-            )
-        if len(pair) != 2:
+        if len(pair) != 2 or not all(pair):
             raise InputError(
                 f"expected two numbers, as in -1,1 or left:-1,1, found {quoted(text)}", where=where
             )
-        if name in given:
-            of = f"the channel {quoted(name)}" if name else "every input"
-            raise InputError(f"limits of {of} are given twice", where=where)
-        given.add(name)
-        for each, p in zip(names, counts, strict=True):
-            if each == name or (not name and each not in chosen):
-                chosen[each] = [pair] * p
-    return read_input_limits(chosen, names, counts, where)
+        place = _place_in(of, names, counts, where)
+        if place in chosen:
+            known = f"the channel {quoted(of)}" if of else "every input"
+            raise InputError(f"limits of {known} are given twice", where=where)
+        chosen[place] = pair
+    every = chosen.get(("", None))
+    pairs = {
+        name: [chosen.get((name, k), chosen.get((name, None), every)) for k in range(p)]
+        for name, p in zip(names, counts, strict=True)
+    }
+    return read_input_limits(pairs, names, counts, where)
+
+
+def _place_in(
+    of: str, names: Sequence[str], counts: Sequence[int], where: str
+) -> tuple[str, int | None]:
+    """The agent, and the position of one of its inputs; without a name all inputs."""
+    if not of or of in names:
+        return of, None
+    numbered = _NUMBERED.fullmatch(of)
+    name = numbered[1] if numbered else of
+    if name not in names:
+        raise InputError(f"there is no channel {quoted(name)}{nearest(name, names)}", where=where)
+    k, p = int(numbered[2]) if numbered else 0, counts[names.index(name)]
+    if not 1 <= k <= p:
+        raise InputError(f"the channel {quoted(name)} has {p} inputs, from 1 on", where=where)
+    return name, k - 1
 
 
 def limits_in_words(limits: InputLimits, names: Sequence[str]) -> str:

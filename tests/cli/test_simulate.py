@@ -97,10 +97,12 @@ def test_options_of_the_real_loop_are_checked(tmp_path: Path) -> None:
         (("--late", "1"), "add --step"),
         ((*REAL, "--arithmetic", "exact"), "--arithmetic is not for the real loop"),
         ((*REAL, "--fractions"), "--fractions is not for the real loop"),
-        ((*REAL, "--limits", "3"), "expected LOW,HIGH"),
+        ((*REAL, "--limits", "3"), "expected two numbers, as in -1,1 or left:-1,1"),
         ((*REAL, "--quantize-inputs", "8:1"), "expected BITS:LOW,HIGH"),
         ((*REAL, "--quantize-inputs", "1/2:0,1"), "expected a number of bits, found 1/2"),
-        ((*REAL, "--limits=0,1", "--limits=0,1"), "expected 1 pairs (low, high), found 2"),
+        ((*REAL, "--limits=0,1", "--limits=0,1"), "limits of every input are given twice"),
+        ((*REAL, "--limits=,1"), "expected two numbers"),
+        ((*REAL, "--limits=other:0,1"), "there is no channel 'other'"),
         ((*REAL, "--range", "3"), "add --fixed-point"),
         ((*REAL, "--fixed-point", "8", "--range", "w=3"), "expected one of y, r, u, x, z"),
         (("--code", "compiled"), "give the time between samples"),
@@ -119,3 +121,19 @@ def test_the_help_names_every_option_that_makes_the_loop_real() -> None:
     listed = told.partition("the real loop is run")[0].rpartition("With ")[2]
     options = ("step", "limits", "quantize-outputs", "quantize-inputs", "fixed-point", "code")
     assert [name for name in options if f"--{name}" not in listed] == []
+
+
+def test_design_certify_and_simulate_read_limits_in_the_same_way(tmp_path: Path) -> None:
+    files, out = tank(tmp_path), []
+    for limits in ("--limits=-1/2,1/2", "--limits=1:-1/2,1/2", "--limits=1[1]:-1/2,1/2"):
+        status, told, _ = call("simulate", *files, *REAL, limits, "--json")
+        assert status == 0
+        out.append(json.loads(told)["real"]["limits"])
+        status, _, said = call(
+            "certify", *files, "--step", "1/4", "--late", "1", limits, "--no-box"
+        )
+        assert status == 0, said
+    assert out == [[[-0.5, 0.5]]] * 3
+    helps = [call(name, "--help")[1] for name in ("certify", "simulate")]
+    helps.append(call("design", "decentralized", "--help")[1])
+    assert all("--limits [AGENT:]LOW,HIGH" in each for each in helps)

@@ -212,3 +212,39 @@ def test_both_readers_of_controller_files_accept_the_same_limits_and_gains(keys:
 
     ours = accepts(lambda: read_controller(text), InputError)
     assert ours == accepts(lambda: read_controller_file(text.encode(), Limits()), Refused)
+
+
+@pytest.mark.parametrize(
+    ("texts", "limits"),
+    [
+        (["-1,1"], (((-1, 1), (-1, 1)), ((-1, 1),))),
+        (["left[2]:0,1/2"], ((None, (0, HALF)), (None,))),
+        (["left[2]:0,1/2", "-1,1"], (((-1, 1), (0, HALF)), ((-1, 1),))),
+        (["left[1]:-2,2", "left:0,1", "right:-1,0"], (((-2, 2), (0, 1)), ((-1, 0),))),
+    ],
+)
+def test_the_closer_of_several_limits_on_the_command_line_holds(
+    texts: list[str], limits: Any
+) -> None:
+    assert limits_in(texts, NAMES, COUNTS) == limits
+
+
+@pytest.mark.parametrize(
+    ("texts", "message"),
+    [
+        (["left[3]:0,1"], "the channel 'left' has 2 inputs, from 1 on"),
+        (["left[0]:0,1"], "the channel 'left' has 2 inputs, from 1 on"),
+        (["lefd[1]:0,1"], "there is no channel 'lefd'"),
+        (["left[1]:0,1", "left[1]:0,2"], r"limits of the channel 'left\[1\]' are given twice"),
+        (["left:,1"], "expected two numbers"),
+    ],
+)
+def test_limits_on_the_command_line_name_an_input_that_exists(
+    texts: list[str], message: str
+) -> None:
+    with pytest.raises(InputError, match=message):
+        limits_in(texts, NAMES, COUNTS)
+
+
+def test_an_agent_may_be_called_like_an_input_of_another_one() -> None:
+    assert limits_in(["a[1]:0,1"], ("a", "a[1]"), (1, 1)) == ((None,), ((0, 1),))

@@ -107,7 +107,7 @@ class _Samples:
         sampled = self.loop.plant
         plant, box = sampled.plant, Box(sampled.plant)
         (how,) = sampled.subject
-        self.h, self.n, self.late = float(Fraction(how["step"])), plant.n, bool(how["late"])
+        self.h, self.n, self.late = to_float(Fraction(how["step"])), plant.n, bool(how["late"])
         self.nominal, self._exact_radii = box.nominal, box.radii
         self.entries = _joined(plant.A, list(plant.B), list(plant.C))
         self.radii = _joined(box.radii.A, list(box.radii.B), list(box.radii.C))
