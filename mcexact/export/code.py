@@ -14,7 +14,7 @@ sends in the next period.  All numbers are of the type LREAL, and all states are
 
 In fixed point (`export.fixed`) signals are integers of 32 bits (int32_t, DINT) and sums have 64
 (int64_t, LINT).  A function rounds a sum to the nearest integer, since `/` truncates in both
-languages, and no expression leaves its type, whatever the signals are.  All states are 0 at first.
+languages, and no expression leaves its type, whatever the signals are.
 
 Beside the code stands ``controller.json``: the controller that the code is, with the numbers of the
 code exactly, so that what runs can be certified.
@@ -82,7 +82,8 @@ def export_controller(
     ['agent_1.st', 'controller.json', 'equations.json']
     """
     one_of(language, ("c", "st", "json"), "language")
-    code = _Code(steps_of(controller), controller.system, fixed)
+    steps = steps_of(controller) if fixed is None else fixed.steps(controller)
+    code = _Code(steps, controller.system, fixed)
     files = {EQUATIONS: json.dumps(code.document(), indent=1) + "\n"}
     files[CONTROLLER] = controller_text(in_code(controller, fixed))
     for step in code.steps:
@@ -156,7 +157,7 @@ class _Code:
                 x=self._rows(step.x),
                 z=self._rows(step.z),
                 limits=tuple(None if pair is None else self.ends(pair) for pair in step.limits),
-                start=self._rows(step.start or ()) if _starts(step, self) else None,
+                start=None if step.start is None else self._rows(step.start),
             )
             for step in self.steps
         ]
@@ -227,6 +228,12 @@ class Dialect:
             return "0"
         return f"{step.identifier}_nearest({plus.join(terms)}, {self.long.format(whole.unit)})"
 
+    def rest(self, step: AgentStep, code: _Code) -> list[str]:
+        """The states x and z at rest as expressions of y and r; none without code that starts."""
+        kinds = ["x"] * len(step.x) + ["z"] * len(step.z)
+        rows = zip(step.start or (), kinds, strict=step.start is not None)
+        return [self.sum(row, kind, step, code) for row, kind in rows]
+
     def sums(self, step: AgentStep, code: _Code, assign: str) -> list[str]:
         """The statements that compute u, cut off at its limits, and the next states."""
         u, x, z = (
@@ -275,7 +282,7 @@ def described(step: AgentStep, code: _Code) -> list[str]:
         if _limits_are_rounded(step, code):
             how = "to the nearest doubles" if fixed is None else "inwards to units of u"
             lines.append(f"These limits are those of the controller, rounded {how}.")
-    if _starts(step, code):
+    if step.start is not None:
         lines.append("Start puts the states at rest for the first y, and r if there is any.")
         lines += _counted(step.start or (), " for start", code)
     elif step.x or step.z:
@@ -284,11 +291,6 @@ def described(step: AgentStep, code: _Code) -> list[str]:
         lines.append("Until a first message has arrived, what is received is 0.")
     # A name must neither end the comment that it stands in nor begin another one.
     return [line.replace("*", "\\x2a") for line in lines]
-
-
-def _starts(step: AgentStep, code: _Code) -> bool:
-    """Whether there is code that starts without a bump, as there is none in fixed point."""
-    return step.start is not None and code.fixed is None
 
 
 def _counted(rows: Iterable[Row], what: str, code: _Code) -> list[str]:
@@ -388,7 +390,7 @@ def _header(step: AgentStep, code: _Code) -> str:
         *["#include <stdint.h>"] * (code.fixed is not None),
         "typedef struct {\n" + "\n".join(members) + f"\n}} {name}_state;",
         f"void {name}_reset({name}_state *s);",
-        *[f"{_starting(step)};"] * _starts(step, code),
+        *[f"{_starting(step, code)};"] * (step.start is not None),
         *(f"{_send(step, code, j)};" for j in step.sent),
         f"{signature(step, code)};",
         "#endif",
@@ -401,18 +403,19 @@ def _send(step: AgentStep, code: _Code, j: int) -> str:
     return f"void {name}_send_to_{other}(const {name}_state *s, {type_} x[{len(step.x)}])"
 
 
-def _starting(step: AgentStep) -> str:
+def _starting(step: AgentStep, code: _Code) -> str:
     """The declaration of the function that starts without a bump, without its semicolon."""
+    type_ = C.signals(code)
     arguments = [f"{step.identifier}_state *s"]
-    arguments += [f"const double y[{step.outputs}]"] * bool(step.outputs)
-    arguments += [f"const double r[{step.references}]"] * bool(step.references)
+    arguments += [f"const {type_} y[{step.outputs}]"] * bool(step.outputs)
+    arguments += [f"const {type_} r[{step.references}]"] * bool(step.references)
     return f"void {step.identifier}_start({', '.join(arguments)})"
 
 
 def _started(step: AgentStep, code: _Code) -> list[str]:
     """The statements of this function."""
     states, body = len(step.x), list[str]()
-    rows = [C.sum(row, "x", step, code) for row in step.start or ()]
+    rows = C.rest(step, code)
     for k, text in enumerate(rows[:states]):
         body += [f"s->x[0][{k}] = {text};"]
         body += [f"s->x[{d}][{k}] = s->x[0][{k}];" for d in range(1, step.remembered + 1)]
@@ -429,8 +432,8 @@ def _source(step: AgentStep, code: _Code) -> str:
     reset += [f"s->z[{k}] = {zero};" for k in range(kept)]
     reset = reset or ["s->none = 0;"]
     functions = [_function(f"void {name}_reset({name}_state *s)", reset)]
-    if _starts(step, code):
-        functions.append(_function(_starting(step), _started(step, code)))
+    if step.start is not None:
+        functions.append(_function(_starting(step, code), _started(step, code)))
     for j, held in step.sent.items():
         copied = [f"x[{k}] = s->x[{held}][{k}];" for k in range(states)]
         functions.append(_function(_send(step, code, j), copied))
@@ -438,7 +441,7 @@ def _source(step: AgentStep, code: _Code) -> str:
     body += [f"{type_} next_z[{kept}];"] * bool(kept)
     body += [f"{type_} e[{len(step.u)}] = {{{zero}}};"] * step.winds
     sums = C.sums(step, code, "=")
-    if any(f"{name}_nearest" in each for each in sums):
+    if any(f"{name}_nearest" in each for each in (*sums, *C.rest(step, code))):
         functions.insert(0, _NEAREST_IN_C.format(name, LARGEST))
     body += sums
     for d in range(step.remembered, 0, -1):
@@ -513,7 +516,7 @@ def _block(step: AgentStep, code: _Code) -> str:
     leaving |= {f"sent_to_{steps[j].identifier}": states for j in step.sent}
     kept_names = {f"x_{d}": states for d in range(step.remembered + 1)}
     kept_names |= {"z": kept, "next_x": states, "next_z": kept, "e": len(step.u) * step.winds}
-    starts = _starts(step, code)
+    starts = step.start is not None
     body = [*(_first_states(step, code) if starts else ()), *TEXT.sums(step, code, ":=")]
     nearest = _NEAREST_IN_TEXT.format(step.identifier, LARGEST)
     used = any(f"{step.identifier}_nearest" in each for each in body)
@@ -539,7 +542,7 @@ def _block(step: AgentStep, code: _Code) -> str:
 def _first_states(step: AgentStep, code: _Code) -> list[str]:
     """The statements that put the states at rest while `start` is true."""
     states, body = len(step.x), list[str]()
-    rows = [TEXT.sum(row, "x", step, code) for row in step.start or ()]
+    rows = TEXT.rest(step, code)
     for k, text in enumerate(rows[:states]):
         every = range(step.remembered + 1)
         body += [f"x_{d}[{k}] := SEL(start, x_{d}[{k}], {text});" for d in every]

@@ -114,6 +114,11 @@ class CompiledAgent:
     def _doubles(self, kind: str, array: Any) -> list[float]:
         return list(array) if self._fixed is None else self._fixed.doubles(kind, list(array))
 
+    def start(self, y: Sequence[float], r: Sequence[float]) -> None:
+        """Put the states at rest; see `AgentRun`.  The code has this where the step has a start."""
+        given = [(kind, own) for kind, own in (("y", y), ("r", r)) if own]
+        self._call("start", *(self._array(kind, own) for kind, own in given))
+
     def sent_to(self, follower: int) -> list[float]:
         """What a follower receives of x in this step, before delays."""
         x = self._array("x", [0.0] * len(self.step.x))

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from math import ceil, floor
@@ -120,6 +120,23 @@ class FixedPoint:
             return Matrix.from_entries(M.shape, [(i, j, self.number(c)) for i, j, c in entries])
 
         return with_limits(with_matrices(controller, matrix), self.ends)
+
+    def steps(self, controller: Controller) -> tuple[AgentStep, ...]:
+        """The steps of all agents, which start at the rest of the rounded controller.
+
+        Where a sum for that could leave 64 bits, or the rounded agent has no such rest, it starts
+        at 0.
+        """
+        pairs = zip(steps_of(controller), steps_of(self.rounded(controller)), strict=True)
+        return tuple(replace(step, start=self._rest(other)) for step, other in pairs)
+
+    def _rest(self, step: AgentStep) -> tuple[Row, ...] | None:
+        kinds = ["x"] * len(step.x) + ["z"] * len(step.z)
+        with suppress(InputError):
+            for row, kind in zip(step.start or (), kinds, strict=step.start is not None):
+                self.sum(row, kind, step.name)
+            return step.start
+        return None
 
     def sum(self, row: Row, kind: str, agent: str = "") -> FixedSum:
         """Return a sum for a signal of a kind.
@@ -224,6 +241,18 @@ class FixedAgent:
             part: [fixed.sum(row, part, step.name) for row in getattr(step, part)]
             for part in ("u", "x", "z")
         }
+
+    def start(self, y: Sequence[float], r: Sequence[float]) -> None:
+        """Put the states at rest for these outputs and set-points, or at 0; see `AgentRun`."""
+        i, states = self.step.position, len(self.step.x)
+        known = {(kind, i): self.fixed.integers(kind, own) for kind, own in (("y", y), ("r", r))}
+        kinds = ["x"] * states + ["z"] * len(self.step.z)
+        rows = self.step.start or ((),) * len(kinds)
+        rest = [
+            self.fixed.sum(row, kind).value(lambda s: known[s.kind, s.agent][s.entry])
+            for row, kind in zip(rows, kinds, strict=True)
+        ]
+        self._z, self._past = rest[states:], [rest[:states] for _ in self._past]
 
     def sent_to(self, follower: int) -> list[float]:
         """What a follower receives of x in this step, before delays."""

@@ -337,9 +337,10 @@ def test_numbers_for_start_are_counted_where_there_is_code_for_it_alone() -> Non
         assert "Its only number for start is rounded to the nearest double." in text
         integers = code(controller, language, FixedPoint(4))[name]  # type: ignore[arg-type]
         assert "All 3 numbers are those of the controller exactly." in integers
-        assert "start is rounded" not in integers
+        assert "Its only number for start is rounded to 4 fractional bits." in integers
     document = json.loads(export_controller(controller, "json", FixedPoint(4))[EQUATIONS])
-    assert document["agents"][0]["start"] is None
+    [[[number, *_]]] = document["agents"][0]["start"]
+    assert Fraction(number) == Fraction(5, 16)
 
 
 def test_an_agent_starts_at_zero_where_its_rest_is_beyond_doubles() -> None:
@@ -415,8 +416,7 @@ def started(kind: str, controller: Controller, y: list[float], r: list[float]) -
     if COMPILER is None:
         pytest.skip("no C compiler")
     [compiled] = compiled_agents(controller)
-    arguments = (ctypes.c_double * 1)(*y), (ctypes.c_double * 1)(*r)
-    compiled._call("start", *arguments)
+    compiled.start(y, r)
     return compiled
 
 

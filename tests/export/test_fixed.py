@@ -13,7 +13,15 @@ from typing import Any
 
 import pytest
 
-from mcexact import MultiChannelSystem, certify_controller, check
+from mcexact import (
+    AgentProgram,
+    Controller,
+    LinearMap,
+    Matrix,
+    MultiChannelSystem,
+    certify_controller,
+    check,
+)
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.export.code import export_controller, in_code
 from mcexact.export.compiled import CompiledAgent
@@ -21,7 +29,7 @@ from mcexact.export.equations import AgentRun, AgentStep, Kind, Row, Signal, ste
 from mcexact.export.fixed import LARGEST, FixedAgent, FixedPoint, least_fixed_point
 from mcexact.model.controller import read_controller
 from mcexact.model.statespace import local_controllers
-from tests.export.test_code import COMPILER, MADE, SET_POINTS, STEPS, code, compiled, run
+from tests.export.test_code import COMPILER, MADE, SET_POINTS, STEPS, code, compiled, lag, run
 
 ARITHMETICS = {
     "usual ranges": FixedPoint(14),
@@ -107,6 +115,7 @@ class IntegerBlock:
             name: [0] * (int(k) + 1)
             for name, k in re.findall(r"(\w+) : ARRAY\[0\.\.(\d+)\] OF DINT;", head)
         }
+        self.memory["start"] = False  # type: ignore[assignment]
         assert body.strip().endswith("END_FUNCTION_BLOCK")
         statements = body.replace("END_FUNCTION_BLOCK", "").split(";")[:-1]
         self.statements = [
@@ -173,6 +182,7 @@ def _long(value: int) -> int:
 _LONG = {
     "quotient": lambda a, b: abs(a) // b * (1 if a >= 0 else -1),
     "LIMIT": lambda low, value, high: min(max(low, value), high),
+    "SEL": lambda which, no, yes: yes if which else no,
 }
 
 
@@ -366,3 +376,59 @@ def test_fewest_bits_are_proved_for_every_rounding() -> None:
 def test_a_loop_that_is_not_stable_has_no_fewest_bits() -> None:
     with pytest.raises(LimitReached, match="no number of fractional bits"):
         least_fixed_point(two(), local_controllers(two(), [[[0]], [[0]]]))
+
+
+RANGES = {"y": 2, "r": 4, "u": 16, "x": 2, "z": 1}
+
+
+def started(kind: str, fixed: FixedPoint, y: list[float], r: list[float], folder: Path) -> Any:
+    """An agent in fixed point that starts at rest."""
+    steps = fixed.steps(lag())
+    if kind == "integers":
+        agent: Any = FixedAgent(steps[0], fixed)
+        agent.start(y, r)
+    elif kind == "text":
+        agent = IntegerBlock(code(lag(), "st", fixed)["left.st"], steps, 0, fixed)
+        agent.memory["start"] = True
+        agent(y, r, {})
+        agent.memory["start"] = False
+    else:
+        if COMPILER is None:
+            pytest.skip("there is no C compiler")
+        agent = CompiledAgent(compiled(code(lag(), "c", fixed), folder), steps, 0, fixed)
+        agent.start(y, r)
+    return agent
+
+
+@pytest.mark.parametrize("kind", ["integers", "text", "compiled"])
+@pytest.mark.parametrize("bits", [6, 20])
+def test_in_fixed_point_an_agent_without_an_integrator_starts_at_rest(
+    kind: str, bits: int, tmp_path: Path
+) -> None:
+    fixed, y, r = FixedPoint(bits, RANGES), [0.3], [0.1]
+    agent = started(kind, fixed, y, r, tmp_path)
+    told = [agent(y, r, {})[0] for _ in range(40)]
+    # 1/(1 - A) of the rounded controller is at most 4, and start has numbers of as many bits
+    assert max(told) - min(told) < 16 * 2.0**-bits
+    fresh = FixedAgent(fixed.steps(lag())[0], fixed)
+    assert abs(fresh(y, r, {})[0] - told[0]) > 0.01
+    again = started("integers", fixed, y, r, tmp_path)
+    # the first period of a block was a step already
+    first = kind == "text"
+    assert told == [again(y, r, {})[0] for _ in range(40 + first)][first:]
+
+
+def test_no_rest_whose_sums_could_leave_64_bits_is_in_the_code() -> None:
+    fine, M = FixedPoint(20), Matrix.from_rows
+    slow = AgentProgram(
+        "left",
+        0,
+        1,
+        private_update=LinearMap({0: M([["1"]])}, {}, M([["1048575/1048576"]])),
+        input=LinearMap({}, {}, M([["1/2"]])),
+    )
+    controller = Controller("discrete", "", (slow,))
+    assert steps_of(controller)[0].start is not None
+    assert [step.start is None for step in fine.steps(controller)] == [True]
+    assert "left_start" not in code(controller, "c", fine)["left.h"]
+    assert "All states start at 0." in code(controller, "c", fine)["left.h"]
