@@ -1085,7 +1085,7 @@ class PortResponse:
         if norm * to_float(alpha) >= 1:
             return None
         scaling = tuple(Fraction(float(x)) for x in theta)
-        for P in self._proposals(places, theta, alpha):
+        for P in self.forms(places, theta, alpha):
             for bits in BITS:
                 form = rounded_form(P, bits)
                 if form is None:
@@ -1095,12 +1095,21 @@ class PortResponse:
                     return part
         return None
 
-    def _proposals(self, ports: list[int], theta: Floats, alpha: Fraction) -> Iterator[Floats]:
-        """Solutions of the Riccati equation of the bounded real lemma, in the plant's units."""
+    def forms(
+        self,
+        ports: list[int],
+        theta: Floats,
+        alpha: Fraction,
+        extras: Sequence[float] = _EXTRA,
+    ) -> Iterator[Floats]:
+        """Solutions of the Riccati equation of the bounded real lemma, in the plant's units.
+
+        ``extras`` are how much is added to the weight of the states, relative to what is seen.
+        """
         h = np.sqrt(theta)
         e, y = self.e[:, ports] / h, self.y[ports] * h[:, None]
         k, gamma = len(ports), 1 / to_float(alpha)
-        for modal, extra in product((False, True), _EXTRA):
+        for modal, extra in product((False, True), extras):
             P = self._bounded_real(e, y, k, gamma, extra, modal=modal)
             if P is not None:
                 yield P / self.scales[:, None] / self.scales

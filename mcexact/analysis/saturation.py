@@ -56,11 +56,19 @@ _PARTS = (1.0, 0.7, 0.4, 0.2, 0.1)
 _NOISE = (0.01, 0.1, 1.0, 10.0)
 """The noise of the filters that are tried, relative to what drives the states of an agent."""
 _SECTORS = tuple(
-    map(Fraction, ("1/50", "1/20", "1/10", "1/5", "3/10", "2/5", "1/2", "3/5", "7/10", "4/5"))
+    map(
+        Fraction,
+        ("1/50", "1/20", "1/10", "3/20", "1/5", "1/4", "3/10", "2/5", "1/2", "3/5", "7/10", "4/5"),
+    )
 )
 """The ends a of sectors [a, 1] that are tried for a region."""
 _MOST_SECTORS = 4
 """So many of them are tried, from the widest one that seems to be covered on."""
+_EXTRA = (0.3, 0.1, 0.03, 1e-3, 1e-5)
+"""What is added to the weight of the states in the forms that are tried: with more of it an
+ellipsoid is rounder, until there is none."""
+_MOST_FORMS = 2
+"""So many forms of each sector are rounded and tried exactly, those with the largest balls."""
 _ROOM = 1 + 1e-6
 
 
@@ -288,49 +296,76 @@ def saturation_of(
         The anti-windup gains.
     """
     saturated = Saturated.of(loop, limits, gains)
-    found = _circle(saturated, Fraction(0))
+    found = _circle(saturated)
     if found is not None:
         proof = SaturationProof(found[0], (Fraction(0),) * len(found[0]), P=found[1])
         return SaturationStability(loop.system, limits, tuple(gains), region=None, proof=proof)
-    best: SaturationStability | None = None
-    first = saturated.first_sector() if all(saturated.nearer) else len(_SECTORS)
-    for a in _SECTORS[first : first + _MOST_SECTORS]:
-        found = _circle(saturated, a)
-        region = None if found is None else _region(saturated, loop.plant.n, a, *found)
-        if region is not None and _is_larger(region[1], best):
+    for a, weights, form in _ellipsoids(saturated, loop.plant.n):
+        region = _region(saturated, loop.plant.n, a, weights, form)
+        if region is not None:
             proof = SaturationProof(region[0], (a,) * len(region[0]))
-            best = SaturationStability(
+            return SaturationStability(
                 loop.system, limits, tuple(gains), region=region[1], proof=proof
             )
-    return best
+    return None
+
+
+def _ellipsoids(
+    saturated: Saturated, n: int
+) -> list[tuple[Fraction, tuple[Fraction, ...], Floats]]:
+    """Sectors with scalings and forms, those first whose largest balls of the plant are largest."""
+    first = saturated.first_sector() if all(saturated.nearer) else len(_SECTORS)
+    found = list[tuple[float, Fraction, tuple[Fraction, ...], Floats]]()
+    for a in _SECTORS[first : first + _MOST_SECTORS]:
+        response = saturated.response(a)
+        ports = list(range(response.ports))
+        norm, theta = (np.inf, np.ones(0)) if response.unstable else response.scaled_norm(ports)
+        if norm >= 1:
+            continue
+        weights = tuple(Fraction(float(t)) / ((1 - a) / 2) ** 2 for t in theta)
+        own = list[tuple[float, Fraction, tuple[Fraction, ...], Floats]]()
+        with suppress(np.linalg.LinAlgError):
+            for P in response.forms(ports, theta, Fraction(1), _EXTRA):
+                factor, largest = _factor(saturated, P, a), np.linalg.eigvalsh(P[:n, :n])
+                size = factor * float(largest[-1]) if n else factor
+                if 0 < size < np.inf:
+                    own.append((size, a, weights, P))
+        found += sorted(own, key=lambda each: each[0])[:_MOST_FORMS]
+    found.sort(key=lambda each: each[0])
+    return [each[1:] for each in found]
+
+
+def _factor(saturated: Saturated, P: Floats, a: Fraction) -> float:
+    """The least multiple of a form in whose ellipsoid all inputs stay in the sectors [a, 1]."""
+    U = matrix_to_float(saturated.U)
+    nearer = np.array([to_float(each) for each in saturated.nearer])
+    widths = np.einsum("ki,ik->k", U, np.linalg.solve(P, U.T))
+    return float(np.max(to_float(a) ** 2 * widths / nearer**2, initial=0.0)) * _ROOM
 
 
 def _is_larger(region: Ellipsoid, best: SaturationStability | None) -> bool:
     return best is None or best.region is None or region.radius > best.region.radius
 
 
-def _circle(saturated: Saturated, a: Fraction) -> tuple[tuple[Fraction, ...], Symmetric] | None:
-    """The scaling and the matrix that prove the circle criterion for the sectors [a, 1]."""
-    response = saturated.response(a)
+def _circle(saturated: Saturated) -> tuple[tuple[Fraction, ...], Symmetric] | None:
+    """The scaling and the matrix that prove the circle criterion for the sectors [0, 1]."""
+    response, part = saturated.response(Fraction(0)), None
     if response.unstable:
         return None
-    part = None
     with suppress(np.linalg.LinAlgError):
         part = response.proved(range(response.ports), Fraction(1))
     if part is None:
         return None
-    scaling = tuple(t / ((1 - a) / 2) ** 2 for t in part.scaling)
-    return (scaling, part.P) if saturated.falls(part.P.matrix(), scaling, a) else None
+    scaling = tuple(4 * t for t in part.scaling)
+    falls = saturated.falls(part.P.matrix(), scaling, Fraction(0))
+    return (scaling, part.P) if falls else None
 
 
 def _region(
-    saturated: Saturated, n: int, a: Fraction, scaling: Sequence[Fraction], form: Symmetric
+    saturated: Saturated, n: int, a: Fraction, scaling: Sequence[Fraction], P: Floats
 ) -> tuple[tuple[Fraction, ...], Ellipsoid] | None:
     """The largest multiple of an ellipsoid in which the sectors hold, and the scaling for it."""
-    P, U = matrix_to_float(form.matrix()), matrix_to_float(saturated.U)
-    nearer = np.array([to_float(each) for each in saturated.nearer])
-    widths = np.einsum("ki,ik->k", U, np.linalg.solve(P, U.T))
-    factor = float(np.max(to_float(a) ** 2 * widths / nearer**2, initial=0.0)) * _ROOM
+    factor = _factor(saturated, P, a)
     if not 0 < factor < np.inf:
         return None
     weights = tuple(t * Fraction(factor) for t in scaling)

@@ -189,3 +189,16 @@ def test_what_is_not_limited_or_not_stable_is_refused() -> None:
     # an input that is never negative holds no unstable plant
     with pytest.raises(LimitReached):
         saturation_stability(plant, local_controllers(plant, [[[-3]]]), limits={0: [[0, 1]]})
+
+
+def test_a_region_is_far_larger_than_the_ball_in_which_nothing_is_cut_off() -> None:
+    plant = MultiChannelSystem(
+        [[1, 1], [0, 1]], [[["1/2"], [1]]], [[[1, 0], [0, 1]]], time="discrete"
+    )
+    gains = local_controllers(plant, [[["-1/5", "-3/5"]]])
+    found = saturation_stability(plant, gains, limits={"1": [[-1, 1]]})
+    K, M = np.array([[-0.2, -0.6]]), np.array([[0.9, 0.7], [-0.2, 0.4]])
+    peak, power = 0.0, np.eye(2)
+    for _ in range(100):
+        peak, power = max(peak, float(np.linalg.norm(K @ power))), M @ power
+    assert found.region is not None and found.region.radius * Fraction(peak) > 3
