@@ -102,7 +102,11 @@ class InputError(McexactError, ValueError):
 
     @staticmethod
     def require(value: object, kind: type, where: str) -> None:
-        """Refuse an argument of another type than the one expected, and say how to make one."""
+        """Refuse an argument of another type than the one expected, and say how to make one.
+
+        A value of the type may still be unfit, such as a system with feedthrough: its ``_unfit``
+        says why.
+        """
         if not isinstance(value, kind):
             article = "an" if kind.__name__[0] in "AEIO" else "a"
             advice = getattr(kind, "_made_by", "")
@@ -114,6 +118,8 @@ class InputError(McexactError, ValueError):
                 f"{advice and f'; {advice}'}",
                 where=where,
             )
+        if unfit := getattr(value, "_unfit", ""):
+            raise InputError(unfit, where=where)
 
     exit_status = 3
 

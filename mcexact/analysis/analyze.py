@@ -52,6 +52,7 @@ from mcexact.answer.protocol import Answer
 from mcexact.answer.rulebook import ALLOCATION, ANALYSIS, LINKS, with_own
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.derived.constructions import Share
+from mcexact.derived.feedthrough import FILTERS, without_feedthrough
 from mcexact.derived.modulo import parts_of
 from mcexact.errors import (
     InputError,
@@ -186,7 +187,7 @@ class Analysis(ShownByAccount):
                     "give values with .at({…})"
                 )
         else:
-            InputError.require(plant, MultiChannelSystem, "system")
+            plant = without_feedthrough(plant)
         self.plant = plant
         self.information = information
         self._arguments: dict[str, Any] = {
@@ -328,8 +329,15 @@ class Analysis(ShownByAccount):
                 yield name
 
     def _applies(self, name: str) -> bool:
+        if self._has_filters and self.questions[name].needs == "channels":
+            return False
         subset = self._arguments["subset"]
         return name != "complementary_subsystem" or 0 < len(set(subset)) < self.plant.m
+
+    @property
+    def _has_filters(self) -> bool:
+        """Whether the inputs were made states: no channel alone controls those of others."""
+        return any(step["construction"] == FILTERS for step in self.plant.subject)
 
     def _require_known(self, name: str) -> None:
         if not isinstance(name, str) or name not in self.questions:
@@ -337,6 +345,11 @@ class Analysis(ShownByAccount):
                 f"there is no question {shown_value(name)}; expected {', '.join(self.questions)}"
             )
         self._require(self.questions[name].needs, f"the question {name!r} is about {{}}")
+        if self._has_filters and self.questions[name].needs == "channels":
+            raise UsageError(
+                f"the question {name!r} is not asked where inputs are states, as those of "
+                "other channels are; ask joint_controllability(plant, [name]) of the plant itself"
+            )
 
     def _require(self, needed: str, asked: str) -> None:
         """Raise an error if a question lacks the graph, channels or channel that it needs."""

@@ -49,7 +49,7 @@ from mcexact.answer.structure import (
 )
 from mcexact.derived.constructions import dual
 from mcexact.derived.modular import generator, residue_systems, short_modulus
-from mcexact.errors import Impossible, InputError, InternalError
+from mcexact.errors import Impossible, InternalError
 from mcexact.exact.krylov import InvariantSubspace, controllable_subspace, krylov_rows
 from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
@@ -64,7 +64,7 @@ from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import root_discs
 from mcexact.model.entries import as_matrix, require_shape
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, any_system
 
 if TYPE_CHECKING:
     from mcexact.answer.parameters import ParametricFixedSpectrum, ParametricRank
@@ -180,7 +180,7 @@ def _decided(
         from mcexact.analysis.parameters.modes import parametric_controllability
 
         return parametric_controllability(system, channels, observed=observed)
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     subject = dual(system) if observed else system
     T = range(system.m) if channels is None else system.indices(channels)
     if system.n <= _SMALL:
@@ -320,7 +320,7 @@ def controllability_indices(
         from mcexact.analysis.parameters.ranks import parametric_indices
 
         return parametric_indices(system, channels)
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     T = range(system.m) if channels is None else system.indices(channels)
     B = system.input_matrix(T)
     rng = generator(system, "controllability_indices")
@@ -360,7 +360,7 @@ def observability_indices(
         from mcexact.analysis.parameters.ranks import parametric_indices
 
         return parametric_indices(system, channels, observed=True)
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     return controllability_indices(dual(system), channels)
 
 

@@ -81,6 +81,7 @@ from mcexact.answer.modes import (
     TwoPolynomials,
 )
 from mcexact.answer.structure import TransferGraph
+from mcexact.derived.feedthrough import without_feedthrough
 from mcexact.derived.modular import (
     ModularSystem,
     closed_loop,
@@ -132,6 +133,9 @@ def fixed_spectrum(
         A plant or a derived system; or a plant with one parameter, for all of whose values the
         question is decided (`ParametricFixedSpectrum`).
 
+        One with feedthrough is decided with its inputs as states (`input_filters`), which has the
+        same fixed modes.
+
     Notes
     -----
     Paper, Proposition 2 (Anderson and Clements): λ is fixed iff for some set s of channels the
@@ -171,7 +175,7 @@ def fixed_spectrum(
         from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 
         return parametric_fixed_spectrum(system)
-    InputError.require(system, MultiChannelSystem, "system")
+    system = without_feedthrough(system)
     blocks = bounded_blocks(system)
     if not modes_left(blocks):
         return _answer(system, (), None, ByBlocks(blocks, None, ()))
@@ -379,13 +383,14 @@ def completeness(
     >>> completeness(MultiChannelSystem([], [[], []], [[], []])).complete
     False
     """
+    if not isinstance(system, ParametricSystem):
+        system = without_feedthrough(system)
     known = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
         # start-up: few plants need it
         from mcexact.analysis.parameters.hypersurfaces import parametric_completeness
 
         return parametric_completeness(system)
-    InputError.require(system, MultiChannelSystem, "system")
     spectrum = fixed_spectrum(system) if known is None else known
     rng = generator(system, "completeness")
     evidence = _evidence(system, spectrum, rng)
@@ -532,7 +537,7 @@ def assignability(
     >>> answer.undivided, [(block.channels, block.dimension) for block in answer.blocks]
     (False, [(('1',), 1), (('2',), 1)])
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    system = without_feedthrough(system)
     known = TransferGraph.known(graph, system, "graph")
     quick = known is None and is_large_and_sparse(system)
     found = _connecting_arcs(system) if quick and is_connected(reachable_pairs(system)) else None
@@ -745,7 +750,7 @@ def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) ->
     >>> pencil_rank(system, [], 3).rank
     2
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    system = without_feedthrough(system)
     p = _irreducible(mode)
     inside = system.indices(subset)
     M0, M1 = pencil(system, inside)
@@ -778,7 +783,7 @@ def pencil_ranks(
     spectrum : ClosedLoopSpectrum, optional
         ``open_loop_spectrum(system)``, if it is known already.
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    system = without_feedthrough(system)
     names = system.named(system.indices(subset))
     known = ClosedLoopSpectrum.known(spectrum, system, "spectrum")
     modes = open_loop_spectrum(system) if known is None else known

@@ -31,6 +31,7 @@ from mcexact.analysis.sparse import (
 )
 from mcexact.answer.evidence import ZeroTransfer
 from mcexact.answer.structure import ComplementarySubsystem, SetpointSolvability, TransferGraph
+from mcexact.derived.feedthrough import own_outputs, without_feedthrough
 from mcexact.derived.modular import (
     SHORT,
     ModularSystem,
@@ -38,7 +39,7 @@ from mcexact.derived.modular import (
     residue_systems,
     short_modulus,
 )
-from mcexact.errors import InputError, InternalError, UsageError
+from mcexact.errors import InternalError, UsageError
 from mcexact.exact.krylov import InvariantSubspace, controllable_subspace
 from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
@@ -221,7 +222,7 @@ def transfer_graph(
         from mcexact.analysis.parameters.hypersurfaces import parametric_transfer_graph
 
         return parametric_transfer_graph(system)
-    InputError.require(system, MultiChannelSystem, "system")
+    system = without_feedthrough(system)
     if is_large_and_sparse(system):
         graph = _by_structure(system)
         if graph is not None:
@@ -343,7 +344,7 @@ def complementary_subsystem(
     >>> answer.transfer_zero, [(str(zeros.polynomial), zeros.rank) for zeros in answer.zeros]
     (True, [('x - 1', 2)])
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    system = without_feedthrough(system)
     inside = system.indices(subset)
     if not 0 < len(inside) < system.m:
         raise UsageError("expected a nonempty proper subset of the channels")
@@ -536,7 +537,7 @@ def setpoint_solvability(
         from mcexact.analysis.parameters.ranks import parametric_setpoints
 
         return parametric_setpoints(system)
-    InputError.require(system, MultiChannelSystem, "system")
+    system = own_outputs(without_feedthrough(system))
     n, B, C = system.n, system.input_matrix(), system.output_matrix()
     place, unit, none = steady_point(system.time), Matrix.identity(n), Matrix.zeros
     lower = none(C.nrows, B.ncols)

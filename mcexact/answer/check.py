@@ -48,6 +48,7 @@ from mcexact.derived.constructions import (
     setpoint_system,
     slow_system,
 )
+from mcexact.derived.feedthrough import input_filters
 from mcexact.derived.modulo import without_part
 from mcexact.derived.sampling import sampled_system
 from mcexact.errors import InputError, InternalError, place_of, require_seconds, telling
@@ -59,7 +60,7 @@ from mcexact.model import controller, system_file
 from mcexact.model import system as system_forms
 from mcexact.model.loop import closed_loop
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, any_system
 from mcexact.model.text import canonical, read_bytes
 from mcexact.processes import Child
 from mcexact.shown import LINE as shown_LINE
@@ -198,14 +199,13 @@ def check(
 fixed_spectrum(system), or the name of a certificate file, found dict
     """
     from mcexact.model.parametric import ParametricSystem
-    from mcexact.model.system import MultiChannelSystem
     from mcexact.model.text import plain
 
     tell = telling(progress)
     if timeout is not None:
         require_seconds(timeout, "timeout")
     if system is not None and not isinstance(system, ParametricSystem):
-        InputError.require(system, MultiChannelSystem, "system")
+        any_system(system)
     wanted = Expectation() if system is None else about_plant(system.canonical_text())
     if system is not None and system.subject:
         wanted = replace(wanted, subject=json.loads(json.dumps(plain(system.subject))))
@@ -445,7 +445,7 @@ def load_certificate(
     with InputError.inside(place_of(path)):
         data = read_bytes(path)
     if system is not None and not isinstance(system, ParametricSystem):
-        InputError.require(system, MultiChannelSystem, "system")
+        any_system(system)
     plant = None if system is None else system.plant
     text = None if plant is None else plant.canonical_text()
     file = os.fspath(path)
@@ -525,6 +525,7 @@ _CONSTRUCTIONS: Mapping[
     "extended": lambda system, data: extended_system(system, data["dimensions"], data["share"]),
     "lifted": lambda system, data: lifted_system(system, data["dimensions"], data["share"]),
     "held": lambda system, data: held_system(system, data["dimensions"]),
+    "input_filters": lambda system, _: input_filters(system),
     "integrators": lambda system, _: setpoint_system(system),
     "merged": lambda system, data: merged(system, data["parts"]),
     "modulo": lambda system, data: without_part(

@@ -1,4 +1,4 @@
-"""Sentences about plants without a part of their state, and about joint fixed modes.
+"""Sentences about plants without a part of their state, or with their inputs as states.
 
 What no output shows and what no input moves, of all channels together, no controller changes: these
 modes are *joint* fixed modes.  Others are *decentralized* ones.  `PART_RULES` says of answers about
@@ -6,6 +6,9 @@ a plant without such a part that they are about the rest, and which modes stay i
 plant; `LOOP_PART_RULES` says the same of loops.  `OPTION_RULES` name the option that asks about the
 rest.  `JOINT_RULES` divides the fixed modes of a plant
 by the fixed spectrum of its minimal realization.
+
+Of a plant with feedthrough the answers are about the plant with its inputs as states, which has the
+same fixed modes: `FILTER_RULES` say so.
 """
 
 from __future__ import annotations
@@ -14,6 +17,7 @@ from collections.abc import Iterator
 
 from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template
+from mcexact.derived.feedthrough import FILTERS
 from mcexact.derived.modulo import MODULO, PARTS
 from mcexact.exact.polynomial import Polynomial, product
 
@@ -45,6 +49,13 @@ OPTION = {
         ("both", "a minimal realization of the plant"),
     )
 }
+FILTERED = Template(
+    "feedthrough",
+    "These answers are about the system with its inputs as states, which the agents {time:inputs}, "
+    "measure, and send where they send outputs; its fixed modes are those of the system with its "
+    "feedthrough.",
+    "feedthrough.same_fixed_modes",
+)
 JOINT = Template("joint-fixed", "{p:modes}", _PARTS, "joint fixed modes")
 _DECENTRALIZED = "decentralized fixed modes"
 NOT_DECENTRALIZED = Template("decentralized-none", "none", _PARTS, _DECENTRALIZED)
@@ -62,6 +73,16 @@ BESIDES = Template(
 
 PART_RULES, LOOP_PART_RULES = Rulebook(), Rulebook()
 OPTION_RULES, JOINT_RULES = Rulebook(), Rulebook()
+FILTER_RULES = Rulebook()
+
+
+@FILTER_RULES.rule("answer", FILTERED, premises=("fixed_spectrum",))
+def _filtered(fixed_spectrum: Certified, context: Context) -> Said:
+    """Say what the answers are about, where the inputs were made states before all questions."""
+    own = len(context.system.subject)
+    last = context.system.subject[-1:]
+    if [step["construction"] for step in last] == [FILTERS] and len(fixed_spectrum.subject) == own:
+        yield FILTERED(time=context.time)
 
 
 def _stays(claim: Certified, context: Context) -> Said:

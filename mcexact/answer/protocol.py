@@ -275,7 +275,7 @@ class Part(Shown):
 
 def _values(system: Any) -> tuple[Any, ...]:
     """All data on which decisions about the nominal system depend, to compare two systems."""
-    return type(system).__name__, system.time, system.A, system.channels
+    return type(system).__name__, system.time, system.A, system.channels, system.D
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -292,7 +292,14 @@ class Answer(Shown):
     dual_keys: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """Other names of keys where the answer is displayed that is about a dual system."""
 
+    with_feedthrough: ClassVar[bool] = False
+    """Whether it may be about a system with feedthrough: then no claim depends on its D."""
+
     about: MultiChannelSystem
+
+    def __post_init__(self) -> None:
+        if self.about.D is not None and not self.with_feedthrough:
+            InputError.require(self.about, MultiChannelSystem, "system")
 
     @classmethod
     def known(cls, argument: Any, system: Any, where: str) -> Self | None:

@@ -35,6 +35,7 @@ _MODES = next(k for k, each in enumerate(analysis.ANALYSIS_RULES) if each.place 
 ANALYSIS = Rulebook(
     [
         *nearby.NEARBY_RULES,
+        *modulo.FILTER_RULES,
         *modulo.PART_RULES,
         *analysis.ANALYSIS_RULES[:_MODES],
         *modulo.OPTION_RULES,

@@ -92,6 +92,8 @@ class JointControllability(Answer):
         The second for large systems, if the search yields such blocks.
     """
 
+    with_feedthrough = True
+
     dual_keys: ClassVar[Mapping[str, str]] = MappingProxyType(
         {
             "controllable": "observable",
@@ -168,6 +170,8 @@ class ControllabilityIndices(Answer):
         r_1, r_2 − r_1, …; they sum to r_ν.
     evidence : ByGrowth
     """
+
+    with_feedthrough = True
 
     channels: tuple[str, ...] = claim()
     ranks: tuple[int, ...] = claim()

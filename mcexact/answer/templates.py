@@ -426,6 +426,7 @@ FORMS: dict[str, Write] = {
     "edges": edges,
     "yes": lambda value: "yes" if value else "no",
     "time": choice(**{time: time for time in TIMES}),
+    "inputs": choice(continuous="set by their derivatives", discrete="set one step late"),
     "control": choice(
         own="linear time-invariant decentralized control",
         alone="linear time-invariant decentralized control without communication",

@@ -9,6 +9,7 @@ linear map of signals, which `discs` uses again to bound loops of uncertain plan
 
 import json
 from dataclasses import replace
+from functools import reduce
 from typing import NamedTuple
 
 from . import evidence
@@ -268,7 +269,8 @@ def augmented_outputs(system: System, step: dict[str, Json], place: str) -> Syst
     fields(step, place)
     N = neighbors_of(system, place)
     C = [outputs(system, N_i) for N_i in N]
-    return suffixed(system, "with the outputs of neighbors measured by each agent", C=C)
+    D = direct(system, [j for N_i in N for j in N_i], list(range(system.m)))
+    return suffixed(system, "with the outputs of neighbors measured by each agent", C=C, D=D)
 
 
 def arcs(system: System, step: dict[str, Json], place: str) -> System:
@@ -469,6 +471,19 @@ def _registered(system: System, M: Matrix, late: int, one: int) -> System:
 MODULO = ("part", "annihilator", "pivots", "polynomial")
 
 
+def direct(system: System, outputs_: list[int], inputs_: list[int]) -> Matrix | None:
+    """The feedthrough from the inputs of some channels to the outputs of some, in these orders.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    if system.D is None:
+        return None
+    p, q = ([M.ncols for M in system.B], [M.nrows for M in system.C])
+    rows = [k for i in outputs_ for k in range(sum(q[:i]), sum(q[: i + 1]))]
+    columns = [k for j in inputs_ for k in range(sum(p[:j]), sum(p[: j + 1]))]
+    return system.D.take(rows, columns)
+
+
 def dual(system: System, step: dict[str, Json], place: str) -> System:
     """A', (C_i)', (B_i)'; no neighbor graph.
 
@@ -476,7 +491,8 @@ def dual(system: System, step: dict[str, Json], place: str) -> System:
     """
     fields(step, place)
     B, C = [M.T for M in system.C], [M.T for M in system.B]
-    return prefixed("the dual", system, A=system.A.T, B=B, C=C, neighbors=None, delays={})
+    D = None if system.D is None else system.D.T
+    return prefixed("the dual", system, A=system.A.T, B=B, C=C, D=D, neighbors=None, delays={})
 
 
 def feedback(system: System, step: dict[str, Json], place: str) -> System:
@@ -522,7 +538,9 @@ def merged(system: System, step: dict[str, Json], place: str) -> System:
     sets = ", ".join(channel_set(system.names[i] for i in part) for part in parts)
     words = f"with its channels merged into {sets}"
     B, C = [inputs(system, part) for part in parts], [outputs(system, part) for part in parts]
-    return suffixed(system, words, names=known, B=B, C=C, neighbors=None, delays={})
+    order = [i for part in parts for i in part]
+    D = direct(system, order, order)
+    return suffixed(system, words, names=known, B=B, C=C, D=D, neighbors=None, delays={})
 
 
 def modulo(system: System, step: dict[str, Json], place: str) -> System:
@@ -569,7 +587,33 @@ def restricted(system: System, step: dict[str, Json], place: str) -> System:
     known = [system.names[i] for i in chosen]
     B, C = [system.B[i] for i in chosen], [system.C[i] for i in chosen]
     words = f"with the channels {channel_set(known)} alone"
-    return suffixed(system, words, names=known, B=B, C=C, neighbors=None, delays={})
+    D = direct(system, chosen, chosen)
+    return suffixed(system, words, names=known, B=B, C=C, D=D, neighbors=None, delays={})
+
+
+def input_filters(system: System, step: dict[str, Json], place: str) -> System:
+    """State (x, u), u' = v or u(t+1) = v, and agent i measures C_i x + D_i u and u_i; no D.
+
+    Theorems ``feedthrough.same_rank``, ``feedthrough.same_fixed_modes``.
+    """
+    fields(step, place)
+    n, p = system.n, sum(B_i.ncols for B_i in system.B)
+    spend(table(n + p, n + p))
+    x, u = Matrix.unit_rows(n + p, 0, n), Matrix.unit_rows(n + p, n, p)
+    everything = list(range(system.m))
+    A = stack([system.A @ x + inputs(system, everything) @ u, Matrix.zeros(p, n + p)], n + p)
+    B, C, start = [], [], 0
+    for i, (B_i, C_i) in enumerate(zip(system.B, system.C, strict=True)):
+        u_i, D_i = Matrix.unit_rows(n + p, n + start, B_i.ncols), direct(system, [i], everything)
+        y_i = C_i @ x if D_i is None else C_i @ x + D_i @ u
+        B.append(u_i.T)
+        C.append(stack([y_i, u_i], n + p))
+        start += B_i.ncols
+    words = f"with its inputs as states, which their agents {FILTERED[system.time]} and measure"
+    return suffixed(system, words, A=A, B=B, C=C, D=None)
+
+
+FILTERED = {"continuous": "set by their derivatives", "discrete": "set one step late"}
 
 
 def integrators(system: System, step: dict[str, Json], place: str) -> System:
@@ -618,7 +662,8 @@ def regulated(system: System, step: dict[str, Json], place: str) -> System:
     digest = with_digest(canonical_json(by_channel(system, S)))
     words = f"with the combinations S of its outputs with {digest}"
     C = [S_i @ C_i for S_i, C_i in zip(S, system.C, strict=True)]
-    return suffixed(system, words, C=C)
+    D = None if system.D is None else reduce(diagonal, S, Matrix.zeros(0, 0)) @ system.D
+    return suffixed(system, words, C=C, D=D)
 
 
 def servo(system: System, step: dict[str, Json], place: str) -> System:
@@ -664,9 +709,11 @@ LINE = "line"
 """The construction that only plants with parameters have, and before all others."""
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
 LAST = (regulated, restricted, sampled, servo, slow)
-CONSTRUCTIONS = {
-    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, modulo, *LAST)
-}
+MORE = (held, input_filters, integrators, lifted, merged, modulo)
+CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, *MORE, *LAST)}
+CARRYING = arcs, augmented_outputs, dual, input_filters, merged, modulo, regulated, restricted
+CARRIED = {rule.__name__ for rule in CARRYING}
+"""The constructions that apply to systems with feedthrough."""
 
 
 def read_subject(value: Json, plant: System, before: int = 0) -> System:
@@ -684,6 +731,8 @@ def read_subject(value: Json, plant: System, before: int = 0) -> System:
         require(name != LINE, "subject", place, message)
         if name not in CONSTRUCTIONS:
             incomplete("construction", place, f"{shown(name)} is not a construction known here")
+        if system.D is not None and name not in CARRIED:
+            incomplete("feedthrough", place, f"{name} is not known for systems with feedthrough")
         spend(1000 + 200 * system.m + len(system.words))
         parameters = {key: part for key, part in step.items() if key != "construction"}
         system = CONSTRUCTIONS[name](system, parameters, place)

@@ -279,10 +279,13 @@ class Rule:
         ``check(claim, witness, system)`` stops unless the witness proves the claim.
     statement : callable
         ``statement(claim, system)`` says the claim in words, from the claim and the subject alone.
+    feedthrough : bool
+        Whether it may be about a system with feedthrough: no claim of it depends on D.
     """
 
     check: Callable[..., None]
     statement: Callable[..., str]
+    feedthrough: bool = False
 
 
 KINDS = {
@@ -299,9 +302,13 @@ KINDS = {
         structure.check_complementary_subsystem, structure.complementary_subsystem_statement
     ),
     "completeness": Rule(modes.check_completeness, modes.completeness_statement),
-    "controllability": Rule(structure.check_controllability, structure.controllability_statement),
+    "controllability": Rule(
+        structure.check_controllability, structure.controllability_statement, feedthrough=True
+    ),
     "controllability_indices": Rule(
-        structure.check_controllability_indices, structure.controllability_indices_statement
+        structure.check_controllability_indices,
+        structure.controllability_indices_statement,
+        feedthrough=True,
     ),
     "cost_bound": Rule(performance.check_cost_bound, performance.cost_bound_statement),
     "deficiency": Rule(modes.check_deficiency, modes.deficiency_statement),
@@ -479,6 +486,9 @@ class Check:
             self.build_subject()
             budget.builds = False
             wanted.require_subject(steps, self.controller)
+            if getattr(self.system, "D", None) is not None and not KINDS[kind].feedthrough:
+                message = f"{kind} is not known for systems with feedthrough"
+                incomplete("feedthrough", "system", message)
             KINDS[kind].check(claim, witness, self.system)
             self.words = KINDS[kind].statement(claim, self.system)
             statement = f"For {described(self.system)}: {self.words}"

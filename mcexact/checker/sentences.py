@@ -24,7 +24,7 @@ from functools import partial
 from typing import Any
 
 from .arithmetic import exponent
-from .constructions import SHARED
+from .constructions import SHARED, read_subject
 from .evidence import require_coprime
 from .kinds import same
 from .modes import no_fixed_mode
@@ -266,7 +266,7 @@ GAINS = Role(("single_channel_gains",))
 SUBSYSTEM = Role(("complementary_subsystem",))
 RANK, RANKS = Role(("pencil_rank",)), Role(("pencil_rank",), many=True)
 SPECTRUM = Role(("closed_loop_spectrum",))
-SETPOINT = Role(("setpoint",), PLANT)
+SETPOINT = Role(("setpoint",), (*PLANT, ("regulated",)))
 
 
 def everywhere(premise: Premise) -> bool:
@@ -448,6 +448,17 @@ def _decentralized(rest: Premise, controls_: Premise, observes: Premise) -> str:
     return f"{besides(rest)}; all channels together control and observe them"
 
 
+@rule("feedthrough", Role(FIXED.kinds, PLANT), theorem="feedthrough.same_fixed_modes")
+def _feedthrough(filtered: Premise) -> str:
+    """What was made by `input_filters` last has the fixed modes of what it was made from."""
+    *before, last = filtered.document["subject"] or [{"construction": ""}]
+    own = last["construction"] == "input_filters"
+    filtered.expect(own, "the inputs are no states that were made last")
+    base = read_subject(before, filtered.plant)
+    modes = "modes at which [xI - A, -B; C, D] has rank below n for some set of channels"
+    return f"For {base.words}: the {modes} are the fixed modes of {filtered.system.words}"
+
+
 # How the spectrum can be assigned.
 
 ANY_CHANNEL = followed("channel controllers in any one channel assign the whole spectrum")
@@ -595,9 +606,25 @@ def unreached(c: Premise, o: Premise) -> list[str]:
     return [polynomial_text(p) for p in lost if not in_stability_region(p, c.system.time)]
 
 
+def of_all_outputs(premise: Premise) -> None:
+    """Stop unless the outputs are those of the manifest's system, without inputs that are states.
+
+    Where its inputs were made states, agents measure these behind the outputs.
+    """
+    if not premise.path:
+        return
+    *_, filters, step = premise.document["subject"]
+    premise.expect(filters["construction"] == "input_filters", "other outputs are regulated")
+    for S_i, B_i, C_i in zip(step["gains"], premise.meant.B, premise.meant.C, strict=True):
+        q, width = C_i.nrows - B_i.ncols, C_i.nrows
+        rows = [[int(j == k) for j in range(width)] for k in range(q)]
+        premise.expect(S_i == {"denominator": 1, "entries": rows}, "other outputs are regulated")
+
+
 @rule("setpoint", SETPOINT, CONTROLLABLE, OBSERVABLE, theorem=DAVISON)
 def _setpoint(premise: Premise, c: Premise, o: Premise, *_: Premise) -> str:
     """Integrators behind all outputs, and everything within reach."""
+    of_all_outputs(premise)
     premise.expect(premise["solvable"], "the rank of [A, B; C, 0] is not full")
     c.expect(controls(c) and controls(o), "not jointly controllable and observable")
     return f"{premise.about}: {HELD}"
@@ -606,6 +633,7 @@ def _setpoint(premise: Premise, c: Premise, o: Premise, *_: Premise) -> str:
 @rule("setpoint-stable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=DAVISON)
 def _setpoint_beside(premise: Premise, c: Premise, o: Premise, _: Premise) -> str:
     """Integrators behind all outputs, and what is out of reach is stable."""
+    of_all_outputs(premise)
     premise.expect(premise["solvable"], "the rank of [A, B; C, 0] is not full")
     c.expect(not unreached(c, o), "what is out of reach is not stable")
     return f"{premise.about}: {HELD}; every mode out of its reach is stable"
@@ -620,8 +648,20 @@ def _setpoint_lost(premise: Premise, c: Premise, o: Premise, _: Premise) -> str:
 
 
 RANK_RULE = "setpoint.setpoint_rank"
-restate("setpoint-zero", SETPOINT, lambda c: c["invariant_zero"] is True, RANK_RULE)
-restate("setpoint-dependent", SETPOINT, lambda c: c["invariant_zero"] is False, RANK_RULE)
+
+
+def _lost_outputs(key: str, zero: bool) -> None:
+    """Enter the rule about set-points that no stable loop holds, with an invariant zero or not."""
+
+    @rule(key, SETPOINT, theorem=RANK_RULE)
+    def _say(premise: Premise) -> str:
+        of_all_outputs(premise)
+        premise.expect(premise["invariant_zero"] is zero, "the claim is different")
+        return premise.statement
+
+
+_lost_outputs("setpoint-zero", True)
+_lost_outputs("setpoint-dependent", False)
 
 
 # What the certificates about sharing imply: bounds, least dimensions, links, delays.

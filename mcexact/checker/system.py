@@ -19,6 +19,7 @@ import re
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import reduce
 from itertools import chain
 from typing import Any, Protocol
 
@@ -331,6 +332,8 @@ def _form(radii: list[Matrix], names: list[str]) -> Json:
 class System:
     """x' = Ax + Σ B_i u_i, y_i = C_i x (or x(t+1) = …), with the neighbor graph.
 
+    ``D`` is the feedthrough, y = Cx + Du for the inputs and outputs of all channels, None where it
+    is zero.  Kinds and constructions that do not know of it refuse systems with one.
     ``neighbors[i]`` is N_i in the order of the channels, with i in it; None means that there is no
     graph; ``delays[i, j]`` is d_ij where it is not 0.  ``words`` name the system in
     statements; in a closed loop ``blocks`` are the sizes of x, x_1, z_1, x_2, z_2, …,
@@ -352,6 +355,7 @@ class System:
     ports: str = ""
     uncertainty: Json = None
     loop: Any = field(default=None, compare=False)
+    D: Matrix | None = None
 
     @property
     def n(self) -> int:
@@ -369,7 +373,8 @@ class System:
 
     def kept(self, name: Hashable, make: Callable[[], Any]) -> Any:
         """What is proved once for all certificates about the same matrices and channels."""
-        return budget.kept((name, *self.names), make, self.A, *self.B, *self.C)
+        direct = () if self.D is None else (self.D,)
+        return budget.kept((name, *self.names), make, self.A, *self.B, *self.C, *direct)
 
 
 def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -> System:
@@ -377,17 +382,17 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
 
     ``typed`` is the same document with its numbers as texts, if there is one.
     """
-    unused = "format", "name", "source", "sample_time", "sizes", "D", "regulated", "limits"
+    unused = "format", "name", "source", "sample_time", "sizes", "regulated", "limits"
     extra = () if limits is None else unused
     keys = ("time", "A", "channels")
-    optional = ("neighbors", "delays", "uncertainty", *extra)
-    time, A_rows, listed, heard, waits, doubt, *more = fields(
+    optional = ("neighbors", "delays", "uncertainty", "D", *extra)
+    time, A_rows, listed, heard, waits, doubt, direct, *more = fields(
         value, "system", *keys, optional=optional
     )
     A = read_matrix(A_rows, "A", None, None, limits)
     if A.nrows != A.ncols or not items(listed, "channels"):
         malformed("system", "expected a square A and at least one channel")
-    B, C, names = [], [], []
+    B, C, names, own = [], [], [], []
     budget.spend(4 * len(listed) ** 2)  # names are compared, and delays looked up, for every pair
     for k, channel in enumerate(budget.counted(listed)):
         where = f"channels[{k}]"
@@ -395,11 +400,19 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
         B.append(read_matrix(B_rows, f"{where}.B", A.nrows, None, limits))
         C.append(read_matrix(C_rows, f"{where}.C", None, A.nrows, limits))
         names.append(str(k + 1) if name is None else name)
-        _require_no_feedthrough(D, f"{where}.D", limits)
+        own.append(_feedthrough(D, f"{where}.D", C[k].nrows, B[k].ncols, limits))
     known = reading.own_names(names, [f"channels[{k}].name" for k in range(len(names))])
+    p, q = sum(B_i.ncols for B_i in B), sum(C_i.nrows for C_i in C)
+    whole = _feedthrough(direct, "D", q, p, limits)
+    if any(own_i is not None for own_i in own):
+        if whole is not None:
+            malformed("D", "expected D of the system or of its channels, found both")
+        whole = _of_channels(own, B, C)
     radii = None if doubt is None else radii_form(doubt, known, [A, *B, *C], limits, typed)
+    if doubt is not None and whole is not None:
+        malformed("uncertainty", "expected no radii where D is not zero")
     plant = System(string(time, "time", "continuous", "discrete"), known, A, B, C)
-    plant = replace(plant, uncertainty=radii)
+    plant = replace(plant, uncertainty=radii, D=whole)
     if limits is not None:
         _check_unused(plant, more[1:], limits)
     return plant if heard is None and waits is None else _with_graph(plant, heard, waits)
@@ -407,14 +420,13 @@ def read_system(value: Json, limits: Limits | None = None, typed: Json = None) -
 
 def _check_unused(plant: System, unused: list[Json], limits: Limits) -> None:
     """Read the parts of a system file on which no claim depends: they are not in the digest."""
-    name, source, sample_time, sizes, D, regulated, ranges = unused
+    name, source, sample_time, sizes, regulated, ranges = unused
     for key, text in (("name", name), ("source", source)):
         printable("" if text is None else text, key, 10_000, allowed="\n\t")
     period = None if sample_time is None else number(sample_time, "sample_time", limits)
     if period is not None and (period <= 0 or plant.time != "discrete"):
         malformed("sample_time", "expected a number above 0, in discrete time only")
     _check_sizes(plant, sizes, limits)
-    _require_no_feedthrough(D, "D", limits)
     for _, i, held in reading.by_name(regulated, "regulated", plant.names):
         listed, q = items(held, "regulated"), plant.C[i].nrows
         if all(type(number) is int for number in listed):
@@ -468,10 +480,27 @@ def _check_sizes(plant: System, sizes: Json, limits: Limits) -> None:
             malformed("sizes", "expected a number above 0 for each state, input and output")
 
 
-def _require_no_feedthrough(D: Json, place: str, limits: Limits | None) -> None:
-    """Refuse a D that is not zero, of any shape."""
-    if D is not None and not read_matrix(D, place, None, None, limits).is_zero():
-        malformed(place, "expected no feedthrough: outputs are y_i = C_i x")
+def _feedthrough(
+    D: Json, place: str, nrows: int, ncols: int, limits: Limits | None
+) -> Matrix | None:
+    """A feedthrough of this shape; None for zeros, which may have any shape."""
+    read = None if D is None else read_matrix(D, place, None, None, limits)
+    if read is None or read.is_zero():
+        return None
+    if (read.nrows, read.ncols) != (nrows, ncols):
+        malformed(place, f"expected {nrows} by {ncols}, found {read.nrows} by {read.ncols}")
+    return read
+
+
+def _of_channels(own: list[Matrix | None], B: list[Matrix], C: list[Matrix]) -> Matrix:
+    """The feedthrough of inputs on the outputs of their own channels alone."""
+    shapes = [(C_i.nrows, B_i.ncols) for B_i, C_i in zip(B, C, strict=True)]
+    blocks = zip(own, shapes, strict=True)
+    return reduce(
+        arithmetic.diagonal,
+        [Matrix.zeros(*shape) if D is None else D for D, shape in blocks],
+        Matrix.zeros(0, 0),
+    )
 
 
 def _with_graph(plant: System, heard: Json, waits: Json) -> System:
@@ -497,6 +526,8 @@ def canonical(system: System) -> dict[str, Json]:
     """The canonical object of this plant in a certificate."""
     known, channels = system.names, zip(system.names, system.B, system.C, strict=True)
     result: dict[str, Json] = {"time": system.time, "A": form_of(system.A)}
+    if system.D is not None:
+        result["D"] = form_of(system.D)
     result["channels"] = [
         {"name": name, "B": form_of(B), "C": form_of(C)} for name, B, C in channels
     ]

@@ -50,7 +50,13 @@ from mcexact.exact.roots import steady_point
 from mcexact.model.entries import as_matrix, require_shape
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem, values_by_name
-from mcexact.model.system import Construction, MultiChannelSystem, require_discrete, with_graph
+from mcexact.model.system import (
+    Construction,
+    MultiChannelSystem,
+    any_system,
+    require_discrete,
+    with_graph,
+)
 from mcexact.model.text import quoted
 
 # The dual system, in which controllability becomes observability.
@@ -76,12 +82,13 @@ def dual(system: MultiChannelSystem) -> MultiChannelSystem:
     >>> dual(dual(system)).A == system.A
     True
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     return system.derived(
         system.A.T,
         [channel.C.T for channel in system.channels],
         [channel.B.T for channel in system.channels],
         {"construction": "dual"},
+        D=system.feedthrough_matrix().T,
     )
 
 
@@ -273,7 +280,7 @@ def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiC
         ...
     mcexact.errors.UsageError: parts: expected every channel in exactly one part, found '2' 0 times
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     parts = several(parts, "parts", "lists of names")
     groups = sorted(system.indices(part) for part in parts)
     if () in groups:
@@ -297,6 +304,7 @@ def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiC
         [system.input_matrix(part) for part in groups],
         [system.output_matrix(part) for part in groups],
         {"construction": "merged", "parts": listed},
+        D=system.feedthrough_matrix(*[[i for part in groups for i in part]] * 2),
         names=names,
     )
 
@@ -338,7 +346,7 @@ def restricted(system: MultiChannelSystem, channels: Sequence[str]) -> MultiChan
         ...
     mcexact.errors.UsageError: channels: expected at least one channel, found none
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     chosen = system.indices(channels)
     if not chosen:
         raise UsageError("expected at least one channel, found none", where="channels")
@@ -348,6 +356,7 @@ def restricted(system: MultiChannelSystem, channels: Sequence[str]) -> MultiChan
         [system.B[i] for i in chosen],
         [system.C[i] for i in chosen],
         {"construction": "restricted", "channels": names},
+        D=system.feedthrough_matrix(chosen, chosen),
         names=names,
     )
 
@@ -393,6 +402,7 @@ def add_links(
         [channel.B for channel in system.channels],
         [channel.C for channel in system.channels],
         {"construction": "arcs", "added": [[system.names[j], system.names[i]] for j, i in edges]},
+        D=system.D,
         neighbors=joined,
     )
 
@@ -436,13 +446,15 @@ def augmented_outputs(
     mcexact.errors.UsageError: a neighbor graph is needed, and the system has none: add 'neighbors'
         to it
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     system, graph = with_graph(system, graph)
+    received = [sorted(graph.neighborhood(i)) for i in range(system.m)]
     return system.derived(
         system.A,
         [channel.B for channel in system.channels],
-        [system.output_matrix(graph.neighborhood(i)) for i in range(system.m)],
+        [system.output_matrix(senders) for senders in received],
         {"construction": "augmented_outputs"},
+        D=system.feedthrough_matrix([j for senders in received for j in senders]),
         neighbors=graph,
     )
 
@@ -1016,13 +1028,14 @@ def regulated_outputs(system: MultiChannelSystem, selection: Sequence[Any]) -> M
     >>> regulated_outputs(plant, [[[1, 0]]]).C(0).numerators
     ((1, 0),)
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     exact = checked_selection(system, selection)
     return system.derived(
         system.A,
         [channel.B for channel in system.channels],
         [S @ channel.C for S, channel in zip(exact, system.channels, strict=True)],
         {"construction": "regulated", "gains": tuple(exact)},
+        D=block_diagonal(exact) @ system.feedthrough_matrix(),
         neighbors=system.neighbors,
     )
 

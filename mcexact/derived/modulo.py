@@ -20,7 +20,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.entries import as_matrix
 from mcexact.model.sizes import TypicalSizes
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, any_system
 
 Part = Literal["unobservable", "uncontrollable"]
 PARTS: tuple[Part, ...] = get_args(Part)
@@ -107,7 +107,7 @@ def without_part(
         ...
     mcexact.errors.UsageError: subspace: expected a subspace that no output shows
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     one_of(part, PARTS, "part")
     W, columns = _echelon(as_matrix(subspace, "subspace", ncols=system.n), system.n, pivots)
     hidden = part == "unobservable"
@@ -141,6 +141,7 @@ def without_part(
         B,
         C,
         construction,
+        D=system.D,
         neighbors=system.neighbors,
         regulated=system.regulated,
         limits=system.limits,

@@ -383,13 +383,18 @@ def system_of(parts: Parts, reading: Reading) -> MultiChannelSystem:
     A = matrix("A", None, None)
     B, C = _channels(parts, matrix, A.nrows, (reading.inputs, reading.outputs))
     names = parts.names if parts.names is not None else [str(k + 1) for k in range(len(B))]
-    if "D" in parts.tables and not matrix("D", None, None).is_zero():
-        raise InputError("expected zeros: outputs are y_i = C_i x, without feedthrough", where="D")
+    D = None
+    if "D" in parts.tables:
+        D = matrix("D", None, None)
+        p, q = sum(M.ncols for M in B), sum(M.nrows for M in C)
+        # programs write one zero for a D without entries that are not 0
+        D = None if D.is_zero() else require_shape(D, "D", q, p)
     time, sample_time = _time(parts, matrix)
     made = MultiChannelSystem(
         A,
         B,
         C,
+        D=D,
         time=time,
         sample_time=sample_time,
         names=names,
@@ -567,6 +572,8 @@ def parts_of(system: MultiChannelSystem) -> Parts:
     tables: dict[str, Matrix] = {"A": system.A}
     for k, channel in enumerate(system.channels, start=1):
         tables[f"B_{k}"], tables[f"C_{k}"] = channel.B, channel.C
+    if system.D is not None:
+        tables["D"] = system.D
     if system.sample_time is not None:
         tables["sample_time"] = Matrix.from_rows([[system.sample_time]])
     if system.typical_sizes is not None:

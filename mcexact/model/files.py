@@ -37,7 +37,7 @@ from mcexact.model.arrays import (
     write_csv_files,
 )
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, any_system
 from mcexact.model.system_file import read_document, read_parametric_document, system_text
 from mcexact.model.text import (
     JsonObject,
@@ -488,7 +488,7 @@ def system_files(
                 f"plant.at({{{system.parameters[0]!r}: …}}) in Python"
             )
         return system_text(system).encode("ascii")
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     if (rounding is not None or nearest) and suffix not in (".mat", ".npz"):
         raise UsageError("numbers are rounded in .mat and .npz files only: leave it out")
     contents: bytes | dict[str, str]

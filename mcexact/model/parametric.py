@@ -117,6 +117,7 @@ class ParametricSystem(ByChannel[FunctionMatrix]):
     limits: ClassVar[None] = None
     uncertainty: ClassVar[None] = None
     typical_sizes: ClassVar[None] = None
+    D: ClassVar[None] = None
     rounding: ClassVar[None] = None
 
     parameters: tuple[str, ...]

@@ -37,7 +37,7 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.entries import as_matrix, require_shape, require_square
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, closed_loop
-from mcexact.model.system import MultiChannelSystem, read_by, with_links
+from mcexact.model.system import MultiChannelSystem, any_system, read_by, with_links
 from mcexact.model.text import nearest, quoted
 
 # Conversion of python-control systems to plants with channels, and to closed loops.
@@ -59,7 +59,7 @@ def from_statespace(
     Parameters
     ----------
     statespace : control.StateSpace
-        With D = 0.
+        Its D is the feedthrough of the system.
     channels : sequence of m pairs, or mapping from m names to pairs
         The inputs and the outputs of each channel.  A signal is given by its position or its label,
         and several signals by a list; a signal belongs to at most one channel.
@@ -77,7 +77,7 @@ def from_statespace(
     Raises
     ------
     InputError
-        If D is not zero, a signal is unknown or used twice, or an entry is not finite.
+        If a signal is unknown or used twice, or an entry is not finite.
 
     Examples
     --------
@@ -95,12 +95,6 @@ def from_statespace(
 'place'
     """
     A, B, C, D = _matrices(statespace, "ABCD", rounding)
-    if not D.is_zero():
-        raise InputError(
-            "expected D = 0: outputs are y_i = C_i x, without direct feedthrough of an input; "
-            "the theory used here does not cover it",
-            where="statespace.D",
-        )
     names, pairs = _listed(channels)
     shown = [quoted(name) for name in names] if names else list(map(str, range(len(pairs))))
     columns, rows = (
@@ -117,12 +111,15 @@ def from_statespace(
         A,
         [B.take(cols=chosen) for chosen in columns],
         [C.take(rows=chosen) for chosen in rows],
+        D=D.take(
+            rows=[k for part in rows for k in part], cols=[k for part in columns for k in part]
+        ),
         time=time,
         names=names,
         neighbors=neighbors,
         sample_time=sample_time,
     )
-    return warn_of_rounding(read_by(rounding, made, _tables(statespace, "ABC")))
+    return warn_of_rounding(read_by(rounding, made, _tables(statespace, "ABCD")))
 
 
 def loop_from_statespace(statespace: Any, *, rounding: Rounding = BINARY) -> MultiChannelSystem:
@@ -310,7 +307,7 @@ def to_statespace(subject: Any, plant: MultiChannelSystem | None = None) -> Any:
         return _statespace(loop.plant, _of_loop(loop), ("d", "r")[: 1 + _tracks(loop)], ("y",))
     if isinstance(subject, MultiChannelSystem):
         B, C = subject.input_matrix(), subject.output_matrix()
-        parts = subject.A, B, C, Matrix.zeros(C.nrows, B.ncols)
+        parts = subject.A, B, C, subject.feedthrough_matrix()
         return _statespace(subject, parts, ("u",), ("y",))
     if isinstance(subject, Controller):
         if plant is None:
@@ -452,7 +449,7 @@ def local_controllers(
     >>> closed_loop(plant, controller).matrix.numerators
     ((0, -6), (1, -5))
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     parts = several(parts, "parts", "controllers, one for each channel")
     if len(parts) != system.m:
         raise InputError(f"expected {system.m} controllers, found {len(parts)}", where="parts")

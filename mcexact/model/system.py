@@ -2,8 +2,10 @@
 
 `MultiChannelSystem` is the subject of the whole package: ẋ = A x + Σ B_i u_i, y_i = C_i x, or
 x(t+1) = …, with rational matrices and perhaps a neighbor graph and radii of entries.  It is
-immutable.  A plant comes from the user; a derived system also records its plant and the
-constructions that lead to it.
+immutable.  A plant may have a feedthrough, y_i = C_i x + Σ D_ij u_j.  Functions that do not take
+one refuse it: `InputError.require` by ``_unfit``, and `MultiChannelSystem.derived` for a
+construction that says nothing of D.  A plant comes from the user; a derived system also records
+its plant and the constructions that lead to it.
 
 `ByChannel` is what it has in common with `ParametricSystem`: sizes, channels by position or name,
 display, canonical JSON and its digest.  The digest identifies a plant in certificates; it does not
@@ -26,7 +28,7 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate
 from math import lcm
-from typing import Any, ClassVar, Generic, Self, SupportsIndex, TypeVar, overload
+from typing import Any, ClassVar, Generic, Literal, Self, SupportsIndex, TypeVar, overload
 
 from mcexact import shown
 from mcexact.errors import (
@@ -279,6 +281,8 @@ class ByChannel(Shown, Generic[M]):
         for channel in self.channels[:_MOST_CHANNELS]:
             yield f"B of {channel.name}", channel.B
             yield f"C of {channel.name}", channel.C
+        if self.D is not None:
+            yield "D", self.D
         if self.m > _MOST_CHANNELS:
             yield "more channels", str(self.m - _MOST_CHANNELS)
         if self.parameters:
@@ -298,6 +302,16 @@ class ByChannel(Shown, Generic[M]):
         if self.source is not None:
             yield "source", self.source
 
+    def _direct(self: Any) -> Iterator[str]:
+        """Yield the terms D_ij u_j of each output in LaTeX."""
+        for i in range(self.m):
+            blocks = [self.feedthrough(i, j) for j in range(self.m)] if self.D is not None else []
+            yield "".join(
+                rf" + {latex(block)} u_{{{words(name)}}}"
+                for name, block in zip(self.names, blocks, strict=False)
+                if not block.is_zero()
+            )
+
     def _html(self: Any) -> str:
         """Return the sizes and the matrices in HTML."""
         return table(_heading(self), self._labeled())
@@ -311,9 +325,9 @@ class ByChannel(Shown, Generic[M]):
         )
         lines = [rf"{change} &= {latex(self.A)} x{inputs}"]
         lines += [
-            rf"y_{{{words(channel.name)}}} &= {latex(channel.C)} x"
-            for channel in self.channels[:_MOST_CHANNELS]
-        ]
+            rf"y_{{{words(channel.name)}}} &= {latex(channel.C)} x" + direct
+            for channel, direct in zip(self.channels, self._direct(), strict=True)
+        ][:_MOST_CHANNELS]
         more = r" \\ &\;\;\vdots" if self.m > _MOST_CHANNELS else ""
         equations = r" \\ ".join(lines) + more
         return rf"\begin{{aligned}} {equations} \end{{aligned}}"
@@ -414,7 +428,11 @@ def _sentences(system: Any) -> Iterator[str]:
         constructions = ", ".join(each["construction"] for each in system.subject)
         yield f"It was made from a plant by: {constructions}."
     left = "x(t+1)" if is_discrete(system.time) else "x'"
-    yield f"{left} = A x + the sum of B_i u_i, y_i = C_i x; agent i measures y_i and sets u_i."
+    direct = "" if system.D is None else " + the sum of D_ij u_j"
+    yield (
+        f"{left} = A x + the sum of B_i u_i, y_i = C_i x{direct}; agent i measures y_i and sets "
+        "u_i."
+    )
     for i, name in enumerate(system.names[:_MOST_CHANNELS]):
         sizes = f"{_count(system.p(i), 'input')} and {_count(system.q(i), 'output')}"
         yield fitting(f"Channel {name} has {sizes}.")
@@ -558,6 +576,11 @@ class MultiChannelSystem(ByChannel[Matrix]):
         The channels, by default "1" … "m".
     neighbors : NeighborGraph or mapping of names, optional
         The directed graph of who receives whose messages, with its delays.
+    D : matrix, Σ q_i × Σ p_i, optional
+        The feedthrough: y_i = C_i x + Σ D_ij u_j, with a row for each output and a column for each
+        input of all channels, in order.  None, or zeros, for a plant without one.  What takes no
+        feedthrough refuses the plant; `input_filters` makes a system without feedthrough of it,
+        which has the same fixed modes.
     sample_time : rational, optional
         The sample time in discrete time, which no decision uses.
     uncertainty : Radii, optional
@@ -584,6 +607,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
     A : Matrix, n×n
     B, C : ChannelMatrices
         B_i and C_i by position or name: ``B[0]``, ``B["1"]``; ``channels[0].B`` is the same.
+    D : Matrix or None
+        The feedthrough, if it is not zero; `feedthrough` returns its blocks.
     plant : MultiChannelSystem
         The system from which this one was constructed, or this one.
     subject : tuple of mappings
@@ -625,6 +650,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
     sample_time: Fraction | None
     uncertainty: Radii | None
     typical_sizes: TypicalSizes | None
+    D: Matrix | None
     name: str | None = field(compare=False)
     source: str | None = field(compare=False)
     regulated: Selection | None = field(compare=False)
@@ -641,6 +667,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
         B: Sequence[Any],
         C: Sequence[Any],
         *,
+        D: Any = None,
         time: str = "continuous",
         names: Sequence[str] | None = None,
         neighbors: NeighborGraph | Mapping[str, Iterable[str]] | None = None,
@@ -665,6 +692,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             sample_time=_checked_sample_time(sample_time, time),
             uncertainty=None,
             typical_sizes=None,
+            D=_read_feedthrough(D, channels),
             name=None if name is None else checked_text(name, "name"),
             source=None if source is None else checked_text(source, "source"),
             regulated=None,
@@ -698,7 +726,11 @@ class MultiChannelSystem(ByChannel[Matrix]):
         InputError.require(uncertainty, Radii, "uncertainty")
         with InputError.inside("uncertainty"):
             uncertainty.require_shapes(self.A, self.B, self.C)
-        return None if uncertainty.is_zero() else uncertainty
+        if uncertainty.is_zero():
+            return None
+        if self.D is not None:
+            raise InputError(f"radii: {self._unfit}", where="uncertainty")
+        return uncertainty
 
     def _fill(self, **fields: Any) -> None:
         for key, value in fields.items():
@@ -760,13 +792,16 @@ class MultiChannelSystem(ByChannel[Matrix]):
             return matrix_from_float(M, rounding, where=where)
 
         inputs, outputs = listed_matrices(B, "B"), listed_matrices(C, "C")
+        direct = options.pop("D", None)
         made = cls(
             exact(A, "A"),
             [exact(b, f"B[{i}]") for i, b in enumerate(inputs)],
             [exact(c, f"C[{i}]") for i, c in enumerate(outputs)],
+            D=None if direct is None else exact(direct, "D"),
             **options,
         )
-        return warn_of_rounding(read_by(rounding, made, (A, *inputs, *outputs)))
+        tables = (A, *inputs, *outputs, *([] if direct is None else [direct]))
+        return warn_of_rounding(read_by(rounding, made, tables))
 
     @property
     def plant(self) -> MultiChannelSystem:
@@ -778,6 +813,54 @@ class MultiChannelSystem(ByChannel[Matrix]):
         """The least common denominator of all entries of A, B_i and C_i."""
         ports = [M.denominator for c in self.channels for M in (c.B, c.C)]
         return lcm(self.A.denominator, *set(ports))
+
+    @property
+    def _unfit(self) -> str:
+        """Why a function that takes no feedthrough refuses the system; empty if it has none."""
+        if self.D is None:
+            return ""
+        return (
+            "expected a system without feedthrough, found D that is not zero; "
+            "input_filters(system) makes one with the same fixed modes"
+        )
+
+    def feedthrough(self, i: int, j: int) -> Matrix:
+        """Return D_ij, q_i×p_j: what the inputs of channel j add at once to the outputs of i.
+
+        Examples
+        --------
+        >>> system = MultiChannelSystem([[0]], [[[1]], [[1]]], [[[1]], [[1]]], D=[[0, 2], [0, 0]])
+        >>> system.feedthrough(0, 1).numerators, system.feedthrough(1, 0).is_zero()
+        (((2,),), True)
+        """
+        rows, columns = self._rows_and_columns
+        if self.D is None:
+            return Matrix.zeros(len(rows[i]), len(columns[j]))
+        return self.D.take(rows=rows[i], cols=columns[j])
+
+    def feedthrough_matrix(
+        self, outputs: Iterable[int] | None = None, inputs: Iterable[int] | None = None
+    ) -> Matrix:
+        """Return D_{s,T}, the rows of the outputs of s and the columns of the inputs of T.
+
+        The blocks are in the order in which channels are given, each by default all of them.
+        """
+        rows, columns = self._rows_and_columns
+        s = [k for i in (range(self.m) if outputs is None else outputs) for k in rows[i]]
+        T = [k for j in (range(self.m) if inputs is None else inputs) for k in columns[j]]
+        if self.D is None:
+            return Matrix.zeros(len(s), len(T))
+        return self.D.take(rows=s, cols=T)
+
+    @cached_property
+    def _rows_and_columns(self) -> tuple[list[range], list[range]]:
+        """The rows and the columns of D that belong to each channel."""
+        ends = [accumulate(sizes) for sizes in zip(*self.sizes, strict=True)]
+        columns, rows = (
+            [range(end - size, end) for end, size in zip(each, sizes, strict=True)]
+            for each, sizes in zip(ends, zip(*self.sizes, strict=True), strict=True)
+        )
+        return rows, columns
 
     @cached_property
     def active(self) -> tuple[int, ...]:
@@ -820,6 +903,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
         C: Sequence[Matrix],
         construction: Construction,
         *,
+        D: Matrix | Literal["not carried"] | None = "not carried",
         neighbors: NeighborGraph | None = None,
         names: Sequence[str] | None = None,
         **others: Any,
@@ -833,6 +917,9 @@ class MultiChannelSystem(ByChannel[Matrix]):
             One for each channel of the result, N×r_i and s_i×N; or none, for a closed loop.
         construction : mapping
             The construction in the words of the certificate format, appended to ``subject``.
+        D : Matrix or None
+            The feedthrough of the result.  A construction that says nothing of it refuses systems
+            with feedthrough.
         neighbors : NeighborGraph, optional
             The neighbor graph of the result.
         names : sequence of str, optional
@@ -840,6 +927,11 @@ class MultiChannelSystem(ByChannel[Matrix]):
         **others
             Other fields in which the result differs from this system, such as its ``time``.
         """
+        if D == "not carried":
+            if self.D is not None:
+                name = construction["construction"]
+                raise InputError(f"the construction {name!r}: {self._unfit}", where="system")
+            D = None
         if names is None:
             names = self.names if B else ()
         system = object.__new__(MultiChannelSystem)
@@ -851,6 +943,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
             sample_time=self.sample_time,
             uncertainty=None,
             typical_sizes=None,
+            D=None if D is None or D.is_zero() else D,
             name=self.name,
             source=self.source,
             regulated=None,
@@ -963,7 +1056,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
             f'"name":{canonical(channel.name)}}}'
             for channel in self.channels
         )
-        parts = [f'"A":{canonical_matrix_text(self.A)},"channels":[{channels}]']
+        direct = "" if self.D is None else f'"D":{canonical_matrix_text(self.D)},'
+        parts = [f'"A":{canonical_matrix_text(self.A)},{direct}"channels":[{channels}]']
         graph = {} if self.neighbors is None else self.neighbors.to_dict()
         parts += [f'"{key}":{canonical(graph[key])}' for key in sorted(graph)]
         parts.append(f'"time":"{self.time}"')
@@ -985,7 +1079,8 @@ class MultiChannelSystem(ByChannel[Matrix]):
 
     def __repr__(self) -> str:
         shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")
-        extras = "".join(f", {c['construction']}" for c in self.subject)
+        extras = "" if self.D is None else ", with feedthrough"
+        extras += "".join(f", {c['construction']}" for c in self.subject)
         extras += "" if self.uncertainty is None else f", {self.uncertainty.explain()}"
         text = f"n={self.n}, m={self.m}, {self.time} time, channels: {shown}{extras}"
         return f"{fitting(f'MultiChannelSystem({text}', LINE - 1)})"
@@ -1015,10 +1110,34 @@ def as_plant(system: MultiChannelSystem) -> MultiChannelSystem:
         system.A,
         [channel.B for channel in system.channels],
         [channel.C for channel in system.channels],
+        D=system.D,
         time=system.time,
         names=system.names,
         neighbors=system.neighbors,
     )
+
+
+def any_system(value: object, where: str = "system") -> MultiChannelSystem:
+    """Return a system, with feedthrough or without.
+
+    Raises
+    ------
+    InputError
+        If it is something else.
+    """
+    if not isinstance(value, MultiChannelSystem):
+        InputError.require(value, MultiChannelSystem, where)
+    system: MultiChannelSystem = value  # type: ignore[assignment]
+    return system
+
+
+def _read_feedthrough(value: Any, channels: Sequence[Channel[Matrix]]) -> Matrix | None:
+    """Read D, with a row for each output and a column for each input; None if it is zero."""
+    if value is None:
+        return None
+    q, p = sum(each.C.nrows for each in channels), sum(each.B.ncols for each in channels)
+    D = require_shape(as_matrix(value, "D", ncols=p), "D", q, p)
+    return None if D.is_zero() else D
 
 
 def _checked_sample_time(value: Any, time: str) -> Fraction | None:
@@ -1111,6 +1230,7 @@ def from_stacked(
     B: Any,
     C: Any,
     *,
+    D: Any = None,
     inputs: Iterable[int],
     outputs: Iterable[int],
     rounding: Rounding | None = None,
@@ -1125,6 +1245,8 @@ def from_stacked(
         [B_1 … B_m].
     C : matrix, Σ q_i × n
         The C_i, one below the other.
+    D : matrix, Σ q_i × Σ p_i, optional
+        The feedthrough.
     inputs, outputs : iterables of m integers
         p_1 … p_m and q_1 … q_m, the numbers of inputs and outputs of the channels.
     rounding : {"decimal", "dyadic", "simplest"}, optional
@@ -1159,10 +1281,12 @@ def from_stacked(
     state = exact(A, "A")
     stacked_B = require_shape(exact(B, "B"), "B", state.nrows, None)
     stacked_C = require_shape(exact(C, "C"), "C", None, state.nrows)
+    direct = None if D is None else exact(D, "D")
     made = MultiChannelSystem(
-        state, *split_by_sizes(stacked_B, stacked_C, inputs, outputs), **options
+        state, *split_by_sizes(stacked_B, stacked_C, inputs, outputs), D=direct, **options
     )
-    return warn_of_rounding(read_by(rounding or BINARY, made, (A, B, C)))
+    tables = (A, B, C) if D is None else (A, B, C, D)
+    return warn_of_rounding(read_by(rounding or BINARY, made, tables))
 
 
 def split_by_sizes(

@@ -15,7 +15,7 @@ from functools import partial
 from typing import Any, TypeVar
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block_diagonal
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
 from mcexact.exact.roots import require_time
@@ -30,6 +30,7 @@ from mcexact.model.entries import (
     parse_expression,
     read_matrix,
     read_number,
+    require_shape,
     require_square,
     sparse_matrix_text,
     unread_matrix,
@@ -114,11 +115,10 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
         )
     expect_object(document, None, _REQUIRED, _OPTIONAL)
     A, names, B, C = unread_plant(document, partial(numbers, limits=limits))
-    if "D" in document:
-        _refuse_feedthrough(document["D"], "D", limits)
-    for k, channel in enumerate(document["channels"]):
-        if "D" in channel:
-            _refuse_feedthrough(channel["D"], f"channels[{k}].D", limits)
+    widths, counts = [M.shape[1] for M in B], [M.shape[0] for M in C]
+    D = _read_feedthrough(document, widths, counts, limits)
+    if D is not None and "uncertainty" in document:
+        raise InputError("expected no radii where D is not zero", where="uncertainty")
     sample_time = None
     if "sample_time" in document:
         sample_time = read_number(document["sample_time"], "sample_time", limits)
@@ -128,17 +128,17 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
         radii = read_radii(document["uncertainty"], document, names, *parts, limits)
     sizes = None
     if "sizes" in document:
-        p, q = [M.ncols for M in parts[1]], [M.nrows for M in parts[2]]
-        sizes = read_sizes(document["sizes"], names, A.shape[0], p, q, limits)
+        sizes = read_sizes(document["sizes"], names, A.shape[0], widths, counts, limits)
     return MultiChannelSystem(
         *parts,
+        D=D,
         time=document["time"],
         names=names,
         neighbors=_read_graph(document, names),
         sample_time=sample_time,
         uncertainty=radii,
-        regulated=_read_regulated(document, names, [C_i.shape[0] for C_i in C], limits),
-        limits=_read_limits(document, names, [B_i.shape[1] for B_i in B], limits),
+        regulated=_read_regulated(document, names, counts, limits),
+        limits=_read_limits(document, names, widths, limits),
         typical_sizes=sizes,
         **texts_of(document),
     )
@@ -197,14 +197,35 @@ def unread_plant(
     return A, checked_names(names, places), B, C
 
 
-def _refuse_feedthrough(value: Any, where: str, limits: Limits) -> None:
-    """Raise an error unless a feedthrough matrix is zero."""
-    if not read_matrix(value, where, limits=limits).is_zero():
-        raise InputError(
-            "expected zeros: outputs are y_i = C_i x, without direct feedthrough of an input; "
-            "the theory used here does not cover it",
-            where=where,
-        )
+def _read_feedthrough(
+    document: Mapping[str, Any], p: Sequence[int], q: Sequence[int], limits: Limits
+) -> Matrix | None:
+    """Read D of the whole system, or of channels the blocks D_ii; None if all entries are 0.
+
+    Raises
+    ------
+    InputError
+        If a matrix that is not zero has another shape, or both are given.
+    """
+    whole, blocks = None, []
+    if "D" in document:
+        whole = _of_shape(document["D"], "D", sum(q), sum(p), limits)
+    for k, channel in enumerate(document["channels"]):
+        own = None
+        if "D" in channel:
+            own = _of_shape(channel["D"], f"channels[{k}].D", q[k], p[k], limits)
+        blocks.append(Matrix.zeros(q[k], p[k]) if own is None else own)
+    if all(block.is_zero() for block in blocks):
+        return whole
+    if whole is not None:
+        raise InputError("expected D of the system or of its channels, found both", where="D")
+    return block_diagonal(blocks)
+
+
+def _of_shape(value: Any, where: str, nrows: int, ncols: int, limits: Limits) -> Matrix | None:
+    """Read a feedthrough matrix; zeros of any shape are none."""
+    D = read_matrix(value, where, limits=limits)
+    return None if D.is_zero() else require_shape(D, where, nrows, ncols)
 
 
 def _read_graph(document: dict[str, Any], names: tuple[str, ...]) -> NeighborGraph | None:
@@ -267,6 +288,8 @@ def system_text(system: MultiChannelSystem | ParametricSystem) -> str:
     elif system.sample_time is not None:
         head.append(("sample_time", json_text_of_number(number_json(system.sample_time))))
     head.append(("A", _matrix_text(system.A, "  ")))
+    if isinstance(system, MultiChannelSystem) and system.D is not None:
+        head.append(("D", _matrix_text(system.D, "  ")))
     head.append(("channels", _channels_text(system)))
     if system.neighbors is not None:
         head.extend((key, json.dumps(value)) for key, value in system.neighbors.to_dict().items())
@@ -437,7 +460,8 @@ _EXPLAINED = (
     '{"shape": [n, n], "entries": [[row, column, value]]}, rows and columns from 0. '
     'regulated {"pump": [1]} says which outputs a set-point controller holds, counted from 1. '
     'limits {"pump": [[-1, 2]]} gives the least and the largest value of each input of an agent. '
-    "name and source are free texts."
+    "D, a row for each output and a column for each input of all channels, is the direct effect of "
+    "inputs on outputs; it may be left out. name and source are free texts."
 )
 _YAML = """\
 # A system x' = A x + B_1 u_1 + B_2 u_2, y_i = C_i x, for mcexact.  Numbers are read exactly as they
@@ -462,6 +486,8 @@ neighbors:                     # for each agent, whose messages it receives; may
   valve: [pump]
 # regulated:                   # what a set-point controller holds, counted from 1; else all
 #   pump: [1]
+# D: [[0, 0], [0, 0]]          # outputs may depend on inputs at once: a row for each output and a
+#                              # column for each input of all channels; else zeros
 # limits:                      # the least and the largest value of each input of an agent
 #   pump: [[-1, 2]]
 # delays:                      # in discrete time: messages from valve reach pump after 2 steps

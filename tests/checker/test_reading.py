@@ -216,8 +216,8 @@ def test_an_exception_inside_the_checker_is_never_valid(monkeypatch: pytest.Monk
         raise RecursionError("on purpose\nwith two lines")
 
     rule = kinds.KINDS["fixed_spectrum"]
-    for part in ("check", "statement"):
-        monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", replace(rule, **{part: broken}))
+    for weakened in (replace(rule, check=broken), replace(rule, statement=broken)):
+        monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", weakened)
         verdict = checked(FREE)
         assert (verdict.verdict, verdict.status, verdict.statement) == ("ERROR", 70, "")
         assert "\n" not in verdict.line()
