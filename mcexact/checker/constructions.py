@@ -472,10 +472,7 @@ MODULO = ("part", "annihilator", "pivots", "polynomial")
 
 
 def direct(system: System, outputs_: list[int], inputs_: list[int]) -> Matrix | None:
-    """The feedthrough from the inputs of some channels to the outputs of some, in these orders.
-
-    Open: see ``proofs/OPEN.md``.
-    """
+    """The feedthrough from the inputs of some channels to the outputs of some, in these orders."""
     if system.D is None:
         return None
     p, q = ([M.ncols for M in system.B], [M.nrows for M in system.C])
@@ -736,4 +733,6 @@ def read_subject(value: Json, plant: System, before: int = 0) -> System:
         spend(1000 + 200 * system.m + len(system.words))
         parameters = {key: part for key, part in step.items() if key != "construction"}
         system = CONSTRUCTIONS[name](system, parameters, place)
+        if system.D is not None and system.D.is_zero():
+            system = replace(system, D=None)
     return system

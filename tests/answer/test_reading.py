@@ -55,6 +55,7 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "lifted": lambda: mcexact.lifted_system(PLANT, [1, 0]),
     "held": lambda: mcexact.held_system(PLANT, [0, 2]),
     "slow": lambda: mcexact.slow_system(PLANT, 2 * PLANT.n),
+    "input_filters": lambda: mcexact.input_filters(PLANT),
     "integrators": lambda: mcexact.setpoint_system(PLANT),
     "regulated": lambda: regulated_outputs(PLANT, [[[2]], [["1/2", 1]]]),
     "sampled": lambda: mcexact.sampled_system(CONTINUOUS, "1/10", 1),

@@ -31,6 +31,7 @@ from mcexact.derived.constructions import (
     setpoint_system,
     slow_system,
 )
+from mcexact.derived.feedthrough import input_filters
 from mcexact.derived.modulo import PARTS, without_part
 from mcexact.derived.sampling import sampled_system
 from mcexact.exact.matrix import Matrix, block
@@ -149,6 +150,7 @@ BUILDS: dict[str, list[Build]] = {
     "feedback": [lambda rng, s: feedback(s, [drawn(rng, s.p(i), s.q(i)) for i in range(s.m)])],
     "full_output": [lambda rng, s: full_output(s, rng.randrange(s.m))],
     "held": [lambda rng, s: held_system(s, sizes(rng, s))],
+    "input_filters": [lambda rng, s: input_filters(s)],
     "integrators": [lambda rng, s: setpoint_system(s)],
     "lifted": [
         lambda rng, s: lifted_system(s, sizes(rng, s)),
@@ -179,6 +181,8 @@ def assert_same(ours: System, theirs: MultiChannelSystem) -> None:
     assert ours.time == theirs.time
     graph, hears = theirs.neighbors, range(theirs.m)
     assert ours.neighbors == (graph and [sorted(graph.neighborhood(i)) for i in hears])
+    assert (ours.D is None) == (theirs.D is None)
+    assert ours.D is None or theirs.D is None or equal(ours.D, theirs.D)
     for i in range(theirs.m):
         assert equal(ours.B[i], theirs.B(i))
         assert equal(ours.C[i], theirs.C(i))

@@ -27,6 +27,7 @@ from mcexact.derived.constructions import (
     setpoint_system,
     slow_system,
 )
+from mcexact.derived.feedthrough import input_filters
 from mcexact.derived.sampling import sampled_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.loop import closed_loop
@@ -81,6 +82,7 @@ def test_checker_and_package_build_the_same_subjects(drawn, seed):
     rebuilt(held_system(system, sizes))
     rebuilt(held_system(slow_system(system, max(2 * system.n, 1)), sizes))
     rebuilt(setpoint_system(system))
+    rebuilt(input_filters(system))
     rebuilt(restricted(dual(system), rng.sample(system.names, rng.randint(1, m))))
     rebuilt(dual(merged(system, [system.names[k::2] for k in range(min(m, 2))])))
     rebuilt(error_system(system, gains(rng, system, [system.n] * m)))

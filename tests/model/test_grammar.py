@@ -68,13 +68,13 @@ SIGNED = re.compile(rational._NUMBER.pattern.replace("-?", "[+-]?", 1), re.ASCII
 LOOSENED = [
     ("nulls are keys left out", system, "fields", lenient_fields, 2),
     ("the rest of a file is ignored", checker, "_check_unused", lambda *_: None, 0),
-    ("feedthrough is ignored", checker, "_require_no_feedthrough", lambda *_: None, 0),
+    ("feedthrough is ignored", checker, "_feedthrough", lambda *_: None, 0),
     ("names may be hidden", checker, "printable", hidden, 0),
     ("a number may be as long as it likes", system, "too_long", lambda *_: False, 3),
     ("names may be numbers", system_file, "expect_name", lambda value, where: value, 17),
     ("long numbers may be texts", system_file, "require_short_numbers", lambda *_: None, 0),
     ("sparse matrices may be longer", entries, "LONGEST_SIDE", 2**24, 1),
-    ("feedthrough is ignored here", system_file, "_refuse_feedthrough", lambda *_: None, 0),
+    ("feedthrough is ignored here", system_file, "_read_feedthrough", lambda *_: None, 0),
     ("a number may have a plus sign", rational, "_NUMBER", SIGNED, 5),
 ]
 """What is loosened, by what, and the seed of the first files that show it."""

@@ -55,7 +55,6 @@ def test_the_time_domain_is_taken_over(dt, time, sample_time):
 @pytest.mark.parametrize(
     ("statespace", "channels", "message"),
     [
-        (plant(D=1.0), [(0, 0)], "statespace.D: expected D = 0"),
         (control.tf([1], [1, 1]), [(0, 0)], "expected a control.StateSpace, found Transfer"),
         (plant(), [("valv", 0)], r"channels\[0\] inputs: there is no signal 'valv' \(did you mean"),
         (plant(), {"a": (0, "x")}, r"channels\['a'\] outputs: .* the signals are 'level', 'flow'"),

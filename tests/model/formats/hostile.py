@@ -226,7 +226,7 @@ MAT: dict[str, tuple[bytes, str]] = {
     "sizes that are no integers": (mat(inputs=[0.5]), "inputs: expected a list of integers"),
     "a table of sizes": (mat(inputs=np.ones((2, 2))), "inputs: expected a list of integers"),
     "wrong sizes": (mat(inputs=[2.0]), "B: expected 2 columns, found 1"),
-    "feedthrough": (mat(D=np.array([[1.0]])), "D: expected zeros"),
+    "feedthrough": (mat(D=np.array([[1.0, 2.0]])), "D: expected 1 column, found 2"),
     "a truncated file": (mat(compressed=False)[:300], "damaged"),
     "half a compressed file": (mat()[:200], "damaged"),
     "half a header": (mat()[:130], "damaged"),

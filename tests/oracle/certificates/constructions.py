@@ -71,6 +71,7 @@ def built(system: System, steps: Sequence[Any]) -> System:
         demand(isinstance(step, Mapping), "expected a construction")
         name = step.get("construction")
         demand(isinstance(name, str) and name in CONSTRUCTIONS, "expected a known construction")
+        demand(system.D is None or name in DIRECT, "expected no feedthrough")
         keys, build = CONSTRUCTIONS[name]
         system = build(system, record(step, "construction", *keys))
     return system
@@ -78,13 +79,16 @@ def built(system: System, steps: Sequence[Any]) -> System:
 
 def augmented_outputs(system: System, _: Mapping[str, Any]) -> System:
     """C_i becomes C_{N_i}."""
-    return replace(system, C=tuple(system.outputs(N) for N in system.graph()))
+    heard = [j for N in system.graph() for j in N]
+    D = system.between(heard, range(system.m))
+    return replace(system, C=tuple(system.outputs(N) for N in system.graph()), D=D)
 
 
 def dual(system: System, _: Mapping[str, Any]) -> System:
     """A', and B_i and C_i change places, transposed."""
     B, C = ([M.transpose() for M in Ms] for Ms in (system.C, system.B))
-    return replace(system, A=system.A.transpose(), B=tuple(B), C=tuple(C)).plain()
+    D = None if system.D is None else system.D.transpose()
+    return replace(system, A=system.A.transpose(), B=tuple(B), C=tuple(C), D=D).plain()
 
 
 def feedback(system: System, given: Mapping[str, Any]) -> System:
@@ -180,8 +184,16 @@ def chosen(system: System, given: Mapping[str, Any]) -> list[fmpq_mat]:
 
 def regulated(system: System, given: Mapping[str, Any]) -> System:
     """The outputs S_i y_i in place of y_i."""
-    outputs = [S * C for S, C in zip(chosen(system, given), system.C, strict=True)]
-    return replace(system, C=tuple(outputs))
+    picked = chosen(system, given)
+    outputs = [S * C for S, C in zip(picked, system.C, strict=True)]
+    rows = [system.between([i], range(system.m)) for i in range(system.m)]
+    p = system.inputs().ncols()
+    direct = [
+        fmpq_mat(S.nrows(), p) if D is None else S * D for S, D in zip(picked, rows, strict=True)
+    ]
+    D = below(direct, p)
+    nonzero = any(x != 0 for x in D.entries())
+    return replace(system, C=tuple(outputs), D=D if nonzero else None)
 
 
 def servo(system: System, given: Mapping[str, Any]) -> System:
@@ -231,7 +243,9 @@ def merged(system: System, given: Mapping[str, Any]) -> System:
     demand(len(set(names)) == len(names), "expected different names")
     B = tuple(system.inputs(part) for part in parts)
     C = tuple(system.outputs(part) for part in parts)
-    return replace(system, names=names, B=B, C=C).plain()
+    order = [i for part in parts for i in part]
+    D = system.between(order, order)
+    return replace(system, names=names, B=B, C=C, D=D).plain()
 
 
 def modulo(system: System, given: Mapping[str, Any]) -> System:
@@ -276,7 +290,24 @@ def restricted(system: System, given: Mapping[str, Any]) -> System:
     demand(bool(chosen), "expected a channel")
     names = tuple(system.names[i] for i in chosen)
     B, C = (tuple(part[i] for i in chosen) for part in (system.B, system.C))
-    return replace(system, names=names, B=B, C=C).plain()
+    D = system.between(chosen, chosen)
+    return replace(system, names=names, B=B, C=C, D=D).plain()
+
+
+def input_filters(system: System, _: Mapping[str, Any]) -> System:
+    """State (x, u), with Ã, B̃_i and C̃_i of the table."""
+    n, p = system.n, system.inputs().ncols()
+    blocks = [[system.A, system.inputs()], [fmpq_mat(p, n), fmpq_mat(p, p)]]
+    A = stacked(blocks, n + p, n + p)
+    B, C, everything = [], [], range(system.m)
+    for i in everything:
+        before = sum(M.ncols() for M in system.B[:i])
+        own = selection(p, range(before, before + system.B[i].ncols()))
+        direct = system.between([i], everything) or fmpq_mat(system.C[i].nrows(), p)
+        B.append(below([fmpq_mat(n, own.nrows()), own.transpose()], own.nrows()))
+        blocks = [[system.C[i], direct], [fmpq_mat(own.nrows(), n), own]]
+        C.append(stacked(blocks, system.C[i].nrows() + own.nrows(), n + p))
+    return replace(system, A=A, B=tuple(B), C=tuple(C), D=None)
 
 
 def line(system: System, _: Mapping[str, Any]) -> System:
@@ -323,6 +354,11 @@ def slow(system: System, given: Mapping[str, Any]) -> System:
     return replace(system, A=powers[Q], B=B, C=C, delays=late)
 
 
+DIRECT = (
+    "arcs", "augmented_outputs", "dual", "input_filters", "merged", "modulo", "regulated",
+    "restricted",
+)  # fmt: skip
+"""The constructions of systems with feedthrough."""
 Build = Callable[[System, Mapping[str, Any]], System]
 CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "augmented_outputs": ((), augmented_outputs),
@@ -334,6 +370,7 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "lifted": (("share", "dimensions"), lambda system, g: lifted(system, *shares(system, g))),
     "held": (("dimensions",), lambda system, g: held(system, shares(system, g)[0])),
     "slow": (("window",), slow),
+    "input_filters": ((), input_filters),
     "integrators": ((), integrators),
     LINE: (("parameter", "point", "direction"), line),
     "error": (("gains",), error),

@@ -236,6 +236,11 @@ def _words(step: Mapping[str, Any], system: System) -> str:
     return {
         "augmented_outputs": "with the outputs of neighbors measured by each agent",
         "dual": "the dual of: ",
+        "input_filters": (
+            "with its inputs as states, which their agents "
+            f"{'set one step late' if system.time == 'discrete' else 'set by their derivatives'} "
+            "and measure"
+        ),
         "integrators": "with integrators of its outputs",
     }[kind]
 

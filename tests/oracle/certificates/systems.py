@@ -31,6 +31,8 @@ class System:
         d_ij under (i, j), where it is not 0.
     radii : matrices, optional
         Of A, of all B_i and of all C_i; None where all entries are certain.
+    D : matrix, optional
+        The feedthrough of all inputs to all outputs; None where it is 0.
     """
 
     time: str
@@ -41,6 +43,7 @@ class System:
     neighborhoods: tuple[tuple[int, ...], ...] | None = None
     delays: Mapping[tuple[int, int], int] = field(default_factory=dict)
     radii: Radii | None = None
+    D: fmpq_mat | None = None
 
     @property
     def n(self) -> int:
@@ -67,6 +70,18 @@ class System:
         demand(self.neighborhoods is not None, "expected a system with a neighbor graph")
         return self.neighborhoods or ()
 
+    def between(self, outputs: Sequence[int], inputs: Sequence[int]) -> fmpq_mat | None:
+        """The feedthrough from the inputs of some channels to the outputs of some."""
+        if self.D is None:
+            return None
+        q, p = [C.nrows() for C in self.C], [B.ncols() for B in self.B]
+        whole = self.D.tolist()
+        rows = [whole[sum(q[:i]) + k] for i in outputs for k in range(q[i])]
+        columns = [sum(p[:j]) + k for j in inputs for k in range(p[j])]
+        cells = [row[j] for row in rows for j in columns]
+        D = fmpq_mat(len(rows), len(columns), cells)
+        return D if any(cell != 0 for cell in cells) else None
+
     def plain(self) -> System:
         """The same system without a neighbor graph."""
         return replace(self, neighborhoods=None, delays={})
@@ -74,7 +89,9 @@ class System:
 
 def read_plant(value: Any) -> System:
     """The user's plant."""
-    found = record(value, "time", "A", "channels", optional=("neighbors", "delays", "uncertainty"))
+    found = record(
+        value, "time", "A", "channels", optional=("D", "neighbors", "delays", "uncertainty")
+    )
     demand(found["time"] in ("continuous", "discrete"), "expected a time domain")
     A = table(found["A"], None, None)
     n = A.nrows()
@@ -89,7 +106,13 @@ def read_plant(value: Any) -> System:
     radii = None
     if "uncertainty" in found:
         radii = _radii(record(found["uncertainty"], "absolute")["absolute"], names, A, B, C)
-    return System(found["time"], A, names, B, C, neighborhoods, delays, radii)
+    D = None
+    if "D" in found:
+        p, q = sum(M.ncols() for M in B), sum(M.nrows() for M in C)
+        D = table(found["D"], q, p)
+        demand(any(x != 0 for x in D.entries()), "expected a feedthrough that is not 0")
+        demand(radii is None, "expected no radii beside a feedthrough")
+    return System(found["time"], A, names, B, C, neighborhoods, delays, radii, D)
 
 
 def _radii(value: Any, names: Sequence[str], A: fmpq_mat, B: Any, C: Any) -> Radii:

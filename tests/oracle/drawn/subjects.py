@@ -16,8 +16,8 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "slow", "integrators", "error", "merged", "modulo", "regulated", "restricted", "sampled",
-    "servo", "closed_loop", "line",
+    "slow", "input_filters", "integrators", "error", "merged", "modulo", "regulated", "restricted",
+    "sampled", "servo", "closed_loop", "line",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "slow", "error")
 LARGEST = 12
