@@ -166,6 +166,16 @@ def of_parts() -> Iterator[tuple[str, Any]]:
         yield f"{name}, dual", mcexact.fixed_spectrum(mcexact.dual(left))
 
 
+def of_feedthrough() -> Iterator[tuple[str, Any]]:
+    """A plant whose inputs act on its outputs at once, and what is decided of it."""
+    A, B, C = [[-1, -1], [-1, -1]], [[[-1], [-1]], [[1], [0]]], [[[1, 0]], [[1, 1]]]
+    for sign in (1, -1):
+        plant = MultiChannelSystem(A, B, C, D=[[0, 0], [sign, 0]])
+        yield f"sign {sign}", mcexact.fixed_spectrum(plant)
+        yield f"sign {sign}", mcexact.setpoint_solvability(plant)
+        yield f"sign {sign}", mcexact.joint_observability(plant)
+
+
 def of_a_parameter() -> Iterator[tuple[str, Any]]:
     """The paper's example with one of its entries free, and the valves of four tanks."""
     for i in range(3):
@@ -319,6 +329,8 @@ def digests(asked: Iterable[tuple[str, MultiChannelSystem]]) -> dict[str, dict[s
         add_answer(answer, ("plants", f"at the samples: {name}"), ("questions", "at the samples"))
     for name, answer in of_parts():
         add_answer(answer, ("plants", f"modulo: {name}"), ("questions", "modulo a part"))
+    for name, answer in of_feedthrough():
+        add_answer(answer, ("plants", f"feedthrough: {name}"), ("questions", "feedthrough"))
     for name, answer in of_regions():
         add_answer(answer, ("plants", f"a loop: {name}"), ("questions", "stability in a region"))
     for name, made in designs():

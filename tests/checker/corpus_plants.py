@@ -49,6 +49,7 @@ from mcexact.synthesis.setpoint import design_setpoint
 from tests.answer.test_sentences import drawn
 from tests.checker import (
     test_complementary_subsystem,
+    test_feedthrough,
     test_modulo,
     test_nearby,
     test_sentences_design,
@@ -392,6 +393,8 @@ def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
         yield f"based_samples_{name}", listed, [AT_SAMPLES]
     for name, rest in (("moved", test_modulo.MOVED), ("seen", test_modulo.DISTANCE)):
         yield f"based_{name}", [rest], rest["subject"]
+    for name, found in (("fixed", test_feedthrough.FIXED), ("free", test_feedthrough.NOTHING)):
+        yield f"based_feedthrough_{name}", list(found.values()), [test_feedthrough.FILTERS]
 
 
 def margins_in_boxes() -> Iterator[Document]:

@@ -139,7 +139,16 @@ OPPOSITE = [
     ("held-nothing-fixed", "held-fixed"),
     ("decentralized-none", "fixed-besides"),
 ]
-ELSEWHERE = ("modulo-", "nearby-", "law-", *OF_DESIGNS, "performance-", "first-", "parametric-")
+ELSEWHERE = (
+    "feedthrough",
+    "modulo-",
+    "nearby-",
+    "law-",
+    *OF_DESIGNS,
+    "performance-",
+    "first-",
+    "parametric-",
+)
 """How the rules begin that other files hold against certificates: of designs, of performance, of
 parameters, of plants nearby, of plants without a part."""
 ALWAYS = {

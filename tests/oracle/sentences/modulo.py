@@ -1,11 +1,13 @@
-"""Judges of the sentences about a part of the state that was left out, and about joint fixed modes.
+"""Judges of the sentences about a part of the state that was left out, joint modes, and inputs.
 
 The parts are computed from kernels: of [C; CA; …], and of the transpose of [B, AB, …].
 """
 
 from __future__ import annotations
 
-from flint import fmpq_mat, fmpq_poly, fmpz_mat
+import random
+
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat
 
 from tests.oracle.certificates.algebra import krylov
 from tests.oracle.certificates.systems import System
@@ -58,6 +60,48 @@ def _stays(said: Said, case: Case, part: fmpq_poly) -> bool:
     p = said.values["p"]
     whole = p.degree() == said.values["k"] and divides(p, part)
     return whole and divides(p, case.own.fixed_polynomial)
+
+
+@judge("feedthrough")
+def _feedthrough(said: Said, case: Case) -> bool:
+    """It has the form (x, u), and what is fixed of it divides the loops of A, B, C and D."""
+    system = case.own.system
+    p = sum(B.ncols() for B in system.B)
+    n = system.n - p
+    inputs = system.inputs().tolist()
+    form = [[fmpq(int(i == n + j)) for j in range(p)] for i in range(system.n)]
+    if inputs != form or any(x != 0 for row in system.A.tolist()[n:] for x in row):
+        return False
+    rng, common = random.Random(1), case.own.chi * 0
+    for _ in range(8):
+        common = common.gcd(_static_loop(system, n, p, rng))
+    return monic(common) == case.own.fixed_polynomial
+
+
+def _static_loop(system: System, n: int, p: int, rng: random.Random) -> fmpq_poly:
+    """det(xI − A − B (I − FD)⁻¹ FC) for drawn gains, read from the blocks of (x, u)."""
+    rows, gains, k = [], [], 0
+    for B, C in zip(system.B, system.C, strict=True):
+        own = C.tolist()[: C.nrows() - B.ncols()]
+        rows += own
+        for _ in range(B.ncols()):
+            gains.append((k, [fmpq(rng.randint(-9, 9)) for _ in own]))
+        k += len(own)
+    q = len(rows)
+    F = fmpq_mat(
+        p, q, [row[j - s] if s <= j < s + len(row) else 0 for s, row in gains for j in range(q)]
+    )
+    C, D = (
+        fmpq_mat(q, b - a, [x for row in rows for x in row[a:b]]) for a, b in ((0, n), (n, n + p))
+    )
+    A, B = (
+        fmpq_mat(n, b - a, [x for row in system.A.tolist()[:n] for x in row[a:b]])
+        for a, b in ((0, n), (n, n + p))
+    )
+    inner = -(F * D)
+    for i in range(p):
+        inner[i, i] = inner[i, i] + 1
+    return (A + B * inner.inv() * F * C).charpoly() if inner.det() != 0 else fmpq_poly([0])
 
 
 @judge("joint-fixed")
