@@ -20,9 +20,9 @@ from typing import Any, Literal
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.answer.structure import JointControllability
 from mcexact.derived.modulo import PARTS, LeftOut, Part, parts_of, without_part
-from mcexact.errors import InputError, UsageError, one_of
+from mcexact.errors import UsageError, one_of
 from mcexact.exact.matrix import Matrix
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, any_system
 from mcexact.shown import Shown, fitting
 
 WHOLE: tuple[str, ...] = (*PARTS, "both")
@@ -82,7 +82,7 @@ def modulo(
         ...
     mcexact.errors.UsageError: subspace: expected a subspace that no output shows
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     if isinstance(part, Mapping):
         if len(part) != 1:
             raise UsageError("expected one subspace, such as {'unobservable': rows}", where="part")

@@ -6,8 +6,10 @@ set s of channels with T for the others.  It enumerates all sets, over Q or a co
 
 from __future__ import annotations
 
+import inspect
 import random
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, combinations
 from typing import Any
@@ -365,6 +367,26 @@ REFUSED = {
     "slow": lambda s: mcexact.slow_system(s, 4),
 }
 DISCRETE = {"held", "lifted", "slow"}
+TAKEN = {
+    *("analyze", "assignability", "complementary_subsystem", "completeness", "fixed_spectrum"),
+    *("controllability_indices", "joint_controllability", "joint_observability", "modulo"),
+    *("local_controllers", "minimal_realization", "observability_indices", "pencil_rank"),
+    *("pencil_ranks", "save_system", "setpoint_solvability", "transfer_graph", "without_part"),
+    *("augmented_outputs", "dual", "input_filters", "merged", "regulated_outputs", "restricted"),
+}
+"""The public functions of systems with feedthrough."""
+
+
+def of_systems() -> dict[str, Any]:
+    """The public functions whose first argument is a system, by name."""
+    found = {}
+    for name in mcexact.__all__:
+        public = getattr(mcexact, name)
+        if inspect.isfunction(public):
+            first = next(iter(inspect.signature(public).parameters.values()), None)
+            if first is not None and "MultiChannelSystem" in str(first.annotation):
+                found[name] = public
+    return found
 
 
 def with_feedthrough(time: str = "continuous") -> MultiChannelSystem:
@@ -400,6 +422,31 @@ def test_a_construction_that_does_not_carry_feedthrough_refuses_it(name: str) ->
     with pytest.raises(Refused) as found:
         read_subject(steps, read_plant(system.canonical_document()))
     assert found.value.args[:3] == ("INCOMPLETE", "feedthrough", "subject[0]")
+
+
+def test_every_public_function_takes_feedthrough_or_refuses_it() -> None:
+    assert of_systems().keys() > TAKEN
+    for name in sorted(of_systems().keys() - TAKEN):
+        public = of_systems()[name]
+        others = list(inspect.signature(public).parameters.values())[1:]
+        needed = {each.name: None for each in others if each.default is each.empty}
+        with pytest.raises(InputError, match="system without feedthrough"):
+            public(with_feedthrough(), **needed)
+
+
+def test_an_answer_about_a_system_with_feedthrough_is_not_made() -> None:
+    """Also where a function forgot to refuse it."""
+    bare = fixed_spectrum(MultiChannelSystem([[1]], [[[1]]], [[[1]]]))
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], D=[[1]])
+    with pytest.raises(InputError, match="system without feedthrough"):
+        replace(bare, about=plant)
+
+
+def test_radii_are_refused_beside_feedthrough() -> None:
+    plant = with_feedthrough()
+    radii = mcexact.Box.relative(MultiChannelSystem(plant.A, list(plant.B), list(plant.C)), 1)
+    with pytest.raises(InputError, match="radii"):
+        plant.with_uncertainty(radii.system.uncertainty)
 
 
 def test_every_construction_carries_feedthrough_or_refuses_it_by_name() -> None:
