@@ -36,6 +36,10 @@ def chosen(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(name for name in KNOWN if name in asked)
 
 
+_OF_FEEDTHROUGH = ("input_filters", "regulated")
+"""The constructions with which a plant with feedthrough is decided; set-points are of its outputs."""
+
+
 def answered(name: str, certificate: Mapping[str, Any]) -> bool:
     """Whether a certificate answers a question, according to its kind, subject and channels.
 
@@ -49,7 +53,10 @@ def answered(name: str, certificate: Mapping[str, Any]) -> bool:
     question = KNOWN[name]
     subject = [{"construction": "dual"}] if question.dual else []
     channels = [channel["name"] for channel in certificate["system"]["channels"]]
-    if (certificate["kind"], certificate["subject"]) != (question.kind or name, subject):
+    steps = certificate["subject"]
+    if "D" in certificate["system"]:  # which is decided with the inputs as states
+        steps = [each for each in steps if each["construction"] not in _OF_FEEDTHROUGH]
+    if (certificate["kind"], steps) != (question.kind or name, subject):
         return False
     claim = certificate["claim"]
     if name in WITHIN_RADII and (claim["bound"] is None) is (name == "box_stabilizability"):
