@@ -37,7 +37,7 @@ def chosen(names: Iterable[str]) -> tuple[str, ...]:
 
 
 _OF_FEEDTHROUGH = ("input_filters", "regulated")
-"""The constructions with which a plant with feedthrough is decided; set-points are of its outputs."""
+"""The constructions with which plants with feedthrough are decided, and the set-points of those."""
 
 
 def answered(name: str, certificate: Mapping[str, Any]) -> bool:
