@@ -393,8 +393,8 @@ def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
         yield f"based_samples_{name}", listed, [AT_SAMPLES]
     for name, rest in (("moved", test_modulo.MOVED), ("seen", test_modulo.DISTANCE)):
         yield f"based_{name}", [rest], rest["subject"]
-    for name, found in (("fixed", test_feedthrough.FIXED), ("free", test_feedthrough.NOTHING)):
-        yield f"based_feedthrough_{name}", list(found.values()), [test_feedthrough.FILTERS]
+    for name, asked in (("fixed", test_feedthrough.FIXED), ("free", test_feedthrough.NOTHING)):
+        yield f"based_feedthrough_{name}", list(asked.values()), [test_feedthrough.FILTERS]
 
 
 def margins_in_boxes() -> Iterator[Document]:
