@@ -275,7 +275,7 @@ class Part(Shown):
 
 def _values(system: Any) -> tuple[Any, ...]:
     """All data on which decisions about the nominal system depend, to compare two systems."""
-    return type(system).__name__, system.time, system.A, system.channels, system.D
+    return type(system).__name__, system.time, system.A, system.channels, getattr(system, "D", None)
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -298,7 +298,7 @@ class Answer(Shown):
     about: MultiChannelSystem
 
     def __post_init__(self) -> None:
-        if self.about.D is not None and not self.with_feedthrough:
+        if getattr(self.about, "D", None) is not None and not self.with_feedthrough:
             InputError.require(self.about, MultiChannelSystem, "system")
 
     @classmethod
