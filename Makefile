@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: samples gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs verified verified-agreement
+.PHONY: six-loops samples gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs verified verified-agreement
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -77,6 +77,11 @@ digits: $(STAMP)
 # Costs of drawn controllers beside the certified bound: a minute.  Writes benchmarks/COSTS.md.
 costs: $(STAMP)
 	$(BIN)/python -m benchmarks.costs
+
+# Bytes and seconds of the proofs of cost and margins of six loops: ten minutes.  PLANTS=chain-10 tries some.
+# Writes benchmarks/LOOPS.md.
+six-loops: $(STAMP)
+	$(BIN)/python -m benchmarks.six_loops $(PLANTS)
 
 # How many numbers each rounding of floats recovers: a minute.  Writes benchmarks/ROUNDING.md.
 rounding: $(STAMP)

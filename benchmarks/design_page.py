@@ -13,9 +13,12 @@ from pathlib import Path
 from statistics import median
 
 from benchmarks.kept_rows import ROWS, Row, kept
+from mcexact.synthesis.assessment import FAILS
+from mcexact.synthesis.optimum.figures import DISK
+from mcexact.synthesis.optimum.figures import LEAST_DAMPING as DAMPING
 
 PAGE = Path(__file__).with_name("DESIGNS.md")
-RATIO, DISK, DAMPING, SECONDS, FAILS = 2.0, 0.4, 0.05, 60.0, 0.01
+RATIO, SECONDS = 2.0, 60.0
 _HAND = ("static BFGS", "local LQR", "local LQG", "python-control")
 Rows = Mapping[str, Row]
 
@@ -128,6 +131,7 @@ def page(gallery: Rows, families: Rows, before: Rows) -> str:
     both = {**gallery, **families}
     lines = [_HEAD, f"Measured on {'; '.join(sorted({r['machine'] for r in both.values()}))}.", ""]
     lines += ["## Summary", "", *_summary(gallery, families, before), ""]
+    lines += [_verdicts(both, before), ""]
     missing = [name for name in before if name not in both]
     if missing:
         told = f"Not measured yet, {len(missing)} of {len(both) + len(missing)} requests"
@@ -196,6 +200,31 @@ def _summary(gallery: Rows, families: Rows, before: Rows) -> Iterator[str]:
             f"single-loop disk at least {DISK} for {disks}; worth installing "
             f"{len(accepted)}{counted}, with a disk margin of at least {least:.3g}."
         )
+
+
+def _verdicts(rows: Rows, before: Rows) -> str:
+    """Which rows are worth installing now and were so before, where a verdict was recorded."""
+    were = [name for name, old in before.items() if old.get("install") == "yes" and name in rows]
+    are = {name for name, row in rows.items() if row.get("install") == "yes"}
+    told = [name for name in rows if "install" in before.get(name, {})]
+    lost = [name for name in were if name not in are]
+    never = [name for name in lost if (rows[name].get("beyond all") or inf) < FAILS]
+    open_ = [name for name in lost if name not in never]
+    new = [name for name in told if name in are and name not in were]
+    rest = [name for name in rows if name in are and name not in told]
+    kept_ones = len(were) - len(lost)
+    return (
+        f"Worth installing: a verdict of before was recorded for {len(told)} rows. {len(were)} of "
+        f"them were worth installing, and {kept_ones} of these {len(were)} are so now, besides "
+        f"{len(new)} others of the {len(told)} ({_listed(new)}) and {len(rest)} rows without a "
+        f"recorded verdict. Of the {len(lost)} that no longer are, {len(never)} cannot be: a plant "
+        f"within 1 % of each entry has no controller at all, which is proved ({_listed(never)}). "
+        f"No controller of the others was found that is: {_listed(open_)}."
+    )
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names) or "none"
 
 
 def _only(rows: Rows, structure: str) -> Rows:

@@ -1,9 +1,10 @@
 """What a design without a rate is answered with, as a row of a table.
 
 `answered` designs, proves the cost, its bound and the margins, searches a box, and asks for the
-verdict, as `mcexact design` does.  Every row has the same effort.  Where a plant within 1 % fails,
-`beyond_all` looks for one that no controller stabilizes, not even one that has all outputs and all
-inputs: then no controller is worth installing.
+verdict, as `mcexact design` does.  Every row has the same effort, but where the search of a family
+finds no controller: then it is given once more, for longer (`families`).  Where a plant within 1 %
+fails, `beyond_all` looks for one that no controller stabilizes, not even one that has all outputs
+and all inputs: then no controller is worth installing.
 """
 
 from __future__ import annotations
@@ -23,13 +24,13 @@ from mcexact.errors import Impossible, LimitReached, OutOfReach
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.assessment import FAILS, assess
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.performance import performance_of
 
 EFFORT, BOX = 12.0, 3.0
 """About the seconds for each search of a controller and of a box."""
-_FAILS, _MOST_STATES, _TRIES = 0.01, 60, 8
+_MOST_STATES, _TRIES = 60, 8
 
 
 def answered(
@@ -61,7 +62,7 @@ def answered(
         row = _figures(design, effort, box)
     seconds = round(time.process_time() - began, 1)
     fails = row.get("fails within")
-    if fails is not None and fails < _FAILS and system.n <= _MOST_STATES:
+    if fails is not None and fails < FAILS and system.n <= _MOST_STATES:
         beyond = beyond_all(system)
         row["beyond all"] = None if beyond is None else float(beyond)
     return {**row, "seconds": seconds}

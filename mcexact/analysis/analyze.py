@@ -166,7 +166,7 @@ class Analysis(ShownByAccount):
     False
     """
 
-    plant: Any
+    plant: MultiChannelSystem | ParametricSystem
 
     def __init__(
         self,
@@ -189,6 +189,8 @@ class Analysis(ShownByAccount):
         else:
             plant = without_feedthrough(plant)
         self.plant = plant
+        # of one kind or the other, as what uses it knows
+        self._own: Any = plant
         self.information = information
         self._arguments: dict[str, Any] = {
             "neighbors": plant.neighbors,
@@ -239,7 +241,7 @@ class Analysis(ShownByAccount):
     @cached_property
     def system(self) -> MultiChannelSystem:
         """Return the plant, or the plant with the outputs that the agents receive."""
-        return self.plant if self.information == "own" else self.linked
+        return self._own if self.information == "own" else self.linked
 
     def watch(self, begin: Begin, keep: Keep) -> None:
         """Call functions as questions are decided.
@@ -510,7 +512,7 @@ class Analysis(ShownByAccount):
         """Return the plant with the outputs that the agents receive."""
         from mcexact.derived.constructions import augmented_outputs
 
-        return augmented_outputs(self.plant)
+        return augmented_outputs(self._own)
 
     @cached_property
     def minimal(self) -> MultiChannelSystem:
@@ -524,14 +526,14 @@ class Analysis(ShownByAccount):
         """Return the plant with sub-states, as many as the bound, shared over links with delays."""
         from mcexact.derived.constructions import lifted_system
 
-        return lifted_system(self.plant, self._shared("outputs_states"))
+        return lifted_system(self._own, self._shared("outputs_states"))
 
     @cached_property
     def held(self) -> MultiChannelSystem:
         """Return the plant with sub-states that are shared alone, and held for the delays."""
         from mcexact.derived.constructions import held_system
 
-        return held_system(self.plant, self._shared("states"))
+        return held_system(self._own, self._shared("states"))
 
     def _shared(self, stem: str) -> tuple[int, ...]:
         bound: int = self[f"shared_dimension_bound_{stem}"].deficiency
@@ -619,7 +621,7 @@ class Analysis(ShownByAccount):
             yield Effort(_WHY, "left out", 0.0, reason)
 
     def __repr__(self) -> str:
-        plant = self.plant
+        plant = self._own
         if self.parameters:
             named = ", ".join(plant.parameters_in_words)
             return f"ParametricAnalysis(n={plant.n}, m={plant.m}, parameters: {named})"
@@ -696,7 +698,7 @@ class Analysis(ShownByAccount):
     def account(self) -> Account:
         """Decide all questions asked, and return the answers with their sentences."""
         if self.parameters:
-            return account_for_all_values(self.plant, self.answers)
+            return account_for_all_values(self._own, self.answers)
         answers = self.decided()
         asked: dict[str, Any] = {"information": self.information}
         open_ = {*self.left_out, *self.open()} - answers.keys() - self._ended
@@ -747,12 +749,12 @@ class Analysis(ShownByAccount):
 
     def _search_nearby(self, lost: list[Any]) -> Nearby:
         """Search the plants nearby, unless all entries are too short for any to be there."""
-        if not self.plant.subject and counts_as_exact(self.plant):
-            return Nearby(self.plant, (), (), ())
+        if not self._own.subject and counts_as_exact(self._own):
+            return Nearby(self._own, (), (), ())
         # It computes in floating point, and the other questions load no numpy.
         from mcexact.analysis.nearby.search import nearby_plants
 
-        return nearby_plants(self.plant, lost, seconds=self._seconds_of_search())
+        return nearby_plants(self._own, lost, seconds=self._seconds_of_search())
 
     def _seconds_of_search(self) -> float | None:
         """What the search may take: all that is left, and no more than was asked for."""
@@ -786,9 +788,9 @@ class Analysis(ShownByAccount):
         spectrum = self.answers.get("fixed_spectrum")
         if spectrum is None or spectrum.empty:
             InputError.require(self.plant, MultiChannelSystem, "system")
-            return WhyFixed(self.plant, (), None, (), ())
+            return WhyFixed(self._own, (), None, (), ())
         if self._why_fixed is None:
-            self._why_fixed = why_fixed(self.plant, spectrum)
+            self._why_fixed = why_fixed(self._own, spectrum)
         return self._why_fixed
 
     def failing(self) -> dict[str, Answer]:

@@ -262,7 +262,11 @@ def _seems_strict(form: Symmetric, m: Floats, spent: Floats, *, discrete: bool) 
     """Whether rounding seems to leave the inequality of a cost strict, which proves nothing."""
     P = _in_floats(form)
     half = P @ m
-    S = (P - m.T @ half if discrete else -(half + half.T)) - spent
+    return _seems_positive((P - m.T @ half if discrete else -(half + half.T)) - spent)
+
+
+def _seems_positive(S: Floats) -> bool:
+    """Whether a symmetric matrix seems to be positive definite, with a diagonal of ones."""
     d = np.diag(S)
     if not np.all(d > 0):
         return False
@@ -1004,7 +1008,7 @@ class PortResponse:
 
         self.exact, self.discrete, self.ports = exact, discrete, exact[2].nrows
         self.direct, self._through = direct, to_float(direct)
-        m, e, y = map(matrix_to_float, self.exact)
+        self._floats = m, e, y = tuple(map(matrix_to_float, self.exact))
         self.scales: Floats = np.ones(len(m))
         if len(m):
             with warnings.catch_warnings():
@@ -1091,9 +1095,25 @@ class PortResponse:
                 if form is None:
                     break
                 part = MarginPart(tuple(places), scaling, form)
+                if bits <= _SURE_BITS and not self._seems_to_hold(part, alpha):
+                    continue
                 if part_holds(self.exact, part, alpha, discrete=self.discrete, direct=self.direct):
                     return part
         return None
+
+    def _seems_to_hold(self, part: MarginPart, alpha: Fraction) -> bool:
+        """Whether rounding seems to leave an inequality strict, which proves nothing."""
+        ports = list(part.ports)
+        P, theta = _in_floats(part.P), np.array([to_float(x) for x in part.scaling])
+        m, e, y = self._floats[0], self._floats[1][:, ports], self._floats[2][ports]
+        seen, driven = y.T * theta, P @ e
+        corner = np.diag(theta * (1 / to_float(alpha) ** 2 - self._through**2))
+        half = P @ m
+        state = (P - m.T @ half if self.discrete else -(half + half.T)) - seen @ y
+        if self.discrete:
+            corner, driven = corner - e.T @ driven, m.T @ driven
+        across = -(driven + seen * self._through)
+        return _seems_positive(np.block([[state, across], [across.T, corner]]))
 
     def forms(
         self,

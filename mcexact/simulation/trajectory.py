@@ -235,6 +235,8 @@ STEPS = 300
 _PER_RADIAN = 5
 _NICE = (10, 12, 15, 20, 25, 30, 40, 50, 60, 80, 100)
 _SLOW = 1e-9
+_MOST_EXACT = 60
+"""The states of loops whose eigenvalues on the border of stability are counted exactly."""
 
 
 @dataclass(frozen=True)
@@ -281,15 +283,16 @@ def chosen_grid(
 
     Notes
     -----
-    Eigenvalues in floating point; only in discrete time the characteristic polynomial as well,
-    which says exactly how many eigenvalues are 0, where floating point cannot.
+    Eigenvalues in floating point, and the characteristic polynomial, which says exactly how many
+    eigenvalues are 0 in discrete time, or on the border of stability in continuous time, where
+    floating point cannot: a double eigenvalue 0 seems to be ±1e-8.
     """
     if is_discrete(loop.plant.time):
         chosen = last + _steps(loop, _eigenvalues(loop), most) if horizon is None else horizon
         return Grid(tuple(Fraction(k) for k in range(math.ceil(chosen) + 1)))
     modes = _eigenvalues(loop)
     fastest = max(map(abs, modes), default=0.0)
-    end = _nice(last + _duration(modes)) if horizon is None else horizon
+    end = _nice(last + _duration(modes, _on_border(loop))) if horizon is None else horizon
     needed = math.ceil(min(to_float(end) * fastest * _PER_RADIAN, 1e9)) if fastest else FEWEST
     count = min(max(needed, FEWEST), MOST) if points is None else points
     note = None
@@ -311,19 +314,41 @@ def _eigenvalues(loop: ClosedLoop) -> list[complex]:
     return [complex(each) for each in np.linalg.eigvals(M)]
 
 
-def _duration(modes: list[complex]) -> Fraction:
-    """Some time constants of the slowest mode, or the time in which unstable modes grow as much."""
-    if not modes:
-        return Fraction(10)
-    scale = max(map(abs, modes))
-    rate = -max(each.real for each in modes)
+def _on_border(loop: ClosedLoop) -> tuple[int, int]:
+    """How many roots λ of the characteristic polynomial have −λ as a root, and how many are 0.
+
+    The former are the roots on the border of stability, and pairs of opposite ones.  Nothing is
+    counted of large loops.
+    """
+    if loop.dimension > _MOST_EXACT:
+        return 0, 0
+    p = characteristic_polynomial(loop.matrix)
+    both = p.gcd(p.scale(-1))
+    return both.degree, next(k for k, c in enumerate(both.numerators) if c)
+
+
+def _duration(modes: list[complex], on_border: tuple[int, int] = (0, 0)) -> Fraction:
+    """Some time constants of the slowest mode, or the time in which unstable modes grow as much.
+
+    So many modes nearest the border of stability are taken to be on it, and so many of these to be
+    0: they neither decay nor grow, and where they move, some of their periods are shown.
+    """
+    border, at_rest = on_border
+    scale = max(map(abs, modes), default=0.0)
+    ordered = sorted(modes, key=lambda each: abs(each.real))
+    moving = sorted(map(abs, ordered[:border]))[at_rest:]
+    periods = Fraction(CONSTANTS * math.pi / min(moving)) if moving else Fraction(0)
+    rest = ordered[border:]
+    if not rest:
+        return periods or Fraction(10)
+    rate = -max(each.real for each in rest)
     if rate < -_SLOW * scale:
         # An unstable loop is shown until it has grown e³ times.
-        return Fraction(CONSTANTS / -rate / 2)
+        return max(periods, Fraction(CONSTANTS / -rate / 2))
     if rate <= _SLOW * scale:
-        moving = [abs(each) for each in modes if abs(each) > _SLOW * scale]
-        return Fraction(CONSTANTS * math.pi / min(moving)) if moving else Fraction(10)
-    return Fraction(CONSTANTS / rate)
+        moving = [abs(each) for each in rest if abs(each) > _SLOW * scale]
+        return max(periods, Fraction(CONSTANTS * math.pi / min(moving)) if moving else Fraction(10))
+    return max(periods, Fraction(CONSTANTS / rate))
 
 
 def _steps(loop: ClosedLoop, modes: list[complex], most: int) -> int:

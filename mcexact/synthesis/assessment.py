@@ -82,7 +82,8 @@ _COMPUTED = " (computed)"
 LONGEST = 160
 """The characters of the first line."""
 _NO_DISK, _TIMES_THE_BOUND = 0.1, 3.0
-_FAILS, _FAILS_AT_ONCE = Fraction(1, 100), Fraction(1, 1000)
+FAILS, _FAILS_AT_ONCE = Fraction(1, 100), Fraction(1, 1000)
+"""Parts of entries: a loop that fails within them is installed with care, or not at all."""
 _SLOWER = 0.99
 _STEP_PEAK = 2.0
 _REFUTED = "within the given uncertainty there is a plant whose loop is not stable"
@@ -314,7 +315,7 @@ class Assessment(Shown):
             cares.append(("slower than asked", self._slower()))
         cares += self._of_margins()
         failing = self.fails_within
-        if failing is not None and _FAILS_AT_ONCE <= failing < _FAILS:
+        if failing is not None and _FAILS_AT_ONCE <= failing < FAILS:
             cares.append(self._fails(failing))
         cares += self._of_eigenvalues()
         cares += self._of_programs()

@@ -600,7 +600,9 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
             seconds = _JOINT * size**3
         proofs[name] = _Proof.of(margin(side, together=together), count * [N], seconds)
     messages = bool(loop.controller.edges())
-    graph = influences(plant.with_neighbors(loop.graph), messages=messages)
+    # a derived system keeps its own graph
+    linked = plant if plant.subject else plant.with_neighbors(loop.graph)
+    graph = influences(linked, messages=messages)
     if graph is not None:
         groups = len({*graph.states}) + 1
         proofs["graph_cost_bound"] = _Proof.of(

@@ -119,3 +119,18 @@ def test_requests_that_are_not_measured_are_named() -> None:
     rows = {each["name"]: each for each in (BEFORE, other)}
     text = page({DESIGNED["name"]: DESIGNED}, {}, rows)
     assert "Not measured yet, 1 of 2 requests: other decentralized." in text
+
+
+def test_rows_that_no_longer_are_worth_installing_are_counted_by_why() -> None:
+    lost = {**DESIGNED, "name": "lost decentralized", "install": "with care"}
+    beyond = {**DESIGNED, "name": "beyond extended", "install": "no", "beyond all": 0.002}
+    new = {**DESIGNED, "name": "new extended"}
+    rest = {**DESIGNED, "name": "rest 10 continuous"}
+    before = {each["name"]: {**BEFORE, "name": each["name"]} for each in (DESIGNED, lost, beyond)}
+    before[new["name"]] = {**BEFORE, "name": new["name"], "install": "no"}
+    rows = {each["name"]: each for each in (DESIGNED, lost, beyond, new)}
+    text = page(rows, {rest["name"]: rest}, before)
+    assert "recorded for 4 rows. 3 of them were" in text and "and 1 of these 3 are so now" in text
+    assert "besides 1 others of the 4 (new extended) and 1 rows without" in text
+    assert "Of the 2 that no longer are, 1 cannot be" in text and "proved (beyond extended)" in text
+    assert "was found that is: lost decentralized." in text

@@ -69,3 +69,19 @@ def test_a_run_says_that_limits_of_the_controller_are_left_out() -> None:
     limited = controller.with_saturation((((Fraction(-1), Fraction(1)),),))
     found = simulate(plant, limited, horizon=2)
     assert found.note is not None and "not cut off" in found.note
+
+
+def test_modes_that_stay_on_the_border_do_not_make_the_times_long() -> None:
+    """A double mode 0 seems to have Re λ near 1e-8, and its time constant is 10⁸ seconds."""
+    # not a Jordan block: floating point then finds ±1e-8 in place of 0
+    shear: list[list[Any]] = [[-1, 1, 0], [-1, 1, 0], [0, 0, "-1/10"]]
+    assert 60 <= times(shear).times[-1] <= 80
+    assert 10 <= times([[1, 1], [-1, -1]]).times[-1] <= 20
+    triple = [[2, 1, 0, 0], [-4, -2, 1, 0], [0, 0, 0, 0], [0, 0, 0, -1]]
+    assert 6 <= times(triple).times[-1] <= 8
+
+
+def test_periods_of_modes_on_the_border_are_shown() -> None:
+    end = times([[0, "1/10", 0], ["-1/10", 0, 0], [0, 0, -1]]).times[-1]
+    assert 3 * 60 <= end <= 4 * 60
+    assert times([[0, 1, 0], [0, 0, 0], [0, 0, "1e-3"]]).times[-1] >= 3000

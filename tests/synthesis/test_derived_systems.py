@@ -12,14 +12,22 @@ from mcexact.answer.protocol import encode
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.kinds import Expectation, check_document
 from mcexact.checker.reading import Limits
-from mcexact.derived.constructions import augmented_outputs, extended_system, feedback, full_output
+from mcexact.derived.constructions import (
+    augmented_outputs,
+    extended_system,
+    feedback,
+    full_output,
+    merged,
+)
 from mcexact.errors import Impossible
+from mcexact.model.loop import closed_loop
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.optimum.figures import THEOREM
+from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.synthesis.test_setpoint import two_tanks
 from tests.synthesis.three_channels import three_channels
@@ -94,3 +102,11 @@ def test_a_refusal_is_about_the_plant_too() -> None:
         assert certificate.subject[0]["construction"] == "feedback"
         verdict = check_document(encode(certificate).encode(), Expectation(system=plant.digest()))
         assert verdict.verdict == "VALID", verdict.line()
+
+
+def test_a_derived_loop_has_figures_with_its_own_graph() -> None:
+    """A system with merged channels takes no graph."""
+    plant = MultiChannelSystem([[1, 0], [1, -1]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    one = merged(plant, [["1", "2"]])
+    found = performance_of(closed_loop(one, local_controllers(one, [[[-3, 0], [0, -1]]])))
+    assert found.ratio is not None and found.margin is not None
