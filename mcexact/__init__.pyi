@@ -133,6 +133,7 @@ from .derived.constructions import slow_system as slow_system
 from .derived.constructions import union_graph as union_graph
 from .derived.drawn.systems import Draw as Draw
 from .derived.feedthrough import input_filters as input_filters
+from .derived.feedthrough import plant_controller as plant_controller
 from .derived.modulo import LeftOut as LeftOut
 from .derived.modulo import without_part as without_part
 from .derived.sampling import c2d as c2d

@@ -13,7 +13,7 @@ from functools import reduce
 from typing import NamedTuple
 
 from . import evidence
-from .arithmetic import Matrix, beside, characteristic_polynomial, diagonal, stack
+from .arithmetic import Matrix, beside, characteristic_polynomial, diagonal, divided, stack
 from .budget import spend, table
 from .evidence import inputs, outputs, read_gains
 from .reading import (
@@ -76,6 +76,8 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     x = reads["X", 0, 0]
     reads |= {("y", j, 0): C_j @ x for j, C_j in enumerate(system.C)}
     inputs = [mapped(programs[i][2], reads, B_i.ncols, x.ncols) for i, B_i in enumerate(system.B)]
+    if system.D is not None:
+        inputs = _at_once(system, programs, reads, inputs, place)
     A = stack(rows_of_states(system, programs, order, reads, inputs), x.ncols)
     blocks, text = tuple(width for _, width in order[: 2 * m + 1]), canonical_json(controller)
     words = f"the closed loop with the controller with {with_digest(text)}"
@@ -84,6 +86,42 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     ports = f"{own} of the channels {channel_set(system.names)}"
     made = Loop(system, programs, order, agents)
     return prefixed(words, alone, blocks, ports, made, controller=digest_of(text))
+
+
+def _at_once(
+    system: System,
+    programs: list[list[Terms]],
+    reads: dict[Signal, Matrix],
+    inputs: list[Matrix],
+    place: str,
+) -> list[Matrix]:
+    """The inputs, by (I − K D) u = K C x + …, of u = K y + …, y = C x + D u; into ``reads`` go y."""
+    p, everything = [u_i.nrows for u_i in inputs], list(range(system.m))
+    K = [
+        beside(
+            [
+                sum(
+                    (M for signal, M in programs[i][2] if signal == ("y", j, 0)),
+                    Matrix.zeros(p[i], C_j.nrows),
+                )
+                for j, C_j in enumerate(system.C)
+            ],
+            p[i],
+        )
+        for i in everything
+    ]
+    D = direct(system, everything, everything)
+    unit = Matrix.unit_rows(sum(p), 0, sum(p))
+    inner = unit if D is None else unit - stack(K, D.nrows) @ D
+    u = divided(inner, stack(inputs, inputs[0].ncols))
+    if u is None:
+        require(False, "subject", place, "the loop is not well posed: I - K D is singular")
+        return inputs
+    for j in everything:
+        D_j = direct(system, [j], everything)
+        if D_j is not None:
+            reads["y", j, 0] += D_j @ u
+    return [u.take(range(sum(p[:i]), sum(p[: i + 1]))) for i in everything]
 
 
 class Loop(NamedTuple):
@@ -708,7 +746,8 @@ LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback,
 LAST = (regulated, restricted, sampled, servo, slow)
 MORE = (held, input_filters, integrators, lifted, merged, modulo)
 CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, *MORE, *LAST)}
-CARRYING = arcs, augmented_outputs, dual, input_filters, merged, modulo, regulated, restricted
+_OTHERS = closed_loop, dual, input_filters
+CARRYING = arcs, augmented_outputs, merged, modulo, regulated, restricted, *_OTHERS
 CARRIED = {rule.__name__ for rule in CARRYING}
 """The constructions that apply to systems with feedthrough."""
 

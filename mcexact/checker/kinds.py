@@ -486,6 +486,10 @@ class Check:
             self.build_subject()
             budget.builds = False
             wanted.require_subject(steps, self.controller)
+            loop = getattr(self.system, "loop", None)
+            if loop is not None and loop.system.D is not None and kind not in OF_MATRICES:
+                message = f"{kind} is not known for loops of systems with feedthrough"
+                incomplete("feedthrough", "system", message)
             if getattr(self.system, "D", None) is not None and not KINDS[kind].feedthrough:
                 message = f"{kind} is not known for systems with feedthrough"
                 incomplete("feedthrough", "system", message)
@@ -522,6 +526,8 @@ class Check:
         self.controller = self.system.controller
 
 
+OF_MATRICES = ("closed_loop_spectrum", "stability")
+"""The kinds about loops that depend on the matrix of the loop alone."""
 Found = tuple[dict[str, str], Verdict]
 """A verdict behind what it is about: a ``file``, or the ``text`` of a sentence."""
 

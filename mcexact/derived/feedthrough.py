@@ -5,16 +5,20 @@ and measures.  Nothing acts on an output at once any more, and the pencils of co
 subsystems are equivalent to those of the plant with its D (``proofs/feedthrough.v``): the result
 has the fixed modes of the plant, with their multiplicities, its transfer graph, and what all
 channels together control and observe.  So every decision about systems without feedthrough answers
-for the plant, and a controller of the result is a strictly proper one of the plant.
+for the plant, and a controller of the result is a strictly proper one of the plant, which
+`plant_controller` makes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
 from mcexact.derived.constructions import regulated_outputs
+from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix, block, hstack, vstack
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, any_system
 
 FILTERS = "input_filters"
@@ -110,3 +114,145 @@ def own_outputs(system: MultiChannelSystem) -> MultiChannelSystem:
         q = outputs - p
         selection.append(hstack([Matrix.identity(q), Matrix.zeros(q, p)], nrows=q))
     return regulated_outputs(system, selection)
+
+
+# A controller of the result is one of the plant.
+
+
+def plant_controller(controller: Controller, plant: MultiChannelSystem) -> Controller:
+    """Make a controller of a plant, from one of the plant with its inputs as states.
+
+    Parameters
+    ----------
+    controller : Controller
+        For ``input_filters(plant)``: agent i sets v_i and uses (y_j, u_j) where it uses outputs.
+    plant : MultiChannelSystem
+
+    Returns
+    -------
+    Controller
+        Agent i has the state u_i besides its own states, private, or shared where others use it:
+        u̇_i = v_i, in discrete time u_i(t+1) = v_i.  It is strictly proper, and its loop with the
+        plant has the matrix of the other loop, in another order of its states.
+
+    Raises
+    ------
+    InputError
+        If the plant has a feedthrough of another shape than the controller is for.
+    UsageError
+        If set-points of the inputs are used, an input has limits, or an agent holds messages that
+        contain its input.
+
+    Examples
+    --------
+    >>> from mcexact import certify_controller, local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], D=[[1]])
+    >>> gains = local_controllers(input_filters(plant), [[["-6", 1]]])
+    >>> controller = plant_controller(gains, plant)
+    >>> controller.agents[0].private, certify_controller(plant, controller).stable
+    (1, True)
+    """
+    any_system(plant)
+    controller.require_fits(
+        input_filters(plant), plant.neighbors or NeighborGraph.empty(plant.names)
+    )
+    sent = {
+        j
+        for i, agent in enumerate(controller.agents)
+        for each in agent.maps()
+        for j, M in each.outputs.items()
+        if j != i and not M.take(cols=range(plant.q(j), M.ncols)).is_zero()
+    }
+    agents = tuple(
+        _with_input(agent, i, plant, sent, controller) for i, agent in enumerate(controller.agents)
+    )
+    return Controller(controller.time, plant.digest_of_values(), agents)
+
+
+def _with_input(
+    agent: AgentProgram, i: int, plant: MultiChannelSystem, sent: set[int], of: Controller
+) -> AgentProgram:
+    """The program of agent i with its input as its last state, shared or private."""
+    p = plant.p(i)
+    if agent.limits is not None or agent.back_calculation is not None:
+        raise UsageError("a controller with limits of its inputs is not one of the plant")
+    if i in sent and any(agent.hold.values()):
+        raise UsageError(f"agent {agent.name} holds messages that contain its input")
+    sizes = {j: of.agents[j].shared for j in range(plant.m)}
+    heights = agent.shared, agent.private, p
+    shared, private, control = (
+        _of_plant(each, i, k, plant, sent, sizes, agent.private)
+        for each, k in zip(agent.maps(), heights, strict=True)
+    )
+    own = Matrix.identity(p)
+    if i in sent:
+        shared = _below(shared, control, agent.shared, p)
+        chosen = LinearMap(shared={i: hstack([Matrix.zeros(p, agent.shared), own])})
+    else:
+        private = _below(private, control, agent.private, p)
+        chosen = LinearMap(private=hstack([Matrix.zeros(p, agent.private), own]))
+    more = (p, 0) if i in sent else (0, p)
+    return AgentProgram(
+        agent.name,
+        agent.shared + more[0],
+        agent.private + more[1],
+        shared.without_zeros(),
+        private.without_zeros(),
+        chosen.without_zeros(),
+        agent.hold,
+    )
+
+
+def _of_plant(
+    each: LinearMap,
+    i: int,
+    height: int,
+    plant: MultiChannelSystem,
+    sent: set[int],
+    sizes: Mapping[int, int],
+    private: int,
+) -> LinearMap:
+    """A map of agent i, of height rows, whose u_j are parts of states."""
+    outputs, inputs = dict[int, Matrix](), dict[int, Matrix]()
+    for j, M in each.outputs.items():
+        outputs[j] = M.take(cols=range(plant.q(j)))
+        inputs[j] = M.take(cols=range(plant.q(j), M.ncols))
+    wide = {}
+    for j in {*each.shared, *inputs}:
+        x = each.shared.get(j, Matrix.zeros(height, sizes[j]))
+        if j in sent:
+            x = hstack([x, inputs.get(j, Matrix.zeros(height, plant.p(j)))])
+        wide[j] = x
+    z = Matrix.zeros(height, private) if each.private is None else each.private
+    if i not in sent:
+        z = hstack([z, inputs.get(i, Matrix.zeros(height, plant.p(i)))])
+    r = each.reference
+    if r is not None:
+        if not r.take(cols=range(plant.q(i), r.ncols)).is_zero():
+            raise UsageError("a controller that uses set-points of inputs is not one of the plant")
+        r = r.take(cols=range(plant.q(i)))
+    return LinearMap(outputs, wide, z, r)
+
+
+def _below(first: LinearMap, second: LinearMap, height: int, more: int) -> LinearMap:
+    """Two maps below each other, of so many rows."""
+
+    def both(a: Matrix | None, b: Matrix | None) -> Matrix | None:
+        if a is None or b is None:
+            known = b if a is None else a
+            if known is None:
+                return None
+            zeros = Matrix.zeros(height if a is None else more, known.ncols)
+            return vstack([zeros, known] if a is None else [known, zeros])
+        return vstack([a, b])
+
+    def all_of(a: Mapping[int, Matrix], b: Mapping[int, Matrix]) -> dict[int, Matrix]:
+        joined = {j: both(a.get(j), b.get(j)) for j in sorted({*a, *b})}
+        return {j: M for j, M in joined.items() if M is not None}
+
+    return LinearMap(
+        all_of(first.outputs, second.outputs),
+        all_of(first.shared, second.shared),
+        both(first.private, second.private),
+        both(first.reference, second.reference),
+    )

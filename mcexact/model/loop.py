@@ -1,16 +1,18 @@
 """Closed loops: the states of plant and agents, and messages under way.  Only this file makes them.
 
-`ClosedLoop` eliminates outputs and inputs and gives the matrix of the loop.  `LoopPencil` keeps
+`ClosedLoop` eliminates outputs and inputs and gives the matrix of the loop, also for a plant with
+feedthrough if the loop is well posed.  `LoopPencil` keeps
 y_j and u_j as signals, so that each entry of the plant and of the controller stands in one place
 of its matrix by itself: that is what uncertain entries need.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.linear_algebra import solve
 from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.roots import steady_point
@@ -102,6 +104,41 @@ class ClosedLoop:
         return places
 
     @cached_property
+    def inputs(self) -> Matrix:
+        """The inputs of all channels, as rows over the loop's state, Σ p_i × N.
+
+        With feedthrough y = C x + D u and u = K y + …, so that (I − K D) u = K C x + ….
+
+        Raises
+        ------
+        UsageError
+            If I − K D is singular: the loop is not well posed.
+        """
+        plant, agents = self.plant, self.controller.agents
+        rows = [
+            self._rows(agent.input, i, plant.p(i), self._state_in) for i, agent in enumerate(agents)
+        ]
+        apart = vstack(rows, ncols=self.dimension)
+        if plant.D is None:
+            return apart
+        K = [self._at_once(agent.input, i, plant.p(i)) for i, agent in enumerate(agents)]
+        inner = Matrix.identity(apart.nrows) - vstack(K, ncols=plant.D.nrows) @ plant.D
+        inputs = solve(inner, apart)
+        if inputs is None:
+            raise UsageError(
+                "the loop is not well posed: I - K D is singular, K what the inputs do at once "
+                "with the outputs"
+            )
+        return inputs
+
+    def _at_once(self, each: LinearMap, i: int, nrows: int) -> Matrix:
+        """What a map of agent i does in a step with the outputs that it receives in this step."""
+        q = [self.plant.q(j) for j in range(self.plant.m)]
+        used = {j: M for j, M in each.without_zeros().outputs.items() if not self.waits(j, i)[1]}
+        parts = [used.get(j, Matrix.zeros(nrows, q[j])) for j in range(self.plant.m)]
+        return hstack(parts, nrows=nrows)
+
+    @cached_property
     def matrix(self) -> Matrix:
         """The matrix of the closed loop, N×N, assembled from the agents' programs."""
         state = self.plant.A @ self.pick("x")
@@ -120,11 +157,12 @@ class ClosedLoop:
     def system(self) -> MultiChannelSystem:
         """The loop as a system without channels, which records the plant and the controller."""
         construction = {"construction": "closed_loop", "controller": self.controller.document()}
-        return self.plant.derived(self.matrix, (), (), construction)
+        return self.plant.derived(self.matrix, (), (), construction, D=None)
 
     @cached_property
     def reference(self) -> Matrix:
         """The matrix by which the set-points (r_1, …, r_m) act on the loop, N×Σ q_i."""
+        InputError.require(self.plant, MultiChannelSystem, "plant")
         rows = [self.plant.input_matrix() @ self.reference_at_once]
         for i, agent in enumerate(self.controller.agents):
             rows.append(self._references(agent.shared_update, i, agent.shared))
@@ -150,17 +188,9 @@ class ClosedLoop:
     @cached_property
     def disturbed(self) -> DisturbedLoop:
         """The loop with a signal added to every input, and one to every output."""
-        plant, agents = self.plant, self.controller.agents
+        InputError.require(self.plant, MultiChannelSystem, "plant")
+        plant, agents, at_once = self.plant, self.controller.agents, self._at_once
         q = [plant.q(j) for j in range(plant.m)]
-
-        def at_once(each: LinearMap, i: int, nrows: int) -> Matrix:
-            # What an agent does in a step with outputs that it receives in the same step.
-            used = {
-                j: M for j, M in each.without_zeros().outputs.items() if not self.waits(j, i)[1]
-            }
-            parts = [used.get(j, Matrix.zeros(nrows, q[j])) for j in range(plant.m)]
-            return hstack(parts, nrows=nrows)
-
         K = [at_once(agent.input, i, plant.p(i)) for i, agent in enumerate(agents)]
         rows = [sum((plant.B(i) @ K[i] for i in range(plant.m)), Matrix.zeros(plant.n, sum(q)))]
         for i, agent in enumerate(agents):
@@ -199,23 +229,33 @@ class ClosedLoop:
         return sum(size for _, size in self.blocks.values())
 
     def pick(self, kind: str, j: int = 0, delta: int = 0) -> Matrix:
-        """Return the rows that select a block of the state; y_j at delay 0 is C_j x."""
+        """Return the rows that select a block of the state; y_j at delay 0 is C_j x + D_j u."""
+        if kind == "y_" and not delta and self.plant.D is not None:
+            return self._state_in(kind, j) + self.plant.feedthrough_matrix([j]) @ self.inputs
+        return self._state_in(kind, j, delta)
+
+    def _state_in(self, kind: str, j: int = 0, delta: int = 0) -> Matrix:
+        """The same without feedthrough: y_j at delay 0 is C_j x."""
         if kind == "y_" and not delta:
-            return self.plant.C(j) @ self.pick("x")
+            return self.plant.C(j) @ self._state_in("x")
         start, size = self.blocks[kind, j, delta]
         before, after = Matrix.zeros(size, start), self.dimension - start - size
         return hstack([before, Matrix.identity(size), Matrix.zeros(size, after)])
 
     def rows(self, each: LinearMap, i: int, nrows: int) -> Matrix:
         """Return a map of agent i without set-points, as nrows rows over the loop's state."""
+        return self._rows(each, i, nrows, self.pick)
+
+    def _rows(self, each: LinearMap, i: int, nrows: int, pick: Callable[..., Matrix]) -> Matrix:
+        """Return a map of agent i, of signals that are picked."""
         result = Matrix.zeros(nrows, self.dimension)
         used = each.without_zeros()
         for j, M in used.shared.items():
-            result = result + M @ self.pick("x_", j, self.waits(j, i)[0])
+            result = result + M @ pick("x_", j, self.waits(j, i)[0])
         for j, M in used.outputs.items():
-            result = result + M @ self.pick("y_", j, self.waits(j, i)[1])
+            result = result + M @ pick("y_", j, self.waits(j, i)[1])
         if each.private is not None:
-            result = result + each.private @ self.pick("z_", i)
+            result = result + each.private @ pick("z_", i)
         return result
 
 

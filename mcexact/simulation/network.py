@@ -356,6 +356,12 @@ class Link:
         return self._under_way.popleft()
 
 
+def _from_own_states(agent: int, each: LinearMap) -> bool:
+    """Whether a map of an agent uses its own states alone, and neither signals nor set-points."""
+    used = each.without_zeros()
+    return not used.outputs and not {*used.shared} - {agent} and used.reference is None
+
+
 class Network:
     """A plant, m agents and the communication links between them.
 
@@ -371,7 +377,8 @@ class Network:
     Raises
     ------
     InputError, UsageError
-        If the controller has the wrong shape for the plant.
+        If the controller has the wrong shape for the plant; or if the plant has feedthrough, and
+        an input depends on other signals than its agent's private states.
 
     Notes
     -----
@@ -392,6 +399,17 @@ class Network:
         self._A = arithmetic.convert(system.A)
         self._B = [arithmetic.convert(channel.B) for channel in system.channels]
         self._C = [arithmetic.convert(channel.C) for channel in system.channels]
+        self._D = [
+            [arithmetic.convert(system.feedthrough(i, j)) for j in range(system.m)]
+            for i in range(system.m)
+            if system.D is not None
+        ]
+        own = (_from_own_states(i, agent.input) for i, agent in enumerate(controller.agents))
+        if self._D and not all(own):
+            raise UsageError(
+                "of a plant with feedthrough only agents are run whose inputs depend on nothing "
+                "but their own states: of others outputs and inputs depend on each other at once"
+            )
         self.state = arithmetic.convert(Matrix.zeros(system.n, 1))
         self.agents = [
             Agent(i, program, system.p(i), system.q(i), arithmetic, system.names)
@@ -444,10 +462,19 @@ class Network:
         _, state, parts = self._computed()
         return state, parts
 
+    def _outputs(self) -> Iterator[Native]:
+        """Yield the outputs y_i = C_i x + Σ D_ij (u_j + w_j)."""
+        acting = [agent.input() + agent.disturbance for agent in self.agents if self._D]
+        for i, C in enumerate(self._C):
+            y = C @ self.state
+            for j, u in enumerate(acting):
+                y = y + self._D[i][j] @ u
+            yield y
+
     def _computed(self) -> tuple[list[Native], Native, list[tuple[Native, Native]]]:
         """Run one round, and return the inputs of the agents and the evolution."""
-        for agent, C in zip(self.agents, self._C, strict=True):
-            agent.measure(C @ self.state)
+        for agent, y in zip(self.agents, self._outputs(), strict=True):
+            agent.measure(y)
         for link in self._links:
             message = self.agents[link.sender].message_for(link.receiver)
             self.agents[link.receiver].receive(link.sender, link.carry(message))

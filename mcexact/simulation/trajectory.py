@@ -30,7 +30,7 @@ from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, closed_loop
-from mcexact.model.system import MultiChannelSystem, with_links
+from mcexact.model.system import MultiChannelSystem, any_system, with_links
 from mcexact.plot.responses import responses
 from mcexact.shown import Shown
 from mcexact.simulation.network import (
@@ -670,7 +670,7 @@ def simulate(
     >>> [snapshot.inputs for snapshot in run.snapshots]
     [[[Fraction(-3, 2)]], [[Fraction(-3, 4)]], [[Fraction(-3, 8)]]]
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     InputError.require(controller, Controller, "controller")
     plant = system
     system, links = with_links(system, graph)

@@ -49,7 +49,7 @@ from mcexact.model.box import Box
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop, LoopPencil, closed_loop
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, any_system
 from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.observer import observer_coordinates
 from mcexact.synthesis.optimum.diagnosis import rounded_controller
@@ -110,8 +110,8 @@ def certify_controller(
     InputError
         If the system is no `MultiChannelSystem` or the controller no `Controller`.
     UsageError
-        If the rate or radius is out of range or for the other time domain, or the method is
-        inconclusive.
+        If the rate or radius is out of range or for the other time domain, the method is
+        inconclusive, or the loop of a plant with feedthrough is not well posed.
     LimitReached
         If the loop is too large for its characteristic polynomial, and the Lyapunov method is
         inconclusive.
@@ -134,7 +134,7 @@ def certify_controller(
     ...     plant, controller, round_gains=1).stable
     (True, False)
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    any_system(system)
     InputError.require(controller, Controller, "controller")
     one_of(method, (None, *get_args(Method)), "method")
     tell = telling(progress)

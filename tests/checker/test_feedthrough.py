@@ -5,15 +5,23 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from mcexact import (
     MultiChannelSystem,
+    UsageError,
     analyze,
+    certify_controller,
+    disk_margin,
     input_filters,
+    local_controllers,
+    open_loop_spectrum,
     regulated_outputs,
     setpoint_solvability,
 )
 from mcexact.answer.protocol import document
 from mcexact.checker.kinds import KINDS
+from mcexact.model.loop import closed_loop
 from tests.checker.handmade import Document, changed, checked
 from tests.checker.manifests import manifest, said, sentence, write
 from tests.checker.tables import accepts, rejects
@@ -87,6 +95,41 @@ def test_only_kinds_whose_claims_do_not_depend_on_it_take_feedthrough() -> None:
 def test_the_digest_depends_on_the_feedthrough() -> None:
     digests = {checked(each).system_digest for each in (STAYS, MOVES)}
     assert digests == {signed(1).digest(), signed(-1).digest()} and len(digests) == 2
+
+
+# Loops.
+
+GAINS = local_controllers(signed(-1), [[["1/2"]], [[3]]])
+LOOP = document(certify_controller(signed(-1), GAINS, method="polynomial"))
+SPECTRUM = document(open_loop_spectrum(closed_loop(signed(-1), GAINS).system))
+GAIN = "subject.0.controller.agents.1.input.outputs.2"
+
+
+def test_loops_of_plants_with_feedthrough_are_accepted() -> None:
+    for each in (LOOP, SPECTRUM):
+        assert checked(each).verdict == "VALID"
+        for wrong in ([[0, 0], [1, 0]], [[0, -1], [0, 0]]):
+            assert checked(changed(each, (D, wrong))).verdict == "INVALID"
+
+
+def test_a_loop_has_to_be_well_posed() -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], D=[[1]])
+    found = document(certify_controller(plant, local_controllers(plant, [[[3]]])))
+    place = "subject.0.controller.agents.0.input.outputs.1"
+    verdict = checked(changed(found, (place, [[1]])))
+    assert (verdict.verdict, verdict.code) == ("INVALID", "subject")
+    assert verdict.message == "the loop is not well posed: I - K D is singular"
+    with pytest.raises(UsageError, match="not well posed"):
+        certify_controller(plant, local_controllers(plant, [[[1]]]))
+
+
+def test_other_kinds_about_such_loops_are_not_known() -> None:
+    plant = MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
+    loop = closed_loop(plant, local_controllers(plant, [[[0]]]))
+    found = document(disk_margin(plant, loop.controller, at="inputs"))
+    assert checked(found).verdict == "VALID"
+    verdict = checked(changed(found, (D, [[1]])))
+    assert (verdict.verdict, verdict.code, verdict.place) == ("INCOMPLETE", "feedthrough", "system")
 
 
 # Sentences.

@@ -346,6 +346,7 @@ def test_filters_of_a_system_without_feedthrough_change_no_fixed_mode() -> None:
 CARRIED = {
     "arcs": lambda s: add_links(s, [(0, 1)]),
     "augmented_outputs": mcexact.augmented_outputs,
+    "closed_loop": lambda s: closed_loop(s, mcexact.local_controllers(s, [[[1]], [[1]]])).system,
     "dual": mcexact.dual,
     "input_filters": input_filters,
     "merged": lambda s: mcexact.merged(s, [["1"], ["2"]]),
@@ -354,7 +355,6 @@ CARRIED = {
     "restricted": lambda s: mcexact.restricted(s, ["1"]),
 }
 REFUSED = {
-    "closed_loop": lambda s: closed_loop(s, mcexact.local_controllers(s, [[[1]], [[1]]])).system,
     "error": lambda s: mcexact.error_system(s, [[[1, 1]], [[1, 1]]]),
     "extended": lambda s: mcexact.extended_system(s, [1, 0]),
     "feedback": lambda s: feedback(s, [[[1]], [[1]]]),
@@ -371,7 +371,15 @@ TAKEN = {
     *("analyze", "assignability", "complementary_subsystem", "completeness", "fixed_spectrum"),
     *("controllability_indices", "joint_controllability", "joint_observability", "modulo"),
     *("local_controllers", "minimal_realization", "observability_indices", "pencil_rank"),
-    *("pencil_ranks", "save_system", "setpoint_solvability", "transfer_graph", "without_part"),
+    *(
+        "certify_controller",
+        "simulate",
+        "pencil_ranks",
+        "save_system",
+        "setpoint_solvability",
+        "transfer_graph",
+        "without_part",
+    ),
     *("augmented_outputs", "dual", "input_filters", "merged", "regulated_outputs", "restricted"),
 }
 """The public functions of systems with feedthrough."""
@@ -405,7 +413,7 @@ def with_feedthrough(time: str = "continuous") -> MultiChannelSystem:
 def test_the_checker_carries_feedthrough_as_the_package_does(name: str) -> None:
     made = CARRIED[name](with_feedthrough())
     ours = read_subject(plain(made.subject), read_plant(made.canonical_document()))
-    assert (ours.D is None) == (made.D is None) == (name == "input_filters")
+    assert (ours.D is None) == (made.D is None) == (name in ("closed_loop", "input_filters"))
     if ours.D is not None and made.D is not None:
         assert ours.D.denominator == 1 and ours.D.rows == made.D.tolist()
 

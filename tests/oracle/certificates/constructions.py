@@ -355,8 +355,8 @@ def slow(system: System, given: Mapping[str, Any]) -> System:
 
 
 DIRECT = (
-    "arcs", "augmented_outputs", "dual", "input_filters", "merged", "modulo", "regulated",
-    "restricted",
+    "arcs", "augmented_outputs", "closed_loop", "dual", "input_filters", "merged", "modulo",
+    "regulated", "restricted",
 )  # fmt: skip
 """The constructions of systems with feedthrough."""
 Build = Callable[[System, Mapping[str, Any]], System]

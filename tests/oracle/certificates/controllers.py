@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 from flint import fmpq, fmpq_mat
@@ -128,6 +129,10 @@ class Loop:
     def signal(self, signal: Signal) -> fmpq_mat:
         """A signal as rows over the whole state."""
         kind, j, steps = signal
+        if (kind, steps) == ("outputs", 0) and self.system.D is not None:
+            before = sum(C.nrows() for C in self.system.C[:j])
+            rows = self.at_once.tolist()[before : before + self.system.C[j].nrows()]
+            return fmpq_mat(len(rows), self.total, [v for row in rows for v in row])
         if (kind, steps) == ("outputs", 0):
             C, width = self.system.C[j].tolist(), self.total
             rows = [[*row, *[fmpq(0)] * (width - len(row))] for row in C]
@@ -138,6 +143,37 @@ class Loop:
             self.total,
             [int(k == first + i) for i in range(size) for k in range(self.total)],
         )
+
+    @cached_property
+    def at_once(self) -> fmpq_mat:
+        """All outputs of a plant with feedthrough: y = C x + D (K y + …), solved for y."""
+        system, D = self.system, self.system.D
+        q, p, m = ([M.nrows() for M in system.C], [M.ncols() for M in system.B], system.m)
+        K, rest = fmpq_mat(sum(p), sum(q)), []
+        for i, agent in enumerate(self.agents):
+            maps = agent.maps["input"]
+            now = {("outputs", j) for j in range(m) if self.age("outputs", j, i) == 0}
+            for _, j in now & maps.keys():
+                for a in range(p[i]):
+                    for b in range(q[j]):
+                        K[sum(p[:i]) + a, sum(q[:j]) + b] = maps["outputs", j][a, b]
+            later = {signal: M for signal, M in maps.items() if signal not in now}
+            own = replace(agent, maps={**agent.maps, "input": later})
+            agents = [own if k == i else other for k, other in enumerate(self.agents)]
+            rest += Loop(system, agents)._over(self).computed(i, "input", p[i]).tolist()
+        x = self.signal(("plant", 0, 0))
+        known = system.outputs() * x
+        known += D * fmpq_mat(sum(p), self.total, [v for row in rest for v in row])
+        inner = -(D * K)
+        for k in range(sum(q)):
+            inner[k, k] = inner[k, k] + 1
+        demand(inner.det() != 0, "expected a loop that is well posed")
+        return inner.inv() * known
+
+    def _over(self, other: Loop) -> Loop:
+        """The same maps, over the state of another loop."""
+        self.start, self.size, self.total = other.start, other.size, other.total
+        return self
 
     def computed(self, i: int, label: str, nrows: int) -> fmpq_mat:
         """What a map of agent i gives, as rows over the whole state."""
