@@ -95,7 +95,7 @@ def _at_once(
     inputs: list[Matrix],
     place: str,
 ) -> list[Matrix]:
-    """The inputs, by (I − K D) u = K C x + …, of u = K y + …, y = C x + D u; into ``reads`` go y."""
+    """The inputs, by (I − K D) u = K C x + …, of u = K y + …, y = C x + D u; ``reads`` gets y."""
     p, everything = [u_i.nrows for u_i in inputs], list(range(system.m))
     K = [
         beside(

@@ -31,6 +31,7 @@ from mcexact.analysis.boxes.largest import (
 from mcexact.analysis.boxes.loops import box_stability
 from mcexact.answer.account import Account
 from mcexact.answer.boxes import BoxStability
+from mcexact.answer.evidence import RootDisc
 from mcexact.answer.loops import (
     EVERY_LOOP,
     EVERY_LOOP_PART,
@@ -177,6 +178,14 @@ def certified(
         center = f"{outside.re} + {outside.im} i".replace("+ -", "- ")
         near = f"an eigenvalue is at most {outside.radius} from {center}"
         notes = (*notes, f"{near}, outside {verdict.region}")
+    if system.D is not None:
+        if gains is not None or weights is not None or with_page:
+            raise UsageError(
+                "of a plant with feedthrough only the eigenvalues of the loop are decided: leave "
+                "out --gains, --weights and the page"
+            )
+        document = _document(verdict, wanted["largest"], digits, warnings, outside)
+        return _without_figures(verdict, notes, document, system_by_digest)
     loop, weighed = closed_loop(system, controller), read_weights(weights, limits)
     with InputError.inside(plant[0] if weights is None else weights[0]):
         proved = None
@@ -208,7 +217,6 @@ def certified(
     if digits is not None:
         loops = loops.with_digits(loops_with_digits(system, typed, verdict, digits))
     figures = Table(BASIS, (), (*unproved(proved), *assessment.rows()))
-    bound_text = None if verdict.bound is None else str(verdict.bound)
     return assessed(
         account,
         assessment,
@@ -223,21 +231,59 @@ def certified(
         with_page=with_page,
         system_by_digest=system_by_digest and system.plant is sized,
         document=account.as_json(
-            certified=verdict.stable,
-            region=str(verdict.region),
-            bound=bound_text,
-            method=verdict.method,
-            states=verdict.about.n,
-            blocks=list(verdict.blocks),
-            largest=bound_text if wanted["largest"] else None,
-            warnings=warnings,
-            rounded_to_digits=digits,
-            eigenvalue_outside=None if outside is None else outside.to_dict(),
+            **_document(verdict, wanted["largest"], digits, warnings, outside),
             **loops.view,
             **uncertainty.view(search),
             assessment=assessment.to_dict(),
         ),
         controller=controller_text(limited_controller(controller, system.limits, proved)),
+    )
+
+
+def _document(
+    verdict: StabilityVerdict,
+    largest: bool,
+    digits: int | None,
+    warnings: Sequence[str],
+    outside: RootDisc | None,
+) -> dict[str, Any]:
+    """What the JSON of a verdict says of the loop itself."""
+    bound = None if verdict.bound is None else str(verdict.bound)
+    return {
+        "certified": verdict.stable,
+        "region": str(verdict.region),
+        "bound": bound,
+        "method": verdict.method,
+        "states": verdict.about.n,
+        "blocks": list(verdict.blocks),
+        "largest": bound if largest else None,
+        "warnings": warnings,
+        "rounded_to_digits": digits,
+        "eigenvalue_outside": None if outside is None else outside.to_dict(),
+    }
+
+
+def _without_figures(
+    verdict: StabilityVerdict,
+    notes: Sequence[str],
+    document: Mapping[str, Any],
+    system_by_digest: bool,
+) -> Loop:
+    """The verdict on the loop of a plant with feedthrough, whose figures are not computed."""
+    account = account_of_verdict(verdict, largest=document["largest"] is not None)
+    holds = "proved" if verdict.stable else "this does not hold, which is proved"
+    lines = [
+        f"{verdict.region}: {holds}; the loop of the plant with its feedthrough is well posed.",
+        "note: costs, margins and peaks of such loops are not computed",
+        *(f"note: {each}" for each in notes),
+    ]
+    return Loop(
+        Evidence.of(account, system_by_digest),
+        account.as_json(**document, first_line=lines[0]),
+        tables(account.sentences, note=account.reading),
+        None,
+        lines,
+        "",
     )
 
 

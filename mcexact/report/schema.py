@@ -469,10 +469,10 @@ def certify() -> Schema:
             "warnings": rows(TEXT),
             "rounded_to_digits": some(WHOLE),
             "eigenvalue_outside": some(record({"re": TEXT, "im": TEXT, "radius": TEXT})),
-            "assessment": ASSESSMENT,
             "first_line": TEXT,
         },
         {
+            "assessment": ASSESSMENT,
             "every_loop": EVERY_LOOP,
             "largest_uncertainty": _LARGEST,
             "safe_digits": record({"safe": some(WHOLE), "too_few": some(WHOLE)}),

@@ -85,8 +85,8 @@ def proved_envelope(run: Trajectory, spectrum: LoopSpectrum | None = None) -> En
     Returns
     -------
     Envelope or None
-        None if a signal changes, if the loop is too large or not stable, or if no Lyapunov matrix
-        was found.
+        None if the plant has feedthrough, if a signal changes, if the loop is too large or not
+        stable, or if no Lyapunov matrix was found.
 
     Examples
     --------
@@ -102,7 +102,9 @@ def proved_envelope(run: Trajectory, spectrum: LoopSpectrum | None = None) -> En
     """
     InputError.require(run, Trajectory, "run")
     loop = run.loop
-    if not run.drive.is_constant or not 0 < loop.dimension <= LARGEST:
+    if loop.plant.D is not None or not run.drive.is_constant:
+        return None
+    if not 0 < loop.dimension <= LARGEST:
         return None
     if spectrum is None:
         spectrum = closed_loop_spectrum(loop.matrix, run.time)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import random
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from flint import fmpq, fmpq_mat
@@ -30,6 +32,7 @@ from mcexact.checker.system import read_plant
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model.loop import closed_loop
 from mcexact.model.text import plain
+from tests.cli.calling import call
 from tests.derived.test_feedthrough import SIGNED, all_drawn
 from tests.oracle.certificates.constructions import built
 from tests.oracle.certificates.systems import read_plant as read_oracle
@@ -57,8 +60,8 @@ def controller_for(rng: random.Random, system: MultiChannelSystem) -> Controller
 
     sizes = [(shared[i], private[i], system.p(i)) for i in range(m)]
     agents = [
-        AgentProgram(system.names[i], *sizes[i][:2], *(drawn(i, size) for size in sizes[i]))
-        for i in range(m)
+        AgentProgram(system.names[i], x, z, drawn(i, x), drawn(i, z), drawn(i, u))
+        for i, (x, z, u) in enumerate(sizes)
     ]
     return Controller(system.time, system.digest_of_values(), tuple(agents))
 
@@ -188,3 +191,18 @@ def test_what_is_no_controller_of_the_plant_is_refused() -> None:
         controller = Controller(plant.time, filtered.digest_of_values(), agents)
         with pytest.raises(UsageError, match=message):
             plant_controller(controller, plant)
+
+
+def test_the_command_line_certifies_and_runs_it(tmp_path: Path) -> None:
+    plant = SIGNED[-1]
+    gains = local_controllers(input_filters(plant), [[[0, -3]], [[1, -3]]])
+    names = tmp_path / "plant.json", tmp_path / "controller.json"
+    mcexact.save_system(plant, names[0])
+    mcexact.save_controller(plant_controller(gains, plant), names[1])
+    files = [str(name) for name in names]
+    status, out, _ = call("certify", *files, "--json")
+    document = json.loads(out)
+    assert document["certified"] == (status == 0) and "assessment" not in document
+    status, _, err = call("certify", *files, "--gains", "0.01")
+    assert status == 2 and "--gains" in err
+    assert call("simulate", *files)[0] == 0
