@@ -69,6 +69,8 @@ _EXTRA = (0.3, 0.1, 0.03, 1e-3, 1e-5)
 ellipsoid is rounder, until there is none."""
 _MOST_FORMS = 2
 """So many forms of each sector are rounded and tried exactly, those with the largest balls."""
+_MOST_GAINS = 3
+"""Of so many gains, those with the widest sectors, the largest balls are compared."""
 _ROOM = 1 + 1e-6
 
 
@@ -300,7 +302,22 @@ def saturation_of(
     if found is not None:
         proof = SaturationProof(found[0], (Fraction(0),) * len(found[0]), P=found[1])
         return SaturationStability(loop.system, limits, tuple(gains), region=None, proof=proof)
-    for a, weights, form in _ellipsoids(saturated, loop.plant.n):
+    return _regional(loop, limits, gains, saturated, _ellipsoids(saturated, loop.plant.n))
+
+
+_Candidate = tuple[float, Fraction, tuple[Fraction, ...], Floats]
+"""1/ρ², ρ the radius of the largest ball, a sector, the scaling, and the form of the ellipsoid."""
+
+
+def _regional(
+    loop: ClosedLoop,
+    limits: InputLimits,
+    gains: Sequence[Matrix],
+    saturated: Saturated,
+    ellipsoids: Sequence[_Candidate],
+) -> SaturationStability | None:
+    """The proof from the first of some ellipsoids that is exactly one; None if none is."""
+    for _, a, weights, form in ellipsoids:
         region = _region(saturated, loop.plant.n, a, weights, form)
         if region is not None:
             proof = SaturationProof(region[0], (a,) * len(region[0]))
@@ -310,12 +327,10 @@ def saturation_of(
     return None
 
 
-def _ellipsoids(
-    saturated: Saturated, n: int
-) -> list[tuple[Fraction, tuple[Fraction, ...], Floats]]:
-    """Sectors with scalings and forms, those first whose largest balls of the plant are largest."""
+def _ellipsoids(saturated: Saturated, n: int) -> list[_Candidate]:
+    """Some forms for each sector, those first whose largest balls of the plant are largest."""
     first = saturated.first_sector() if all(saturated.nearer) else len(_SECTORS)
-    found = list[tuple[float, Fraction, tuple[Fraction, ...], Floats]]()
+    found = list[_Candidate]()
     for a in _SECTORS[first : first + _MOST_SECTORS]:
         response = saturated.response(a)
         ports = list(range(response.ports))
@@ -323,7 +338,7 @@ def _ellipsoids(
         if norm >= 1:
             continue
         weights = tuple(Fraction(float(t)) / ((1 - a) / 2) ** 2 for t in theta)
-        own = list[tuple[float, Fraction, tuple[Fraction, ...], Floats]]()
+        own = list[_Candidate]()
         with suppress(np.linalg.LinAlgError):
             for P in response.forms(ports, theta, Fraction(1), _EXTRA):
                 factor, largest = _factor(saturated, P, a), np.linalg.eigvalsh(P[:n, :n])
@@ -331,8 +346,7 @@ def _ellipsoids(
                 if 0 < size < np.inf:
                     own.append((size, a, weights, P))
         found += sorted(own, key=lambda each: each[0])[:_MOST_FORMS]
-    found.sort(key=lambda each: each[0])
-    return [each[1:] for each in found]
+    return sorted(found, key=lambda each: each[0])
 
 
 def _factor(saturated: Saturated, P: Floats, a: Fraction) -> float:
@@ -341,10 +355,6 @@ def _factor(saturated: Saturated, P: Floats, a: Fraction) -> float:
     nearer = np.array([to_float(each) for each in saturated.nearer])
     widths = np.einsum("ki,ik->k", U, np.linalg.solve(P, U.T))
     return float(np.max(to_float(a) ** 2 * widths / nearer**2, initial=0.0)) * _ROOM
-
-
-def _is_larger(region: Ellipsoid, best: SaturationStability | None) -> bool:
-    return best is None or best.region is None or region.radius > best.region.radius
 
 
 def _circle(saturated: Saturated) -> tuple[tuple[Fraction, ...], Symmetric] | None:
@@ -410,8 +420,7 @@ def gains_for(
         Global if that was proved with some gains, of which the cheapest are chosen; else with the
         largest region.
     """
-    best: SaturationStability | None = None
-    regional = list[tuple[int, tuple[Matrix, ...]]]()
+    regional = list[tuple[int, tuple[Matrix, ...], Saturated]]()
     for gains in _candidates(loop, limits):
         saturated = Saturated.of(loop, limits, gains)
         if saturated.norm() < 1:
@@ -419,14 +428,19 @@ def gains_for(
             if proof is not None and proof.region is None:
                 return gains, proof
         if all(saturated.nearer):
-            regional.append((saturated.first_sector(), gains))
-    for first, gains in sorted(regional, key=lambda each: each[0])[:3]:
-        if first == len(_SECTORS):
-            break
-        proof = saturation_of(loop, limits, gains)
-        if proof is not None and proof.region is not None and _is_larger(proof.region, best):
-            best = proof
-    return (gains_none(loop) if best is None else best.back_calculation), best
+            regional.append((saturated.first_sector(), gains, saturated))
+    able = sorted((each for each in regional if each[0] < len(_SECTORS)), key=lambda each: each[0])
+    forms = [
+        (_ellipsoids(saturated, loop.plant.n), gains, saturated)
+        for _, gains, saturated in able[:_MOST_GAINS]
+    ]
+    for ellipsoids, gains, saturated in sorted(
+        (each for each in forms if each[0]), key=lambda each: each[0][0][0]
+    ):
+        proof = _regional(loop, limits, gains, saturated, ellipsoids)
+        if proof is not None:
+            return gains, proof
+    return gains_none(loop), None
 
 
 def gains_none(loop: ClosedLoop) -> tuple[Matrix, ...]:

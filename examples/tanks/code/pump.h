@@ -1,8 +1,10 @@
 /*
  * Agent 'pump' of a distributed controller in discrete time.
  * Made for the plant of digest 681984dfb34eb0a48ab5023133c9fc678b4cedef7741f48c4933e1b70240ea93.
- * 5 of its 9 numbers are rounded to the nearest double.
+ * 7 of its 11 numbers are rounded to the nearest double.
  * In each sampling period: measure y, run the step, set u.
+ * Inputs are cut off at their limits, and its states are corrected by what was cut off.
+ * These limits are those of the controller, rounded to the nearest doubles.
  * All states start at 0.
  */
 
