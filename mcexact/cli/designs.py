@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import shlex
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import log10
@@ -41,7 +41,7 @@ from mcexact.cli.running import Reporting
 from mcexact.derived.constructions import augmented_outputs
 from mcexact.derived.sampling import is_sampled
 from mcexact.errors import Impossible, InputError, LimitReached
-from mcexact.exact.rational import Limits, written
+from mcexact.exact.rational import Limits, percent, written
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import controller_text
 from mcexact.model.regulated import positions_of, selection_in_words
@@ -267,8 +267,8 @@ class _Shaped:
     ) -> Loop:
         """The design with what is proved of it, and a note of what is left out."""
         design = self.design
-        if note is not None:
-            assessment = replace(assessment, notes=(*assessment.notes, note))
+        notes = [*([] if note is None else [note]), *_box_missed(self.aims, every_loop)]
+        assessment = replace(assessment, notes=(*assessment.notes, *notes))
         account = design.account_with(every_loop, proved)
         rows = (*unproved(proved), *assessment.rows())
         figures = measured(design.measures(), rows, account.sentences, design.region.discrete)
@@ -379,6 +379,17 @@ def _held(
     command = shlex.join(["mcexact", "design", "setpoint", file]) + _options_of(sampling)
     asked = " ".join(f"--regulate {shlex.quote(text)}" for text in texts)
     return f"{said}: `{command} {asked}` asks for these"
+
+
+def _box_missed(aims: Aims, every_loop: EveryLoop | None) -> Iterator[str]:
+    """What --box asked for, where less is proved of a plant without radii of its own."""
+    if aims.box is None or every_loop is None:
+        return
+    asked, part = Fraction(aims.box), every_loop.part
+    if part is None:
+        yield f"--box asked for {percent(asked)} of each entry, and no box is proved"
+    elif part < asked:
+        yield f"--box asked for {percent(asked)} of each entry: {percent(part)} is proved"
 
 
 def _box(every_loop: EveryLoop | None) -> tuple[Table, ...]:

@@ -290,6 +290,16 @@ def test_a_box_and_disk_margins_are_aims_of_a_search(plant: str) -> None:
     assert refused.status == 2 and "disk: expected a number above 0 and below 2" in refused.stderr
 
 
+def test_a_box_that_is_asked_for_and_not_proved_is_told(plant: str) -> None:
+    sampled = ("--step", "1/10", "--late", "1")
+    done = run("design", "decentralized", plant, *sampled, "--box", "90%", "--json")
+    assert done.status == 0, done.stderr
+    told = json.loads(done.stdout)
+    proved = Fraction(told["every_loop"]["part"])
+    [note] = [each for each in told["assessment"]["notes"] if "--box asked for" in each]
+    assert proved < Fraction(9, 10) and note.startswith("--box asked for 90 % of each entry")
+
+
 def handed_over(plant: str, left: float | None) -> tuple[Loop, list[Loop]]:
     """The design for a plant, and what is handed over before it is complete."""
     return parts_of(Path(plant).read_bytes(), {}, left)
