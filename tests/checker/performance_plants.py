@@ -130,6 +130,23 @@ MARGIN = certificate(
     {"parts": [{"ports": [0], "scaling": [1], "P": form([2])}]},
     DEADBEAT,
 )
+# x(t+1) = 2x: without an output no part proves anything, and for P = -1 the form of a sector falls.
+DOUBLING = plant([[2]], ([[1]], {"shape": [0, 1], "entries": []}), time="discrete")
+UNSEEN = certificate(
+    "disk_margin",
+    DOUBLING,
+    {"at": "outputs", "together": False, "margin": 1},
+    {"parts": []},
+    static(DOUBLING, 0),
+)
+DOUBLED = plant([[2]], ([[1]], [[1]]), time="discrete")
+GROWING = certificate(
+    "sector",
+    DOUBLED,
+    {"sectors": [[1, 1]]},
+    {"scaling": [1], "P": form([-1])},
+    static(DOUBLED, 0),
+)
 # Two of them beside each other.
 PAIR = plant([[1, 0], [0, 1]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]]), time="discrete")
 BOTH = certificate(

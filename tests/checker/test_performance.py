@@ -7,7 +7,7 @@ import pytest
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.performance import require_positive, symmetric
 from mcexact.checker.reading import Refused
-from tests.checker.handmade import changed, checked, matrix, without
+from tests.checker.handmade import Document, changed, checked, matrix, without
 from tests.checker.performance_plants import (
     ALL,
     BOTH,
@@ -16,10 +16,12 @@ from tests.checker.performance_plants import (
     EACH,
     FILTERED,
     GROUPS,
+    GROWING,
     MARGIN,
     SECTOR,
     SHARED,
     STEP,
+    UNSEEN,
     form,
     static,
     weights,
@@ -32,6 +34,8 @@ ACCEPTED = [
     ("a margin of its output", changed(MARGIN, ("claim.at", "outputs"))),
     ("one input is all inputs", changed(MARGIN, ("claim.together", True))),
     ("together, and so each by itself", changed(BOTH, ("claim.together", False))),
+    ("a bound with a small bandwidth", changed(SHARED, ("claim.weights.bandwidth", 20))),
+    ("nearly the largest margin of this matrix", changed(MARGIN, ("claim.margin", "31/50"))),
     ("a sector of one line", changed(SECTOR, ("claim.sectors", [[1, 1]]))),
 ]  # fmt: skip
 
@@ -57,6 +61,8 @@ REJECTED = [
         (f"{GROUP}.P", form([4], exponent=-1)), ("claim.cost", 1)
     ), "INVALID"),
     ("a second inequality that fails", SHARED, (f"{GROUP}.S", form([9])), "INVALID"),
+    ("too large an S in discrete time", BOUND, (f"{GROUP}.S", form([3], exponent=-1)), "INVALID"),
+    ("noise below what passes the filter", SHARED, ("claim.weights.bandwidth", 2), "INVALID"),
     ("a gain that no regulator has", SHARED, (f"{GROUP}.F", matrix([9])), "INVALID"),
     ("a share of 1", SHARED, (f"{GROUP}.share", 1), "INVALID"),
     ("a negative share", SHARED, (f"{GROUP}.share", -1), "INVALID"),
@@ -73,6 +79,10 @@ REJECTED = [
     ("a state of another agent", GROUPS, ("claim.graph.states", ["1", "1"])),
     ("an edge twice", GROUPS, ("claim.graph.edges", [["1", "2"], ["1", "2"]]), "MALFORMED"),
     ("an edge to itself", GROUPS, ("claim.graph.edges", [["1", "1"], ["1", "2"]]), "MALFORMED"),
+    ("edges in another order", GROUPS, (
+        "claim.graph.edges", [["2", "1"], ["1", "2"]]
+    ), "MALFORMED"),
+    ("a margin just too large", MARGIN, ("claim.margin", "16/25"), "INVALID"),
     ("a margin that is too large", MARGIN, ("claim.margin", "7/10"), "INVALID"),
     ("a margin of 0", MARGIN, ("claim.margin", 0), "INVALID"),
     ("single margins told of all at once", EACH, ("claim.together", True), "INVALID"),
@@ -94,6 +104,12 @@ REJECTED = [
 
 test_these_are_valid = accepts(ACCEPTED)
 test_these_are_not = rejects(REJECTED)
+
+
+@pytest.mark.parametrize("grows", [UNSEEN, GROWING])
+def test_nothing_is_valid_of_a_loop_that_grows(grows: Document) -> None:
+    """Without a part, and with P < 0, for which alone the form of the sector falls."""
+    assert checked(grows).verdict == "INVALID"
 
 
 def test_a_matrix_is_read_with_its_exponents() -> None:
@@ -124,6 +140,7 @@ def test_what_is_singular_or_indefinite_is_not_shown_to_be_positive(rows: list[l
         [[10**300, 1], [1, 10**-0]],
         [[10**400, 10**200 - 1], [10**200 - 1, 2]],
         [[4, -3, 2], [-3, 5, -3], [2, -3, 4]],
+        [[15, 16], [16, 18]],
     ],
 )
 def test_what_is_positive_definite_is_shown_to_be(rows: list[list[int]]) -> None:
