@@ -37,7 +37,7 @@ End Yes.
 Variable S : multichannel rat n p q.
 
 (* No, by a fixed mode: a polynomial of degree at least 1 has a root in algC. *)
-Theorem completeness_no_mode P T d (E : shrunk_subspace S P T d) :
+Theorem completeness_no_mode P T d (E : rank_loss S P T d) :
   (0 < d)%N -> (1 < size P)%N -> ~ complete S.
 Proof.
 move=> d0 sP [_ /(_ _ [rmorphism of @ratr algCfield])] nf.

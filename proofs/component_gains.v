@@ -72,9 +72,6 @@ have [Z eZ] : exists Z, y *m pinvmx X = Z *m Q.
 by rewrite -[y]mulmx1 -(mulVpmx fX) mulmxA eZ -mulmxA QX mulmx0.
 Qed.
 
-Definition dual n (p q : 'I_m -> nat) (S : multichannel K n p q) : multichannel K n q p :=
-  Multichannel (mcA S)^T (fun i => (mcC S i)^T) (fun i => (mcB S i)^T).
-
 Lemma minimal_exists n (p q : 'I_m -> nat) (S : multichannel K n p q) (c : {set 'I_m}) :
   exists d (T : multichannel K d p q), minimal c S T.
 Proof.

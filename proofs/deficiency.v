@@ -95,7 +95,7 @@ Qed.
 
 (* Kind `deficiency`: rho is the largest n - rank P_s(lambda), and it is attained. *)
 Theorem deficiency_rule rho (F : gains (Zloc l) p q) (B0 : 'M_(n, rho)) (C0 : 'M_(rho, n)) u v
-    P T (E : shrunk_subspace SQ P T rho) (lambda : L) :
+    P T (E : rank_loss SQ P T rho) (lambda : L) :
   u * res (char_poly (mcA S)) + v * res (char_poly (closed_loop S F + B0 *m C0)) = 1 ->
   root (map_poly h P) lambda ->
   (\rank (pencil (map_system h SQ) (~: T) lambda) + rho = n)%N.

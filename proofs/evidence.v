@@ -3,7 +3,8 @@
    A shrunk subspace (T, U, V) of deficiency d for p: modulo p, (xI - A) U = B_T V and C_i U = 0
    for i outside T; some rows of U are an identity modulo p; the columns of U number at least
    rank B_T + d (rank over the field of the data).  In place of B_T there may be any matrix Y whose image contains
-   that of B_T, with the number of its columns for the rank: local_subspace.v needs this. *)
+   that of B_T, with the number of its columns for the rank: local_subspace.v needs this.  The rules are proved for a
+   loss of rank, where Y is a matrix of polynomials, and contains the inputs modulo p: dual_subspace.v needs that. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -66,6 +67,18 @@ Proof.
 by rewrite /pencil map_block_mx map_mxB map_scalar_mx map_inputs map_outputs map_mx0.
 Qed.
 End Map.
+
+(* im Y contains im B_T if it contains im B_i for i in T. *)
+Lemma inputs_within (K : fieldType) n m (p q : 'I_m -> nat) (S : multichannel K n p q) (T : {set 'I_m}) r (Y : 'M[K]_(n, r)) :
+  (exists X, inputs S T = Y *m X) <-> (forall i, i \in T -> exists X, mcB S i = Y *m X).
+Proof.
+split=> [[X e] i iT|each].
+  by exists (submxrow X i); rewrite mul_submxrow -e mxrowK iT.
+have each' i : exists X, (if i \in T then mcB S i else 0) = Y *m X.
+  by case: ifP => [/each//|_]; exists 0; rewrite mulmx0.
+have [X e] := fin_all_exists each'.
+by exists (\mxrow_i X i); rewrite mul_mxrow; apply: eq_mxrow.
+Qed.
 
 Section Shrunk.
 Variables (L : fieldType) (n m : nat) (p q : 'I_m -> nat).
@@ -204,6 +217,23 @@ Proof.
 move=> /rootP r0 z; apply/matrixP=> i j; rewrite !mxE value_poly.
 by have /dvdpP[c ->] := z i j; rewrite rmorphM hornerM r0 mulr0.
 Qed.
+
+Lemma zero_modulo0 a b : zero_modulo (0 : 'M_(a, b)).
+Proof. by move=> i j; rewrite mxE dvdp0. Qed.
+Lemma zero_moduloD a b (M N : 'M_(a, b)) : zero_modulo M -> zero_modulo N -> zero_modulo (M + N).
+Proof. by move=> zM zN i j; rewrite mxE dvdp_add. Qed.
+Lemma zero_moduloN a b (M : 'M_(a, b)) : zero_modulo M -> zero_modulo (- M).
+Proof. by move=> z i j; rewrite mxE dvdpNr. Qed.
+Lemma zero_modulo_mull a b c (M : 'M_(a, b)) (N : 'M_(b, c)) : zero_modulo N -> zero_modulo (M *m N).
+Proof.
+move=> z i j; rewrite mxE; apply: (big_ind (fun r => P %| r)) => [|r r' Pr Pr'|k _]; first exact: dvdp0.
+  exact: dvdp_add.
+exact/dvdp_mull/z.
+Qed.
+Lemma zero_modulo_tr a b (M : 'M_(a, b)) : zero_modulo M -> zero_modulo M^T.
+Proof. by move=> z i j; rewrite mxE. Qed.
+Lemma zero_modulo_mulr a b c (M : 'M_(a, b)) (N : 'M_(b, c)) : zero_modulo M -> zero_modulo (M *m N).
+Proof. by move=> z; rewrite -[M *m N]trmxK trmx_mul; apply/zero_modulo_tr/zero_modulo_mull/zero_modulo_tr. Qed.
 End ModuloPolynomial.
 
 Section Certificate.
@@ -223,29 +253,56 @@ Record shrunk_subspace (P : {poly K}) (T : {set 'I_m}) (d : nat) := ShrunkSubspa
   sh_identity : zero_modulo P (rowsub sh_pivots sh_U - 1%:M);
   sh_count : (sh_r + d <= sh_u)%N }.
 
-Variables (P : {poly K}) (T : {set 'I_m}) (d : nat) (E : shrunk_subspace P T d).
+(* The same with a matrix Y of polynomials. *)
+Record rank_loss (P : {poly K}) (T : {set 'I_m}) (d : nat) := RankLoss {
+  rl_r : nat;
+  rl_u : nat;
+  rl_Y : 'M[{poly K}]_(n, rl_r);
+  rl_U : 'M[{poly K}]_(n, rl_u);
+  rl_V : 'M[{poly K}]_(rl_r, rl_u);
+  rl_pivots : 'I_rl_u -> 'I_n;
+  rl_inputs : forall i, i \in T -> exists X, zero_modulo P (map_mx polyC (mcB S i) - rl_Y *m X);
+  rl_state : zero_modulo P (('X%:M - map_mx polyC (mcA S)) *m rl_U - rl_Y *m rl_V);
+  rl_output : forall i, i \notin T -> zero_modulo P (map_mx polyC (mcC S i) *m rl_U);
+  rl_identity : zero_modulo P (rowsub rl_pivots rl_U - 1%:M);
+  rl_count : (rl_r + d <= rl_u)%N }.
+
+Lemma shrunk_inputs P T d (E : shrunk_subspace P T d) i : i \in T ->
+  exists X, zero_modulo P (map_mx polyC (mcB S i) - map_mx polyC (sh_Y E) *m X).
+Proof.
+move=> iT; have /inputs_within/(_ i iT)[X ->] := sh_inputs E.
+by exists (map_mx polyC X); rewrite map_mxM subrr; apply: zero_modulo0.
+Qed.
+Coercion loss_of P T d (E : shrunk_subspace P T d) : rank_loss P T d :=
+  RankLoss (@shrunk_inputs _ _ _ E) (@sh_state _ _ _ E) (@sh_output _ _ _ E) (@sh_identity _ _ _ E) (sh_count E).
+
+Variables (P : {poly K}) (T : {set 'I_m}) (d : nat) (E : rank_loss P T d).
 Variables (L : fieldType) (f : {rmorphism K -> L}) (lambda : L).
 Hypothesis root_lambda : root (map_poly f P) lambda.
 
-Let Y := map_mx f (sh_Y E).
-Let U := map_mx (value f lambda) (sh_U E).
-Let V := map_mx (value f lambda) (sh_V E).
+Let Y := map_mx (value f lambda) (rl_Y E).
+Let U := map_mx (value f lambda) (rl_U E).
+Let V := map_mx (value f lambda) (rl_V E).
 
 Lemma certificate_inputs : exists X, inputs (map_system f S) T = Y *m X.
-Proof. by have [X e] := sh_inputs E; exists (map_mx f X); rewrite -map_inputs e map_mxM. Qed.
+Proof.
+apply/inputs_within => i /(@rl_inputs _ _ _ E)[X z]; exists (map_mx (value f lambda) X); apply/eqP.
+have := value_zero root_lambda z; rewrite map_mxB map_mxM value_const => /eqP.
+by rewrite subr_eq0.
+Qed.
 
 Lemma certificate_shrunk : shrunk_into (map_system f S) lambda T Y U V.
 Proof.
 split=> [|i iT|]; last exact: certificate_inputs.
-  have := value_zero root_lambda (@sh_state _ _ _ E).
+  have := value_zero root_lambda (@rl_state _ _ _ E).
   rewrite map_mxB !map_mxM map_mxB map_scalar_mx /= valueX !value_const => /eqP.
   by rewrite subr_eq0 => /eqP.
-by have := value_zero root_lambda (@sh_output _ _ _ E i iT); rewrite map_mxM value_const.
+by have := value_zero root_lambda (@rl_output _ _ _ E i iT); rewrite map_mxM value_const.
 Qed.
 
-Lemma certificate_free : \rank U = sh_u E.
+Lemma certificate_free : \rank U = rl_u E.
 Proof.
-have := value_zero root_lambda (@sh_identity _ _ _ E); rewrite map_mxB map_mx1 => /eqP.
+have := value_zero root_lambda (@rl_identity _ _ _ E); rewrite map_mxB map_mx1 => /eqP.
 rewrite subr_eq0 => /eqP e; apply/eqP; rewrite eqn_leq rank_leq_col /=.
 rewrite -[X in (X <= _)%N](mxrank1 L) -e map_mxsub mxrankS//; exact: rowsub_sub.
 Qed.
@@ -253,17 +310,17 @@ Qed.
 (* Rule "shrunk subspace": static gains over every extension field L of the field of the data. *)
 Theorem shrunk_subspace_rank (F : gains L p q) :
   (\rank (lambda%:M - closed_loop (map_system f S) F)%R + d <= n)%N.
-Proof. exact: (shrunk_into_rank certificate_shrunk certificate_free F (sh_count E)). Qed.
+Proof. exact: (shrunk_into_rank certificate_shrunk certificate_free F (rl_count E)). Qed.
 
 (* The same rule for the paper's pencil, s the complement of T. *)
 Theorem shrunk_subspace_pencil :
   (\rank (pencil (map_system f S) (~: T) lambda) + d <= n)%N.
-Proof. exact: (shrunk_into_pencil_rank certificate_shrunk certificate_free (sh_count E)). Qed.
+Proof. exact: (shrunk_into_pencil_rank certificate_shrunk certificate_free (rl_count E)). Qed.
 
 (* The same rule for dynamic channel controllers. *)
 Theorem shrunk_subspace_dynamic k (D : controllers L p q k) :
   (\rank (lambda%:M - dynamic_loop (map_system f S) D)%R + d <= n + \sum_i k i)%N.
-Proof. exact: (shrunk_into_dynamic_rank D certificate_shrunk certificate_free (sh_count E)). Qed.
+Proof. exact: (shrunk_into_dynamic_rank D certificate_shrunk certificate_free (rl_count E)). Qed.
 
 Lemma eigenvalue_rank a (M : 'M[L]_a) : eigenvalue M lambda = (\rank (lambda%:M - M)%R < a)%N.
 Proof.

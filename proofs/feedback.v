@@ -254,9 +254,6 @@ Section Dual.
 Variables (K : fieldType) (n m : nat) (p q : 'I_m -> nat).
 Implicit Types (S : multichannel K n p q) (F : gains K p q).
 
-Definition dual S : multichannel K n q p :=
-  Multichannel (mcA S)^T (fun i => (mcC S i)^T) (fun i => (mcB S i)^T).
-
 Lemma closed_loop_dual S (F : gains K q p) :
   closed_loop (dual S) F = (closed_loop S (fun i => (F i)^T))^T.
 Proof.

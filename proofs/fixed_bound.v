@@ -74,7 +74,7 @@ Qed.
 (* With factors: pairwise coprime monic p_i, each with a shrunk subspace of deficiency d_i, whose degrees times
    d_i sum to n - L.  Their product is all that is fixed, with multiplicities. *)
 Variables (L r : nat) (P : 'I_r -> {poly Zloc l}) (T : 'I_r -> {set 'I_m}).
-Variables (d : 'I_r -> nat) (sh : forall i, shrunk_subspace SQ (map_poly (@Zloc_rat l) (P i)) (T i) (d i)).
+Variables (d : 'I_r -> nat) (sh : forall i, rank_loss SQ (map_poly (@Zloc_rat l) (P i)) (T i) (d i)).
 Hypotheses (mP : forall i, P i \is monic).
 Hypothesis cop : forall i, exists u v, u * res (P i) + v * res (\prod_(j < r | (j < i)%N) P j) = 1.
 Hypothesis full : (n <= L + \sum_i d i * (size (P i)).-1)%N.

@@ -72,7 +72,7 @@ Qed.
 (* Rules 2 and 5 together: r = n - d is the largest rank of lambda I - A_F over all gains, and the
    rank of the pencil of the subset named. *)
 Theorem rank_exact d T (F : gains (Zloc l) p q) (B0 : 'M_(n, d)) (C0 : 'M_(d, n)) (P : {poly Zloc l})
-    (E : shrunk_subspace SQ (map_poly (@Zloc_rat l) P) T d) u v lambda :
+    (E : rank_loss SQ (map_poly (@Zloc_rat l) P) T d) u v lambda :
   P \is monic -> u * res P + v * res (char_poly (closed_loop S F + B0 *m C0)) = 1 ->
   root (map_poly up P) lambda ->
   [/\ (\rank (lambda%:M - map_mx up (closed_loop S F))%R = n - d)%N,
@@ -131,7 +131,7 @@ Qed.
 (* Kind `fixed_spectrum`: the roots of `polynomial`, the product of the factors, are exactly the fixed
    modes, over every field that contains Q. *)
 Theorem fixed_spectrum_rule r (P : 'I_r -> {poly rat}) (a : 'I_r -> nat) T (d : 'I_r -> nat)
-    (E : forall i, shrunk_subspace SQ (P i) (T i) (d i)) (F : gains (Zloc l) p q)
+    (E : forall i, rank_loss SQ (P i) (T i) (d i)) (F : gains (Zloc l) p q)
     (psi : {poly Zloc l}) u v :
   (forall i, 0 < d i)%N -> psi \is monic ->
   map_poly (@Zloc_rat l) (char_poly (mcA S)) = (\prod_i P i ^+ a i) * map_poly (@Zloc_rat l) psi ->

@@ -1,7 +1,7 @@
 (* Four states and three channels, x2' = x0 and x3' = x2: each channel drives one of x1, x3 and x0 and measures it.
    The states x1 and x2 drive x3 alone, no channel reaches x2 but by x0, and the mode 0 is fixed. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
-From mcexact Require Import multichannel arithmetic evidence blocks local_subspace.
+From mcexact Require Import multichannel arithmetic evidence blocks local_subspace dual_subspace.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -79,6 +79,24 @@ Defined.
 Definition inst_shrunk_within := shrunk_subspace_within apart closed driven acting unseen inst_shrunk_channels.
 Definition inst_shrunk_local : shrunk_subspace plant 'X T 1 :=
   shrunk_subspace_local apart closed driven acting unseen idle blind part_shrunk.
+
+(* The same by one row of the identity, which the channel does not drive. *)
+Definition row2 : 'M[{poly rat}]_(#|Z|, 1) := \matrix_(a, _) (enum_val a == x2)%:R.
+Definition in_Z : x2 \in Z. Proof. by rewrite !inE. Qed.
+Lemma part_dual : shrunk_subspace (dual part) 'X (~: [set: 'I_1]) 1.
+Proof.
+apply: (@shrunk_by_inputs _ _ _ _ _ _ _ _ _ 1 row2 0 (fun=> enum_rank_in in_Z x2)).
+- rewrite mulmx0 subr0 (_ : mcA (dual part) = 0) ?map_mx0 ?subr0 => [i j|]; last by rewrite /= part_state trmx0.
+  by rewrite mul_scalar_mx mxE dvdp_mulIl.
+- move=> i _; rewrite (_ : map_mx polyC _ *m row2 = 0); first exact: zero_modulo0.
+  apply/matrixP=> v j; rewrite !mxE big1// => a _; rewrite !mxE.
+  by case: eqP => [->|_]; rewrite ?mulr0// /own /= polyC0 mul0r.
+- by move=> i j; rewrite !mxE enum_rankK_in ?in_Z// eqxx !ord1 eqxx subrr dvdp0.
+by rewrite (_ : inputs _ _ = 0) ?mxrank0//; apply/mxrowP => i; rewrite mxrowK submxrow0 inE inE.
+Qed.
+Definition inst_dual_loss : rank_loss part 'X [set: 'I_1] 1 := dual_subspace_loss part_dual.
+Definition inst_dual_local : rank_loss plant 'X T 1 :=
+  dual_subspace_local apart closed driven acting unseen idle blind part_dual.
 
 (* What follows from it: the mode is fixed, with its multiplicity. *)
 Notation h := ([rmorphism of (ratr : rat -> algC)]).

@@ -12,18 +12,6 @@ Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
-(* im Y contains im B_T if it contains im B_i for i in T. *)
-Lemma inputs_within (K : fieldType) n m (p q : 'I_m -> nat) (S : multichannel K n p q) (T : {set 'I_m}) r (Y : 'M[K]_(n, r)) :
-  (exists X, inputs S T = Y *m X) <-> (forall i, i \in T -> exists X, mcB S i = Y *m X).
-Proof.
-split=> [[X e] i iT|each].
-  by exists (submxrow X i); rewrite mul_submxrow -e mxrowK iT.
-have each' i : exists X, (if i \in T then mcB S i else 0) = Y *m X.
-  by case: ifP => [/each//|_]; exists 0; rewrite mulmx0.
-have [X e] := fin_all_exists each'.
-by exists (\mxrow_i X i); rewrite mul_mxrow; apply: eq_mxrow.
-Qed.
-
 (* Some of the channels by themselves: of the others those in T do not act, and those outside T see nothing. *)
 Section Channels.
 Variables (K : fieldType) (n m m' : nat) (p q : 'I_m -> nat) (S : multichannel K n p q) (f : 'I_m' -> 'I_m).
@@ -122,13 +110,6 @@ have {1}-> : N *m EZ = ED *m rowsub enum_val (N *m EZ) + EZ *m rowsub enum_val (
   by apply: state_entry; [apply: contraNneq aZ => -> | apply: driven].
 congr (_ + EZ *m _); rewrite mul_columns; apply/matrixP => i k.
 by rewrite !mxE (inj_eq enum_val_inj).
-Qed.
-
-Lemma zero_modulo_mull a b c (M : 'M[{poly K}]_(a, b)) (M' : 'M_(b, c)) : zero_modulo P M' -> zero_modulo P (M *m M').
-Proof.
-move=> z i j; rewrite mxE; apply: (big_ind (fun r => P %| r)) => [|r r' Pr Pr'|k _]; first exact: dvdp0.
-  exact: dvdp_add.
-exact/dvdp_mull/z.
 Qed.
 
 Let U : 'M[{poly K}]_(n, #|D| + sh_u E) := row_mx ED (EZ *m sh_U E).

@@ -78,6 +78,10 @@ Definition map_system (R R' : Type) (f : R -> R') n m (p q : 'I_m -> nat)
     (S : multichannel R n p q) : multichannel R' n p q :=
   Multichannel (map_mx f (mcA S)) (fun i => map_mx f (mcB S i)) (fun i => map_mx f (mcC S i)).
 
+(* Transposes of all matrices, inputs and outputs exchanged. *)
+Definition dual (R : Type) n m (p q : 'I_m -> nat) (S : multichannel R n p q) : multichannel R n q p :=
+  Multichannel (mcA S)^T (fun i => (mcC S i)^T) (fun i => (mcB S i)^T).
+
 (* lambda is in the fixed spectrum: it is an eigenvalue of A_F for all gains F over the field of
    lambda.  For a system over K and lambda in an extension field L, with f : K -> L, the statement
    is fixed (map_system f S) lambda; gains over K alone give the weaker fixed_over f S lambda. *)

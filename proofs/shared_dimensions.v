@@ -19,7 +19,7 @@ Variables (L : fieldType) (f : {rmorphism K -> L}) (lambda : L).
 Hypotheses (rP : root (map_poly f P) lambda) (few : (\sum_(i in boundary) k i < d)%N).
 
 (* Sub-states alone: a shrunk subspace of the plant that loses d needs d shared dimensions around s. *)
-Theorem dimensions_cut_states (E : shrunk_subspace S P (~: s) d) :
+Theorem dimensions_cut_states (E : rank_loss S P (~: s) d) :
   fixed (extended_states N k (map_system f S)) lambda.
 Proof.
 have := shrunk_subspace_pencil E rP; rewrite setCK => lost.
@@ -28,7 +28,7 @@ by apply: leq_trans lost; rewrite ltn_add2l.
 Qed.
 
 (* Outputs and sub-states: the same for the system in which every agent hears its neighbors' outputs. *)
-Theorem dimensions_cut_outputs (E : shrunk_subspace (augmented_outputs N S) P (~: s) d) :
+Theorem dimensions_cut_outputs (E : rank_loss (augmented_outputs N S) P (~: s) d) :
   fixed (extended N k (map_system f S)) lambda.
 Proof.
 have := shrunk_subspace_pencil E rP; rewrite setCK => lost.
@@ -145,7 +145,7 @@ Hypothesis rP : root (map_poly f P) lambda.
 Lemma too_few k k' : (#|boundary| * k < d)%N -> (k' <= k)%N -> (\sum_(i in boundary) k' < d)%N.
 Proof. by move=> few le; rewrite sum_nat_const (leq_ltn_trans _ few)// leq_mul. Qed.
 
-Theorem common_dimension_outputs k (E : shrunk_subspace (augmented_outputs N S) P (~: s) d) :
+Theorem common_dimension_outputs k (E : rank_loss (augmented_outputs N S) P (~: s) d) :
   (#|boundary| * k < d)%N -> frees k.+1 -> forall k', frees k' <-> (k < k')%N.
 Proof.
 move=> few enough k'; split=> [free|lt]; last exact: frees_more enough.
@@ -153,7 +153,7 @@ rewrite ltnNge; apply/negP => /(too_few few) less.
 exact: free (dimensions_cut_outputs hears rP less E).
 Qed.
 
-Theorem common_dimension_states k (E : shrunk_subspace S P (~: s) d) :
+Theorem common_dimension_states k (E : rank_loss S P (~: s) d) :
   (#|boundary| * k < d)%N -> frees_states k.+1 -> forall k', frees_states k' <-> (k < k')%N.
 Proof.
 move=> few enough k'; split=> [free|lt]; last exact: frees_states_more enough.
@@ -161,14 +161,14 @@ rewrite ltnNge; apply/negP => /(too_few few) less.
 exact: free (dimensions_cut_states hears rP less E).
 Qed.
 
-Theorem no_common_dimension_outputs (E : shrunk_subspace (augmented_outputs N S) P (~: s) d) :
+Theorem no_common_dimension_outputs (E : rank_loss (augmented_outputs N S) P (~: s) d) :
   boundary = set0 -> (0 < d)%N -> forall k, ~ frees k.
 Proof.
 move=> none lost k; apply; apply: (dimensions_cut_outputs hears rP _ E).
 by rewrite none big_set0.
 Qed.
 
-Theorem no_common_dimension_states (E : shrunk_subspace S P (~: s) d) :
+Theorem no_common_dimension_states (E : rank_loss S P (~: s) d) :
   boundary = set0 -> (0 < d)%N -> forall k, ~ frees_states k.
 Proof.
 move=> none lost k; apply; apply: (dimensions_cut_states hears rP _ E).

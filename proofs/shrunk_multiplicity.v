@@ -98,7 +98,7 @@ End Power.
 
 Section Certificate.
 Variables (K : fieldType) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
-Variables (P : {poly K}) (T : {set 'I_m}) (d : nat) (E : shrunk_subspace S P T d).
+Variables (P : {poly K}) (T : {set 'I_m}) (d : nat) (E : rank_loss S P T d).
 Variables (L : fieldType) (f : {rmorphism K -> L}).
 Notation up := (map_poly f).
 Notation SL := (map_system f S).
@@ -116,34 +116,36 @@ Proof. by apply/matrixP=> i j; rewrite !mxE map_polyC. Qed.
 (* Rule "shrunk subspace", with multiplicities: p^d divides det(xI - A_F) for all F over all extensions. *)
 Theorem shrunk_subspace_divides (F : gains L p q) : P != 0 -> up P ^+ d %| char_poly (closed_loop SL F).
 Proof.
-move=> P0; pose U := map_mx up (sh_U E); pose V := map_mx up (sh_V E); pose Y := map_mx f (sh_Y E).
-have [X eX] := certificate_inputs E f; rewrite -/Y in eX.
-have [W state] := multiple (@sh_state _ _ _ _ _ _ _ _ _ E).
-have [Z id] := multiple (@sh_identity _ _ _ _ _ _ _ _ _ E).
+move=> P0; pose U := map_mx up (rl_U E); pose V := map_mx up (rl_V E); pose Y := map_mx up (rl_Y E).
+have [W state] := multiple (@rl_state _ _ _ _ _ _ _ _ _ E).
+have [Z id] := multiple (@rl_identity _ _ _ _ _ _ _ _ _ E).
 have out i : exists W, i \notin T -> constant (mcC SL i) *m U = up P *: W.
   have [|iT] := boolP (i \in T); first by exists 0.
-  by have [W' e] := multiple (@sh_output _ _ _ _ _ _ _ _ _ E i iT); exists W' => _; rewrite -e map_mxM up_constant.
+  by have [W' e] := multiple (@rl_output _ _ _ _ _ _ _ _ _ E i iT); exists W' => _; rewrite -e map_mxM up_constant.
 have [Wo output] := fin_all_exists out.
-pose G i := if i \in T then constant (F i) *m constant (mcC SL i) *m U else 0.
-have mid : \sum_i constant (mcB SL i) *m G i = constant Y *m (constant X *m \mxcol_i G i).
-  rewrite mulmxA -map_mxM -eX (map_inputs [rmorphism of polyC] SL) -(@inputsE _ _ _ _ _ (map_system polyC SL))//.
-  by move=> i iT; rewrite /G (negPf iT).
-pose W' := \sum_(i | i \notin T) constant (mcB SL i) *m constant (F i) *m Wo i.
-have state' : ('X%:M - constant (mcA SL)) *m U = constant Y *m V + up P *: W.
+have inp i : exists XR, i \in T -> constant (mcB SL i) = Y *m XR.1 + up P *: XR.2.
+  have [iT|_] := boolP (i \in T); last by exists (0, 0).
+  have [X z] := @rl_inputs _ _ _ _ _ _ _ _ _ E i iT; have [R e] := multiple z; exists (map_mx up X, R) => _.
+  by rewrite /= -e map_mxB map_mxM up_constant addrC subrK.
+have [XR input] := fin_all_exists inp.
+pose G i := constant (F i) *m constant (mcC SL i) *m U.
+pose X := \sum_(i | i \in T) (XR i).1 *m G i.
+pose W' := \sum_(i | i \in T) (XR i).2 *m G i + \sum_(i | i \notin T) constant (mcB SL i) *m constant (F i) *m Wo i.
+have state' : ('X%:M - constant (mcA SL)) *m U = Y *m V + up P *: W.
   by rewrite -state map_mxB !map_mxM map_mxB map_scalar_mx /= map_polyX !up_constant [RHS]addrC subrK.
-have loop : char_poly_mx (closed_loop SL F) *m U =
-    constant Y *m (V - constant X *m \mxcol_i G i) + up P *: (W - W').
-  rewrite /char_poly_mx /closed_loop map_mxD map_mx_sum opprD addrA mulmxBl state' mulmxBr -mid scalerBr.
-  rewrite addrACA -opprD mulmx_suml [X in _ - X = _](bigID (mem T)) /=; congr (_ - (_ + _)).
-    rewrite big_mkcond; apply: eq_bigr => i _; rewrite /G; case: ifP => _; last by rewrite mulmx0.
-    by rewrite !map_mxM !mulmxA.
+have loop : char_poly_mx (closed_loop SL F) *m U = Y *m (V - X) + up P *: (W - W').
+  rewrite /char_poly_mx /closed_loop map_mxD map_mx_sum opprD addrA mulmxBl state' mulmxBr scalerBr.
+  rewrite addrACA -opprD mulmx_suml [X in _ - X = _](bigID (mem T)) /=; congr (_ - _).
+  rewrite /W' scalerDr addrA; congr (_ + _).
+    rewrite /X mulmx_sumr scaler_sumr -big_split; apply: eq_bigr => i iT.
+    by rewrite !map_mxM -!mulmxA input// mulmxDl -scalemxAl !mulmxA.
   rewrite scaler_sumr; apply: eq_bigr => i iT.
   by rewrite !map_mxM -!mulmxA output// -!scalemxAr.
-rewrite /char_poly; apply: (@power_divides L (up P) n (sh_r E) (sh_u E) d _ U (W - W')
-  (constant Y) (V - constant X *m \mxcol_i G i) (@sh_pivots _ _ _ _ _ _ _ _ _ E) Z).
+rewrite /char_poly; apply: (@power_divides L (up P) n (rl_r E) (rl_u E) d _ U (W - W')
+  Y (V - X) (@rl_pivots _ _ _ _ _ _ _ _ _ E) Z).
 - by rewrite map_poly_eq0.
 - exact: loop.
 - by rewrite -id map_mxB map_mx1 map_mxsub addrC subrK.
-exact: (@sh_count _ _ _ _ _ _ _ _ _ E).
+exact: (@rl_count _ _ _ _ _ _ _ _ _ E).
 Qed.
 End Certificate.

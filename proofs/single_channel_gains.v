@@ -10,21 +10,21 @@ Section No.
 Variables (K : fieldType) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
 
 (* No, by a shrunk subspace with the channel in T: no gains make it control (A_F, B_channel). *)
-Theorem single_channel_no_mode P T d (E : shrunk_subspace S P T d) (L : fieldType)
+Theorem single_channel_no_mode P T d (E : rank_loss S P T d) (L : fieldType)
     (f : {rmorphism K -> L}) lambda channel (F : gains L p q) :
   (0 < d)%N -> root (map_poly f P) lambda -> channel \in T ->
   uncontrollable_mode (closed_loop (map_system f S) F) (mcB (map_system f S) channel) lambda.
 Proof.
 move=> d0 rP cT; have sh := certificate_shrunk E rP; have fU := certificate_free E rP.
-have [X eX] := certificate_inputs E f; have [W eW] := shrunk_image sh F.
-rewrite /uncontrollable_mode; set M := row_mx _ _; set Y := map_mx f _ in eX eW.
+have [X eX] := certificate_inputs E rP; have [W eW] := shrunk_image sh F.
+rewrite /uncontrollable_mode; set M := row_mx _ _; set Y := map_mx _ (rl_Y E) in eX eW.
 have eB : mcB (map_system f S) channel = Y *m (X *m submxrow 1%:M channel).
   by rewrite mulmxA -eX mul_submxrow mulmx1 mxrowK cT.
-have e : M *m block_mx (map_mx (value f lambda) (sh_U E)) 0 0 1%:M = Y *m row_mx W (X *m submxrow 1%:M channel).
+have e : M *m block_mx (map_mx (value f lambda) (rl_U E)) 0 0 1%:M = Y *m row_mx W (X *m submxrow 1%:M channel).
   by rewrite mul_row_block !mulmx0 addr0 add0r mulmx1 eW {1}eB mul_mx_row.
-have := mxrank_mul_min M (block_mx (map_mx (value f lambda) (sh_U E)) 0 0 1%:M).
+have := mxrank_mul_min M (block_mx (map_mx (value f lambda) (rl_U E)) 0 0 1%:M).
 rewrite e rank_diag_block_mx fU mxrank1 addnA subnDr => h.
-have := rank_count (leq_trans h (leq_trans (mxrankM_maxl _ _) (rank_leq_col _))) (sh_count E).
+have := rank_count (leq_trans h (leq_trans (mxrankM_maxl _ _) (rank_leq_col _))) (rl_count E).
 by apply: leq_trans; rewrite -[X in (X < _)%N]addn0 ltn_add2l.
 Qed.
 

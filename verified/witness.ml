@@ -136,6 +136,9 @@ let scale_rows k = List.map (List.map (Z.mul k))
 let shrunk (s : Kernel.zsystem) known p place value =
   let n = s.Kernel.zn and degree = List.length p - 1 and m = List.length s.Kernel.zchannels in
   let inner states (channels : Kernel.zchannel list) known value =
+    (match value with
+     | Json.Object l when List.mem_assoc "dual" l -> incomplete place "a subspace of the dual system of some states is not read here"
+     | _ -> ());
     match Json.fields place [ "channels_T"; "U"; "V"; "pivots" ] value with
     | [ t; u; v; pivots ] ->
       let size = List.length states in
@@ -226,6 +229,20 @@ let shrunk (s : Kernel.zsystem) known p place value =
     { Kernel.b_T = mask m t; b_U = us; b_V = vs; b_den = den; b_pivots = pivots;
       b_rank = (match y with row :: _ -> List.length row | [] -> 0); b_Y = y; b_X = parts; b_dX = dX }
 
+(* The same as a rule, for the system or for its dual. *)
+let loss (s : Kernel.zsystem) known p d place value =
+  match value with
+  | Json.Object l when List.mem_assoc "dual" l ->
+    (match Json.fields place [ "channels_T"; "dual" ] value with
+     | [ t; inner ] ->
+       (match inner with Json.Object l when List.mem_assoc "states" l -> malformed place "expected a subspace of all states" | _ -> ());
+       let w = shrunk (Kernel.zdual s) known p place inner in
+       let others = List.filter (fun i -> not (List.nth w.Kernel.b_T i)) (range (List.length known)) in
+       if Json.names place known t <> others then invalid place "T is not the complement of that of the dual system";
+       Kernel.RDual ([], p, w, d)
+     | _ -> assert false)
+  | _ -> Kernel.RShrunk ([], p, shrunk s known p place value, d)
+
 (* Polynomials over Q. *)
 let rational p = List.map Q.of_bigint p
 let rec trim_q v = match List.rev v with x :: rest when Q.sign x = 0 -> trim_q (List.rev rest) | _ -> v
@@ -271,8 +288,7 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
   let blocks = match value with Json.Object l -> List.mem_assoc "blocks" l | _ -> false in
   let subspaces spaces = Json.items ~length:(List.length factors) "witness.subspaces" spaces in
   let premises ell simple bounds f rest space =
-    let w = shrunk s known f.Kernel.f_p "witness.subspaces" space in
-    let y_fixed = add run (Kernel.RShrunk ([], f.Kernel.f_p, w, n - f.Kernel.f_rank)) in
+    let y_fixed = add run (loss s known f.Kernel.f_p (n - f.Kernel.f_rank) "witness.subspaces" space) in
     let y_coprime = if simple then coprime run ell f.Kernel.f_p (product rest) else 0 in
     let y_simple = if simple then coprime run ell f.Kernel.f_p (derivative f.Kernel.f_p) else 0 in
     let y_spectrum, y_exponent = match f.Kernel.f_in_A with

@@ -36,7 +36,7 @@ from mcexact.answer.evidence import (
     CoprimePolynomials,
     KrylovSequence,
     LocalSubspace,
-    ShrunkSubspace,
+    Subspace,
 )
 from mcexact.derived.modular import (
     Gains,
@@ -393,7 +393,7 @@ LARGEST_DENSE = 500
 _MOST_MODES = 64
 _MOST_ALONE = 500
 
-Fixed = tuple[Polynomial, int, ShrunkSubspace | LocalSubspace]
+Fixed = tuple[Polynomial, int, Subspace]
 """An irreducible factor, the rank that pencils lose at its roots, and the proof."""
 
 
@@ -412,7 +412,7 @@ def local_subspaces(
     -------
     blocks : tuple of Block
         The same, with two polynomials where no mode is fixed.
-    fixed : tuple of (Polynomial, int, ShrunkSubspace or LocalSubspace)
+    fixed : tuple of (Polynomial, int, Subspace)
         Sorted by degree, then by coefficients.
 
     Raises
@@ -489,12 +489,10 @@ def _in_whole(
     if len(places) > 1:
         part, space = _joined(system, arcs, p, places)
     if part.system is system:
-        return p, space.deficiency, evidence(system, space)
+        return p, space.deficiency, evidence(system.names, space)
     seeing, acting = _seeing(system, arcs, part.states)
     named = () if part.system is None else part.system.names
-    inner = ShrunkSubspace(
-        tuple(named[i] for i in space.channels_T), space.U, space.V, space.pivots
-    )
+    inner = evidence(named, space)
     kept = {*inner.channels_T, *system.named(seeing - acting)}
     T = tuple(name for name in system.names if name in kept)
     return p, space.deficiency, LocalSubspace(T, part.states, inner)

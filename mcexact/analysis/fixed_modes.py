@@ -56,7 +56,7 @@ from mcexact.answer.evidence import (
     KrylovSequence,
     RateInterval,
     RootDisc,
-    ShrunkSubspace,
+    Subspace,
     ZeroTransfer,
 )
 from mcexact.answer.loops import ClosedLoopSpectrum
@@ -110,8 +110,11 @@ if TYPE_CHECKING:
 
 # Up to this size dense matrices are searched, which finds Jordan chains as well.
 _DENSE = 500
-# From here on blocks are decided one after the other, and the exponents in χ_A are left open.
+# From here on blocks are decided one after the other.
 _WHOLE = 100
+# From here on the exponents in χ_A are left open where blocks prove all else: no check of them is
+# known that takes less than some n⁴ operations.
+_EXPONENTS = 60
 
 
 @overload
@@ -148,7 +151,8 @@ def fixed_spectrum(
 
     Exact; no subset of channels is enumerated.  With χ_M = det(xI − M) and the loop
     A_F = A + Σ B_i F_i C_i: in large sparse systems the factors come from products with sparse
-    matrices, and how often they occur in χ_A is left open.  The certificate splits the states into
+    matrices.  How often factors occur in χ_A is left open from 60 states on, where blocks prove all
+    else.  The certificate splits the states into
     blocks that share no gain.  For each it has one Krylov sequence of drawn gains and one channel,
     modulo a small prime, which bounds how much is fixed; for each fixed factor it has a shrunk
     subspace: one that λI − A_F maps into a smaller one, im B_T, for all gains F, T the channels
@@ -194,7 +198,7 @@ def fixed_spectrum(
         ) from limit
     region = StabilityRegion(cast(Time, system.time))
     discs, rate = located(system.time, [o.polynomial for o in decision.obstructions])
-    subspaces = tuple(evidence(system, o.subspace) for o in decision.obstructions)
+    subspaces = tuple(evidence(system.names, o.subspace) for o in decision.obstructions)
     by_blocks = _by_blocks(system, blocks, decision, subspaces)
     factors = tuple(
         _factor(system, decision, o, roots, region, by_blocks is not None)
@@ -266,7 +270,7 @@ def _by_blocks(
     system: MultiChannelSystem,
     blocks: tuple[Block, ...],
     decision: Decision,
-    subspaces: tuple[ShrunkSubspace, ...],
+    subspaces: tuple[Subspace, ...],
 ) -> ByBlocks | None:
     """The proof by blocks, if they leave just as many modes as the fixed factors account for."""
     obstructions = decision.obstructions
@@ -301,11 +305,12 @@ def _factor(
 ) -> FixedFactor:
     T, deficiency = set(obstruction.subspace.channels_T), obstruction.subspace.deficiency
     p, at_most = obstruction.polynomial, deficiency
+    open_exponent = by_blocks and system.n > _EXPONENTS
     if not by_blocks:
         at_most = polynomial_residues(p, decision.closed.modulus).multiplicity_in(decision.closed)
     return FixedFactor(
         polynomial=p,
-        multiplicity_in_A=obstruction.multiplicity_in_A,
+        multiplicity_in_A=None if open_exponent else obstruction.multiplicity_in_A,
         multiplicity_at_most=at_most,
         channels=system.named(i for i in range(system.m) if i not in T),
         rank=system.n - deficiency,

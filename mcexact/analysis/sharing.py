@@ -59,10 +59,12 @@ from mcexact.analysis.structure import (
 from mcexact.analysis.subspaces import (
     ExactSubspace,
     Obstruction,
+    complement,
     decide,
     evidence,
     exact_subspace,
     obstruction_modulo,
+    plain_evidence,
 )
 from mcexact.answer.evidence import Absence, BlocksAbsence, ConnectivityCut, DeficiencyCut, LinkCut
 from mcexact.answer.modes import ByBlocks as FixedByBlocks
@@ -154,12 +156,6 @@ def boundary(graph: NeighborGraph, s: Sequence[int]) -> frozenset[int]:
     return frozenset(graph.union(s)) - frozenset(s)
 
 
-def complement(m: int, channels: Sequence[int]) -> Channels:
-    """The complement of a set of channels."""
-    listed = set(channels)
-    return tuple(i for i in range(m) if i not in listed)
-
-
 def least_minimizers(
     system: MultiChannelSystem, p: Polynomial, rng: random.Random
 ) -> Iterator[Channels]:
@@ -220,7 +216,7 @@ def violated_subsets(
                 s = complement(base.m, T)
                 subspace, around = exact_subspace(base, T, p), boundary(graph, s)
                 if subspace and sum(dimensions[i] for i in around) < subspace.deficiency:
-                    lost, shrunk = subspace.deficiency, evidence(base, subspace)
+                    lost, shrunk = subspace.deficiency, evidence(base.names, subspace)
                     cut = DeficiencyCut(base.named(s), p, lost, shrunk)
                     here.append(CoveringCut(around, lost, cut))
             if here:
@@ -525,7 +521,7 @@ def deficiency(system: MultiChannelSystem) -> Deficiency:
             B0=lifted(B0),
             C0=lifted(C0),
             polynomial=worst.polynomial if worst else None,
-            subspace=evidence(system, worst.subspace) if worst else None,
+            subspace=evidence(system.names, worst.subspace) if worst else None,
         ),
     )
 
@@ -730,7 +726,7 @@ def _of_factor(
         if subspace is None:
             return None
         lost = subspace.deficiency
-        shrunk = DeficiencyCut(base.named(members), p, lost, evidence(base, subspace))
+        shrunk = DeficiencyCut(base.named(members), p, lost, evidence(base.names, subspace))
         return CoveringCut(boundary(graph, members), lost, shrunk)
 
     def violated(sizes: Sequence[int]) -> list[CoveringCut]:
@@ -899,7 +895,7 @@ class _Links:
             for k, (j, i) in enumerate(self.candidates)
             if i not in subspace.channels_T and not carried[j].is_zero()
         )
-        return CoveringCut(breaking, 1, LinkCut(p, evidence(self.chosen(()), subspace)))
+        return CoveringCut(breaking, 1, LinkCut(p, plain_evidence(self.plant.names, subspace)))
 
 
 def minimal_communication(

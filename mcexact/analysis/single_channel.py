@@ -389,7 +389,7 @@ def _obstruction(
     name = system.names[q]
     for obstruction in decide(full_output(target, q), rng).obstructions:
         return StuckWitness(
-            name, side, obstruction.polynomial, evidence(target, obstruction.subspace)
+            name, side, obstruction.polynomial, evidence(target.names, obstruction.subspace)
         )
     modular = next(residue_systems(target, rng))
     edges = suspected_edges(modular, rng)

@@ -5,12 +5,14 @@ A set T of channels and U, V over K = Q[x]/(p) with
     (xI − A) U = B_T V,   C_i U = 0 for every i outside T,   U has more columns than rank B_T
 
 prove that every root of p is fixed: for every F, λI − A_F maps im U into the smaller im B_T.
+So does such a U of the dual system (A', C_i', B_i'), for the complement s of T: it has
+rank C_s + d columns where that of T has rank B_T + d, d the deficiency of P_s.
 
 - `obstruction_modulo` decides one point μ modulo a prime: gains are repaired until μI − A_F has the
   greatest rank.  It then is nonsingular, so μ is not fixed, or the limit of a Wong sequence, one
   reduction of [N, B] with N = μI − A_F, is the least T.  No subset of channels is enumerated.
-- `shrunk_subspace` takes T from a root of p modulo a prime, and computes the subspace over K, which
-  is itself the proof.
+- `shrunk_subspace` takes T from a root of p modulo a prime, and computes the smaller one of both
+  subspaces over K, which is itself the proof.
 - `decide` finds all fixed factors: for drawn gains the common divisor of χ_A and χ_{A_F} modulo
   primes is lifted to Q and factored, and each factor has a shrunk subspace or is dropped.  It ends
   when the remaining factor of χ_A is coprime to χ_{A_F}, which proves that nothing else is fixed.
@@ -21,10 +23,11 @@ from __future__ import annotations
 
 import itertools
 import random
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
-from mcexact.answer.evidence import ShrunkSubspace
+from mcexact.answer.evidence import DualSubspace, ShrunkSubspace
+from mcexact.derived.constructions import dual
 from mcexact.derived.modular import (
     Gains,
     ModularSystem,
@@ -39,6 +42,7 @@ from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
     characteristic_polynomial,
     nullspace_at,
+    rank,
     row_echelon,
 )
 from mcexact.exact.matrix import Matrix, block
@@ -213,6 +217,8 @@ class ExactSubspace:
     pivots : tuple of int
     deficiency : int
         At least 1.
+    dual : bool
+        Whether U, V and the pivots are those of the dual system, for the complement of T.
     """
 
     channels_T: tuple[int, ...]
@@ -220,6 +226,7 @@ class ExactSubspace:
     V: PolynomialMatrix
     pivots: tuple[int, ...]
     deficiency: int
+    dual: bool = False
 
 
 def shrunk_subspace(
@@ -260,7 +267,7 @@ def shrunk_subspace(
         obstruction = obstruction_modulo(modular, drawn_gains(modular, rng), min(roots))
         if obstruction is None:
             return None
-        exact = exact_subspace(system, obstruction.channels_T, p)
+        exact = smaller_subspace(system, obstruction.channels_T, p)
         if exact is not None and exact.deficiency == obstruction.deficiency:
             return exact
     raise InternalError("the stream of primes is endless")
@@ -290,7 +297,7 @@ def exact_subspace(
     by U, every free column of the elimination is a row of U, and these rows carry the identity.
     """
     n = system.n
-    rest = [i for i in range(system.m) if i not in set(T)]
+    rest = complement(system.m, T)
     B, C = system.input_matrix(T), system.output_matrix(rest)
     _, independent = row_echelon(B)
     b = len(independent)
@@ -321,14 +328,35 @@ def exact_subspace(
     )
 
 
-def evidence(system: MultiChannelSystem, subspace: ExactSubspace) -> ShrunkSubspace:
-    """Make the evidence of a shrunk subspace."""
-    return ShrunkSubspace(
-        channels_T=system.named(subspace.channels_T),
-        U=subspace.U,
-        V=subspace.V,
-        pivots=subspace.pivots,
-    )
+def complement(m: int, channels: Iterable[int]) -> tuple[int, ...]:
+    """The channels that are not in a set of channels."""
+    listed = set(channels)
+    return tuple(i for i in range(m) if i not in listed)
+
+
+def smaller_subspace(
+    system: MultiChannelSystem, T: Sequence[int], p: Polynomial
+) -> ExactSubspace | None:
+    """`exact_subspace` of the system, or of its dual where that has fewer columns."""
+    rest = complement(system.m, T)
+    if rank(system.output_matrix(rest)) >= rank(system.input_matrix(T)):
+        return exact_subspace(system, T, p)
+    turned = exact_subspace(dual(system), rest, p)
+    return None if turned is None else replace(turned, channels_T=tuple(T), dual=True)
+
+
+def evidence(names: Sequence[str], subspace: ExactSubspace) -> ShrunkSubspace | DualSubspace:
+    """Make the evidence of a shrunk subspace of a system with these channels, or of its dual."""
+    T = subspace.channels_T
+    own = complement(len(names), T) if subspace.dual else T
+    space = plain_evidence(names, replace(subspace, channels_T=own))
+    return DualSubspace(tuple(names[i] for i in T), space) if subspace.dual else space
+
+
+def plain_evidence(names: Sequence[str], subspace: ExactSubspace) -> ShrunkSubspace:
+    """Make the evidence of a shrunk subspace in the system that it is about."""
+    T = tuple(names[i] for i in subspace.channels_T)
+    return ShrunkSubspace(T, subspace.U, subspace.V, subspace.pivots)
 
 
 # The search for all fixed factors.

@@ -38,6 +38,24 @@ class ShrunkSubspace(Part):
 
 
 @dataclass(frozen=True)
+class DualSubspace(Part):
+    """A shrunk subspace of the dual system (A', C_i', B_i'): rows W with W (xI − A) = Z C_s.
+
+    Where fewer outputs of s than inputs of T are independent, it is the smaller proof.
+
+    Attributes
+    ----------
+    channels_T : tuple of str
+        T, the channels that are not in the set of the dual system.
+    dual : ShrunkSubspace
+        Of the dual system, with U = W' and V = Z', and s in place of T.
+    """
+
+    channels_T: tuple[str, ...]
+    dual: ShrunkSubspace
+
+
+@dataclass(frozen=True)
 class LocalSubspace(Part):
     """A shrunk subspace of the system of some states, on which nothing acts that they drive.
 
@@ -49,13 +67,17 @@ class LocalSubspace(Part):
         states and drive none of them.
     states : tuple of int
         Increasing.
-    subspace : ShrunkSubspace
+    subspace : ShrunkSubspace or DualSubspace
         Of the system of the states, with the channels that measure some of them and drive some.
     """
 
     channels_T: tuple[str, ...]
     states: tuple[int, ...]
-    subspace: ShrunkSubspace
+    subspace: ShrunkSubspace | DualSubspace
+
+
+Subspace = ShrunkSubspace | DualSubspace | LocalSubspace
+"""What proves that a pencil loses rank."""
 
 
 @dataclass(frozen=True)
@@ -323,14 +345,14 @@ class DeficiencyCut(Part):
         p, monic, not inside the region.
     deficiency : int
         d ≥ 1.
-    subspace : ShrunkSubspace
+    subspace : Subspace
         Of deficiency d for p, with T the complement of s.
     """
 
     subset: tuple[str, ...]
     polynomial: Polynomial
     deficiency: int
-    subspace: ShrunkSubspace
+    subspace: Subspace
 
 
 @dataclass(frozen=True)

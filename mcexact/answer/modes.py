@@ -18,10 +18,9 @@ from dataclasses import dataclass, field
 from mcexact.answer.evidence import (
     Block,
     KrylovSequence,
-    LocalSubspace,
     RateInterval,
     RootDisc,
-    ShrunkSubspace,
+    Subspace,
     ZeroTransfer,
 )
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
@@ -43,7 +42,7 @@ class FixedFactor(Part):
     polynomial : Polynomial
         p, monic and irreducible over Q.
     multiplicity_in_A : int or None
-        The exponent of p in χ_A; None for large sparse systems, whose χ_A is not computed.
+        The exponent of p in χ_A; None for large systems, where its check would take longest.
     multiplicity_at_most : int
         A bound for the multiplicity of p as a fixed factor, which is the least exponent of p in
         χ_{A_F} over all constant gains: the multiplicity itself if the evidence is by blocks, else
@@ -88,13 +87,13 @@ class ByBlocks(Part):
     modulus : int or None
         ℓ ≥ 2, modulo which no two factors have a common root and none has a multiple one; None if
         there is no factor.
-    subspaces : tuple of ShrunkSubspace or LocalSubspace
+    subspaces : tuple of Subspace
         One for each factor, of deficiency n − rank.
     """
 
     blocks: tuple[Block, ...]
     modulus: int | None
-    subspaces: tuple[ShrunkSubspace | LocalSubspace, ...]
+    subspaces: tuple[Subspace, ...]
 
 
 @dataclass(frozen=True)
@@ -107,7 +106,7 @@ class TwoPolynomials(Part):
         F_i, p_i × q_i, one for each channel.
     modulus : int
         ℓ ≥ 2, modulo which the rest of χ_A is coprime to χ_{A_F}.
-    subspaces : tuple of ShrunkSubspace
+    subspaces : tuple of Subspace
         One for each factor, of deficiency n − rank.
     completion : Completion or None
         None if there is no factor.
@@ -115,7 +114,7 @@ class TwoPolynomials(Part):
 
     gains: tuple[Matrix, ...]
     modulus: int
-    subspaces: tuple[ShrunkSubspace, ...]
+    subspaces: tuple[Subspace, ...]
     completion: Completion | None
 
 
@@ -257,12 +256,12 @@ class FixedModeWitness(Part):
     ----------
     polynomial : Polynomial
         p, monic of degree at least 1.
-    subspace : ShrunkSubspace or LocalSubspace
+    subspace : Subspace
         Of deficiency at least 1 for p.
     """
 
     polynomial: Polynomial
-    subspace: ShrunkSubspace | LocalSubspace
+    subspace: Subspace
 
 
 @dataclass(frozen=True)

@@ -25,8 +25,7 @@ from mcexact.answer.evidence import (
     ConnectivityCut,
     DeficiencyCut,
     LinkCut,
-    LocalSubspace,
-    ShrunkSubspace,
+    Subspace,
     Tree,
 )
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
@@ -52,7 +51,7 @@ class ByCompletion(Part):
         n × ρ and ρ × n.
     polynomial : Polynomial or None
         p, monic of degree at least 1, at whose roots the deficiency is ρ; None iff ρ = 0.
-    subspace : ShrunkSubspace or None
+    subspace : Subspace or None
         Of deficiency ρ for p; None iff ρ = 0.
     """
 
@@ -61,10 +60,10 @@ class ByCompletion(Part):
     B0: Matrix
     C0: Matrix
     polynomial: Polynomial | None
-    subspace: ShrunkSubspace | None
+    subspace: Subspace | None
 
     @property
-    def worst(self) -> tuple[Polynomial, ShrunkSubspace] | None:
+    def worst(self) -> tuple[Polynomial, Subspace] | None:
         """A factor of the largest deficiency, with its subspace."""
         if self.polynomial is None or self.subspace is None:
             return None
@@ -79,13 +78,13 @@ class RankLoss(Part):
     ----------
     polynomial : Polynomial
     deficiency : int
-    subspace : ShrunkSubspace or LocalSubspace
+    subspace : Subspace
         Of this deficiency.
     """
 
     polynomial: Polynomial
     deficiency: int
-    subspace: ShrunkSubspace | LocalSubspace
+    subspace: Subspace
 
 
 @dataclass(frozen=True)
@@ -106,7 +105,7 @@ class ByBlocks(Part):
     losses: tuple[RankLoss, ...]
 
     @property
-    def worst(self) -> tuple[Polynomial, ShrunkSubspace | LocalSubspace] | None:
+    def worst(self) -> tuple[Polynomial, Subspace] | None:
         """A factor of the largest deficiency, with its subspace."""
         largest = max(self.losses, key=lambda loss: loss.deficiency, default=None)
         return None if largest is None else (largest.polynomial, largest.subspace)

@@ -15,7 +15,7 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import Any, ClassVar
 
-from mcexact.answer.evidence import Block, RootDisc, ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import Block, RootDisc, Subspace, ZeroTransfer
 from mcexact.answer.protocol import Answer, Part, answer, claim, is_about_dual, shown, witness
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import PolynomialMatrix, row_echelon
@@ -476,14 +476,14 @@ class StuckWitness(Part):
         ``"controllable"``, or ``"observable"``: then the subspace is one of the dual.
     polynomial : Polynomial
         p, monic of degree at least 1.
-    subspace : ShrunkSubspace
+    subspace : Subspace
         For p, with q in T.
     """
 
     channel: str
     side: str
     polynomial: Polynomial
-    subspace: ShrunkSubspace
+    subspace: Subspace
 
 
 @dataclass(frozen=True)

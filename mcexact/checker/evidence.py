@@ -1,8 +1,8 @@
 """Proofs that modes are fixed, and that no more are.
 
 - A mode is fixed: a `shrunk_subspace`, whose columns prove that a pencil P_s loses rank at every
-  root of a polynomial p.  It may be a shrunk subspace of some states on which nothing acts that
-  they drive (`Losses`).
+  root of a polynomial p.  It may be one of the dual system, whose pencils are the transposes, or of
+  some states on which nothing acts that they drive (`Losses`).
 - No more is fixed, by two characteristic polynomials (`TwoPolynomials`): what is left of
   det(xI − A) after the named factors is coprime modulo ℓ to det(xI − A_F), so that the gains F
   move all of it.
@@ -187,11 +187,29 @@ def shrunk_subspace(
     return T
 
 
+def _loss(value: Json, place: str, system: System, p: Polynomial, deficiency: int) -> list[int]:
+    """Check a shrunk subspace of the system or of the dual system, and return its T.
+
+    P_s is the transpose of the pencil of the dual system for the complement of s.
+
+    Theorem ``dual_subspace.dual_subspace_loss``.
+    """
+    if not (isinstance(value, Mapping) and "dual" in value):
+        return shrunk_subspace(value, place, system, p, deficiency)
+    listed, inner = fields(value, place, "channels_T", "dual")
+    B, C = [M.T for M in system.C], [M.T for M in system.B]
+    turned = System(system.time, system.names, system.A.T, B, C)
+    T = complement(system, shrunk_subspace(inner, f"{place}.dual", turned, p, deficiency))
+    same = names(listed, f"{place}.channels_T", system.names) == T
+    require(same, "claim", place, "T is not the complement of that of the dual system")
+    return T
+
+
 class Losses:
     """Proofs that pencils of one system lose rank, each by a shrunk subspace.
 
-    It is one of the whole system, or one of the system of some states: these may drive others, but
-    nothing that they drive acts on them.
+    It is one of the whole system or of its dual, or one of the system of some states: these may
+    drive others, but nothing that they drive acts on them.
     """
 
     def __init__(self, system: System) -> None:
@@ -201,21 +219,22 @@ class Losses:
         """Stop unless P_s loses at least this rank at every root of p, and return T = m − s."""
         if isinstance(value, Mapping) and "states" in value:
             return self._local_subspace(value, place, p, deficiency)
-        return shrunk_subspace(value, place, self.system, p, deficiency)
+        return _loss(value, place, self.system, p, deficiency)
 
     def _local_subspace(self, value: Json, place: str, p: Polynomial, deficiency: int) -> list[int]:
-        """Check a shrunk subspace of the system of some states Z.
+        """Check a shrunk subspace of the system of some states Z, or of the dual of that system.
 
         With D the other states that Z drives, the columns of U and of the identity for D are mapped
-        by xI − A into the span of the latter and of the rows of B_T for Z.
+        by xI − A into the span of the latter and of the rows of B_T for Z.  In the dual system the
+        states that are neither in Z nor in D are in place of D.
 
-        Theorem ``local_subspace.shrunk_subspace_local``.
+        Theorems ``local_subspace.shrunk_subspace_local``, ``dual_subspace.dual_subspace_local``.
         """
         chosen, listed, inner = fields(value, place, "states", "channels_T", "subspace")
         states = positions(chosen, f"{place}.states", self.system.n)
         seeing, acting = self._channels(set(states), place)
         part = _part(self.system, states, acting)
-        inside = shrunk_subspace(inner, f"{place}.subspace", part, p, deficiency)
+        inside = _loss(inner, f"{place}.subspace", part, p, deficiency)
         T = sorted(seeing.difference(acting).union(acting[k] for k in inside))
         same = names(listed, f"{place}.channels_T", self.system.names) == T
         require(same, "claim", place, "T is not the channels that see what the states drive")

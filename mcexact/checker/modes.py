@@ -516,7 +516,7 @@ def check_deficiency(claim: Json, witness: Json, system: System) -> None:
     evidence.require_coprime(before, after, ell, "det(xI - A) and det(xI - A_F - B0 C0)")
     if rho:
         p = polynomial(coefficients, "witness.polynomial", 1)
-        evidence.shrunk_subspace(subspace, "witness.subspace", system, p, rho)
+        evidence.Losses(system).checked(subspace, "witness.subspace", p, rho)
     else:
         null = coefficients is None and subspace is None
         message = "expected no polynomial and no subspace, rank is not lost"

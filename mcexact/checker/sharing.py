@@ -235,7 +235,7 @@ def read_cut(
         s = reading.names(listed, f"{place}.subset", base.names)
         p, demand = reading.polynomial(factor, place, 1), reading.integer(number, place, 1)
         modes.require_outside(p, base, bound, place)
-        T = evidence.shrunk_subspace(subspace, f"{place}.subspace", base, p, demand)
+        T = evidence.Losses(base).checked(subspace, f"{place}.subspace", p, demand)
     require(evidence.complement(base, s) == T, "cut", place, "T is not the complement of s")
     return s, demand
 

@@ -739,5 +739,5 @@ def _require_lost(witness: Json, system: System, Q: list[int], sides: tuple[str,
         require(not C.is_zero() and (C @ X).is_zero(), "cut", "witness.zero", "C = 0 or C X is not")
     else:
         p = reading.polynomial(parts[0], "witness.polynomial", 1)
-        T = evidence.shrunk_subspace(parts[1], "witness.subspace", target, p, 1)
+        T = evidence.Losses(target).checked(parts[1], "witness.subspace", p, 1)
     require(q in T and q in Q, "channel", "witness.channel", "not in the set T, or not asked about")

@@ -21,4 +21,4 @@ Extract Constant Z.ltb => "Zarith_integers.lt".
 Extract Constant Z.leb => "Zarith_integers.leq".
 Extract Constant Z.modulo => "Zarith_integers.modulo".
 Set Extraction Output Directory ".".
-Extraction "kernel.ml" check_whole loop_residues completed zchar zpart zpmul zmm.
+Extraction "kernel.ml" check_whole loop_residues completed zchar zpart zdual zpmul zmm.

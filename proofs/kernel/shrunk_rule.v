@@ -5,10 +5,10 @@
    T; some rows of U are the identity, and U has d columns more than Y.  Certificates have B_T in place of Y, and its
    rank in place of the number of columns: who prepares the witness finds Y and X with B_i = Y X_i.  The subspace of
    some states that drive others is one of the whole system, with a column of U and of Y for each state that is driven
-   (local_subspace.v). *)
+   (local_subspace.v).  One of the dual system proves the same for the other channels (dual_subspace.v). *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel arithmetic evidence shrunk_multiplicity local_subspace.
+From mcexact Require Import multichannel arithmetic evidence shrunk_multiplicity local_subspace dual_subspace.
 From mcexact.kernel Require Import lists systems.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
@@ -161,16 +161,36 @@ Proof.
 have := @map_pencil _ _ [rmorphism of @idfun K] _ _ _ _ S T' lambda; rewrite map_mx_id // => ->.
 Qed.
 
+Lemma loss_sound (P : {poly K}) T' : P != 0 -> rank_loss S P T' d ->
+  (forall F, P ^+ d %| char_poly (closed_loop S F)) /\
+  (forall lambda, root P lambda -> (\rank (pencil S (~: T') lambda) + d <= n)%N).
+Proof.
+move=> P0 loss; split=> [F|lambda rt].
+  have := @shrunk_subspace_divides _ _ _ _ _ S _ _ _ loss _ [rmorphism of @idfun K] F P0.
+  by rewrite map_poly_id // closed_loop_id.
+have := @shrunk_subspace_pencil _ _ _ _ _ S _ _ _ loss _ [rmorphism of @idfun K] lambda.
+by rewrite map_poly_id // pencil_id; apply.
+Qed.
+
+Lemma checked_nonzero s' : check_shrunk s' pl c d -> up K pl != 0.
+Proof. by move=> ok; apply/monic_neq0/(up_monic h); move: ok; rewrite /check_shrunk => /and5P[]. Qed.
+
 Theorem check_shrunk_sound : check_shrunk s pl c d ->
   (forall F, up K pl ^+ d %| char_poly (closed_loop S F)) /\
   (forall lambda, root (up K pl) lambda -> (\rank (pencil S (~: T) lambda) + d <= n)%N).
-Proof.
-move=> ok; have sub := check_shrunk_subspace ok.
-have P0 : up K pl != 0 by apply/monic_neq0/(up_monic h); move: ok; rewrite /check_shrunk => /and5P[].
-split=> [F|lambda rt].
-  have := @shrunk_subspace_divides _ _ _ _ _ S _ _ _ sub _ [rmorphism of @idfun K] F P0.
-  by rewrite map_poly_id // closed_loop_id.
-have := @shrunk_subspace_pencil _ _ _ _ _ S _ _ _ sub _ [rmorphism of @idfun K] lambda.
-by rewrite map_poly_id // pencil_id; apply.
-Qed.
+Proof. by move=> ok; apply: loss_sound (checked_nonzero ok) _; apply: check_shrunk_subspace. Qed.
 End Shrunk.
+
+(* The channels of the dual system's subspace are s, and T are the others. *)
+Theorem check_dual_sound s pl c d (K : fieldType) (h : {rmorphism rat -> K}) n m (p q : 'I_m -> nat) (S : multichannel K n p q) :
+  represents s S -> check_shrunk (zdual s) pl c d ->
+  (forall F, up K pl ^+ d %| char_poly (closed_loop S F)) /\
+  (forall lambda, root (up K pl) lambda -> (\rank (pencil S (~: channels_at m (map negb (b_T c))) lambda) + d <= n)%N).
+Proof.
+move=> re ok; apply: loss_sound (checked_nonzero h ok) _.
+have sT : size (b_T c) = m.
+  move: ok; rewrite /check_shrunk => /and5P[_ _ _ _ /and3P[_ /and5P[/eqP -> _ _ _ _] _]].
+  by rewrite size_map; case: re.
+apply: dual_subspace_loss; rewrite channels_at_compl // setCK.
+exact: check_shrunk_subspace h (dual_represents re) ok.
+Qed.

@@ -153,9 +153,6 @@ have rv : (v < size (zC (channel s k)))%N by rewrite (shape_size sC).
 by have e3 := @nth_map _ [::] _ [::] (mask mk) v (zC (channel s k)) rv; rewrite e3 e2.
 Qed.
 
-(* Transposes of all matrices, inputs and outputs exchanged. *)
-Definition dual (R : Type) n m (p q : 'I_m -> nat) (S : multichannel R n p q) : multichannel R n q p :=
-  Multichannel (mcA S)^T (fun i => (mcC S i)^T) (fun i => (mcB S i)^T).
 Lemma transpose_nth a b M i j : (i < b)%N -> (j < a)%N -> nth z0 (nth [::] (ztranspose a b M) i) j = nth z0 (nth [::] M j) i.
 Proof. by move=> ib ja; rewrite nth_mkseq // nth_mkseq. Qed.
 Lemma shape_transpose a b M : shape b a (ztranspose a b M).

@@ -6,7 +6,13 @@ from collections.abc import Sequence
 
 import pytest
 
-from mcexact.analysis.subspaces import exact_subspace, obstruction_modulo, shrunk_subspace
+from mcexact.analysis.subspaces import (
+    evidence,
+    exact_subspace,
+    obstruction_modulo,
+    shrunk_subspace,
+)
+from mcexact.answer.evidence import DualSubspace
 from mcexact.derived.modular import ModularSystem, closed_loop, drawn_gains
 from mcexact.exact.linear_algebra import PolynomialMatrix, rank
 from mcexact.exact.matrix import Matrix
@@ -117,6 +123,27 @@ def test_exact_subspaces_satisfy_the_three_identities() -> None:
             assert (system.C(i) @ found.U).is_zero()
     assert found.U.take(rows=found.pivots) == PolynomialMatrix.identity(found.U.ncols)
     assert found.U.ncols == rank(system.input_matrix(T)) + found.deficiency
+
+
+def test_a_mode_that_no_input_drives_takes_one_row_and_not_a_column_for_each_input() -> None:
+    A = [[1, 2, 3, 4], [5, 6, 7, 8], [9, 8, 7, 6], [0, 0, 0, 2]]
+    B = [[[1], [0], [0], [0]], [[0], [1], [0], [0]], [[0], [0], [1], [0]]]
+    C = [[[1, 2, 0, 1]], [[0, 1, 3, 1]], [[1, 1, 1, 1]]]
+    system, p = MultiChannelSystem(A, B, C), Polynomial.of(-2, 1)
+    found = shrunk_subspace(system, p, random.Random(0))
+    assert found is not None
+    assert found.dual
+    assert found.channels_T == (0, 1, 2)
+    assert found.U.ncols == found.deficiency == 1
+    pencil = PolynomialMatrix.pencil(-system.A.T, Matrix.identity(4))
+    assert ((pencil @ found.U) % p).is_zero()
+    assert (system.input_matrix().T @ found.U).is_zero()
+    whole = exact_subspace(system, found.channels_T, p)
+    assert whole is not None
+    assert whole.U.ncols == 4
+    made = evidence(system.names, found)
+    assert isinstance(made, DualSubspace)
+    assert (made.channels_T, made.dual.channels_T) == (("1", "2", "3"), ())
 
 
 def test_a_set_that_proves_nothing_has_no_subspace() -> None:

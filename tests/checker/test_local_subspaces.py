@@ -77,6 +77,18 @@ BOTH_SIDES = plant(
     ([[1], [0], [0]], [[0, 1, 1]]),
     ([[0], [1], [0]], [[0, 1, 0]]),
 )
+# Channel 1 drives states 0 and 1, of which it measures 0; state 0 drives state 2, channel 2 drives
+# and measures that.  Left eigenvectors take one row where the inputs take two columns.
+ACROSS = plant(
+    [[2, 0, 0], [0, 2, 0], [1, 0, 5]],
+    ([[1], [1], [0]], [[1, 1, 0]]),
+    ([[0], [0], [1]], [[0, 0, 1]]),
+)
+LEFT: Document = {
+    "channels_T": ["1", "2"],
+    "states": [0, 1],
+    "subspace": {"channels_T": ["1"], "dual": {**ALONE, "U": layers([[1], [-1]])}},
+}
 
 CHAINED = {
     "channels_T": [],
@@ -91,6 +103,8 @@ REDUCIBLE = {
     "subspace": {**ALONE, "U": layers([[-2], [1]], [[1], [0]]), "pivots": [1]},
 }
 
+ROW = ("subspace.dual.U", layers([[1], [1]]))
+
 VALID: list[Row] = [
     ("a state between two channels", BETWEEN, SEVEN, [-7, 1], 1),
     ("two states of one mode", TWO, BOTH, [-1, 1], 2),
@@ -99,6 +113,7 @@ VALID: list[Row] = [
     ("a channel within the states that does not see the mode", INNER, MEASURED, [-2, 1], 1),
     ("a channel within the states, in T", INNER, DRIVEN, [-2, 1], 1),
     ("the eigenvector of a Jordan chain", PAIR, CHAINED, [-1, 1], 1),
+    ("a row of the states that no channel drives", ACROSS, LEFT, [-2, 1], 1),
     ("a reducible polynomial", TWO_MODES, REDUCIBLE, [2, -3, 1], 1),
 ]
 INVALID: list[Row] = [
@@ -140,6 +155,9 @@ INVALID: list[Row] = [
         [21, -10, 1],
         1,
     ),
+    ("a row that a channel drives", ACROSS, changed(LEFT, ROW), [-2, 1], 1),
+    ("a row at another mode", ACROSS, LEFT, [-5, 1], 1),
+    ("T without a channel of the states", ACROSS, changed(LEFT, ("channels_T", ["2"])), [-2, 1], 1),
     ("no eigenvectors", PAIR, changed(BOTH, ("channels_T", [])), [-1, 1], 2),
     ("the mode that the inner channel measures", INNER, MEASURED, [-3, 1], 1),
     (

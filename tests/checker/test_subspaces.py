@@ -8,7 +8,12 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.evidence import require_pencil_kernel, shrunk_subspace, zero_transfer
+from mcexact.checker.evidence import (
+    Losses,
+    require_pencil_kernel,
+    shrunk_subspace,
+    zero_transfer,
+)
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import read_plant
 from tests.checker.handmade import CHAIN, OSCILLATOR, PAIR, layers, matrix, plant
@@ -112,6 +117,69 @@ def test_a_subspace_is_shrunk_or_not(
         with pytest.raises(Refused) as found:
             shrunk_subspace(value, "subspace", read, p, deficiency)
         assert found.value.verdict == verdict
+
+
+UNDRIVEN = plant([[2, 0, 1], [0, 3, 4], [0, 0, 5]], ([[1, 0], [0, 1], [0, 0]], [[1, 1, 1]]))
+"""No input drives x_3, and the row (0, 0, 1) is an eigenvector at 5."""
+ANOTHER = plant([[2, 0], [1, 1]], ([[1], [0]], [[1, 0]]))
+LAST: dict[str, Any] = {
+    "channels_T": ["1"],
+    "dual": {"channels_T": [], "U": layers([[0], [0], [1]]), "V": layers([]), "pivots": [2]},
+}
+BEHIND: dict[str, Any] = {"channels_T": [], "dual": DRIVEN}
+# Channel 1 drives and measures x_1; channel 2 drives x_2, which drives x_1, and measures x_2.
+STACKED = plant(
+    [[2, 1], [0, 2]],
+    ([[1], [0]], [[1, 0]]),
+    ([[0], [1]], [[0, 1]]),
+)
+TURNED: dict[str, Any] = {
+    "channels_T": ["1"],
+    "dual": {"channels_T": ["2"], "U": layers([[0], [1]]), "V": layers([[0]]), "pivots": [1]},
+}
+
+DUAL: list[tuple[str, Any, dict[str, Any], list[Fraction], int, str]] = [
+    ("a mode that nothing drives", UNDRIVEN, LAST, exact(-5, 1), 1, "VALID"),
+    ("another mode", UNDRIVEN, LAST, exact(-2, 1), 1, "INVALID"),
+    ("a row that inputs drive", UNDRIVEN, {**LAST, "channels_T": []}, exact(-5, 1), 1, "INVALID"),
+    (
+        "the other channels, and rows that inputs drive",
+        UNDRIVEN,
+        {"channels_T": [], "dual": {**LAST["dual"], "channels_T": ["1"], "V": layers([[0]])}},
+        exact(-5, 1),
+        1,
+        "INVALID",
+    ),
+    ("more than is lost", UNDRIVEN, LAST, exact(-5, 1), 2, "INVALID"),
+    ("nothing lost", UNDRIVEN, LAST, exact(-5, 1), 0, "INVALID"),
+    (
+        "a row that the first input drives",
+        UNDRIVEN,
+        {**LAST, "dual": {**LAST["dual"], "U": layers([[1], [0], [0]]), "pivots": [0]}},
+        exact(-2, 1),
+        1,
+        "INVALID",
+    ),
+    ("a mode behind an output", PAIR, BEHIND, TWO, 1, "VALID"),
+    ("the dual of another system", ANOTHER, BEHIND, TWO, 1, "INVALID"),
+    ("one output and one row", STACKED, TURNED, TWO, 1, "INVALID"),
+    ("a dual of a dual", PAIR, {"channels_T": [], "dual": LAST}, TWO, 1, "MALFORMED"),
+    ("more keys", UNDRIVEN, {**LAST, "states": [0]}, exact(-5, 1), 1, "MALFORMED"),
+]
+
+
+@pytest.mark.parametrize(("reason", "system", "value", "p", "deficiency", "verdict"), DUAL)
+def test_a_subspace_of_the_dual_is_shrunk_or_not(
+    reason: str, system: Any, value: Any, p: list[Fraction], deficiency: int, verdict: str
+) -> None:
+    read = read_plant(system)
+    if verdict == "VALID":
+        T = Losses(read).checked(value, "subspace", p, deficiency)
+        assert [read.names[i] for i in T] == value["channels_T"], reason
+    else:
+        with pytest.raises(Refused) as found:
+            Losses(read).checked(value, "subspace", p, deficiency)
+        assert found.value.verdict == verdict, reason
 
 
 def test_the_kernel_is_reduced_from_the_top() -> None:

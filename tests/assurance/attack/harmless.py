@@ -99,6 +99,9 @@ HARMLESS: dict[str, str] = {
     "evidence.py: _channels: max(driven) <= min(seen)": (
         "a channel that leads to a later block acts within none, and leaving out a channel proves less"
     ),
+    "evidence.py: _loss: names(listed, f'{place}.channels_T', system.names) == T": (
+        "T is computed, and the claimed one only compared"
+    ),
     "evidence.py: _local_subspace: names(listed, f'{place}.channels_T', self.system.names) == T": (
         "T is computed, and the claimed one only compared"
     ),

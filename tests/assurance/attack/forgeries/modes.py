@@ -109,6 +109,39 @@ def _local_subspace(rng: random.Random, system: Any) -> tuple[Any, Document] | N
     return p, {"channels_T": T, "states": states, "subspace": space}
 
 
+def fixed_by_rows(rng: random.Random, document: Document) -> Forged:
+    """Not complete, by rows W with W (xI − A) = Z C_s, which inputs may move."""
+    system = subject_of(document)
+    roots = [p for p, _ in algebra.irreducible_factors(system.A.charpoly()) if p.degree() == 1]
+    if not roots:
+        return None
+    p = rng.choice(roots)
+    document["claim"]["complete"] = False
+    document["witness"] = {
+        "polynomial": coefficients(p),
+        "subspace": _dual_subspace(rng, system, p),
+    }
+    return document
+
+
+def _dual_subspace(rng: random.Random, system: Any, p: Any) -> Document:
+    """Left eigenvectors of A, or all rows, with a set that may be wrong or not the complement."""
+    s = [name for name in system.names if rng.random() < 0.4]
+    T = [name for name in system.names if name not in s]
+    rows, pivots = left_kernel(system.A + p[0] * algebra.identity(system.n))
+    U = written(rows.transpose())
+    width = sum(system.C[system.names.index(name)].nrows() for name in s)
+    space = {
+        "channels_T": s,
+        "U": {"denominator": U["denominator"], "coefficients": [U["entries"]]},
+        "V": {"denominator": 1, "coefficients": [[[0] * len(pivots) for _ in range(width)]]},
+        "pivots": pivots,
+    }
+    if rng.random() < 0.3:
+        T = [name for name in system.names if rng.random() < 0.5]
+    return {"channels_T": T, "dual": space}
+
+
 def _movable(rng: random.Random, system: Any) -> Document:
     factors = algebra.irreducible_factors(system.A.charpoly())
     p = rng.choice(factors)[0] if factors else algebra.X
@@ -203,7 +236,9 @@ def factor_added(rng: random.Random, document: Document) -> Forged:
             "roots": [{"re": digits, "im": "0", "radius": "0"}],
         }
     )
-    made = _local_subspace(rng, system) if rng.random() < 0.5 else None
+    made = _local_subspace(rng, system) if rng.random() < 0.4 else None
+    if rng.random() < 0.3:
+        made = p, _dual_subspace(rng, system, p)
     space = _empty_subspace(rng, system, T) if made is None else made[1]
     if made is not None:
         factor = claim["factors"][-1]
@@ -350,7 +385,7 @@ def vanishing_kernel(rng: random.Random, document: Document) -> Forged:
 
 COMPLETENESS = (
     *(no_subset_at_all, unconnected, unconnected, fixed_by_nothing),
-    *(fixed_within_states, fixed_within_states),
+    *(fixed_within_states, fixed_within_states, fixed_by_rows, fixed_by_rows),
 )
 DEFICIENCY = (other_deficiency,)
 SPECTRUM = (
