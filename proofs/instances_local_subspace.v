@@ -86,7 +86,8 @@ Definition in_Z : x2 \in Z. Proof. by rewrite !inE. Qed.
 Lemma part_dual : shrunk_subspace (dual part) 'X (~: [set: 'I_1]) 1.
 Proof.
 apply: (@shrunk_by_inputs _ _ _ _ _ _ _ _ _ 1 row2 0 (fun=> enum_rank_in in_Z x2)).
-- rewrite mulmx0 subr0 (_ : mcA (dual part) = 0) ?map_mx0 ?subr0 => [i j|]; last by rewrite /= part_state trmx0.
+- have -> : mcA (dual part) = 0 by rewrite -[LHS]/((mcA part)^T) part_state trmx0.
+  rewrite mulmx0 subr0 map_mx0 subr0 => i j.
   by rewrite mul_scalar_mx mxE dvdp_mulIl.
 - move=> i _; rewrite (_ : map_mx polyC _ *m row2 = 0); first exact: zero_modulo0.
   apply/matrixP=> v j; rewrite !mxE big1// => a _; rewrite !mxE.

@@ -49,7 +49,7 @@ from mcexact.answer.structure import (
 )
 from mcexact.derived.constructions import dual
 from mcexact.derived.modular import generator, residue_systems, short_modulus
-from mcexact.errors import Impossible, InternalError
+from mcexact.errors import Impossible, InternalError, LimitReached
 from mcexact.exact.krylov import InvariantSubspace, controllable_subspace, krylov_rows
 from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
@@ -63,6 +63,7 @@ from mcexact.exact.modular import ModularMatrix, polynomial_residues, primes, re
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import root_discs
 from mcexact.model.entries import as_matrix, require_shape
+from mcexact.exact.tables import LARGEST_WRITTEN_OUT
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem, any_system
 
@@ -323,6 +324,11 @@ def controllability_indices(
     any_system(system)
     T = range(system.m) if channels is None else system.indices(channels)
     B = system.input_matrix(T)
+    if system.A.is_sparse and system.n**2 > LARGEST_WRITTEN_OUT:
+        raise LimitReached(
+            f"indices of {system.n} states: their proof has a Krylov matrix of {system.n} rows, which "
+            "is not sparse, and would be checked for minutes"
+        )
     rng = generator(system, "controllability_indices")
     for modular in residue_systems(system, rng, bits=61):
         degrees = _column_degrees(modular.A, residues(B, modular.modulus))

@@ -29,7 +29,7 @@ _MOST_DEGREE = 60
 
 def _left_out_with_numbers(question: Question, system: Any) -> str:
     """The limit for numbers: dense matrices of many states."""
-    if question.most and system.n > question.most:
+    if question.most and system.n > question.most and not (question.sparse and system.A.is_sparse):
         return f"more than {question.most} states, of which it needs dense matrices"
     return ""
 
@@ -97,6 +97,8 @@ class Question:
     most : int
         If not 0, it is asked by default only of at most so many states without parameters, which
         take about a minute on one processor.
+    sparse : bool
+        Whether ``most`` is not for plants of sparse matrices.
     pairs : bool
         Whether the evidence for all values of parameters has a certificate for every two channels.
     keywords : mapping
@@ -125,6 +127,7 @@ class Question:
     option: str = ""
     ports: str = ""
     most: int = 0
+    sparse: bool = False
     pairs: bool = False
     keywords: Mapping[str, Any] = field(default_factory=dict)
     reuses: Mapping[str, str] = field(default_factory=dict)
@@ -267,12 +270,14 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "the parts into which the closed-loop spectrum splits",
             reuses={"graph": "transfer_graph"},
             most=_DENSE,
+            sparse=True,
         ),
         "setpoint": Question(
             "structure:setpoint_solvability",
             "whether every output can be held at any value",
             about="plant",
             most=_DENSE,
+            sparse=True,
             for_all_values=True,
         ),
         "complementary_subsystem": Question(

@@ -39,7 +39,7 @@ from mcexact.derived.modular import (
     residue_systems,
     short_modulus,
 )
-from mcexact.errors import InternalError, UsageError
+from mcexact.errors import InternalError, LimitReached, UsageError
 from mcexact.exact.krylov import InvariantSubspace, controllable_subspace
 from mcexact.exact.linear_algebra import (
     PolynomialMatrix,
@@ -54,10 +54,11 @@ from mcexact.exact.linear_algebra import (
     solve,
 )
 from mcexact.exact.matrix import Matrix, block, hstack, vstack
-from mcexact.exact.modular import ModularMatrix, primes, residues
+from mcexact.exact.modular import ModularMatrix, primes, residues, sparse_rank
 from mcexact.exact.modular import hstack as modular_hstack
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import steady_point
+from mcexact.exact.tables import LARGEST_WRITTEN_OUT
 from mcexact.model.graph import strong_components
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
@@ -542,8 +543,11 @@ def setpoint_solvability(
     place, unit, none = steady_point(system.time), Matrix.identity(n), Matrix.zeros
     lower = none(C.nrows, B.ncols)
     S = block([[system.A - unit * place, B], [C, lower]])
-    rng = generator(system, "setpoint")
     W, pivots = none(0, S.nrows), tuple[int, ...]()
+    modulus = _full_rank_by_bands(S) if is_large_and_sparse(system) else None
+    if modulus is not None:
+        return _solvable(system, S.nrows, modulus)
+    rng = generator(system, "setpoint")
     modulus = next(_usable_primes(S, rng))
     if residues(S, modulus).rank() < S.nrows:
         W, pivots = row_echelon(left_nullspace(S))
@@ -570,6 +574,45 @@ def setpoint_solvability(
         point=point,
         normal=normal,
     )
+
+
+def _solvable(system: MultiChannelSystem, rank: int, modulus: int) -> SetpointSolvability:
+    """The answer yes, by the rank modulo a prime."""
+    return SetpointSolvability(
+        system,
+        solvable=True,
+        rank=rank,
+        invariant_zero=None,
+        modulus=modulus,
+        left=Matrix.zeros(0, rank),
+        pivots=(),
+        point=None,
+        normal=None,
+    )
+
+
+_MOST_IN_BANDS = 10**9
+"""The bytes that an elimination in bands may go through: some seconds."""
+
+
+def _full_rank_by_bands(S: Matrix) -> int | None:
+    """A short prime modulo which a large sparse S = [A B; C 0] has full row rank, or None.
+
+    Raises
+    ------
+    LimitReached
+        None was found, and S is too large for other ways.
+    """
+    reason = f"[A B; C 0] has no rank {S.nrows} modulo small primes"
+    try:
+        for ell in SHORT:
+            if S.denominator % ell and sparse_rank(S, ell, _MOST_IN_BANDS) == S.nrows:
+                return ell
+    except LimitReached as limit:
+        reason = str(limit)
+    if S.nrows * S.ncols > LARGEST_WRITTEN_OUT:
+        raise LimitReached(f"{reason}; larger numbers would take all of its zeros")
+    return None
 
 
 def _usable_primes(S: Matrix, rng: random.Random) -> Iterator[int]:

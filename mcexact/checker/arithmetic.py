@@ -568,8 +568,83 @@ def rank_modulo(A: Matrix, ell: int) -> int:
 
     Theorem ``arithmetic.rank_from_below``.
     """
+    if ell <= SMALL and isinstance(A, SparseMatrix):
+        return banded_rank(residues(A, ell), A.nrows, A.ncols, ell)
     basis = echelon(ell, A.ncols)
     return sum(basis.add(row) is not None for row in A.modulo(ell))
+
+
+def banded_rank(entries: list[Entry], nrows: int, ncols: int, ell: int) -> int:
+    """The rank modulo ℓ ≤ ``SMALL`` of a matrix of few entries, which are residues.
+
+    Columns are eliminated in an order in which those of a row are near each other.  Rows are long
+    integers with a byte for each column from the present one on, and those that have met none of
+    their columns wait.  Bytes are reduced before they overflow.
+
+    Theorem ``arithmetic.rank_from_below``.
+    """
+    spend(200 * (len(entries) + nrows + ncols))
+    place, tables = _by_breadth(entries, nrows, ncols), multiples(ell)
+
+    def reduced(row: int, factor: int = 1) -> int:
+        data = row.to_bytes((row.bit_length() + 7) // 8, "little")
+        return _packed(data.translate(tables[factor % ell]), 1)
+
+    lines: list[list[tuple[int, int]]] = [[] for _ in range(nrows)]
+    for i, j, x in entries:
+        lines[i].append((place[j], x))
+    starting: list[list[int]] = [[] for _ in range(ncols)]
+    for line in filter(None, lines):
+        first = min(line)[0]
+        spend(max(line)[0] - first)
+        starting[first].append(sum(x << 8 * (k - first) for k, x in line))
+    count, room, active = 0, 0, list[int]()
+    for new in counted(starting):
+        active += new
+        spend(80 + sum(map(int.bit_length, active)) // 400 + 12 * len(active))
+        if not room:
+            spend(sum(map(int.bit_length, active)) // 100)
+            room, active = most_addends(ell) - 1, [*filter(None, map(reduced, active))]
+        room -= 1
+        meeting = [row for row in active if (row & 255) % ell]
+        pivot = min(meeting, key=int.bit_length, default=None)
+        if pivot is None:
+            active = [row >> 8 for row in active]
+            continue
+        count += 1
+        active.remove(pivot)
+        f = -inverse((pivot & 255) % ell, ell)
+        spend(ell * (40 + pivot.bit_length() // 30) + budget.inversions(1, 1))
+        taken = [reduced(pivot, f * k) for k in range(ell)]
+        active = [(row + taken[(row & 255) % ell]) >> 8 for row in active]
+    return count
+
+
+def _by_breadth(entries: list[Entry], nrows: int, ncols: int) -> list[int]:
+    """For each column its place in an order by breadth, from an end of each connected part."""
+    columns: list[list[int]] = [[] for _ in range(ncols)]
+    rows: list[list[int]] = [[] for _ in range(nrows)]
+    for i, j, _ in entries:
+        columns[j].append(i)
+        rows[i].append(j)
+
+    def connected(start: int) -> list[int]:
+        order, seen, met = [start], {start}, set[int]()
+        for j in order:
+            for i in columns[j]:
+                if i not in met:
+                    met.add(i)
+                    new = [k for k in rows[i] if k not in seen]
+                    seen.update(new)
+                    order += new
+        return order
+
+    place, count = [-1] * ncols, 0
+    for start in sorted(range(ncols), key=lambda j: len(columns[j])):
+        if place[start] < 0:
+            for j in connected(connected(start)[-1]):
+                place[j], count = count, count + 1
+    return place
 
 
 def poly_modulo(p: Polynomial, ell: int) -> Polynomial:

@@ -361,26 +361,64 @@ Triples = list[tuple[int, int, int]]
 def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] | None:
     """A claimed edge (j, i, k) with C_i A^k B_j = 0 modulo ℓ, or None; ℓ is at most ``SMALL``.
 
-    Each row of A^k [B_1 … B_m] is one long integer, with a byte for each column.
+    Each row of A^k [B_1 … B_m] is one long integer, with a byte for each column.  The states are in
+    the order of the last step whose row matters, so that the rows of a step are the first ones.
 
     Theorem ``transfer_graph.arc_rule``.
     """
     sizes = [0, *accumulate(B.ncols for B in system.B)]
-    width, power = sizes[-1], _inputs(system, sizes, ell)
-    A, *outputs = (SparseProduct(M, width, ell) for M in (system.A, *system.C))
+    width, rows = sizes[-1], _inputs(system, sizes, ell)
     wanted: dict[int, dict[int, list[int]]] = {}
     for j, i, k in triples:
         wanted.setdefault(k, {}).setdefault(i, []).append(j)
+    last = _last_steps(system, triples)
+    order = sorted(range(system.n), key=last.__getitem__, reverse=True)
+    place = dict(zip(order, range(system.n), strict=True))
+    power, many = [rows[a] for a in order], system.n
+    spend(100 * system.n)
+    entries = [(place[a], place[b], x) for a, b, x in residues(system.A, ell)]
+    A = SparseProduct(entries, system.n, width, ell)
+    outputs = [
+        SparseProduct([(v, place[b], x) for v, b, x in residues(C, ell)], C.nrows, width, ell)
+        for C in system.C
+    ]
     for k in counted(range(max(wanted, default=-1) + 1)):
         for i, sources in wanted.get(k, {}).items():
             spend(len(outputs[i].lines) * (8 + width // 8))
-            rows = [x.to_bytes(width, "little") for x in outputs[i](power)]
-            spend(sum(40 + system.B[j].ncols * len(rows) for j in sources))
+            seen = [x.to_bytes(width, "little") for x in outputs[i](power)]
+            spend(sum(40 + system.B[j].ncols * len(seen) for j in sources))
             for j in sources:
-                if not any(any(row[sizes[j] : sizes[j + 1]]) for row in rows):
+                if not any(any(row[sizes[j] : sizes[j + 1]]) for row in seen):
                     return j, i, k
-        power = A(power)
+        while many and last[order[many - 1]] <= k:
+            many -= 1
+        power = A(power, many)
     return None
+
+
+def _last_steps(system: System, triples: Triples) -> list[int]:
+    """For each state a the largest k with row a of A^k B in a claimed edge, or −1.
+
+    Row a of A^k B is in the output C_i A^(k+l) B if a path of l arcs leads from a to it.
+    """
+    last, largest, lines = [-1] * system.n, dict[int, int](), _lines(entries_of(system.A), system.n)
+    for _, i, k in triples:
+        largest[i] = max(largest.get(i, 0), k)
+    top = max(largest.values(), default=0)
+    turns: list[list[int]] = [[] for _ in range(top + 1)]
+    for i, k in largest.items():
+        for _, b, _ in entries_of(system.C[i]):
+            last[b] = max(last[b], k)
+            turns[k].append(b)
+    for k in range(top, 0, -1):
+        spend(60 * len(turns[k]))
+        for a in turns[k]:
+            if last[a] == k:
+                for b, _ in lines[a]:
+                    if last[b] < k - 1:
+                        last[b] = k - 1
+                        turns[k - 1].append(b)
+    return last
 
 
 def _inputs(system: System, sizes: list[int], ell: int) -> list[int]:
@@ -402,6 +440,13 @@ def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
     return lines
 
 
+def _getter(places: Sequence[int]) -> Callable[[Any], Sequence[Any]]:
+    """What takes the entries of a sequence at these places, as a tuple or a slice."""
+    if len(places) > 1:
+        return itemgetter(*places)
+    return itemgetter(slice(places[0], places[0] + 1) if places else slice(0))
+
+
 class SparseProduct:
     """The product of a sparse matrix with one of ``width`` columns, modulo ℓ ≤ ``SMALL``.
 
@@ -409,28 +454,24 @@ class SparseProduct:
     a byte holds their sum; those of long lines are added by coefficient.
     """
 
-    def __init__(self, M: Matrix, width: int, ell: int) -> None:
+    def __init__(self, entries: list[Entry], nrows: int, width: int, ell: int) -> None:
         self.width, self.ell, most = width, ell, most_addends(ell)
-        entries, lines = residues(M, ell), [list[tuple[int, int]]() for _ in range(M.nrows)]
-        spend(200 * (len(entries) + M.nrows))
-        for i, j, x in entries:
-            lines[i].append((j, x))
-        self.units = len(lines) * (60 + width // 8) + len(entries) * (20 + width // 16)
+        spend(100 * (len(entries) + nrows))
+        units = nrows * (60 + width // 8) + len(entries) * (20 + width // 16)
         self.lines: list[tuple[Any, list[int], bool]] = []
-        for line in lines:
+        for line in _lines(entries, nrows):
             xs = [x for _, x in line]
             simple = sum(xs) <= most
             if not simple:
                 by_one = len(line) * (40 + width // 8)
-                self.units += min(by_one, by_coefficient_units(len(line), width, ell))
-            # of two places or more a tuple is made; those at the end are not looked at
-            places = [j for j, _ in line]
-            gather = itemgetter(*places, 0, 0) if line else itemgetter(slice(0))
-            self.lines.append((gather, xs, simple))
+                units += min(by_one, by_coefficient_units(len(line), width, ell))
+            self.lines.append((_getter([j for j, _ in line]), xs, simple))
+        self.units = units // max(nrows, 1)
 
-    def __call__(self, power: list[int]) -> list[int]:
-        """The rows of the product; those of the factor are ``power``."""
-        spend(self.units)
+    def __call__(self, power: list[int], many: int | None = None) -> list[int]:
+        """The first rows of the product, or all; those of the factor are ``power``."""
+        lines = self.lines[:many]
+        spend((1 + len(lines)) * self.units)
         of, width, table = int.from_bytes, self.width, multiples(self.ell)[1]
         return [
             of(
@@ -439,14 +480,14 @@ class SparseProduct:
             )
             if simple
             else self._in_parts(xs, gather(power))
-            for gather, xs, simple in self.lines
+            for gather, xs, simple in lines
         ]
 
     def _in_parts(self, xs: list[int], rows: Sequence[int]) -> int:
         """The sum of multiples of rows that a byte does not hold."""
         width, ell, most = self.width, self.ell, most_addends(self.ell)
         if len(xs) > 2 * ell:
-            parts = by_coefficient(zip(xs, rows, strict=False), width, ell)
+            parts = by_coefficient(zip(xs, rows, strict=True), width, ell)
             return int.from_bytes(byte_sum(parts, width, ell), "little")
 
         def reduced(total: int, factor: int = 1) -> int:
@@ -454,7 +495,7 @@ class SparseProduct:
             return int.from_bytes(data, "little")
 
         total, room = 0, most
-        for x, row in zip(xs, rows, strict=False):
+        for x, row in zip(xs, rows, strict=True):
             term, size = (x * row, x) if x < most else (reduced(row, x), 1)
             if size > room:
                 total, room = reduced(total), most - 1
@@ -495,11 +536,9 @@ class SparseStep:
         self.layers: list[tuple[Any, int, Any]] = []
         for e in range(len(short[0]) if short else 0):
             layer = [column[e] for column in short if len(column) > e]
-            # of two places or more a tuple is made; those at the end are not looked at
-            gather = itemgetter(*(i for i, _ in layer), 0, 0)
             xs = [x for _, x in layer]
             factors = self.tables.packed(xs) if self.tables else xs
-            self.layers.append((gather, len(layer), factors))
+            self.layers.append((_getter([i for i, _ in layer]), len(layer), factors))
         self.long = [
             (itemgetter(*(i for i, _ in column)), [x for _, x in column])
             for column in ordered[self.short :]
@@ -525,7 +564,7 @@ class SparseStep:
         """The same of bytes, for the columns in layers: sums of logarithms are products."""
         logs = u.translate(tables.of)
         layers = (
-            tables.products(int.from_bytes(bytes(gather(logs)[:many]), "little") + of, many)
+            tables.products(int.from_bytes(bytes(gather(logs)), "little") + of, many)
             for gather, many, of in self.layers
         )
         return byte_sum(layers, self.short, self.ell)

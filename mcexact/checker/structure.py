@@ -29,6 +29,7 @@ from .arithmetic import (
     characteristic_polynomial,
     diagonal,
     echelon,
+    entries_of,
     exponent,
     poly_divide,
     poly_product,
@@ -618,22 +619,23 @@ def check_setpoint(claim: Json, witness: Json, system: System) -> None:
     number, left, columns, x0, row = fields(witness, "witness", *keys)
     A, n = system.A, system.n
     B, C = inputs(system, range(system.m)), outputs(system, range(system.m))
-    rows, width, place = n + C.nrows, n + B.ncols, int(system.time == "discrete")
-    lower = beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)
-    S = stack([beside([A - Matrix.unit_rows(n, 0, n).times(place), B], n), lower], width)
+    rows, width = n + C.nrows, n + B.ncols
+    S = _steady_matrix(system)
     r, ell = integer(size, "claim.rank"), modulus(number, "witness.modulus")
     require(r <= rows and rank_modulo(S, ell) >= r, "rank", "claim.rank", "not reached modulo l")
     pivots = positions(columns, "witness.pivots", rows)
     require(len(pivots) == rows - r, "rank", "witness.pivots", f"expected {rows} - {r} of them")
     W = matrix(left, "witness.left", rows - r, rows)
     require_identity([W.T], pivots, "witness.pivots")
-    require((W @ S).is_zero(), "identity", "witness.left", "W [A B; C 0] is not zero")
+    annihilates = not pivots or (W @ S).is_zero()
+    require(annihilates, "identity", "witness.left", "W [A B; C 0] is not zero")
     solvable = boolean(verdict, "claim.solvable")
     require(solvable == (r == rows), "claim", "claim.solvable", f"the rank is {r} of {rows}")
     if solvable:
         unused = zero is None and x0 is None and row is None
         require(unused, "claim", "claim.invariant_zero", "expected null where it is solvable")
         return
+    lower = beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)
     fixed = stack([beside([A.times(-1), B], n), lower], width)
     moving = diagonal(Matrix.unit_rows(n, 0, n), Matrix.zeros(C.nrows, B.ncols))
     if boolean(zero, "claim.invariant_zero"):
@@ -649,6 +651,26 @@ def check_setpoint(claim: Json, witness: Json, system: System) -> None:
     for w, before in zip([*layers, below[0]], below, strict=True):
         same = (w @ fixed + before @ moving).is_zero()
         require(same, "identity", "witness.normal", "the row does not annihilate the pencil")
+
+
+def _steady_matrix(system: System) -> Matrix:
+    """[A B; C 0], in discrete time [A − I B; C 0], by its entries if A is."""
+    A, n, discrete = system.A, system.n, system.time == "discrete"
+    B, C = inputs(system, range(system.m)), outputs(system, range(system.m))
+    if not isinstance(A, SparseMatrix):
+        lower = beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)
+        shifted = A - Matrix.unit_rows(n, 0, n).times(int(discrete))
+        return stack([beside([shifted, B], n), lower], n + B.ncols)
+    d, cells = math.lcm(A.denominator, B.denominator, C.denominator), dict[tuple[int, int], int]()
+    for M, down, right in ((A, 0, 0), (B, 0, n), (C, n, 0)):
+        entries, f = entries_of(M), d // M.denominator
+        spend(200 * len(entries) + budget.products(len(entries), M.limbs, budget.limbs([f])))
+        cells |= {(down + i, right + j): f * x for i, j, x in entries}
+    if discrete:
+        spend(budget.fractions(n, budget.limbs([d])))
+        cells |= {(a, a): cells.get((a, a), 0) - d for a in range(n)}
+    kept = sorted((i, j, x) for (i, j), x in cells.items() if x)
+    return SparseMatrix(n + C.nrows, n + B.ncols, kept, d)
 
 
 def setpoint_statement(claim: Json, system: System) -> str:

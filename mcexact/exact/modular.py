@@ -27,7 +27,7 @@ from typing import Any
 
 import flint
 
-from mcexact.errors import InputError
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.matrix import Matrix, require_positions, require_sizes
 from mcexact.exact.polynomial import Polynomial
 
@@ -520,6 +520,72 @@ def residues_modulo_each(M: Matrix, ells: Sequence[int]) -> list[ModularMatrix]:
         table = flint.nmod_mat(short, ell) * pow(M.denominator, -1, ell)
         matrices.append(ModularMatrix(ell, table))
     return matrices
+
+
+def sparse_rank(M: Matrix, ell: int, most: int) -> int:
+    """The rank modulo ℓ < 128 of a sparse matrix, eliminated in a narrow band.
+
+    Parameters
+    ----------
+    M : Matrix
+    ell : int
+        A prime that does not divide the denominator.
+    most : int
+        The most entries of rows in the band, summed over all columns.
+
+    Raises
+    ------
+    LimitReached
+        No narrow band was found: elimination would take more entries.
+
+    Notes
+    -----
+    Rows and columns are nodes of a graph with an edge for each entry, which is put in the order of
+    Cuthill and McKee: entries of a row are near each other.  A row waits for its first column, and
+    is one integer from then on, with a byte for each entry.
+    """
+    # start-up: few plants need it
+    import numpy as np
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+    entries = [(i, j, x % ell) for i, j, x in M.nonzero() if x % ell]
+    r = M.nrows
+    ends = np.array([(i, r + j) for i, j, _ in entries], dtype=np.int64).reshape(-1, 2).T
+    ones, size = np.ones(len(entries), dtype=np.int8), r + M.ncols
+    graph = coo_array((ones, ends), shape=(size, size)).tocsr()
+    order = reverse_cuthill_mckee((graph + graph.T).tocsr(), symmetric_mode=True)
+    place = {int(node) - r: k for k, node in enumerate(order[order >= r])}
+    rows: list[list[tuple[int, int]]] = [[] for _ in range(r)]
+    for i, j, x in entries:
+        rows[i].append((place[j], x))
+    waiting: list[list[int]] = [[] for _ in range(M.ncols)]
+    for row in filter(None, rows):
+        first = min(row)[0]
+        waiting[first].append(sum(x << 8 * (k - first) for k, x in row))
+    rank, active = 0, list[int]()
+    multiples = [bytes(f * x % ell for x in range(256)) for f in range(ell)]
+    for new in waiting:
+        active += new
+        most -= sum(map(int.bit_length, active)) // 8
+        if most < 0:
+            raise LimitReached(f"elimination in a {r} × {M.ncols} matrix, which has no narrow band")
+        meeting = [row for row in active if row & 255]
+        if not meeting:
+            active = [row >> 8 for row in active]
+            continue
+        pivot = min(meeting, key=int.bit_length)
+        active.remove(pivot)
+        rank, f = rank + 1, -pow(pivot & 255, -1, ell)
+        taken = [_times(pivot, multiples[f * x % ell]) for x in range(ell)]
+        sums = ((row + taken[row & 255]) >> 8 if row & 255 else row >> 8 for row in active)
+        active = [row for row in (_times(row, multiples[1]) for row in sums) if row]
+    return rank
+
+
+def _times(row: int, table: bytes) -> int:
+    data = row.to_bytes((row.bit_length() + 7) // 8, "little")
+    return int.from_bytes(data.translate(table), "little")
 
 
 def random_matrix(nrows: int, ncols: int, ell: int, rng: random.Random) -> ModularMatrix:

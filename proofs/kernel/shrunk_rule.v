@@ -189,8 +189,8 @@ Theorem check_dual_sound s pl c d (K : fieldType) (h : {rmorphism rat -> K}) n m
 Proof.
 move=> re ok; apply: loss_sound (checked_nonzero h ok) _.
 have sT : size (b_T c) = m.
-  move: ok; rewrite /check_shrunk => /and5P[_ _ _ _ /and3P[_ /and5P[/eqP -> _ _ _ _] _]].
-  by rewrite size_map; case: re.
+  move: ok; rewrite /check_shrunk => /and5P[_ _ _ _ /and5P[/eqP -> _ _ _ _]].
+  by rewrite size_map (re_m re).
 apply: dual_subspace_loss; rewrite channels_at_compl // setCK.
-exact: check_shrunk_subspace h (dual_represents re) ok.
+exact: (check_shrunk_subspace h (dual_represents re) ok).
 Qed.

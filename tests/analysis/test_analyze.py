@@ -154,11 +154,14 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
     ("n", "width", "asked"), [(101, 1, True), (1500, 2, True), (1501, 500, False)]
 )
 def test_indices_are_asked_of_as_many_states_as_set_points(n: int, width: int, asked: bool) -> None:
-    system = SimpleNamespace(n=n, sizes=((width, 1),))
+    system = SimpleNamespace(n=n, sizes=((width, 1),), A=SimpleNamespace(is_sparse=False))
     reason = QUESTIONS["controllability_indices"].reason_to_leave_out(system)
     assert (reason == "") == asked
     assert QUESTIONS["setpoint"].reason_to_leave_out(system) == reason
     assert QUESTIONS["fixed_spectrum"].reason_to_leave_out(system) == ""
+    sparse = SimpleNamespace(n=n, sizes=((width, 1),), A=SimpleNamespace(is_sparse=True))
+    assert QUESTIONS["controllability_indices"].reason_to_leave_out(sparse) == reason
+    assert QUESTIONS["setpoint"].reason_to_leave_out(sparse) == ""
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from mcexact.checker.arithmetic import (
     Echelon,
     Matrix,
     NotAUnit,
+    banded_rank,
     characteristic_polynomial,
     characteristic_polynomial_modulo,
     coprime,
@@ -217,3 +218,39 @@ def test_coprime_modulo_a_composite_number_needs_units() -> None:
         coprime([0, 1], [2, 1], 6)
     with pytest.raises(NotAUnit):
         Matrix([[1]], 1, 3).modulo(6)
+
+
+@pytest.mark.parametrize("ell", [2, 3, 7, 31, 61])
+def test_ranks_in_a_band_are_those_of_an_echelon(ell: int) -> None:
+    rng = random.Random(ell)
+    deficient = 0
+    for _ in range(60):
+        nrows, ncols, width = rng.randint(0, 30), rng.randint(1, 30), rng.randint(1, 30)
+        rows = [[0] * ncols for _ in range(nrows)]
+        for row in rows:
+            middle = rng.randrange(ncols)
+            for j in range(max(0, middle - width), min(ncols, middle + width)):
+                row[j] = rng.randrange(ell) if rng.random() < 0.4 else 0
+        if nrows > 2:  # one row depends on others
+            rows[0] = [(a + 2 * b) % ell for a, b in zip(rows[1], rows[2], strict=True)]
+        entries = [(i, j, x) for i, row in enumerate(rows) for j, x in enumerate(row) if x]
+        basis = Echelon(ell)
+        expected = sum(basis.add(row) is not None for row in rows)
+        deficient += expected < min(nrows, ncols)
+        assert banded_rank(entries, nrows, ncols, ell) == expected
+    assert deficient > 20
+
+
+def test_a_band_of_many_rows_that_all_meet_keeps_its_bytes_apart() -> None:
+    n, ell = 80, 61
+    rng = random.Random(0)
+    rows = [[rng.choice([1, ell - 1]) for _ in range(n)] for _ in range(n)]
+    entries = [(i, j, x) for i, row in enumerate(rows) for j, x in enumerate(row)]
+    basis = Echelon(ell)
+    assert banded_rank(entries, n, n, ell) == sum(basis.add(row) is not None for row in rows)
+
+
+def test_a_pivot_in_a_band_has_to_be_a_unit() -> None:
+    assert banded_rank([(0, 0, 5), (1, 1, 7)], 2, 2, 6) == 2
+    with pytest.raises(NotAUnit):
+        banded_rank([(0, 0, 3)], 1, 1, 6)

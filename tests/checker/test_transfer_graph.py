@@ -281,3 +281,33 @@ def test_long_paths_are_found_in_a_few_turns_whatever_way_they_lead(step: int) -
     with limited(budget):
         assert without_path(system, itertools.product(range(2), range(2))) == {(1, 0)}
     assert budget.spent < 10 * 40 * 2 * n
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_rows_that_no_later_edge_needs_are_left_out(way: int) -> None:
+    """Edges of different powers at once, along a ring with a chord, and one that is none."""
+    n, ell = 24, 31
+    rows = [[0] * n for _ in range(n)]
+    for a in range(n):
+        rows[a][(a - way) % n] = 1 + a % 3
+    rows[5][17] = 2
+    ports = [
+        ([[int(a == 6 * c)] for a in range(n)], [[int(a == 6 * c + 1) for a in range(n)]])
+        for c in range(4)
+    ]
+    system = read_plant(plant(rows, *ports))
+    markov: dict[tuple[int, int, int], int] = {}
+    for j, B in enumerate(system.B):
+        state = [row[0] for row in B.rows]
+        for k in range(2 * n):
+            for i, C in enumerate(system.C):
+                total = sum(x * y for x, y in zip(C.rows[0], state, strict=True))
+                markov[j, i, k] = total % ell
+            state = [sum(x * y for x, y in zip(row, state, strict=True)) % ell for row in rows]
+    true = sorted(triple for triple, number in markov.items() if number)
+    rng = random.Random(way)
+    for _ in range(30):
+        chosen = sorted(rng.sample(true, rng.randint(1, 12)))
+        assert unseen(system, chosen, ell) is None
+        j, i, k = rng.choice(sorted(markov.keys() - set(true)))
+        assert unseen(system, sorted([*chosen, (j, i, k)]), ell) == (j, i, k)

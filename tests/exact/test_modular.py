@@ -25,6 +25,7 @@ from mcexact.exact.modular import (
     residue,
     residues,
     residues_modulo_each,
+    sparse_rank,
     vstack,
 )
 from mcexact.exact.polynomial import Polynomial
@@ -285,3 +286,25 @@ def test_residues_modulo_several_primes_are_those_modulo_each(M, seed, count):
 def test_a_prime_that_divides_the_denominator_is_refused_among_others_too():
     with pytest.raises(InputError, match="divides a denominator"):
         residues_modulo_each(Matrix.from_rows([["1/7"]]), [5, 7])
+
+
+@pytest.mark.parametrize("ell", [2, 7, 61])
+def test_ranks_of_sparse_matrices_are_those_of_all_entries(ell: int) -> None:
+    rng = random.Random(ell)
+    for _ in range(20):
+        nrows, ncols = rng.randint(40, 70), rng.randint(60, 80)
+        cells = {
+            (i, (i + rng.randint(0, 9)) % ncols): rng.randint(1, 99) for i in [*range(nrows)] * 3
+        }
+        cells |= {(0, j): x for (i, j), x in cells.items() if i == 1}
+        M = Matrix.from_entries((nrows, ncols), [(i, j, x) for (i, j), x in cells.items()])
+        assert sparse_rank(M, ell, 10**6) == residues(M, ell).rank()
+
+
+def test_a_matrix_without_a_narrow_band_is_left_open() -> None:
+    rng = random.Random(0)
+    cells = [(i, rng.randrange(300), 1 + k) for i in range(300) for k in range(4)]
+    M = Matrix.from_entries((300, 300), list({(i, j): (i, j, x) for i, j, x in cells}.values()))
+    with pytest.raises(LimitReached, match="no narrow band"):
+        sparse_rank(M, 7, 10**5)
+    assert sparse_rank(M, 7, 10**8) == residues(M, 7).rank()

@@ -7,6 +7,7 @@ import random
 import pytest
 import sympy
 
+from mcexact.analysis import structure
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.protocol import encode
@@ -14,6 +15,7 @@ from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import setpoint_system
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import any_system
+from mcexact.errors import LimitReached
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 
@@ -99,3 +101,55 @@ def test_more_outputs_than_inputs_are_dependent_at_every_frequency(
     assert check_document(encode(found).encode()).verdict == "VALID"
     row = found.normal
     assert row is not None and len(row.coefficients) <= max(1, states + 1)
+
+
+def coupled_chains(n: int, m: int, time: str, dependent: bool = False) -> MultiChannelSystem:
+    """Chains with a channel from end to end, coupled to the next one; or the last output twice."""
+    size, rng = n // m, random.Random(n)
+    entries = {(a, a): rng.randint(-9, 9) for a in range(n)}
+    entries |= {(a, a - 1): rng.randint(1, 9) for a in range(1, n)}
+    entries |= {(a, a + 1): 1 for a in range(n - 1) if (a + 1) % size}
+    ends = [size * k + size - 1 for k in range(m)]
+    if dependent:
+        ends[-1] = ends[0]
+    return MultiChannelSystem(
+        Matrix.from_entries((n, n), [(i, j, x) for (i, j), x in entries.items() if x]),
+        [Matrix.from_entries((n, 1), [(size * k, 0, 1)]) for k in range(m)],
+        [Matrix.from_entries((1, n), [(0, a, 1)]) for a in ends],
+        time=time,
+    )
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+@pytest.mark.parametrize("dependent", [False, True])
+def test_large_sparse_plants_are_decided_in_a_band_where_the_rank_is_full(
+    time: str, dependent: bool
+) -> None:
+    system = coupled_chains(136, 4, time, dependent)
+    assert system.A.is_sparse
+    found = setpoint_solvability(system)
+    assert found.solvable is not dependent
+    assert found.rank == 140 - dependent
+    data = encode(found)
+    verdict = check_document(data.encode())
+    assert verdict.verdict == "VALID", verdict.line()
+    wrong = data.replace('"solvable":true', '"solvable":false')
+    if not dependent:
+        assert check_document(wrong.encode()).verdict == "INVALID"
+
+
+def test_ranks_that_are_not_full_are_left_open_where_zeros_cannot_be_written_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(structure, "LARGEST_WRITTEN_OUT", 1000)
+    with pytest.raises(LimitReached, match="no rank 140 modulo small primes"):
+        setpoint_solvability(coupled_chains(136, 4, "continuous", dependent=True))
+    monkeypatch.setattr(structure, "_MOST_IN_BANDS", 100)
+    with pytest.raises(LimitReached, match="no narrow band"):
+        setpoint_solvability(coupled_chains(136, 4, "continuous"))
+
+
+def test_two_thousand_states_are_decided_and_checked() -> None:
+    found = setpoint_solvability(coupled_chains(2000, 50, "continuous"))
+    assert found.solvable
+    assert check_document(encode(found).encode()).verdict == "VALID"
