@@ -235,7 +235,9 @@ let loss (s : Kernel.zsystem) known p d place value =
   | Json.Object l when List.mem_assoc "dual" l ->
     (match Json.fields place [ "channels_T"; "dual" ] value with
      | [ t; inner ] ->
-       (match inner with Json.Object l when List.mem_assoc "states" l -> malformed place "expected a subspace of all states" | _ -> ());
+       (match inner with
+        | Json.Object l when List.mem_assoc "states" l || List.mem_assoc "dual" l -> malformed place "expected a shrunk subspace"
+        | _ -> ());
        let w = shrunk (Kernel.zdual s) known p place inner in
        let others = List.filter (fun i -> not (List.nth w.Kernel.b_T i)) (range (List.length known)) in
        if Json.names place known t <> others then invalid place "T is not the complement of that of the dual system";
