@@ -62,8 +62,8 @@ from mcexact.exact.matrix import Matrix, hstack
 from mcexact.exact.modular import ModularMatrix, polynomial_residues, primes, residues
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import root_discs
-from mcexact.model.entries import as_matrix, require_shape
 from mcexact.exact.tables import LARGEST_WRITTEN_OUT
+from mcexact.model.entries import as_matrix, require_shape
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem, any_system
 
@@ -326,8 +326,8 @@ def controllability_indices(
     B = system.input_matrix(T)
     if system.A.is_sparse and system.n**2 > LARGEST_WRITTEN_OUT:
         raise LimitReached(
-            f"indices of {system.n} states: their proof has a Krylov matrix of {system.n} rows, which "
-            "is not sparse, and would be checked for minutes"
+            f"indices of {system.n} states: the proof is the rank of a Krylov matrix with "
+            f"{system.n} rows, which is not sparse: it would be checked for minutes"
         )
     rng = generator(system, "controllability_indices")
     for modular in residue_systems(system, rng, bits=61):

@@ -120,8 +120,14 @@ def coupled_chains(n: int, m: int, time: str, dependent: bool = False) -> MultiC
     )
 
 
-@pytest.mark.parametrize("time", ["continuous", "discrete"])
-@pytest.mark.parametrize("dependent", [False, True])
+@pytest.mark.parametrize(
+    ("time", "dependent"),
+    [
+        ("continuous", False),
+        ("discrete", False),
+        pytest.param("discrete", True, marks=pytest.mark.slow),
+    ],
+)
 def test_large_sparse_plants_are_decided_in_a_band_where_the_rank_is_full(
     time: str, dependent: bool
 ) -> None:
