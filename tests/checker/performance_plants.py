@@ -122,6 +122,8 @@ GROUPS = certificate(
     },
     {"groups": [HALVES, LAST]},
 )
+# Agent 2 measures the state of agent 1, and the plant couples nothing.
+MEASURED = changed(GROUPS, ("system.A", [[0, 0], [0, 0]]), ("system.channels.1.C", [[1, 1]]))
 # T = -1/z: |T + 1/2| is at most 3/2.
 MARGIN = certificate(
     "disk_margin",
@@ -146,6 +148,22 @@ GROWING = certificate(
     {"sectors": [[1, 1]]},
     {"scaling": [1], "P": form([-1])},
     static(DOUBLED, 0),
+)
+# P = -1 satisfies the inequality of the cost, too, since the loop grows.
+UNBOUNDED = certificate(
+    "loop_cost",
+    DOUBLED,
+    {"weights": weights(1, 1), "cost": 1},
+    {"P": form([-1])},
+    static(DOUBLED, 0),
+)
+# x(t+1) = f(t, 0): P of less than the scaling falls.
+RESTING = certificate(
+    "sector",
+    FORGETFUL,
+    {"sectors": [[1, 1]]},
+    {"scaling": [1], "P": form([2], exponent=-1)},
+    static(FORGETFUL, 0),
 )
 # Two of them beside each other.
 PAIR = plant([[1, 0], [0, 1]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]]), time="discrete")

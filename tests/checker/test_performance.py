@@ -18,9 +18,12 @@ from tests.checker.performance_plants import (
     GROUPS,
     GROWING,
     MARGIN,
+    MEASURED,
+    RESTING,
     SECTOR,
     SHARED,
     STEP,
+    UNBOUNDED,
     UNSEEN,
     form,
     static,
@@ -48,6 +51,7 @@ REJECTED = [
     ("a static gain without a bandwidth", FILTERED, ("claim.weights", weights(1, 1)), "INVALID"),
     ("another bandwidth", FILTERED, ("claim.weights.bandwidth", 2000), "INVALID"),
     ("a bandwidth in discrete time", COST, ("claim.weights.bandwidth", 2), "MALFORMED"),
+    ("a bandwidth below 0", FILTERED, ("claim.weights.bandwidth", -2), "MALFORMED"),
     ("a bandwidth of 0", FILTERED, ("claim.weights.bandwidth", 0), "MALFORMED"),
     ("a reward for large inputs", COST, ("claim.weights.inputs", [-1]), "MALFORMED"),
     ("inputs that cost nothing", COST, ("claim.weights.inputs", [0]), "MALFORMED"),
@@ -99,6 +103,8 @@ REJECTED = [
     ("a negative scaling", SECTOR, ("witness.scaling", [-1]), "MALFORMED"),
     ("a scaling of zeros", SECTOR, ("witness.scaling", [0]), "INVALID"),
     ("an indefinite matrix of a sector", SECTOR, (P, form([-2], exponent=-1)), "INVALID"),
+    ("a matrix too large for a sector", RESTING, (P, form([2])), "INVALID"),
+    ("an agent that measures another's state", MEASURED, ("claim.graph.edges", []), "INVALID"),
     ("another loop of a sector", SECTOR, ("subject", [static(STEP, 1)]), "INVALID"),
 ]  # fmt: skip
 
@@ -106,9 +112,9 @@ test_these_are_valid = accepts(ACCEPTED)
 test_these_are_not = rejects(REJECTED)
 
 
-@pytest.mark.parametrize("grows", [UNSEEN, GROWING])
+@pytest.mark.parametrize("grows", [UNSEEN, GROWING, UNBOUNDED])
 def test_nothing_is_valid_of_a_loop_that_grows(grows: Document) -> None:
-    """Without a part, and with P < 0, for which alone the form of the sector falls."""
+    """Without a part, and with P < 0, for which alone the inequalities hold."""
     assert checked(grows).verdict == "INVALID"
 
 
