@@ -1,11 +1,11 @@
 """Sentences of `mcexact analyze`: templates, and the rules that fill them from certificates.
 
-The first half is about the answer in words and the table of all answers (``ANALYSIS_RULES``), the
-second one about single modes, channels, sets of channels, and the pictures of a page
-(``DETAIL_RULES``).  In each half the templates come first, then the rules in the order of the
-output.  A template holds the wording, once, with the theorem that implies it; a rule is a generator
-that reads the claims of its premises and yields filled templates, or nothing where the sentence
-does not hold.
+The first half is about the answer in words (``ANALYSIS_RULES``) and the table of all answers
+(``MODE_RULES``), the second one about single modes, channels, sets of channels, and the pictures of
+a page (``DETAIL_RULES``).  In each half the templates come first, then the rules in the order of
+the output.  A template holds the wording, once, with the theorem that implies it; a rule is a
+generator that reads the claims of its premises and yields filled templates, or nothing where the
+sentence does not hold.
 """
 
 from __future__ import annotations
@@ -499,7 +499,12 @@ def _sharing_removes(
         yield OUTPUTS_REMOVE(time=context.delays)
 
 
-@analysis_rule("answer.mode", BLAME, UNCONTROLLED, UNOBSERVED, premises=("fixed_spectrum",))
+MODE_RULES = Rulebook()
+"""About single modes, and the table; what is said of options stands before."""
+mode_rule = MODE_RULES.rule
+
+
+@mode_rule("answer.mode", BLAME, UNCONTROLLED, UNOBSERVED, premises=("fixed_spectrum",))
 def _blame(fixed_spectrum: Claim, context: Context) -> Said:
     """The channels that do not control a mode, and those that do not observe it.
 
@@ -521,7 +526,7 @@ def _blame(fixed_spectrum: Claim, context: Context) -> Said:
 # The table of all answers.
 
 
-@analysis_rule("table", INFORMATION)
+@mode_rule("table", INFORMATION)
 def _information(context: Context) -> Said:
     if context.information == "outputs":
         yield INFORMATION(information="outputs" if context.delays == "none" else "instant")
@@ -532,41 +537,41 @@ def reached(controllability: Claim, yes: Template, no: Template) -> Said:
     yield yes() if controllability.controllable else no(p=controllability.uncontrollable_polynomial)
 
 
-@analysis_rule("table", CONTROLLABLE, UNCONTROLLABLE, premises=("joint_controllability",))
+@mode_rule("table", CONTROLLABLE, UNCONTROLLABLE, premises=("joint_controllability",))
 def _controllable(joint_controllability: Claim, context: Context) -> Said:
     yield from reached(joint_controllability, CONTROLLABLE, UNCONTROLLABLE)
 
 
-@analysis_rule("table", OBSERVABLE, UNOBSERVABLE, premises=("joint_observability",))
+@mode_rule("table", OBSERVABLE, UNOBSERVABLE, premises=("joint_observability",))
 def _observable(joint_observability: Claim, context: Context) -> Said:
     yield from reached(joint_observability, OBSERVABLE, UNOBSERVABLE)
 
 
-@analysis_rule("table", GRAPH_CONNECTED, GRAPH_PARTS, premises=("transfer_graph",))
+@mode_rule("table", GRAPH_CONNECTED, GRAPH_PARTS, premises=("transfer_graph",))
 def _graph(transfer_graph: Claim, context: Context) -> Said:
     template = GRAPH_CONNECTED if transfer_graph.strongly_connected else GRAPH_PARTS
     yield template(arcs=transfer_graph.arcs, components=transfer_graph.components)
 
 
-@analysis_rule("table", INACTIVE, premises=("transfer_graph",))
+@mode_rule("table", INACTIVE, premises=("transfer_graph",))
 def _inactive(transfer_graph: Claim, context: Context) -> Said:
     if context.inactive and transfer_graph.subject == context.system.subject:
         yield INACTIVE(names=context.inactive)
 
 
-@analysis_rule("table", FIXED_NONE, FIXED, premises=("fixed_spectrum",))
+@mode_rule("table", FIXED_NONE, FIXED, premises=("fixed_spectrum",))
 def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
     p = fixed_spectrum.polynomial
     yield FIXED(p=p) if p.degree else FIXED_NONE()
 
 
-@analysis_rule("table", TABLE_STABILIZABLE, TABLE_NOT_STABILIZABLE, premises=("fixed_spectrum",))
+@mode_rule("table", TABLE_STABILIZABLE, TABLE_NOT_STABILIZABLE, premises=("fixed_spectrum",))
 def _stabilizable(fixed_spectrum: Claim, context: Context) -> Said:
     template = TABLE_STABILIZABLE if fixed_spectrum.stabilizable else TABLE_NOT_STABILIZABLE
     yield template(control=control(fixed_spectrum, context))
 
 
-@analysis_rule("table", SLOWEST, ANY_RATE, premises=("fixed_spectrum",))
+@mode_rule("table", SLOWEST, ANY_RATE, premises=("fixed_spectrum",))
 def _slowest_mode(fixed_spectrum: Claim, context: Context) -> Said:
     if empty(fixed_spectrum):
         yield ANY_RATE()
@@ -574,7 +579,7 @@ def _slowest_mode(fixed_spectrum: Claim, context: Context) -> Said:
         yield SLOWEST(slowest=slowest(fixed_spectrum, context))
 
 
-@analysis_rule("table", COMPLETE, premises=("completeness",))
+@mode_rule("table", COMPLETE, premises=("completeness",))
 def _complete(completeness: Claim, context: Context) -> Said:
     yield COMPLETE(complete=completeness.complete)
 
@@ -582,12 +587,12 @@ def _complete(completeness: Claim, context: Context) -> Said:
 def _index_rules(question: str, one: Template, many: Template, none: Template) -> None:
     """Make the rules of controllability or observability indices, or of their omission."""
 
-    @analysis_rule("table", one, many, premises=(question,))
+    @mode_rule("table", one, many, premises=(question,))
     def _indices(claim: Claim, context: Context) -> Said:
         template = many if claim.index is None else one
         yield template(indices=claim.indices, index=claim.index)
 
-    @analysis_rule("table", none, missing=question)
+    @mode_rule("table", none, missing=question)
     def _left_out(context: Context) -> Said:
         yield none()
 
@@ -596,7 +601,7 @@ _index_rules("controllability_indices", *CONTROLLABILITY_INDICES)
 _index_rules("observability_indices", *OBSERVABILITY_INDICES)
 
 
-@analysis_rule("table", SPECTRUM_FREE, SPECTRUM_PARTS, premises=("fixed_spectrum", "assignability"))
+@mode_rule("table", SPECTRUM_FREE, SPECTRUM_PARTS, premises=("fixed_spectrum", "assignability"))
 def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim, context: Context) -> Said:
     if empty(fixed_spectrum):
         blocks = [(block.dimension, block.channels) for block in assignability.blocks]
@@ -613,7 +618,7 @@ def _most(factor: Claim) -> int | None:
     return at_most if in_A is None else min(in_A, at_most)
 
 
-@analysis_rule(
+@mode_rule(
     "table", SPECTRUM_MOVED, SPECTRUM_MOVED_BETWEEN, premises=("fixed_spectrum", "assignability")
 )
 def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, context: Context) -> Said:
@@ -639,7 +644,7 @@ def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, context: Contex
 # Set-points.
 
 
-@analysis_rule("table", SETPOINT_ZERO, SETPOINT_DEPENDENT, premises=("setpoint",))
+@mode_rule("table", SETPOINT_ZERO, SETPOINT_DEPENDENT, premises=("setpoint",))
 def _no_setpoints(setpoint: Claim, context: Context) -> Said:
     if setpoint.invariant_zero:
         yield SETPOINT_ZERO(place=steady_point(context.time))
@@ -647,9 +652,7 @@ def _no_setpoints(setpoint: Claim, context: Context) -> Said:
         yield SETPOINT_DEPENDENT()
 
 
-@analysis_rule(
-    "table", SETPOINT, premises=("setpoint", "joint_controllability", "joint_observability")
-)
+@mode_rule("table", SETPOINT, premises=("setpoint", "joint_controllability", "joint_observability"))
 def _setpoints(
     setpoint: Claim, joint_controllability: Claim, joint_observability: Claim, context: Context
 ) -> Said:
@@ -661,7 +664,7 @@ def _setpoints(
         yield SETPOINT()
 
 
-@analysis_rule(
+@mode_rule(
     "table",
     SETPOINT_STABLE_REST,
     SETPOINT_UNSTABLE_REST,
@@ -690,7 +693,7 @@ def _setpoints_beside(
     yield template(p=unstable)
 
 
-@analysis_rule("table", *GAINS["every"].values(), premises=("every_channel",))
+@mode_rule("table", *GAINS["every"].values(), premises=("every_channel",))
 def _every_channel(every_channel: Claim, context: Context) -> Said:
     yield gains("every", every_channel, context.names)
 

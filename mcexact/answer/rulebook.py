@@ -30,16 +30,14 @@ if TYPE_CHECKING:
 
 # Rules that say when a sentence holds; they read checked certificates and nothing else.
 
-_MODES = next(k for k, each in enumerate(analysis.ANALYSIS_RULES) if each.place == "answer.mode")
-"""The first rule about single fixed modes, before which what is said of all of them stands."""
 ANALYSIS = Rulebook(
     [
         *nearby.NEARBY_RULES,
         *modulo.FILTER_RULES,
         *modulo.PART_RULES,
-        *analysis.ANALYSIS_RULES[:_MODES],
+        *analysis.ANALYSIS_RULES,
         *modulo.OPTION_RULES,
-        *analysis.ANALYSIS_RULES[_MODES:],
+        *analysis.MODE_RULES,
         *modulo.JOINT_RULES,
         *nearby.WHY_RULES,
         *sharing.SHARING_RULES,

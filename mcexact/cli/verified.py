@@ -24,6 +24,8 @@ VERSION = f"{NAME} 1"
 """What the program must say of itself: the version of what it prints and of the format it reads."""
 SECONDS = 60.0
 """After this time, or that of the whole run, the program is stopped and has confirmed nothing."""
+_LONGEST = 1e6
+"""No process is waited for longer, in seconds: some longer times are errors of the system."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def _run(
 ) -> subprocess.CompletedProcess[bytes] | None:
     """Run the program on files; None where it cannot be run, or not within the time."""
     named = [f"./{each}" if each.startswith("-") else each for each in files]  # no options
-    limit = SECONDS if seconds is None else seconds
+    limit = SECONDS if seconds is None else min(seconds, _LONGEST)
     try:
         return subprocess.run([*call, *named], capture_output=True, timeout=limit, check=False)
     except (OSError, subprocess.TimeoutExpired):

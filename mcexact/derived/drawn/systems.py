@@ -336,9 +336,9 @@ def system_with_joint_modes(
         for c in core.channels
     ]
     for _ in range(choices.integer(0, 2 * states)):
-        i, j, factor = choices.integer(0, states - 1), choices.integer(0, states - 1), 1
+        i, j = choices.integer(0, states - 1), choices.integer(0, states - 1)
         if i != j:
-            _add_state(A, B, C, i, j, factor)
+            _add_state(A, B, C, i, j)
     system = MultiChannelSystem(
         A,
         [Matrix.from_rows(rows, ncols=c.B.ncols) for rows, c in zip(B, core.channels, strict=True)],
@@ -348,12 +348,12 @@ def system_with_joint_modes(
     return Drawn(system, fixed_modes=True, order=r, left_out=left_out)
 
 
-def _add_state(A: Any, B: Any, C: Any, i: int, j: int, factor: int) -> None:
-    """Let x_i + factor x_j take the place of x_i."""
+def _add_state(A: Any, B: Any, C: Any, i: int, j: int) -> None:
+    """Let x_i + x_j take the place of x_i."""
     for rows in (A, *B):
-        rows[i] = [x + factor * y for x, y in zip(rows[i], rows[j], strict=True)]
+        rows[i] = [x + y for x, y in zip(rows[i], rows[j], strict=True)]
     for row in [*A, *(row for rows in C for row in rows)]:
-        row[j] -= factor * row[i]
+        row[j] -= row[i]
 
 
 def sparse_system(
