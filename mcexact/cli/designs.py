@@ -39,6 +39,7 @@ from mcexact.cli.options import AIMS
 from mcexact.cli.results import DESIGNED, Evidence, Loop, Refused
 from mcexact.cli.running import Reporting
 from mcexact.derived.constructions import augmented_outputs
+from mcexact.derived.feedthrough import input_filters, plant_controller
 from mcexact.derived.sampling import is_sampled
 from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.exact.rational import Limits, percent, written
@@ -49,6 +50,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import parse
 from mcexact.report.text import Table, measured, tables
 from mcexact.synthesis.assessment import Assessment, assess, assessed_by_search
+from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
@@ -72,6 +74,10 @@ _NOTHING_ELSE = (
 )
 _NO_BOX = "the time limit ended the search of a box of plants"
 _NO_STEP = "the time limit ended the search of the longest time between samples"
+_FIGURES = (
+    "costs and margins are those of the system with its inputs as states, whose inputs are the "
+    "derivatives, or next values, of the inputs of the plant"
+)
 _DESIGNERS: dict[str, Callable[..., Design]] = {
     "decentralized": design_decentralized,
     "extended": design_extended,
@@ -152,7 +158,8 @@ def designed(
     spectrum, end = None, None if left is None else time.monotonic() + left
     sized = with_sizes(system_in(*plant, limits), sizes, limits)
     system = sampled(with_limits(sized, limited), sampling)
-    system = parts.without(system, part, limits)
+    base = parts.without(system, part, limits)
+    system = _inputs_as_states(name, base)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
     if aimed:
@@ -169,7 +176,8 @@ def designed(
         reason, proof = refused.message, refused.certificate
         region = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
         sentences = Sentences([reason] if isinstance(reason, Sentence) else [])
-        account = Account({proof.kind: proof}, Context(system), sentences)
+        about = () if base.D is None else system.subject
+        account = Account({proof.kind: proof}, Context(system), sentences, about)
         return Refused(
             evidence=Evidence.of(account, system_by_digest),
             document=account.as_json(design=name, possible=False, reason=reason),
@@ -178,7 +186,9 @@ def designed(
             + _held(plant[0], proof, system, wanted.get("regulate"), sampling),
         )
     _require_readable(design, Limits(**limits))
-    shape = _Shaped(design, aims, weighed, prove_all, with_box, with_page, system_by_digest)
+    with_box = with_box and base.D is None
+    direct = None if base.D is None else base
+    shape = _Shaped(design, aims, weighed, prove_all, with_box, with_page, system_by_digest, direct)
     return shape.in_time(end, report)
 
 
@@ -193,6 +203,8 @@ class _Shaped:
     with_box: bool
     with_page: bool
     system_by_digest: bool
+    direct: MultiChannelSystem | None = None
+    """The plant with feedthrough, if the design is for its inputs as states."""
 
     def in_time(self, end: float | None, report: Reporting) -> Loop:
         """Prove the performance, then a box, and hand over what is proved before each step.
@@ -268,6 +280,7 @@ class _Shaped:
         """The design with what is proved of it, and a note of what is left out."""
         design = self.design
         notes = [*([] if note is None else [note]), *_box_missed(self.aims, every_loop)]
+        notes += [] if self.direct is None else [_FIGURES]
         assessment = replace(assessment, notes=(*assessment.notes, *notes))
         account = design.account_with(every_loop, proved)
         rows = (*unproved(proved), *assessment.rows())
@@ -287,13 +300,44 @@ class _Shaped:
                 **({} if longest is None else {"longest_step": longest.to_dict()}),
                 assessment=assessment.to_dict(),
             ),
-            controller=controller_text(limited_controller(design.controller, limits, proved)),
+            controller=controller_text(
+                limited_controller(design.controller, limits, proved)
+                if self.direct is None
+                else plant_controller(design.controller, self.direct)
+            ),
         )
+        if self.direct is not None:
+            return self._of_plant(told, self.direct)
         if longest is None:
             return told
         names = {f"longest_step_{name}.json": proof for name, proof in longest.answers.items()}
         others = Evidence.about_own_plants(names)
         return replace(told, evidence=told.evidence.with_others(others))
+
+    def _of_plant(self, told: Loop, plant: MultiChannelSystem) -> Loop:
+        """The design with a certificate about the loop of the plant with its feedthrough."""
+        region = self.design.region
+        given = {region.word: region.bound, **region.limits}
+        verdict = certify_controller(
+            plant, plant_controller(self.design.controller, plant), **given
+        )
+        others = Evidence.about_own_plants({"loop_of_plant.json": verdict})
+        return replace(told, evidence=told.evidence.with_others(others))
+
+
+def _inputs_as_states(name: str, system: MultiChannelSystem) -> MultiChannelSystem:
+    """The system, or with its inputs as states if it has feedthrough.
+
+    Raises
+    ------
+    InputError
+        If something was asked that is not known of systems with feedthrough.
+    """
+    if system.D is None:
+        return system
+    if name == "setpoint" or system.limits is not None:
+        InputError.require(system, MultiChannelSystem, "system")
+    return input_filters(system)
 
 
 def _aims(aimed: Mapping[str, Any], weights: Mapping[str, Any] | None) -> Aims:

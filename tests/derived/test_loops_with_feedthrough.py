@@ -206,3 +206,20 @@ def test_the_command_line_certifies_and_runs_it(tmp_path: Path) -> None:
     status, _, err = call("certify", *files, "--gains", "0.01")
     assert status == 2 and "--gains" in err
     assert call("simulate", *files)[0] == 0
+
+
+def test_the_command_line_designs_for_it(tmp_path: Path) -> None:
+    """The controller that is written is one of the plant, and a certificate is about this loop."""
+    names = tmp_path / "plant.json", tmp_path / "controller.json", tmp_path / "evidence"
+    files = [str(name) for name in names]
+    mcexact.save_system(SIGNED[-1], names[0])
+    options = ["-o", files[1], "--certificates", files[2], "--effort", "0", "--rate", "1/10"]
+    assert call("design", "decentralized", files[0], *options)[0] == 0
+    controller = mcexact.load_controller(names[1])
+    loop = mcexact.load_certificate(names[2] / "loop_of_plant.json")
+    assert loop.about == closed_loop(SIGNED[-1], controller).system
+    assert call("certify", *files[:2], "--rate", "1/10")[0] == 0
+    mcexact.save_system(SIGNED[1], names[0])
+    status, _, err = call("design", "decentralized", files[0])
+    assert status == 1 and "the mode 0" in err
+    assert call("design", "setpoint", files[0])[0] == 3
