@@ -317,7 +317,7 @@ class _Shaped:
     def _of_plant(self, told: Loop, plant: MultiChannelSystem) -> Loop:
         """The design with a certificate about the loop of the plant with its feedthrough."""
         region = self.design.region
-        given = {region.word: region.bound, **region.limits}
+        given: dict[str, Any] = {region.word: region.bound, **region.limits}
         verdict = certify_controller(
             plant, plant_controller(self.design.controller, plant), **given
         )
