@@ -41,7 +41,7 @@ from mcexact.cli.running import Reporting
 from mcexact.derived.constructions import augmented_outputs
 from mcexact.derived.feedthrough import input_filters, plant_controller
 from mcexact.derived.sampling import is_sampled
-from mcexact.errors import Impossible, InputError, LimitReached
+from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.rational import Limits, percent, written
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import controller_text
@@ -145,6 +145,8 @@ def designed(
     ------
     InputError
         If a file is malformed or does not fit the plant; the message names the file.
+    UsageError
+        If a box is asked for of a plant with feedthrough.
     LimitReached
         If no command would read the controller.
     """
@@ -162,6 +164,8 @@ def designed(
     system = _inputs_as_states(name, base)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
+    if base.D is not None and aims.box is not None:
+        raise UsageError("boxes are not known of plants with feedthrough: leave out --box")
     if aimed:
         wanted["aims"] = aims
     try:

@@ -223,3 +223,5 @@ def test_the_command_line_designs_for_it(tmp_path: Path) -> None:
     status, _, err = call("design", "decentralized", files[0])
     assert status == 1 and "the mode 0" in err
     assert call("design", "setpoint", files[0])[0] == 3
+    status, _, err = call("design", "decentralized", files[0], "--box", "1%")
+    assert status == 2 and "--box" in err
