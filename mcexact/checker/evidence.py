@@ -397,7 +397,7 @@ def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] |
 
 
 def _last_steps(system: System, triples: Triples) -> list[int]:
-    """For each state a the largest k with row a of A^k B in a claimed edge, or −1.
+    """For each state a the largest k from 1 on with row a of A^k B in a claimed edge, or less.
 
     Row a of A^k B is in the output C_i A^(k+l) B if a path of l arcs leads from a to it.
     """
@@ -410,7 +410,7 @@ def _last_steps(system: System, triples: Triples) -> list[int]:
         for _, b, _ in entries_of(system.C[i]):
             last[b] = max(last[b], k)
             turns[k].append(b)
-    for k in range(top, 0, -1):
+    for k in range(top, 1, -1):
         spend(60 * len(turns[k]))
         for a in turns[k]:
             if last[a] == k:

@@ -311,3 +311,14 @@ def test_rows_that_no_later_edge_needs_are_left_out(way: int) -> None:
         assert unseen(system, chosen, ell) is None
         j, i, k = rng.choice(sorted(markov.keys() - set(true)))
         assert unseen(system, sorted([*chosen, (j, i, k)]), ell) == (j, i, k)
+
+
+def test_a_state_that_two_outputs_see_is_needed_for_the_longer_path() -> None:
+    rows = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    seen = ([[0], [0], [0]], [[0, 0, 1]])
+    system = read_plant(
+        plant(rows, ([[1], [0], [0]], [[0, 0, 1]]), ([[0], [0], [1]], [[0, 0, 1]]), seen)
+    )
+    for triples in ([(0, 0, 2), (1, 1, 0)], [(0, 1, 2), (1, 0, 0)], [(0, 2, 2), (1, 0, 0)]):
+        assert unseen(system, triples, 7) is None
+    assert unseen(system, [(0, 0, 2), (1, 1, 1)], 7) == (1, 1, 1)

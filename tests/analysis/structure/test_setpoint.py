@@ -159,3 +159,12 @@ def test_two_thousand_states_are_decided_and_checked() -> None:
     found = setpoint_solvability(coupled_chains(2000, 50, "continuous"))
     assert found.solvable
     assert check_document(encode(found).encode()).verdict == "VALID"
+
+
+def test_the_identity_is_taken_off_in_discrete_time_in_a_band_too() -> None:
+    n, end = 136, Matrix.from_entries((136, 1), [(0, 0, 1)])
+    for number, solvable in ((-1, True), (1, False)):
+        A = Matrix.from_entries((n, n), [(a, a, number) for a in range(n)])
+        answer = setpoint_solvability(MultiChannelSystem(A, [end], [end.T], time="discrete"))
+        assert answer.solvable is solvable
+        assert check_document(encode(answer).encode()).verdict == "VALID"
