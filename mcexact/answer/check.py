@@ -98,7 +98,7 @@ class Verdict(Shown, checker.Verdict):
     True
     >>> other = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
     >>> print(check(fixed_spectrum(plant), other).explain())  # doctest: +ELLIPSIS
-    INVALID system system: about another system, ...
+    NOT ABOUT system system: about another system, ...
     """
 
     @classmethod

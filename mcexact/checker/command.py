@@ -1,10 +1,14 @@
 """Verify certificates, and print one line for each.
 
-The line is VALID, the SHA-256 of the statement that the certificate proves, and this statement; or
-INVALID, MALFORMED or INCOMPLETE, a code and a place.  With several files it names its file.  A file
-named manifest.json is read as a manifest.  With --controller there is nothing else in the loop
-unless --expect says so.  Work is limited by default to 40,000,000 units and 4,000 for each byte,
-four times as many if the plant has a parameter.
+The line is VALID and what the certificate proves in short, with --statements the SHA-256 of the
+statement and the whole statement; or INVALID, MALFORMED or INCOMPLETE, a code and a place; or NOT
+ABOUT, if it is about another plant, loop or claim than asked for.  With several files it names its
+file.  A file named manifest.json is read as a manifest: its certificates have numbers, and each of
+its sentences is quoted with the numbers of the premises from which it follows.  A folder stands for
+its manifest, and without one for all its certificates.  With --controller there is nothing else in
+the loop unless --expect says so; of several certificates, those about no loop are about the plant.
+Work is limited by default to 40,000,000 units and 4,000 for each byte, four times as many if the
+plant has a parameter.
 """
 
 import argparse
@@ -35,6 +39,7 @@ from .discs import at_values
 from .kinds import (
     CLAIM,
     DIGEST,
+    NOT_ABOUT,
     PLANT,
     SUPPORTED,
     Beside,
@@ -66,6 +71,7 @@ from .reading import (
     string,
 )
 from .sentences import RULES, Premise
+from .summaries import cut
 from .system import System, counted
 
 # Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them.
@@ -78,6 +84,8 @@ FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
 """The name of a certificate's file beside the manifest, which is not a path on any system."""
 POINTER = re.compile(r"(?:/(?:[^/~]|~[01])*+)*+")
 INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
+MOST_QUOTED = 200
+"""The most characters that are quoted of a sentence, or of what follows from its premises."""
 Read = Callable[[str], bytes]
 """What gives the bytes of a certificate by its name, and of the manifest by ""."""
 
@@ -95,12 +103,12 @@ def manifest_verdicts(path: str, expected: Expectation, limits: Limits) -> Itera
     limits : Limits
         For the manifest and for each certificate.
     """
-    path = _file_of(path)
+    path = manifest_file(path)
     beside = plants_beside(path, limits)
     return verdicts_of(lambda name: _bytes(path, name, limits), expected, limits, beside)
 
 
-def _file_of(manifest: str) -> str:
+def manifest_file(manifest: str) -> str:
     """The file of a manifest, which may be named by its folder; never standard input."""
     folder = os.path.isdir(manifest)
     return os.path.join(manifest, NAME) if folder else os.path.join(".", manifest)
@@ -125,16 +133,19 @@ def verdicts_of(
         return
     digests, sentences, base, nearby = parts
     known = Evidence(read, base, limits, expected, budget, nearby, beside)
-    for name in sorted(digests):
-        yield {"file": name}, known.taken(name, digests[name])
+    for k, name in enumerate(sorted(digests), 1):
+        yield {"file": name, "number": str(k)}, known.taken(name, digests[name])
     refused = attempt(known.make_subject)
     if refused is not None:
         yield {"file": NAME}, refused
         return
     if expected.controller and not any(each.system.controller for each in known.premises.values()):
-        yield {"file": NAME}, refusal("INVALID", "controller", "file", "about no closed loop")
+        yield {"file": NAME}, refusal(NOT_ABOUT, "controller", "file", "about no closed loop")
+    numbers = {name: str(k) for k, name in enumerate(sorted(digests), 1)}
     for k, sentence in enumerate(sentences):
-        yield {"text": sentence["text"]}, known.judged(sentence, f"sentences[{k}]")
+        cited = dict.fromkeys(numbers[name] for name, *_ in sentence["because"])
+        about = {"text": sentence["text"], "premises": ", ".join(cited)}
+        yield about, known.judged(sentence, f"sentences[{k}]")
 
 
 def _bytes(manifest: str, name: str, limits: Limits) -> bytes:
@@ -306,14 +317,23 @@ class Evidence:
             pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
             premises = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
             words = RULES[key].implied(premises, [*self.premises.values()])
+            repeated = words in {premise.statement for premise in premises}
+            short = "" if repeated else without_digest(words, self.own()[0].plant.words)
             words += f" [{theorem}]" if theorem else ""
             spend(len(words))
             if not RULES[key].claims:
                 return Verdict("REMARK", words)
-            return Verdict("IMPLIED", f"{words} from {', '.join(cited)}" if cited else words)
+            words += f" from {', '.join(cited)}" if cited else ""
+            return Verdict("IMPLIED", words, summary=short)
 
         with limited(self.budget):
             return attempt(check).inside(f"{place} {shown(key)}")
+
+
+def without_digest(statement: str, plant: str) -> str:
+    """A statement about the plant of a manifest, in one line without the digest of the plant."""
+    short = statement.replace(plant, "the plant").removeprefix("For ").removeprefix("the plant: ")
+    return cut(short, MOST_QUOTED)
 
 
 def is_uncertain(plant: System | FunctionSystem) -> bool:
@@ -363,11 +383,21 @@ def as_options(text: str) -> str:
     return text.replace("(Limits.", "(--max-")
 
 
-def line_of(result: Found, paths: Sequence[str]) -> str:
-    """A verdict as one line, with the name of its file behind it if there are several."""
+def line_of(result: Found, *, named: bool, statements: bool = False) -> str:
+    """A verdict as one line; ``named`` with the name of its file, ``statements`` with all words.
+
+    A certificate of a manifest has its number before its name.  The text of a sentence is quoted,
+    in which anything may be written; the numbers of the premises from which it follows stand behind
+    it, and what follows where none of them states just that.
+    """
     about, verdict = result
-    name = about.get("manifest") or about["file"]
-    return as_options(verdict.line(ascii(name) if len(paths) > 1 else ""))
+    if "text" in about:
+        by = f" by {about['premises']}" if about["premises"] and not verdict.status else ""
+        name = cut(ascii(about["text"]), MOST_QUOTED) + by
+    else:
+        name = ascii(about["file"]) if named or "number" in about else ""
+        name = f"{about['number']} {name}" if "number" in about else name
+    return as_options(verdict.line(name, short=not statements))
 
 
 def misuse(paths: Sequence[str], manifest: str | None, asking: Asking, bounded: bool) -> str:
@@ -404,16 +434,16 @@ def _certificate(path: str, wanted: Expectation, limits: Limits) -> Iterator[Fou
     yield about, attempt(lambda: check_document(read_file(path, limits), wanted, limits, beside))
 
 
-def _nearby(manifest: str, limits: Limits) -> set[str]:
-    """The paths of the certificates that a manifest lists as about plants nearby.
+def _named(manifest: str, limits: Limits) -> set[str]:
+    """The paths of the certificates that a manifest names, and therefore judges.
 
-    A manifest that cannot be read lists none: its own verdict says why.
+    A manifest that cannot be read names none: its own verdict says why.
     """
 
     def names() -> list[str]:
         data = read_file(manifest, limits)
         with limited(current(limits.work), len(data)):
-            return list(_parts(parse(data, limits))[-1])
+            return list(_parts(parse(data, limits))[0])
 
     listed, folder = attempt(names), os.path.dirname(manifest)
     known = [] if isinstance(listed, Verdict) else listed
@@ -421,21 +451,42 @@ def _nearby(manifest: str, limits: Limits) -> set[str]:
 
 
 def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
-    """The verdicts on a manifest without those of VALID certificates, and then their numbers."""
-    numbers, remarks = Counter[tuple[str, bool]](), 0
+    """The verdicts on a manifest, its certificates and its sentences, and then their numbers."""
+    numbers, remarks, plant = Counter[tuple[str, bool]](), 0, ""
     for about, verdict in manifest_verdicts(path, wanted, limits):
         own = about == {"file": NAME}
         if verdict.verdict == "REMARK":
             remarks += 1
         elif not own:
-            numbers.update((what, not verdict.status) for what in about)
-        if verdict.verdict != "VALID":
-            yield {"file": path} if own else {**about, "manifest": path}, verdict
+            numbers["text" if "text" in about else "file", not verdict.status] += 1
+        if "file" in about and verdict.verdict == "VALID":
+            plant = plant or verdict.system_digest
+        yield {"file": path} if own else {**about, "manifest": path}, verdict
     implied, rest = numbers["text", True], numbers["text", False]
     valid, other = numbers["file", True], numbers["file", False]
     numbers_text = f"{implied} sentences implied, {rest} not, {counted(remarks, 'remark')}"
     numbers_text += f"; {valid} certificates valid, {other} not"
-    yield {"file": path}, Verdict("COUNTED", numbers_text)
+    yield {"file": path}, Verdict("COUNTED", numbers_text, system_digest=plant)
+
+
+def _listed(paths: Sequence[str], manifest: str | None) -> Iterator[tuple[str, bool]]:
+    """Each file, and whether it is a manifest: that of a folder, or else its certificates."""
+    for path in paths:
+        if os.path.isdir(path) and os.path.basename(path) != NAME:
+            inside = os.path.join(path, NAME)
+            found = [inside] if os.path.lexists(inside) else sorted(_certificates_in(path))
+            yield from ((each, each == inside) for each in found or [path])
+        else:
+            yield path, os.path.basename(path) == NAME
+    if manifest is not None:
+        yield manifest, True
+
+
+def _certificates_in(folder: str) -> list[str]:
+    """The files of a folder that may be certificates."""
+    with suppress(OSError):
+        return [os.path.join(folder, name) for name in os.listdir(folder) if FILE.fullmatch(name)]
+    return []
 
 
 def verdicts(
@@ -445,10 +496,11 @@ def verdicts(
 
     What a manifest holds is followed by the path of the ``manifest``.
 
-    A path that ends with the usual name of a manifest is read as a manifest.  Every certificate
-    is asked for what three files hold: a system, a controller, and a statement or claim.  One that
-    a manifest of this call lists as ``nearby`` is about another plant, and asked for the controller
-    alone; its line names its plant.
+    A path that ends with the usual name of a manifest is read as a manifest, and a folder stands
+    for its manifest, or else for its certificates.  Every certificate is asked for what three files
+    hold: a system, a controller, and a statement or claim.  One that a manifest of this call names
+    is judged with the manifest alone.  Of several certificates some may be about the plant and not
+    about a loop with the controller, but not all of them.
 
     Raises
     ------
@@ -459,18 +511,22 @@ def verdicts(
     for path, read in zip(asking, (new.about, new.controlled, new.saying), strict=True):
         if path is not None:
             wanted = _expectation(path, partial(read, wanted), limits, clock)
-    listed = [(path, os.path.basename(path) == NAME) for path in paths]
-    listed += [] if manifest is None else [(manifest, True)]
-    manifests = [path for path, many in listed if many] if paths and any(asking) else []
-    nearby: set[str] = set()
-    for path in manifests:
-        with suppress(OutOfTime):
-            nearby |= clock.within(partial(_nearby, _file_of(path), limits))
+    listed = list(_listed(paths, manifest))
+    judged: set[str] = set()
     for path, many in listed:
-        look = _manifest if many else _certificate
-        near = not many and os.path.normpath(path) in nearby
-        asked = Expectation(controller=wanted.controller) if near else wanted
-        yield from clock.limited(look(path, asked, limits), {"file": path})
+        with suppress(OutOfTime):
+            judged |= clock.within(partial(_named, manifest_file(path), limits)) if many else set()
+    listed = [(path, many) for path, many in listed if many or os.path.normpath(path) not in judged]
+    several = replace(wanted, among=len(listed) > 1)
+    loops = not wanted.controller or not several.among
+    for path, many in listed:
+        look = partial(_manifest, path, wanted) if many else partial(_certificate, path, several)
+        for about, verdict in clock.limited(look(limits), {"file": path}):
+            loops = loops or many or verdict.controller_digest == wanted.controller
+            yield about, verdict
+    if not loops:
+        message = "none of these certificates is about a loop with this controller"
+        yield {"file": str(asking[1])}, refusal(NOT_ABOUT, "controller", "subject", message)
 
 
 def status_of(results: Sequence[Found]) -> int:
@@ -526,6 +582,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = Parser("checker", None, __doc__, main.__doc__, allow_abbrev=False)
     parser.add_argument("files", nargs="*", metavar="FILE", help="certificates; - is the input")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
+    whole = "print whole statements, each behind its SHA-256, which --expect takes"
+    parser.add_argument("--statements", action="store_true", help=whole)
     for name, value, read, usage in OPTIONS:
         default = getattr(Limits, name.removeprefix("max-"), None)
         usage += f" (default: {default:,})" if default else ""
@@ -539,7 +597,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     70 is a bug in this checker, 3 MALFORMED, 1 INVALID, 5 INCOMPLETE, 0 all VALID or IMPLIED, or a
     REMARK, which claims nothing; 2 is wrong usage, 74 the verdicts cannot be written, 130
     interrupted.  Python itself ends with 1 if it cannot start: a status of 1 without a line that
-    says INVALID is no verdict.
+    says INVALID or NOT ABOUT is no verdict.
     """
     try:
         try:
@@ -575,12 +633,13 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     results, clock = [], Clock(options.timeout)
+    named = len(files) > 1 or manifest is not None or any(map(os.path.isdir, files))
     try:
         with memory(options.max_memory), clock.running():
             for each in verdicts(files, manifest, asking, limits, clock):
                 results.append(each)
                 if not options.json:
-                    _say(line_of(each, [*files, manifest] if manifest else files))
+                    _say(line_of(each, named=named, statements=options.statements))
     except NotAsked as error:
         _complain(str(error))
         results = [error.found]

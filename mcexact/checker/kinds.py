@@ -53,6 +53,7 @@ from .reading import (
     shown,
     string,
 )
+from .summaries import summary
 from .system import (
     Saturation,
     System,
@@ -67,12 +68,22 @@ from .system import digest as plant_digest
 # What is asked of a certificate: the plant, the controller, and the statement or the claim.
 
 DIGEST = re.compile(r"[0-9a-f]{64}")
-LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
+LINE = re.compile(r"(?:VALID (?:[0-9]+ )?(?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
 """A statement, alone or in the line of its verdict."""
 CLAIM = 'a claim as a JSON object {"kind": ..., "subject": [...], "claim": {...}}'
+NOT_ABOUT = "NOT ABOUT"
+"""The verdict on a certificate about something else than what was asked for."""
 PLANT = ".plant"
 """The end of the name of a plant's file, behind its digest."""
 Plant = System | FunctionSystem
+
+
+def require_asked(holds: bool, code: str, place: str, message: str) -> None:
+    """Stop unless a certificate is about what was asked for, whatever it proves."""
+    if not holds:
+        raise Refused(NOT_ABOUT, code, place, message)
+
+
 Beside = Callable[[str], bytes | None]
 """The bytes of the file of a plant beside a certificate, by its digest; None if there is none."""
 
@@ -109,6 +120,9 @@ class Expectation:
     saturation : tuple
         For each agent the limits and the anti-windup gains in the file of the controller; empty
         for any.
+    among : bool
+        Whether it is one of several certificates, of which some are about the plant and not about
+        a loop: these are not asked for the controller.
     """
 
     system: str = ""
@@ -121,6 +135,7 @@ class Expectation:
     subject: Json = None
     claim: Json = None
     saturation: Saturation = ()
+    among: bool = False
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
         """Expect, in addition, that the certificate is about the plant in a system file."""
@@ -197,19 +212,19 @@ class Expectation:
         self._require_system(digest, values)
         message = f"about the system of digest {named}, the controller is for {self.made_for}"
         fits = ranged or self.made_for in ("", named)
-        require(fits, "controller", "system", message)
+        require_asked(fits, "controller", "system", message)
 
     def _require_system(self, digest: str, values: str) -> None:
         message = f"about another system, of digest {digest}, not {self.system}"
-        require(self.system in ("", digest, values), "system", "system", message)
+        require_asked(self.system in ("", digest, values), "system", "system", message)
 
     def require_subject(self, steps: Json, digest: str) -> None:
         """Stop unless the certificate has the subject, and the controller where one is given."""
         expected = self.subject
-        if self.controller:
-            require(bool(digest), "controller", "subject", "about no closed loop")
+        if self.controller and (digest or not self.among):
+            require_asked(bool(digest), "controller", "subject", "about no closed loop")
             message = f"about another controller, of digest {digest}, not {self.controller}"
-            require(digest == self.controller, "controller", "subject", message)
+            require_asked(digest == self.controller, "controller", "subject", message)
             if expected is None and not self.statement:
                 # the digest that the controller names has the step
                 expected = sampling_of(steps) if self.made_for else []
@@ -218,21 +233,21 @@ class Expectation:
         if expected is not None:
             names = ", ".join(made_by(steps)) or "none"
             message = f"another subject than asked for; its constructions are: {names}"
-            require(same(steps, expected), "expected", "subject", message)
+            require_asked(same(steps, expected), "expected", "subject", message)
 
     def require_statement(self, kind: str, claim: Json, statement: str) -> None:
         """Stop unless the certificate makes the statement, or the claim of its kind."""
         other = f"a claim of another kind, {kind}"
-        require(self.kind in ("", kind), "expected", "kind", other)
+        require_asked(self.kind in ("", kind), "expected", "kind", other)
         other = f"it states something else: {statement}"
-        require(self.statement in ("", digest_of(statement)), "expected", "claim", other)
+        require_asked(self.statement in ("", digest_of(statement)), "expected", "claim", other)
         if self.saturation and kind == "saturation":
             message = "other limits or anti-windup gains than those of the controller's file"
             right = saturation.agrees(claim, self.saturation)
-            require(right, "controller", "claim", message)
+            require_asked(right, "controller", "claim", message)
         right = self.claim is None or same(claim, self.claim)
         message = f"another claim, which differs in {difference(claim, self.claim)}"
-        require(right, "expected", "claim", f"{message} and states: {statement}")
+        require_asked(right, "expected", "claim", f"{message} and states: {statement}")
 
 
 def difference(claim: Json, asked: Json) -> str:
@@ -350,7 +365,7 @@ KINDS = {
 }
 """The rule of each kind."""
 STATUSES = dict.fromkeys(("VALID", "IMPLIED", "REMARK", "COUNTED"), 0)
-STATUSES |= {"INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
+STATUSES |= {"INVALID": 1, NOT_ABOUT: 1, "MALFORMED": 3, "INCOMPLETE": 5}
 
 
 @dataclass(frozen=True)
@@ -360,13 +375,16 @@ class Verdict:
     Attributes
     ----------
     verdict : str
-        VALID (for a sentence IMPLIED, or REMARK if it claims nothing), INVALID, MALFORMED,
-        INCOMPLETE, or ERROR for a bug in this checker; COUNTED for the numbers of these in a
-        manifest.
+        VALID (for a sentence IMPLIED, or REMARK if it claims nothing), INVALID, NOT ABOUT,
+        MALFORMED, INCOMPLETE, or ERROR for a bug in this checker; COUNTED for the numbers of these
+        in a manifest.
     statement : str
         What was proved, in words, or counted; else empty.
     statement_digest : str
         The SHA-256 of the statement of a certificate.
+    summary : str
+        What it says in one line, without all that its words mean; of a sentence what follows from
+        its premises, empty where that is what one of them states.
     system_digest : str
         The SHA-256 of the certificate's plant; empty if it could not be read.
     controller_digest : str
@@ -381,6 +399,7 @@ class Verdict:
     verdict: str
     statement: str = ""
     statement_digest: str = ""
+    summary: str = ""
     system_digest: str = ""
     controller_digest: str = ""
     code: str = ""
@@ -400,12 +419,18 @@ class Verdict:
         """The verdict with its place inside of a larger document, if it is not good."""
         return replace(self, place=f"{where} {self.place}" if self.status else "")
 
-    def line(self, name: str = "") -> str:
-        """The verdict as one line of text, with the name of what it is about behind it."""
-        words = [self.verdict, name, self.statement_digest, self.statement]
+    def line(self, name: str = "", *, short: bool = False) -> str:
+        """The verdict as one line of text, with the name of what it is about behind it.
+
+        It has the statement and its digest, or with ``short`` the summary.
+        """
+        words = [self.statement_digest, self.statement]
         if self.status:
-            words = [self.verdict, name, self.code, f"{self.place}: {self.message}"]
-        return " ".join(part for part in words if part)
+            words = [self.code, f"{self.place}: {self.message}"]
+        elif short and self.verdict in ("VALID", "IMPLIED", "REMARK"):
+            words = [self.summary]
+            name += ":" if name and self.summary else ""
+        return " ".join(part for part in (self.verdict, name, *words) if part)
 
 
 def check_document(
@@ -497,7 +522,8 @@ class Check:
             self.words = KINDS[kind].statement(claim, self.system)
             statement = f"For {described(self.system)}: {self.words}"
             wanted.require_statement(kind, claim, statement)
-            return Verdict("VALID", statement, digest_of(statement))
+            words = summary(self.document, self.system, self.words)
+            return Verdict("VALID", statement, digest_of(statement), words)
 
     def _named(self, values: str) -> str:
         """The digest that controllers name: that of the sampled plant, if it is sampled first."""

@@ -505,7 +505,8 @@ def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
 def moved_between(spectrum: Premise, split: Premise) -> str:
     """Bounds on how many eigenvalues gains move."""
     least, most = moved(spectrum, split)
-    return f"{split.about}: gains move from {least} to {most} of the {split.system.n} eigenvalues"
+    number = f"{least}" if least == most else f"from {least} to {most}"
+    return f"{split.about}: gains move {number} of the {split.system.n} eigenvalues"
 
 
 @rule("spectrum-moved", FIXED, BLOCKS, theorem=MOVED)

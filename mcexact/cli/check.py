@@ -11,7 +11,9 @@ time and memory are the checker's own (`Clock`, `memory`): what they end is INCO
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import io
+import os
 import sys
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,6 +29,7 @@ from mcexact.checker.command import (
     UNWRITTEN,
     NotAsked,
     line_of,
+    manifest_file,
     misuse,
     status_of,
     verdicts,
@@ -72,6 +75,11 @@ FIRST_DAY = (1980, 1, 1, 0, 0, 0)
     "subject is [] if left out.",
 )
 @click.option(
+    "--statements",
+    is_flag=True,
+    help="Print whole statements, each behind its SHA-256, in place of what they say in short.",
+)
+@click.option(
     "--timeout",
     type=options.seconds,
     metavar="SECONDS",
@@ -96,6 +104,7 @@ FIRST_DAY = (1980, 1, 1, 0, 0, 0)
     help="Write to this file a theorem of Coq (now Rocq) that is the claim of the one CERTIFICATE, "
     "proved by one computation (needs the program mcexact-verified: make verified).",
 )
+@options.page("verdicts, statements, and how to repeat the check: what an auditor signs")
 @click.option(
     "--verified/--no-verified",
     "ask_verified",
@@ -119,30 +128,36 @@ def command(
     system: str | None,
     controller: str | None,
     expect: str | None,
+    statements: bool,
     timeout: float | None,
     max_memory: int | None,
     export: Path | None,
     rocq: Path | None,
+    html: Path | None,
     ask_verified: bool,
     as_json: bool,
     **limits: int | None,
 ) -> int:
-    """Verify each CERTIFICATE and print one line with the verdict and the verified statement.
+    """Verify each CERTIFICATE and print one line with the verdict and what it proves in short.
 
-    VALID is followed by the statement that the certificate proves, behind its SHA-256.
-    INVALID, MALFORMED and INCOMPLETE are followed by a code and a place. With several files,
-    the name of the file stands behind the verdict. A sentence of a manifest is IMPLIED instead of
-    VALID; the statement printed for it is made from the certificates, not from the text of the
-    sentence. A sentence that claims nothing, such as a title, is a REMARK, and not counted as
-    implied.
+    A folder stands for its manifest: for the certificates that it names, numbered, and the
+    sentences of the report. Each sentence is quoted with the numbers of the certificates that imply
+    it. The quoted words are the report's own; what is proved is what the lines of these
+    certificates say, or the words behind the numbers.
+
+    --statements prints whole statements, each behind its SHA-256. INVALID, MALFORMED and
+    INCOMPLETE are followed by a code and a place. A certificate about another plant, another loop
+    or another claim than asked for is NOT ABOUT it, whatever it proves. A sentence that claims
+    nothing, such as a title, is a REMARK, and not counted as implied. Of several certificates,
+    those about no loop are judged without --controller.
 
     Where the program mcexact-verified is installed, a line on standard error says which VALID
     certificates it confirms, too. If it finds one false, one of the two has a bug, and the status
     is 70.
 
-    The status is the first that applies of 70, 3 (MALFORMED), 1 (INVALID), 5 (INCOMPLETE) and 0, or
-    74 if the verdicts cannot be written. The file that --export writes prints the same verdicts:
-    python -I FILE CERTIFICATE...
+    The status is the first that applies of 70, 3 (MALFORMED), 1 (INVALID, NOT ABOUT), 5
+    (INCOMPLETE) and 0, or 74 if the verdicts cannot be written. The file that --export writes
+    prints the same verdicts: python -I FILE CERTIFICATE...
     """
     if export is not None:
         if certificates or manifest is not None:
@@ -156,10 +171,12 @@ def command(
     asking = None if system is None else _plant_file(system), controller, expect
     if wrong := misuse(certificates, manifest, asking, bool(timeout or max_memory)):
         raise click.UsageError(wrong)
+    _require_page(html, [*certificates, manifest, *asking])
     judged, clock = [], Clock(timeout)
     allowed = Limits(**options.set_limits(limits))
     paths = [*certificates, *([manifest] if manifest else [])]
-    progress, interrupted = _Progress(paths), False
+    named = len(paths) > 1 or manifest is not None or any(map(os.path.isdir, paths))
+    progress, interrupted = _Progress(shows=named), False
     try:
         try:
             with memory(max_memory), clock.running(), progress.shown():
@@ -167,8 +184,8 @@ def command(
                     judged.append(each)
                     progress.clear()
                     if not as_json:
-                        deliver(line_of(each, paths) + "\n")
-                    progress.after(each[0])
+                        deliver(line_of(each, named=named, statements=statements) + "\n")
+                    progress.after()
         except KeyboardInterrupt:
             interrupted = True
         except NotAsked as refused:
@@ -186,6 +203,9 @@ def command(
             deliver(json_text({"format": FORMAT, "verdicts": rows}))
         if rocq is not None and not interrupted:
             _write_theorem(rocq, certificates[0], timeout)
+        if html is not None and not interrupted:
+            inputs = {"plant": system, "controller": controller, "statement or claim": expect}
+            _write_page(html, judged, second, inputs, [*certificates], manifest)
     except NotWritten as error:
         if not error.reader_left:
             raise
@@ -197,6 +217,12 @@ def command(
     return BUG if contradicted else status_of(judged)
 
 
+def file_of(about: Mapping[str, str]) -> str:
+    """The file of a certificate, which may be beside a manifest."""
+    folder = os.path.dirname(manifest_file(about["manifest"])) if "manifest" in about else ""
+    return os.path.join(folder, about["file"])
+
+
 def _confirmed(judged: Sequence[Found], seconds: float | None) -> dict[int, str]:
     """What mcexact-verified says of VALID certificates, by their places; a line of each is printed.
 
@@ -205,12 +231,12 @@ def _confirmed(judged: Sequence[Found], seconds: float | None) -> dict[int, str]
     places = [
         k
         for k, (about, verdict) in enumerate(judged)
-        if verdict.verdict == "VALID" and about.keys() == {"file"} and about["file"] != "-"
+        if verdict.verdict == "VALID" and about["file"] != "-"
     ]
     found: dict[int, str] = {}
     if not places or verified.program() is None:
         return found
-    files = [judged[k][0]["file"] for k in places]
+    files = [file_of(judged[k][0]) for k in places]
     systems = [judged[k][1].system_digest for k in places]
     answers = verified.confirmations(files, systems, seconds)
     for k, file, answer in zip(places, files, answers, strict=True):
@@ -240,21 +266,59 @@ def _write_theorem(file: Path, certificate: str, seconds: float | None) -> None:
     write_result(file, text.encode("ascii"))
 
 
-class _Progress:
-    """How many of several files are checked, on standard error if that is a terminal."""
+def _require_page(page: Path | None, inputs: Sequence[str | None]) -> None:
+    """Check before the work that a page would overwrite no input."""
+    if page is not None:
+        # The checker shall not need what writes files.
+        from mcexact.cli.files import require_other
 
-    def __init__(self, paths: list[str]) -> None:
-        self._paths, self._checked = paths, set[str]()
-        self._shows = len(paths) > 1 and sys.stderr is not None and sys.stderr.isatty()
+        require_other(page, *(path for path in inputs if path not in (None, "-")))
+
+
+def _write_page(
+    page: Path,
+    judged: Sequence[Found],
+    second: Mapping[int, str],
+    inputs: Mapping[str, str | None],
+    certificates: list[str],
+    manifest: str | None,
+) -> None:
+    """Write the page of the audit, with the bytes of certificates as evidence."""
+    # The checker shall not need what writes pages.
+    from mcexact.cli.audit import audit_page
+    from mcexact.cli.files import write_result
+
+    asked = {words: path for words, path in inputs.items() if path is not None}
+    given = {"system": inputs["plant"], "controller": inputs["controller"], "manifest": manifest}
+    given["expect"] = inputs["statement or claim"]
+    pairs = ((f"--{name}", path) for name, path in given.items() if path is not None)
+    options_given = [word for pair in pairs for word in pair]
+    archive = hashlib.sha256(checker_archive()).hexdigest()
+    made = audit_page(judged, second, [*certificates, *options_given], archive, asked=asked)
+    texts, verdicts_of_files = {}, {}
+    for about, verdict in judged:
+        if "text" not in about and verdict.verdict != "COUNTED" and about["file"] != "-":
+            name = about["file"]
+            with contextlib.suppress(OSError):
+                texts[name] = Path(file_of(about)).read_text("utf-8", errors="replace")
+                verdicts_of_files[name] = verdict
+    write_result(page, made.rendered(texts, verdicts_of_files))
+
+
+class _Progress:
+    """How much is checked, on standard error if that is a terminal."""
+
+    def __init__(self, *, shows: bool) -> None:
+        self._checked = 0
+        self._shows = shows and sys.stderr is not None and sys.stderr.isatty()
 
     def done(self) -> str:
-        """How many files are checked, in words."""
-        return f"{len(self._checked)} of {len(self._paths)} files"
+        """How much is checked, in words."""
+        return f"{self._checked} certificates and sentences"
 
-    def after(self, about: Mapping[str, str]) -> None:
+    def after(self) -> None:
         """Show what is checked, after one more verdict."""
-        if "manifest" not in about:
-            self._checked.add(about["file"])
+        self._checked += 1
         self._show()
 
     @contextlib.contextmanager

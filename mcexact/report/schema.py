@@ -643,12 +643,13 @@ def check() -> Schema:
         {
             "verdict": {
                 "enum": [
-                    *("VALID", "INVALID", "MALFORMED", "INCOMPLETE"),
+                    *("VALID", "INVALID", "NOT ABOUT", "MALFORMED", "INCOMPLETE"),
                     *("IMPLIED", "REMARK", "COUNTED"),
                 ]
             },
             "statement": TEXT,
             "statement_digest": TEXT,
+            "summary": TEXT,
             "system_digest": TEXT,
             "controller_digest": TEXT,
             "code": TEXT,

@@ -52,7 +52,7 @@ def test_a_controller_and_a_derived_system_are_about_the_loop_of_both() -> None:
     assert check(loop, changed, controller, claim).verdict == "VALID"
     for system in (plant, None, feedback(changed, [Matrix.from_integers([[1]])])):
         found = check(loop, system, controller, claim)
-        assert (found.verdict, found.place) == ("INVALID", "subject")
+        assert (found.verdict, found.place) == ("NOT ABOUT", "subject")
 
 
 def test_what_is_no_certificate_is_not_valid(tmp_path: Path) -> None:
@@ -84,7 +84,7 @@ def test_the_controller_can_be_an_object_or_a_file(tmp_path: Path) -> None:
         for certificate in map(design.certificates.get, ("stability", "closed_loop_spectrum")):
             assert check(certificate, plant, controller).verdict == "VALID"
         refused = check(other.certificates["stability"], controller=controller)
-        assert (refused.verdict, refused.code) == ("INVALID", "controller")
+        assert (refused.verdict, refused.code) == ("NOT ABOUT", "controller")
 
 
 def test_the_statement_or_the_claim_can_be_expected() -> None:

@@ -119,7 +119,7 @@ def test_a_file_that_names_its_plant_by_digest_is_read_with_the_plant(tmp_path: 
     assert named == whole
     with pytest.raises(InputError, match="INCOMPLETE system system: give the system of digest"):
         load_certificate(file)
-    with pytest.raises(InputError, match="INVALID system system: about another system"):
+    with pytest.raises(InputError, match="NOT ABOUT system system: about another system"):
         load_certificate(file, MultiChannelSystem([[0]], [[[1]]], [[[1]]]))
 
 

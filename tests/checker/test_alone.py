@@ -298,10 +298,11 @@ def test_an_interruption_ends_with_130(hostile: Path, start: Sequence[str]) -> N
 
 
 def test_what_is_no_readable_file_is_named_in_one_line(hostile: Path, start: Sequence[str]) -> None:
-    done = run(hostile, *start, ".", "missing.json", "a\nb\x1b[31m")
+    (hostile / "empty").mkdir(exist_ok=True)
+    done = run(hostile, *start, "empty", "missing.json", "a\nb\x1b[31m")
     assert done.returncode == 3
     lines = done.stdout.splitlines()
-    names = ("'.'", "'missing.json'", r"'a\nb\x1b[31m'")
+    names = ("'empty'", "'missing.json'", r"'a\nb\x1b[31m'")
     assert [line.split()[:3] for line in lines] == [
         ["MALFORMED", name, "unreadable"] for name in names
     ]

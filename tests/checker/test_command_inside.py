@@ -168,14 +168,21 @@ def test_a_line_names_its_file_where_there_are_several(
 ) -> None:
     main(["fixed.json"])
     alone = capsys.readouterr().out
-    assert main(["fixed.json", "invalid.json", "--manifest", "evidence"]) == 1
+    files = ["fixed.json", "invalid.json", "--manifest", "evidence"]
+    assert main(files) == 1
     valid, invalid, *implied, counted = capsys.readouterr().out.splitlines()
-    assert valid.replace(" 'fixed.json' ", " ", 1) + "\n" == alone
+    implied = implied[len(EVIDENCE) :]
+    assert valid.replace(" 'fixed.json': ", " ", 1) + "\n" == alone
     assert invalid.startswith("INVALID 'invalid.json' common_factor ")
-    assert all(line.startswith("IMPLIED 'evidence' For ") for line in implied)
+    texts = [ascii(each["text"]) for each in SENTENCES]
+    assert all(
+        line.startswith(f"IMPLIED {text}") for line, text in zip(implied, texts, strict=True)
+    )
     told = f"{len(SENTENCES)} sentences implied, 0 not, 0 remarks; "
     told += f"{len(EVIDENCE)} certificates valid, 0 not"
     assert counted == f"COUNTED 'evidence' {told}"
+    assert main([*files, "--statements"]) == 1
+    valid, *_ = capsys.readouterr().out.splitlines()
     (folder / "said.txt").write_text(valid + "\n", encoding="ascii")
     assert main(["fixed.json", "--expect", "said.txt"]) == 0
 

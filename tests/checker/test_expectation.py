@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.kinds import Expectation, Verdict, difference
+from mcexact.checker.kinds import NOT_ABOUT, Expectation, Verdict, difference
 from mcexact.checker.reading import Limits, Refused
 from mcexact.checker.system import FORMAT, canonical_json, digest, read_plant
 from tests.checker.handmade import (
@@ -62,10 +62,10 @@ def test_the_controller_can_be_insisted_on() -> None:
     assert verdict.system_digest == ABOUT
 
 
-def test_another_plant_is_invalid_and_both_digests_are_named() -> None:
+def test_another_plant_is_not_asked_about_and_both_digests_are_named() -> None:
     file = text({"format": "mcexact-system/1", **PAPER})
     verdict = answered(LOOP, Expectation().about(file, Limits()))
-    assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "system", "system")
+    assert (verdict.verdict, verdict.code, verdict.place) == (NOT_ABOUT, "system", "system")
     assert ABOUT in verdict.message and digest(read_plant(PAPER)) in verdict.message
 
 
@@ -76,9 +76,9 @@ def test_the_plant_in_a_file_is_granted_work_and_no_other_is() -> None:
     assert found.size == len(canonical_json(found.plant)) > 0
 
 
-def test_another_controller_is_invalid_and_both_digests_are_named() -> None:
+def test_another_controller_is_not_asked_about_and_both_digests_are_named() -> None:
     verdict = answered(ANOTHER, controlled())
-    assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "controller", "subject")
+    assert (verdict.verdict, verdict.code, verdict.place) == (NOT_ABOUT, "controller", "subject")
     other = checked(ANOTHER).controller_digest
     assert other in verdict.message and controlled().controller in verdict.message
     assert verdict.statement == verdict.statement_digest == ""
@@ -90,18 +90,18 @@ def test_neither_of_two_controllers_passes_for_the_other() -> None:
     assert answered(ANOTHER, controlled(other)).verdict == "VALID"
     for document, file in ((LOOP, other), (ANOTHER, FILE)):
         verdict = answered(document, controlled(file))
-        assert (verdict.verdict, verdict.code) == ("INVALID", "controller")
+        assert (verdict.verdict, verdict.code) == (NOT_ABOUT, "controller")
 
 
 @pytest.mark.parametrize("document", [FREE, certificate("closed_loop_spectrum", SCALAR, {}, {})])
-def test_a_certificate_without_a_closed_loop_is_invalid(document: Document) -> None:
+def test_a_certificate_without_a_closed_loop_is_about_no_controller(document: Document) -> None:
     verdict = answered(document, Expectation(controller=controlled().controller))
-    assert (verdict.verdict, verdict.message) == ("INVALID", "about no closed loop")
+    assert (verdict.verdict, verdict.message) == (NOT_ABOUT, "about no closed loop")
 
 
-def test_a_controller_for_another_plant_is_invalid() -> None:
+def test_a_controller_for_another_plant_is_not_about_this_one() -> None:
     verdict = answered(LOOP, controlled({**FILE, "system": digest(read_plant(PAPER))}))
-    assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "controller", "system")
+    assert (verdict.verdict, verdict.code, verdict.place) == (NOT_ABOUT, "controller", "system")
     assert ABOUT in verdict.message
     assert answered(LOOP, controlled({**FILE, "system": ""})).verdict == "VALID"
 
@@ -162,7 +162,7 @@ def test_a_controller_stands_for_its_loop_with_the_plant_and_nothing_else(
     assert checked(document).controller_digest == controlled().controller
     for expected in (controlled(), claimed(document, controlled())):
         verdict = answered(document, expected)
-        assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "expected", "subject")
+        assert (verdict.verdict, verdict.code, verdict.place) == (NOT_ABOUT, "expected", "subject")
     steps = document["subject"]
     assert ", ".join(step["construction"] for step in steps) in verdict.message
     whole = claimed(document, controlled(), subject=steps)
@@ -282,7 +282,7 @@ def test_the_statement_the_digest_or_the_claim_can_be_insisted_on() -> None:
     for expected in (*texts, *pasted, shuffled, {**shuffled, "subject": []}):
         assert answered(FIXED, saying(expected)).verdict == "VALID"
         other = answered(FREE, saying(expected))
-        assert (other.verdict, other.code) == ("INVALID", "expected")
+        assert (other.verdict, other.code) == (NOT_ABOUT, "expected")
         assert checked(FREE).statement in other.message
         assert other.statement == ""
 
@@ -319,7 +319,7 @@ def test_a_claim_is_of_a_kind_and_about_a_subject() -> None:
         {"subject": [7]},
     ):
         verdict = answered(FIXED, claimed(FIXED, **more))
-        assert (verdict.verdict, verdict.code) == ("INVALID", "expected")
+        assert (verdict.verdict, verdict.code) == (NOT_ABOUT, "expected")
         assert verdict.place == next(iter(more))
     dual = {**FREE, "subject": [{"construction": "dual"}]}
     assert checked(dual).verdict == "VALID"
@@ -379,7 +379,7 @@ def test_every_loop_of_a_manifest_has_the_controller(tmp_path: Any) -> None:
     evidence["loop"] = ANOTHER
     said = [sentence("design-assigned", "loop", evidence=evidence)]
     found = judged(tmp_path, evidence, said, controlled())
-    assert [verdict.verdict for _, verdict in found] == ["INVALID"] * 3
+    assert [verdict.verdict for _, verdict in found] == [NOT_ABOUT, NOT_ABOUT, "INVALID"]
     evidence["loop"] = CHANGED
     said = [sentence("heading", evidence=evidence)]
     found = judged(tmp_path, evidence, said, controlled())

@@ -10,7 +10,7 @@ import pytest
 
 from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, limited
 from mcexact.checker.command import pointed, verdicts_of
-from mcexact.checker.kinds import FORMAT, KINDS, Expectation, same
+from mcexact.checker.kinds import FORMAT, KINDS, NOT_ABOUT, Expectation, same
 from mcexact.checker.reading import Limits, Refused
 from mcexact.checker.system import digest, read_plant
 from tests import effort
@@ -79,7 +79,7 @@ def test_the_plant_can_be_insisted_on(tmp_path: Path) -> None:
     write(tmp_path)
     assert {v.verdict for v in said(tmp_path, about(PAPER))} == {"IMPLIED"}
     found = said(tmp_path, about(OTHER))
-    assert {v.verdict for v in found} == {"INVALID"}
+    assert {v.verdict for v in found} == {NOT_ABOUT, "INVALID"}
     assert [v.code for v in found].count("system") == len(EVIDENCE)
 
 
@@ -188,7 +188,7 @@ def test_no_premise_can_be_of_another_plant(tmp_path: Path, what: Document, exch
     evidence = EVIDENCE | {exchanged: FREE if exchanged == "fixed_spectrum" else document}
     write(tmp_path, evidence, manifest(evidence, [what]))
     found = said(tmp_path, about(PAPER))
-    assert [(v.verdict, v.code) for v in found] == [("INVALID", "system"), ("INVALID", "premise")]
+    assert [(v.verdict, v.code) for v in found] == [(NOT_ABOUT, "system"), ("INVALID", "premise")]
     assert any(v.status for v in said(tmp_path))
 
 
@@ -355,7 +355,7 @@ def test_all_loops_have_the_controller_that_is_expected(tmp_path: Path) -> None:
     listed = manifest(evidence, [sentence("heading")])
     digest_of_loop = checked(LOOP).controller_digest
     found = said(write(tmp_path, evidence, listed), Expectation(controller=digest_of_loop))
-    assert [(v.verdict, v.code) for v in found] == [("INVALID", "controller"), ("IMPLIED", "")]
+    assert [(v.verdict, v.code) for v in found] == [(NOT_ABOUT, "controller"), ("IMPLIED", "")]
     assert found[0].place == "another.json subject"
     assert [v.verdict for v in said(tmp_path)] == ["IMPLIED"]
 

@@ -15,7 +15,7 @@ from mcexact.analysis.nearby.allowances import rounding, typed
 from mcexact.answer.protocol import document
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.command import verdicts as command_verdicts
-from mcexact.checker.kinds import Clock, Expectation
+from mcexact.checker.kinds import NOT_ABOUT, Clock, Expectation
 from mcexact.checker.reading import Limits
 from mcexact.checker.sentences_nearby import last_digit
 from mcexact.derived.constructions import dual
@@ -105,7 +105,7 @@ def test_the_distance_is_computed_from_both_plants(
 
 def test_a_certificate_about_another_plant_is_listed_as_nearby_or_refused(tmp_path: Path) -> None:
     first, second, found = verdicts(tmp_path, loop(STABLE), loop(FAILS), PART, None)
-    assert (first.verdict, second.verdict, second.code) == ("VALID", "INVALID", "system")
+    assert (first.verdict, second.verdict, second.code) == ("VALID", NOT_ABOUT, "system")
     assert (found.verdict, found.code) == ("INVALID", "premise")
 
 
@@ -141,7 +141,7 @@ def test_a_plant_nearby_is_in_a_loop_with_the_controller_that_is_asked_for(tmp_p
     asked = controller_text(local_controllers(STABLE, GAIN)).encode()
     wanted = Expectation().controlled(asked, Limits())
     found = [each for _, each in manifest_verdicts(str(tmp_path), wanted, Limits())]
-    assert [each.verdict for each in found] == ["VALID", "INVALID", "INVALID"]
+    assert [each.verdict for each in found] == ["VALID", NOT_ABOUT, "INVALID"]
     assert found[1].code == "controller"
 
 
@@ -456,10 +456,10 @@ def test_a_file_beside_its_manifest_may_be_about_a_plant_nearby(
     asking = str(plant_file), str(controller), None
     files = [str(tmp_path / name) for name in names]
     rows = list(command_verdicts(files, None, asking, Limits(), Clock(None)))
-    codes = {Path(about["file"]).name: each.code for about, each in rows if "manifest" not in about}
-    single = {name: code for name, code in codes.items() if name != "manifest.json"}
-    assert {name: code for name, code in single.items() if code} == judged
-    assert {*single} == {*names} - {"manifest.json"}
+    codes = [(Path(about["file"]).name, each.code) for about, each in rows if "file" in about]
+    single = [(name, code) for name, code in codes if name != "manifest.json"]
+    assert {name: code for name, code in single if code} == judged
+    assert len(single) == len({*single}) and {*names} <= {name for name, _ in codes}
 
 
 class Ending(Clock):

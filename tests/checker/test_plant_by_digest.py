@@ -6,6 +6,7 @@ import hashlib
 import io
 import json
 import os
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ from mcexact.checker.command import (
     verdicts,
     verdicts_of,
 )
-from mcexact.checker.kinds import Clock, Expectation, check_document
+from mcexact.checker.kinds import NOT_ABOUT, Clock, Expectation, check_document
 from mcexact.checker.reading import Limits, Refused
 from mcexact.checker.system import digest, read_plant
 from tests.checker import test_blocks, test_completeness, test_transfer_graph
@@ -65,7 +66,7 @@ def test_nothing_is_proved_without_the_plant(known: Expectation) -> None:
 
 def test_another_plant_is_invalid_and_both_digests_are_named() -> None:
     verdict = checked(alone(FREE), expected=beside(PAPER))
-    assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "system", "system")
+    assert (verdict.verdict, verdict.code, verdict.place) == (NOT_ABOUT, "system", "system")
     assert alone(FREE)["system"] in verdict.message
     assert digest(read_plant(PAPER)) in verdict.message
 
@@ -73,7 +74,7 @@ def test_another_plant_is_invalid_and_both_digests_are_named() -> None:
 def test_a_controller_for_another_plant_is_invalid() -> None:
     known = replace(beside(SCALAR), made_for="0" * 64)
     verdict = checked(alone(LOOP), expected=known)
-    assert (verdict.verdict, verdict.code) == ("INVALID", "controller")
+    assert (verdict.verdict, verdict.code) == (NOT_ABOUT, "controller")
 
 
 def test_what_is_false_of_the_plant_stays_invalid() -> None:
@@ -157,8 +158,8 @@ def test_the_command_takes_the_plant_from_the_file_of_the_system(
     assert main(["free.json"]) == 5
     assert main(["free.json", "--system", "plant.json"]) == 0
     assert main(["free.json", "loop.json", "--system", "plant.json"]) == 1
-    told = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
-    assert told == ["INCOMPLETE", "VALID", "VALID", "INVALID"]
+    told = [re.match("NOT ABOUT|[A-Z]+", line)[0] for line in capsys.readouterr().out.splitlines()]
+    assert told == ["INCOMPLETE", "VALID", "VALID", NOT_ABOUT]
 
 
 # The plant in a file beside the certificate.
@@ -281,7 +282,7 @@ def test_what_is_asked_for_is_compared_with_the_plant_beside(tmp_path: Path) -> 
     text = text_of(alone(FIXED))
     assert check_document(text, beside(PAPER), beside=find).verdict == "VALID"
     found = check_document(text, beside(FREE["system"]), beside=find)
-    assert (found.verdict, found.code, found.place) == ("INVALID", "system", "system")
+    assert (found.verdict, found.code, found.place) == (NOT_ABOUT, "system", "system")
 
 
 def test_standard_input_is_in_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -311,7 +312,7 @@ def test_a_manifest_takes_the_plant_beside_it(tmp_path: Path) -> None:
     assert said(write(tmp_path / "named", NAMED)) == expected
     assert said(tmp_path / "named", beside(PAPER)) == expected
     other = said(tmp_path / "named", beside(FREE["system"]))
-    assert {(each.verdict, each.code) for each in other[: len(NAMED)]} == {("INVALID", "system")}
+    assert {(each.verdict, each.code) for each in other[: len(NAMED)]} == {(NOT_ABOUT, "system")}
 
 
 def test_a_wrong_plant_beside_a_manifest_leaves_no_sentence(tmp_path: Path) -> None:

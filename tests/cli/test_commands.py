@@ -24,6 +24,7 @@ from tests.end_to_end.command_line import without_notes
 
 GALLERY = Path(gallery.__file__).parent
 TRIPLE = str(GALLERY / "hidden-triple-mode.json")
+DOUBLE = str(GALLERY / "compleib-dis2.json")
 QUOTING = Path(mcexact.__file__).parents[1] / "docs" / "why-exactly.md"
 
 Call = Callable[..., tuple[int, str, str]]
@@ -240,10 +241,12 @@ def test_check_ends_with_the_worst_status_in_its_order(call: Call, tmp_path: Pat
 
 def test_check_says_what_certificates_imply(call: Call, tmp_path: Path) -> None:
     status, out, _ = call("check", "--manifest", str(write(tmp_path)))
-    assert (status, {line.split()[0] for line in out.splitlines()}) == (0, {"IMPLIED", "COUNTED"})
+    found = {line.split()[0] for line in out.splitlines()}
+    assert (status, found) == (0, {"VALID", "IMPLIED", "COUNTED"})
     (tmp_path / "neighbor_graph.json").unlink()
     status, out, _ = call("check", "--manifest", str(tmp_path), "--json")
-    assert (status, json.loads(out)["verdicts"][0]["file"]) == (1, "neighbor_graph.json")
+    refused = [row for row in json.loads(out)["verdicts"] if row["verdict"] == "INVALID"]
+    assert (status, refused[0]["file"]) == (1, "neighbor_graph.json")
     assert call("check")[0] == 2
     assert call("check", "--manifest", str(tmp_path), "--expect", "said.txt")[0] == 2
 
@@ -319,3 +322,53 @@ def _read(terminal: int) -> bytes:
         return os.read(terminal, 4096)
     except OSError:  # how Linux says that the other end was closed
         return b""
+
+
+def test_a_folder_stands_for_its_manifest_or_its_certificates(call: Call, tmp_path: Path) -> None:
+    write(tmp_path)
+    every = sorted(map(str, tmp_path.glob("*.json")))
+    status, out, _ = call("check", str(tmp_path))
+    assert (status, call("check", *every)[1]) == (0, out)
+    assert out == call("check", "--manifest", str(tmp_path / "manifest.json"))[1]
+    assert "IMPLIED 'not-stabilizable' by 2\n" in out
+    (tmp_path / "manifest.json").unlink()
+    status, out, _ = call("check", str(tmp_path))
+    assert (status, {line.split()[0] for line in out.splitlines()}) == (0, {"VALID"})
+    assert len(out.splitlines()) == len(every) - 1
+
+
+def test_the_controller_is_asked_of_loops_among_several_certificates(
+    call: Call, tmp_path: Path
+) -> None:
+    made = ("design", "decentralized", DOUBLE, "--rate", "1", "-o", str(tmp_path / "controller"))
+    call(*made, "--certificates", str(tmp_path / "loop"))
+    call("analyze", DOUBLE, "--certificates", str(tmp_path / "plant"))
+    asked = ("--system", DOUBLE, "--controller", str(tmp_path / "controller"))
+    loop, plant = (str(tmp_path / each) for each in ("loop/stability.json", "plant/setpoint.json"))
+    assert call("check", str(tmp_path / "loop"), *asked)[0] == 0
+    assert call("check", loop, plant, *asked)[0] == 0
+    status, out, _ = call("check", plant, *asked)
+    assert (status, out.split(" controller")[0]) == (1, "NOT ABOUT")
+    status, out, _ = call("check", plant, plant, *asked)
+    assert (status, [line.split(" '")[0] for line in out.splitlines()]) == (
+        1,
+        ["VALID", "VALID", "NOT ABOUT"],
+    )
+
+
+def test_an_audit_is_a_page_with_what_is_proved_and_how_to_repeat_it(
+    call: Call, tmp_path: Path
+) -> None:
+    folder, page = tmp_path / "a folder", tmp_path / "audit.html"
+    folder.mkdir()
+    write(folder)
+    assert call("check", str(folder), "--html", str(page))[0] == 0
+    text = page.read_text("utf-8")
+    assert f"python -I mcexact-checker.pyz &#39;{folder}&#39;" in text
+    assert "not-stabilizable" in text and "no plant was given to compare with" in text
+    assert text.count("VALID") > len(list(folder.iterdir()))
+    (folder / "neighbor_graph.json").write_text("{}")
+    assert call("check", str(folder), "--html", str(page))[0] == 1
+    assert "not the bytes that the manifest names" in page.read_text("utf-8")
+    file = str(folder / "manifest.json")
+    assert call("check", file, "--html", file)[0] == 3

@@ -167,9 +167,9 @@ def test_a_verdict_is_asked_whether_it_is_valid() -> None:
     good, bad = RESULTS["verdict"](), RESULTS["bad verdict"]()
     assert good.valid and not bad.valid
     assert good.explain() == good.statement
-    assert bad.explain().startswith("INVALID system")
+    assert bad.explain().startswith("NOT ABOUT system")
     assert repr(good).startswith("Verdict(VALID: For the plant ")
-    assert repr(bad).startswith("Verdict(INVALID system system: about another system")
+    assert repr(bad).startswith("Verdict(NOT ABOUT system system: about another system")
 
 
 def test_an_answer_is_explained_in_the_sentences_of_the_analysis() -> None:

@@ -56,12 +56,12 @@ def test_a_module_of_a_user_runs_with_the_fixtures(tmp_path: Path) -> None:
         text=True,
         check=False,
     )
-    assert "test_refused[" in done.stdout and "INVALID system" in done.stdout, done.stdout
+    assert "test_refused[" in done.stdout and "NOT ABOUT system" in done.stdout, done.stdout
     assert "FAILED test_mine.py::test_accepted" not in done.stdout
 
 
 def test_what_is_valid_gives_the_statement_and_all_else_fails() -> None:
     found = mcexact.fixed_spectrum(PLANT)
     assert testing.assert_valid(found, PLANT) == mcexact.check(found).statement
-    with pytest.raises(AssertionError, match=r"^INVALID "):
+    with pytest.raises(AssertionError, match=r"^NOT ABOUT "):
         testing.assert_valid(found, expect={"kind": "completeness", "claim": {}})

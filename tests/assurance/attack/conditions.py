@@ -21,6 +21,8 @@ import mcexact
 
 SOURCES = Path(mcexact.__file__).parent / "checker"
 PACKAGE = "weakened_checker"
+REQUIRING = {"require", "require_asked"}
+"""The functions that stop unless their first argument holds."""
 REFUSALS = ("malformed", "Refused", "NotAUnit")
 
 
@@ -98,7 +100,7 @@ class _Gated(ast.NodeTransformer):
     def visit_If(self, node: ast.If) -> ast.AST:
         """``if condition: malformed(…)``."""
         self.generic_visit(node)
-        if self.function == "require":
+        if self.function in REQUIRING:
             return node  # its callers are the conditions
         first = node.body[0]
         value = first.exc if isinstance(first, ast.Raise) else getattr(first, "value", None)
@@ -129,7 +131,7 @@ def _is_require(node: ast.AST) -> bool:
     if not isinstance(node, ast.Call) or not node.args:
         return False
     name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-    return name == "require"
+    return name in REQUIRING
 
 
 def _named_conditions(node: ast.FunctionDef) -> set[str]:

@@ -34,7 +34,14 @@ REPLACED = {
 }
 """By what Cosmic Ray's two families of replacements replace an operator; it knows all pairs."""
 
-MESSAGES = {"malformed": 1, "incomplete": 2, "require": 3, "expect": 1, "Refused": 3}
+MESSAGES = {
+    "malformed": 1,
+    "incomplete": 2,
+    "require": 3,
+    "require_asked": 3,
+    "expect": 1,
+    "Refused": 3,
+}
 """The position of the message for a human in calls of these functions."""
 
 CHARGED = {"spend", "build"}
