@@ -21,6 +21,7 @@ STATUSES = [
     ("REMARK", 0),
     ("COUNTED", 0),
     ("INVALID", 1),
+    ("NOT ABOUT", 1),
     ("MALFORMED", 3),
     ("INCOMPLETE", 5),
     ("ERROR", 70),
@@ -201,7 +202,7 @@ def test_no_other_kind_s_evidence_is_read(kind: str) -> None:
 )
 def test_what_is_expected_of_a_certificate_is_insisted_on(expected: Expectation, code: str) -> None:
     found = checked(FREE, expected=expected)
-    assert (found.verdict, found.code) == ("INVALID" if code else "VALID", code), found.line()
+    assert (found.verdict, found.code) == ("NOT ABOUT" if code else "VALID", code), found.line()
 
 
 def test_only_the_subject_is_what_others_follow(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -116,10 +116,10 @@ def controller_file(document: Document, **of_agent: Any) -> bytes:
     [
         ({"limits": [[-1, 1]], "back_calculation": [[1]]}, "VALID"),
         ({"back_calculation": [["2/2"]]}, "VALID"),
-        ({"limits": [[-1, 2]], "back_calculation": [[1]]}, "INVALID"),
-        ({"limits": [[-1, 1]], "back_calculation": [[2]]}, "INVALID"),
-        ({"limits": [[-1, 1]]}, "INVALID"),
-        ({}, "INVALID"),
+        ({"limits": [[-1, 2]], "back_calculation": [[1]]}, "NOT ABOUT"),
+        ({"limits": [[-1, 1]], "back_calculation": [[2]]}, "NOT ABOUT"),
+        ({"limits": [[-1, 1]]}, "NOT ABOUT"),
+        ({}, "NOT ABOUT"),
     ],
 )
 def test_a_controller_file_has_the_limits_and_the_gains_of_the_claim(
