@@ -333,7 +333,7 @@ def recheck(
     size, verdicts = max(map(len, files.values()), default=0), {}
     for about, verdict in _verdicts(files, plant, _limits(size)):
         if verdict.verdict not in _ACCEPTED or verdict.code == "rule":
-            [what] = about.values()
+            what = about.get("file") or about["text"]
             raise InternalError(
                 f"the independent checker does not accept {what} ({verdict.line()}): "
                 "the answers of this run cannot be trusted"

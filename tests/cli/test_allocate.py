@@ -47,10 +47,10 @@ def test_the_papers_example_is_answered_beside_its_bound(ring: str, tmp_path: Pa
     assert said(found, "allocate-reason") == ["2 | 3 | 1 | the mode 1"]
     folder = tmp_path / "certificates"
     files = [str(folder / name) for name in folder.iterdir() if name.name != "manifest.json"]
-    checked = run("check", *files, "--system", ring)
+    checked = run("check", "--statements", *files, "--system", ring)
     assert checked.status == 0
     assert all(line.startswith("VALID ") for line in checked.stdout.splitlines())
-    implied = run("check", "--manifest", str(folder), "--system", ring)
+    implied = run("check", "--statements", "--manifest", str(folder), "--system", ring)
     assert implied.status == 0 and implied.stdout.count("IMPLIED") == len(found["sentences"])
 
 
@@ -73,7 +73,7 @@ def test_at_the_node_limit_both_bounds_are_said_and_certified(tmp_path: Path) ->
     assert "suffice, at a cost of 4, and nothing below 3 does" in title
     assert said(found, "allocate-within-proof") and "shares" not in found
     assert not said(found, "allocate-least") + said(found, "allocate-row")
-    implied = run("check", "--manifest", str(folder), "--system", path)
+    implied = run("check", "--statements", "--manifest", str(folder), "--system", path)
     assert implied.status == 0 and implied.stdout.count("IMPLIED") == len(found["sentences"])
     page = tmp_path / "page.html"
     assert run("allocate", path, "--node-limit", "1", "--html", str(page)).status == 4
@@ -118,7 +118,7 @@ def test_links_are_added_where_they_help(chain: str, tmp_path: Path) -> None:
     assert forbidden["minimal_communication"]["added"] != [["3", "2"]]
     priced = answer(chain, "--links", "--link-cost", "1", "2", "7", "--certificates", str(tmp_path))
     assert priced["minimal_communication"]["share"] == "outputs"
-    assert run("check", str(tmp_path / "minimal_communication.json")).status == 0
+    assert run("check", "--statements", str(tmp_path / "minimal_communication.json")).status == 0
 
 
 @pytest.mark.parametrize(
@@ -160,5 +160,7 @@ def test_links_are_found_for_a_plant_without_neighbors(tmp_path: Path) -> None:
     plant = str(Path(gallery.__file__).parent / "liu2020-unimodular.json")
     found = answer(plant, "--links", "--certificates", str(tmp_path))
     assert found["minimal_communication"]["added"] == [["3", "2"]]
-    checked = run("check", str(tmp_path / "minimal_communication.json"), "--system", plant)
+    checked = run(
+        "check", "--statements", str(tmp_path / "minimal_communication.json"), "--system", plant
+    )
     assert checked.status == 0

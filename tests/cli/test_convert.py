@@ -106,11 +106,15 @@ def test_the_checker_reads_json_and_the_gallery(tmp_path: Path) -> None:
     made = tmp_path / "made"
     call("analyze", "gallery:hidden-triple-mode", "--certificates", str(made))
     certificate = str(made / "fixed_spectrum.json")
-    status, out, _ = call("check", certificate, "--system", "gallery:hidden-triple-mode")
+    status, out, _ = call(
+        "check", "--statements", certificate, "--system", "gallery:hidden-triple-mode"
+    )
     assert status == 0 and out.startswith("VALID")
-    status, _, said = call("check", certificate, "--system", str(tmp_path / "p.mat"))
+    status, _, said = call(
+        "check", "--statements", certificate, "--system", str(tmp_path / "p.mat")
+    )
     assert status == 3 and "the checker reads JSON alone: convert the plant by" in said
-    assert call("check", certificate, "--system", "gallery:x")[0] == 2
+    assert call("check", "--statements", certificate, "--system", "gallery:x")[0] == 2
 
 
 def test_a_controller_in_another_form_gets_a_hint(tmp_path: Path) -> None:

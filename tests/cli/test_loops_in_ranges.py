@@ -57,10 +57,10 @@ def test_a_loop_is_certified_for_every_value(gains: str, tmp_path: Path) -> None
     assert "1 certificate re-checked by the independent checker: VALID" in out
     assert "for every k in [1/4, 3/4]: proved" in page.read_text("utf-8")
     asked = ("--system", plant, "--controller", gains)
-    status, out, _ = call("check", "--manifest", str(folder), *asked)
+    status, out, _ = call("check", "--statements", "--manifest", str(folder), *asked)
     ranges, spread = "of the parameter k from 1/4 to 3/4", "by at most 1/100 of the absolute values"
     assert status == 0 and ranges in out and spread in out
-    status, out, _ = call("check", str(folder / "box_stability.json"), *asked)
+    status, out, _ = call("check", "--statements", str(folder / "box_stability.json"), *asked)
     assert status == 0 and out.startswith("VALID")
 
 
@@ -73,7 +73,7 @@ def test_values_at_which_the_loop_fails_are_told_beside_the_part_that_is_proved(
     assert "2 certificates re-checked by the independent checker: VALID" in out
     names = sorted(path.name for path in folder.iterdir())
     assert names == ["box_stability_in_part.json", "stability_at_values.json"]
-    assert call("check", *map(str, sorted(folder.iterdir())))[0] == 0
+    assert call("check", "--statements", *map(str, sorted(folder.iterdir())))[0] == 0
     status, out, _ = call("certify", plant, gains, "--json")
     found = json.loads(out)
     assert status == 1 and faults("certify-parameters", found) == []

@@ -48,7 +48,7 @@ def test_analyze_answers_for_every_value_with_what_is_in_range(file: str, tmp_pa
         "For almost every value of t in [0, 1] no mode is fixed." in text and "t in [0, 1]" in text
     )
     for certificate in sorted(folder.iterdir()):
-        status, said, _ = call("check", str(certificate), "--system", file)
+        status, said, _ = call("check", "--statements", str(certificate), "--system", file)
         assert status == 0 and said.startswith(("VALID", "IMPLIED"))
 
 
@@ -81,16 +81,16 @@ def test_certificates_along_lines_are_about_the_file(tmp_path: Path) -> None:
         assert call("analyze", str(several), "--certificates", str(folder / first))[0] == 0
         files = sorted(map(str, (folder / first).glob("*.json")))
         assert len(files) > 10
-        status, out, _ = call("check", "--system", str(several), *files)
+        status, out, _ = call("check", "--statements", "--system", str(several), *files)
         assert status == 0
         verdicts = {line.split()[0] for line in out.splitlines()}
         assert verdicts == {"VALID", "IMPLIED", "COUNTED"}
         manifest = str(folder / first / "manifest.json")
-        assert call("check", "--system", str(several), manifest)[0] == 0
+        assert call("check", "--statements", "--system", str(several), manifest)[0] == 0
         files.remove(manifest)
     other = tmp_path / "other.json"
     other.write_text(json.dumps({**plant, "A": [[0, 0], [0, 0]]}))
-    assert call("check", "--system", str(other), files[0])[0] == 1
+    assert call("check", "--statements", "--system", str(other), files[0])[0] == 1
 
 
 def test_values_make_the_plant_of_which_all_questions_are_asked(file: str, tmp_path: Path) -> None:
@@ -183,7 +183,9 @@ def test_several_parameters_with_ranges_lead_with_what_holds_within_them(tmp_pat
     assert found["answer"][0] == said
     kept = json.loads((folder / "box_fixed_modes.json").read_text())
     assert kept["kind"] == "parametric_box_fixed"
-    status, out, _ = call("check", str(folder / "manifest.json"), "--system", str(path))
+    status, out, _ = call(
+        "check", "--statements", str(folder / "manifest.json"), "--system", str(path)
+    )
     assert (
         status == 0 and " sentences implied, 0 not" in out and "20 certificates valid, 0 not" in out
     )

@@ -110,7 +110,7 @@ def test_a_design_for_the_rest_runs_on_the_plant(tmp_path: Path, name: str) -> N
     )
     assert done.status == 0, done.stderr
     assert "These answers are about the plant modulo " in done.stdout
-    assert run("check", "--manifest", str(folder / "manifest.json")).status == 0
+    assert run("check", "--statements", "--manifest", str(folder / "manifest.json")).status == 0
     assert run("certify", plant, file, "--modulo", "unobservable").status == 0
     assert run("certify", plant, file).status == 1
     start = ("--initial", ",".join(map(str, range(gallery.load(name).n))))

@@ -94,7 +94,7 @@ def test_files_draws_and_certificates_go_together(call: Call, folder: Path, tmp_
         "1-a-fixed_spectrum.json", "2-seed-5-fixed_spectrum.json", "3-seed-6-fixed_spectrum.json",
     ]  # fmt: skip
     with pytest.raises(SystemExit) as ended:
-        main(["check", *(str(made / name) for name in names)])
+        main(["check", "--statements", *(str(made / name) for name in names)])
     assert ended.value.code == 0
 
 

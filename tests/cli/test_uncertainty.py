@@ -223,7 +223,7 @@ def test_the_plant_that_ends_the_search_is_certified(
     failing = read_system(json.dumps(found["largest_uncertainty"]["failing"]))
     written = read_system(json.dumps({**certificate["system"], "format": "mcexact-system/1"}))
     assert written == failing
-    assert call("check", "--manifest", str(folder), "--controller", gains)[0] == 0
+    assert call("check", "--statements", "--manifest", str(folder), "--controller", gains)[0] == 0
 
 
 def test_a_plant_that_is_only_too_slow_is_certified_but_not_called_unstable(
@@ -292,11 +292,11 @@ def test_a_controller_for_the_plant_is_checked_within_radii_too(plant: str, tmp_
     said = " ".join((tmp_path / "page.html").read_text("utf-8").split())
     assert "Re λ &lt; 0 for every plant within 1 % of each entry" in said
     asked = ("--system", plant, "--controller", controller)
-    status, out, _ = call("check", "--manifest", str(folder), *asked)
+    status, out, _ = call("check", "--statements", "--manifest", str(folder), *asked)
     assert status == 0 and "by at most 1/100 of the absolute values of the latter, every " in out
     assert "it holds if no entry changes in the plant by more than 1/100 of its modulus" in out
     for name in ("box_stability", "stability"):
-        assert call("check", str(folder / f"{name}.json"), *asked)[0] == 0
+        assert call("check", "--statements", str(folder / f"{name}.json"), *asked)[0] == 0
 
 
 def test_a_design_says_for_which_box_it_holds(plant: str, tmp_path: Path) -> None:
@@ -313,7 +313,7 @@ def test_a_design_says_for_which_box_it_holds(plant: str, tmp_path: Path) -> Non
     assert "a loop is not stable" in said and {"failing_loop.json", "manifest.json"} <= {
         path.name for path in Path(folder).iterdir()
     }
-    status, out, _ = call("check", "--manifest", folder, "--system", plant)
+    status, out, _ = call("check", "--statements", "--manifest", folder, "--system", plant)
     assert status == 0 and "not every eigenvalue of A has real part below 0; each entry of" in out
     checks = ("check", "--manifest", folder, "--system", plant, "--controller", controller)
     status, out, _ = call(*checks)
@@ -346,9 +346,13 @@ def test_a_controller_is_made_for_the_values_of_a_plant_with_radii(tmp_path: Pat
         folder = str(tmp_path / f"proofs{len(radii)}")
         status, _, err = call("certify", typed, controller, *radii, "--certificates", folder)
         assert status == 0 and "another plant" not in err
-        assert call("check", "--manifest", folder, "--controller", controller)[0] == 0
+        assert (
+            call("check", "--statements", "--manifest", folder, "--controller", controller)[0] == 0
+        )
         # The radii of the file are not those that replace them.
-        assert call("check", "--manifest", folder, "--system", typed)[0] == (1 if radii else 0)
+        assert call("check", "--statements", "--manifest", folder, "--system", typed)[0] == (
+            1 if radii else 0
+        )
 
 
 def test_certify_says_how_many_digits_are_safe(plant: str, gains: str) -> None:
@@ -406,14 +410,14 @@ def test_a_plant_that_fails_has_a_certificate(plant: str, tmp_path: Path) -> Non
     )
     assert status == 0, said
     refuted = proofs / "box_fixed_modes_refuted.json"
-    status, out, _ = call("check", str(refuted))
+    status, out, _ = call("check", "--statements", str(refuted))
     assert status == 0 and out.startswith("VALID")
     certificate = json.loads(refuted.read_text("utf-8"))
     member = read_system(json.dumps({**certificate["system"], "format": "mcexact-system/1"}))
     assert Box.relative(PLANT, 2).contains(member)
     assert not fixed_spectrum(member).empty
     assert refuted.name in page.read_text("utf-8")
-    status, out, _ = call("check", "--manifest", str(proofs), "--system", plant)
+    status, out, _ = call("check", "--statements", "--manifest", str(proofs), "--system", plant)
     assert status == 0 and "0 not" in out
 
 

@@ -30,10 +30,12 @@ def assert_proved_about(plant: str, certificates: Path) -> None:
     """Every certificate in the folder is valid, and about the plant in the file."""
     files = [str(path) for path in sorted(certificates.iterdir()) if path.name != "manifest.json"]
     # Beside its manifest, a certificate about a plant nearby may be about another plant.
-    together = run("check", *files, str(certificates / "manifest.json"), "--system", plant)
+    together = run(
+        "check", "--statements", *files, str(certificates / "manifest.json"), "--system", plant
+    )
     assert files
     assert (together.status, together.stdout.count("VALID ")) == (0, len(files)), together.stdout
-    implied = run("check", "--manifest", str(certificates), "--system", plant)
+    implied = run("check", "--statements", "--manifest", str(certificates), "--system", plant)
     *lines, counted = implied.stdout.splitlines()
     remarks = [line for line in lines if line.startswith("REMARK ")]
     claimed = [line for line in lines if line.startswith("IMPLIED ")]

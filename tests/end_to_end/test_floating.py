@@ -54,7 +54,9 @@ def test_the_written_controller_is_certified_again(folder, time, bound):
     done = certified(folder, time, bound, "--certificates", str(folder / "again"))
     assert done.status == 0 and "every one satisfies" in done.stdout
     for written in (folder / time / "stability.json", folder / "again" / "stability.json"):
-        checked = run("check", str(written), "--system", str(folder / f"{time}.json"))
+        checked = run(
+            "check", "--statements", str(written), "--system", str(folder / f"{time}.json")
+        )
         assert checked.status == 0 and "): every eigenvalue of A has" in checked.stdout
 
 
@@ -67,7 +69,7 @@ def test_a_no_ends_with_status_1_and_is_proved(folder, tmp_path, method):
     assert done.status == 1
     answer = json.loads(done.stdout)
     assert answer["certified"] is False and answer["bound"] == "50"
-    checked = run("check", str(tmp_path / answer["stability"]["certificate"]))
+    checked = run("check", "--statements", str(tmp_path / answer["stability"]["certificate"]))
     assert checked.stdout.startswith("VALID ")
     assert "): not every eigenvalue of A has" in checked.stdout
 

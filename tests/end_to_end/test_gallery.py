@@ -111,7 +111,17 @@ def checked_theorems(
     plants = answer.get("nearby", {}).get("plants", [])
     files = sorted({*named_files.values(), *(each["certificate"] for each in plants)})
     assert sorted([*files, "manifest.json"]) == sorted(path.name for path in folder.iterdir())
-    program = ["env", "-C", str(copied_checker), sys.executable, "-S", "-E", "-m", "checker"]
+    program = [
+        "env",
+        "-C",
+        str(copied_checker),
+        sys.executable,
+        "-S",
+        "-E",
+        "-m",
+        "checker",
+        "--statements",
+    ]
     listed = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     others = listed.get("nearby", [])  # about plants with other numbers at the same places
     assert run(*(str(folder / each) for each in others), program=program).status == 0 or not others

@@ -76,7 +76,7 @@ def test_delayed_networks_run_from_their_files(folder, tmp_path, network, effort
         expected |= {"closed_loop_spectrum"}
         expected |= {"single_channel_gains"} if network == "held" else set()
     assert kept == expected
-    checked = run("check", *map(str, sorted(proofs.iterdir())), "--system", plant)
+    checked = run("check", "--statements", *map(str, sorted(proofs.iterdir())), "--system", plant)
     assert checked.status == 0, checked.stdout
     held = any(agent.hold for agent in load_controller(controller).agents)
     assert held == (network == "held")
@@ -93,7 +93,7 @@ def test_a_fixed_mode_is_status_1_and_leaves_the_certificate(folder, tmp_path):
     assert "moves the mode 1," in done.stderr
     assert not out.exists()
     assert {path.name for path in proofs.iterdir()} == {"fixed_spectrum.json", "manifest.json"}
-    checked = run("check", str(proofs / "fixed_spectrum.json"), "--system", plant)
+    checked = run("check", "--statements", str(proofs / "fixed_spectrum.json"), "--system", plant)
     assert checked.status == 0
     assert "x - 1" in checked.stdout
 
@@ -118,7 +118,9 @@ def test_set_points_are_reached(folder, tmp_path):
         *("setpoint", plant, "--radius", "1/2", "--method", "observer", "-o", str(controller)),
         *("--certificates", str(proofs)),
     )
-    assert run("check", str(proofs / "manifest.json"), "--system", plant).status == 0
+    assert (
+        run("check", "--statements", str(proofs / "manifest.json"), "--system", plant).status == 0
+    )
     done = run(
         *("simulate", plant, str(controller), "--reference=3,-1/2", "--horizon", "40"),
         *("-o", str(run_file)),

@@ -96,7 +96,9 @@ def test_impossible_is_status_1_and_leaves_the_certificate(folder, tmp_path):
     assert done.status == 1 and "do not observe" in done.stderr
     assert not out.exists()
     assert len(list(proofs.iterdir())) == 2
-    assert run("check", *map(str, proofs.iterdir()), "--system", str(file)).status == 0
+    assert (
+        run("check", "--statements", *map(str, proofs.iterdir()), "--system", str(file)).status == 0
+    )
 
 
 def test_without_an_output_the_controller_is_printed(folder, tmp_path):

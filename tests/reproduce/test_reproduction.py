@@ -240,7 +240,7 @@ def test_the_folder_is_written_whole_and_replaces_only_its_own(
     assert written == sorted(view["examinations"][0]["certificates"])
     assert [path.name for path in tmp_path.iterdir()] == ["paper"]
     with pytest.raises(SystemExit) as ended:
-        main(["check", *(str(folder / "certificates" / name) for name in written)])
+        main(["check", "--statements", *(str(folder / "certificates" / name) for name in written)])
     assert ended.value.code == 0
     other = tmp_path / "mine"
     other.mkdir()

@@ -103,7 +103,7 @@ def test_a_controller_file_says_which_samples_a_certificate_must_be_about(design
         assert verdict(replace(design.controller, system=name)).code == "controller"
     # without a digest nothing says at which step the controller runs
     unnamed = verdict(replace(design.controller, system=""))
-    assert (unnamed.verdict, unnamed.code) == ("INVALID", "expected")
+    assert (unnamed.verdict, unnamed.code) == ("NOT ABOUT", "expected")
 
 
 def test_the_exact_samples_are_proved_where_no_box_is(design: Design) -> None:
@@ -169,8 +169,10 @@ def test_the_commands_design_certify_and_check(tmp_path: Path) -> None:
     assert "made for another plant" in said
     for name in ("stability", "box_stability"):
         file = f"{proofs}/{name}.json"
-        assert call("check", file, "--system", plant, "--controller", gains)[0] == 0
-    status, out, _ = call("check", "--manifest", proofs, "--system", plant, "--controller", gains)
+        assert call("check", "--statements", file, "--system", plant, "--controller", gains)[0] == 0
+    status, out, _ = call(
+        "check", "--statements", "--manifest", proofs, "--system", plant, "--controller", gains
+    )
     assert status == 0 and "0 not" in out
     assert json.loads(Path(gains).read_text("utf-8"))["time"] == "discrete"
 

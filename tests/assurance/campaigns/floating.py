@@ -121,7 +121,7 @@ def valid_by_copied_checker(text: str) -> float:
             check=False,
         )
         took = time.perf_counter() - began
-    if done.returncode or not re.match(r"VALID \w+ For .*: every eigenvalue", done.stdout):
+    if done.returncode or not re.match(r"VALID closed loop: every eigenvalue", done.stdout):
         raise AssertionError(done.stdout[:500] + done.stderr[:500])
     return took
 
