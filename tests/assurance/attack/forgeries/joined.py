@@ -25,7 +25,9 @@ def factors_joined(rng: random.Random, document: Document) -> Document | None:
         (j, k)
         for j, k in itertools.combinations(range(len(factors)), 2)
         if all(factors[j][key] == factors[k][key] for key in SAME)
-        and spaces[j]["pivots"] == spaces[k]["pivots"]
+        and ("dual" in spaces[j]) == ("dual" in spaces[k])
+        and "pivots" in _shrunk(spaces[j])
+        and _shrunk(spaces[j])["pivots"] == _shrunk(spaces[k]).get("pivots")
     ]
     if not able:
         return None
@@ -40,13 +42,19 @@ def factors_joined(rng: random.Random, document: Document) -> Document | None:
         "roots": [*first["roots"], *second["roots"]],
     }
     for key in ("U", "V"):
-        pair = zip(_rows(spaces[j][key]), _rows(spaces[k][key]), strict=True)
+        pair = zip(*(_rows(_shrunk(spaces[each])[key]) for each in (j, k)), strict=True)
         joined = [
             [(a * t * q + b * s * p) % (p * q) for a, b in zip(*rows, strict=True)] for rows in pair
         ]
-        spaces[j][key] = _written(joined)
+        _shrunk(spaces[j])[key] = _written(joined)
     del factors[k], spaces[k]
     return document
+
+
+def _shrunk(space: Document) -> Document:
+    """The shrunk subspace of a loss of rank, perhaps that of the dual system."""
+    found: Document = space.get("dual", space)
+    return found
 
 
 def _rows(value: Document) -> list[list[fmpq_poly]]:
