@@ -53,7 +53,7 @@ def test_a_file_is_enough_and_the_first_line_says_whether_to_install(
     shown = page.read_text(encoding="utf-8")
     Page(shown)
     assert not external_addresses(shown)
-    assert first in unescape(shown) and shown.count("<figure") == 7
+    assert first in unescape(shown) and shown.count("<figure") == 8
     told = run("certify", plant, str(controller), "--rate", "1/100")
     assert told.status == 0
     assert told.stdout.splitlines()[0].startswith("Proved: cost ≤ ")
