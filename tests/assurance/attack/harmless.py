@@ -182,7 +182,6 @@ HARMLESS: dict[str, str] = {
     "kinds.py: require_statement: self.statement in ('', digest_of(statement))": USERS,
     "kinds.py: require_statement: self.claim is None or same(claim, self.claim)": USERS,
     "system.py: _check_unused: period is not None and (period <= 0 or plant.time != 'discrete')": USERS,
-    "system.py: _require_no_feedthrough: D is not None and (not read_matrix(D, place, None, None, limits).is_zero())": USERS,
     "system.py: read_system_file: not isinstance(document, dict) or document.get('format') != 'mcexact-system/1'": USERS,
     "discs.py: discs_of_gains: not lists": RAISES,
     "discs.py: loop_pencil: gain_radii is None": (
