@@ -80,6 +80,15 @@ HARMLESS: dict[str, str] = {
         "the search does not end without it, and its work is counted"
     ),
     "system.py: read_system: A.nrows != A.ncols or not items(listed, 'channels')": RAISES,
+    "system.py: read_system: whole is not None": CANONICAL,
+    "system.py: read_system: doubt is not None and whole is not None": (
+        "the construction is applied to the radii as well, and what is claimed then holds for the "
+        "same D in all plants within them"
+    ),
+    "system.py: _feedthrough: (read.nrows, read.ncols) != (nrows, ncols)": (
+        "of a larger matrix than that of the ports the rest is read nowhere, and a smaller one "
+        "raises an error"
+    ),
     "system.py: _check_unused: not all((1 <= number <= q for number in listed))": USERS,
     "system.py: _check_sizes: len(values) != count or any((x <= 0 for x in values))": USERS,
     "steps.py: positive: all((each > 0 for each in numbers))": (
