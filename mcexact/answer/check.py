@@ -80,7 +80,7 @@ class Verdict(Shown, checker.Verdict):
     Attributes
     ----------
     verdict : str
-        VALID, INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in the checker.
+        VALID, INVALID, NOT ABOUT, MALFORMED, INCOMPLETE, or ERROR for a bug in the checker.
     statement : str
         The theorem that was proved, in words; empty if the verdict is not VALID.
     statement_digest, system_digest, controller_digest : str
@@ -170,8 +170,8 @@ def check(
     Returns
     -------
     Verdict
-        Whether it is ``valid``: its ``verdict`` is VALID, INVALID, MALFORMED or INCOMPLETE.
-        ``statement`` is the verified statement; ``code``, ``place`` and ``message`` say why a
+        Whether it is ``valid``: its ``verdict`` is VALID, INVALID, NOT ABOUT, MALFORMED or
+        INCOMPLETE.  ``statement`` is the verified statement; ``code``, ``place`` and ``message`` say why a
         certificate is not valid.
 
     Raises
@@ -189,7 +189,7 @@ def check(
     'VALID'
     >>> other = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
     >>> check(fixed_spectrum(plant), other).verdict
-    'INVALID'
+    'NOT ABOUT'
     >>> check(fixed_spectrum(plant), expect={"kind": "completeness", "claim": {}}).message
     'a claim of another kind, fixed_spectrum'
     >>> check({})
