@@ -171,8 +171,8 @@ def check(
     -------
     Verdict
         Whether it is ``valid``: its ``verdict`` is VALID, INVALID, NOT ABOUT, MALFORMED or
-        INCOMPLETE.  ``statement`` is the verified statement; ``code``, ``place`` and ``message`` say why a
-        certificate is not valid.
+        INCOMPLETE.  ``statement`` is the verified statement; ``code``, ``place`` and ``message``
+        say why a certificate is not valid.
 
     Raises
     ------
