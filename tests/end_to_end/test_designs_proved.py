@@ -39,10 +39,11 @@ def assert_proved_about(plant: str, certificates: Path) -> None:
     *lines, counted = implied.stdout.splitlines()
     remarks = [line for line in lines if line.startswith("REMARK ")]
     claimed = [line for line in lines if line.startswith("IMPLIED ")]
-    assert implied.status == 0 and len(remarks) + len(claimed) == len(lines), lines
+    judged = len(files) + len(remarks) + len(claimed)
+    assert implied.status == 0 and judged == len(lines), lines
     told = "1 remark" if len(remarks) == 1 else f"{len(remarks)} remarks"
     assert counted == (
-        f"COUNTED {len(claimed)} sentences implied, 0 not, {told}; "
+        f"COUNTED {str(certificates)!a} {len(claimed)} sentences implied, 0 not, {told}; "
         f"{len(files)} certificates valid, 0 not"
     )
 
