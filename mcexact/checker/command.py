@@ -84,6 +84,9 @@ FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
 """The name of a certificate's file beside the manifest, which is not a path on any system."""
 POINTER = re.compile(r"(?:/(?:[^/~]|~[01])*+)*+")
 INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
+WITH_DIGEST = re.compile(r" with SHA-256 [0-9a-f]{64}")
+NUMBER = re.compile(r"\[[0-9]+\]")
+"""The number of a certificate, in place of its statement."""
 MOST_QUOTED = 200
 """The most characters that are quoted of a sentence, or of what follows from its premises."""
 Read = Callable[[str], bytes]
@@ -261,6 +264,8 @@ class Evidence:
                         steps = found.document["subject"]
                         self.expected.require_subject(steps, found.controller)
                     self.premises[name] = self._premise(name, found)
+                    if name in self.nearby:
+                        verdict = replace(verdict, summary=f"of a plant nearby: {verdict.summary}")
                 return verdict
 
         self.verdicts[name] = attempt(check).inside(name)
@@ -317,8 +322,7 @@ class Evidence:
             pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
             premises = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
             words = RULES[key].implied(premises, [*self.premises.values()])
-            repeated = words in {premise.statement for premise in premises}
-            short = "" if repeated else without_digest(words, self.own()[0].plant.words)
+            short = self._in_short(words, premises)
             words += f" [{theorem}]" if theorem else ""
             spend(len(words))
             if not RULES[key].claims:
@@ -329,11 +333,17 @@ class Evidence:
         with limited(self.budget):
             return attempt(check).inside(f"{place} {shown(key)}")
 
+    def _in_short(self, words: str, premises: Sequence[Premise]) -> str:
+        """What follows, in one line: without digests, and with numbers for whole statements.
 
-def without_digest(statement: str, plant: str) -> str:
-    """A statement about the plant of a manifest, in one line without the digest of the plant."""
-    short = statement.replace(plant, "the plant").removeprefix("For ").removeprefix("the plant: ")
-    return cut(short, MOST_QUOTED)
+        It is empty where that is what one of the certificates states.
+        """
+        numbers = {name: k for k, name in enumerate(self.verdicts, 1)}
+        for premise in premises:
+            words = words.replace(premise.statement, f"[{numbers[premise.file]}]")
+        short = words.replace(self.own()[0].plant.words, "the plant").removeprefix("For ")
+        short = WITH_DIGEST.sub("", short.removeprefix("the plant: "))
+        return "" if NUMBER.fullmatch(short) else cut(short, MOST_QUOTED)
 
 
 def is_uncertain(plant: System | FunctionSystem) -> bool:

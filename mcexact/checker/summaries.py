@@ -59,6 +59,10 @@ def box_fixed(claim: Json, box: Box) -> str:
 def box_stable(claim: Json, box: Box) -> str:
     """Where all eigenvalues lie; with radii of gains, that there are some."""
     gains = "" if claim["gain_radii"] is None else ", and all controllers within theirs"
+    if "disk" in claim:
+        port, size = claim["disk"]["at"].removesuffix("s"), claim["disk"]["margin"]
+        gains += f", each {port} by itself has a disk margin of {size}"
+        claim = {key: value for key, value in claim.items() if key != "disk"}
     return lie_inside({**claim, "gain_radii": None}, box, f"{RADII}{gains}")
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.kinds import KINDS, Expectation, Verdict
+from mcexact.checker.reading import Limits
 from mcexact.checker.summaries import LENGTH, SUMMARIES, cut
 from tests.checker.handmade import FIXED, FREE, MODE, Document, changed, checked
-from tests.checker.manifests import CONTROLLABLE, OBSERVABLE
+from tests.checker.manifests import CONTROLLABLE, OBSERVABLE, manifest, sentence, write
 from tests.checker.performance_plants import COST, MARGIN, OUTPUT_MARGIN, STEP_BOUND
 from tests.checker.recorded import CORPUS, World
 from tests.checker.test_statement import drawn
@@ -31,8 +35,8 @@ def test_every_kind_has_a_short_line(kind: str) -> None:
 
 
 @pytest.mark.parametrize("path", sorted(CORPUS.glob("*.jsonl"))[::4], ids=lambda path: path.stem)
-def test_certificates_of_answers_have_short_lines(path: object) -> None:
-    world = World.read(path)  # type: ignore[arg-type]
+def test_certificates_of_answers_have_short_lines(path: Path) -> None:
+    world = World.read(path)
     for k in range(0, len(world.certificates), 5):
         require_short(checked(world.document(k)))
 
@@ -69,3 +73,17 @@ def test_nothing_is_said_of_what_is_not_valid() -> None:
     for verdict in (checked(FREE, expected=other), checked(false)):
         assert verdict.summary == "" and verdict.code in verdict.line(short=True)
     assert {*SUMMARIES} <= {*KINDS}
+
+
+def test_what_follows_names_statements_by_their_numbers(tmp_path: Path) -> None:
+    evidence = {"cost": COST, "bound": STEP_BOUND}
+    sentences = [
+        sentence("performance-cost", "cost", evidence=evidence),
+        sentence("performance-ratio", *evidence, evidence=evidence),
+    ]
+    write(tmp_path, evidence, manifest(evidence, sentences))
+    *_, one, both = manifest_verdicts(str(tmp_path), Expectation(), Limits())
+    assert [each.verdict for _, each in (one, both)] == ["IMPLIED"] * 2
+    assert (one[0]["premises"], one[1].summary) == ("2", "")
+    assert both[0]["premises"] == "2, 1"
+    assert both[1].summary == "[2]; [1]: the former is at most 14/3 of the latter"
