@@ -30,6 +30,7 @@ HARMLESS: dict[str, str] = {
     ),
     "boxes.py: read_disk: bool(ports)": RAISES,
     "cells.py: bottom_of: bool(below)": RAISES,
+    "constructions.py: _at_once: False": RAISES,
     "constructions.py: merged: bool(parts)": (
         "no parts are all channels of a closed loop alone, which has none and stays what it is"
     ),
