@@ -77,7 +77,8 @@ def first_to_fail(
     for k in upper:
         size = abs(values[k]) if family.discrete else values[k].real
         speed, signs = _towards_border(family, middle, 0.0, (values[k], left[:, k], right[:, k]))
-        starts.append(((family.edge - size) / max(speed, 1e-300), signs))
+        if speed > 0:
+            starts.append(((family.edge - size) / speed, signs))
     starts.sort(key=lambda each: each[0])
     tried = [_from_corner(family, signs, near, spend) for near, signs in starts[:modes]]
     return sorted((each for each in tried if np.isfinite(each[0])), key=lambda each: each[0])

@@ -1,11 +1,9 @@
 """Sampled plants near one whose loop with a controller is not stable.
 
 The entries of a plant in continuous time act on its samples through the exponential, so that the
-small changes of `boxes.failure` do not apply.  `failing_samples` follows a gradient instead: of an
-eigenvalue of the loop with respect to all entries, by one derivative of the exponential.  In the
-norm of a box the steepest direction moves every entry by all of its radius, up or down.  The first
-plant along it whose loop leaves the region is found by bisection, and there the next direction is
-computed.  So the plants are corners of boxes, whose entries have few digits.
+small changes of `boxes.failure` do not apply.  `failing_samples` searches corners of boxes instead
+(`corners.first_to_fail`): `SampledFamily` has the loops, and the derivatives of an eigenvalue with
+respect to all entries by one derivative of the exponential.
 
 All of this is floating point, and finding none proves nothing.  Whether the loop of such a plant
 fails is decided exactly afterwards, for its samples to the decimals of the given one.
@@ -16,23 +14,22 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isfinite
 from typing import Any
 
 import numpy as np
 
+from mcexact.analysis.boxes.corners import Complexes, Floats, Signs, first_to_fail
 from mcexact.analysis.boxes.failure import FailingPlant
-from mcexact.analysis.boxes.pencils import Floats
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float, vstack
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.loop import ClosedLoop
 from mcexact.model.system import MultiChannelSystem
 
-_TURNS, _DOUBLINGS, _HALVINGS, _DIGITS = 4, 12, 20, 3
-"""The directions that are tried one after the other, how often a border is doubled and halved, and
-the digits of a distance."""
+_DIGITS = 3
+"""The digits of a distance."""
 _FARTHEST = 1e3
+"""How many times the radii a plant is from the given one at most."""
 _BEYOND = (Fraction(1), Fraction(1001, 1000), Fraction(101, 100))
 """How much farther a plant is than where an eigenvalue seems to be on the border."""
 
@@ -68,22 +65,12 @@ def failing_samples(
     >>> near.plant.A, near.plant.B[0], near.distance  # d = 1/3 has 1 + d = 3 (1 - d)^2
     (Matrix.from_rows([['667/500']]), Matrix.from_rows([['333/500']]), Fraction(167, 500))
     """
-    samples = _Samples(loop)
-    limit, D = to_float(region.limit), samples.radii
-    found = list[tuple[float, Floats, complex]]()
-    for first in samples.directions(np.zeros_like(D))[:tries]:
-        direction = first
-        for _ in range(_TURNS):
-            distance = samples.border(direction, limit)
-            if distance is None:
-                break
-            nearby = distance * direction * D
-            found.append((distance, direction, samples.outermost(nearby)))
-            direction = samples.directions(nearby, outermost=True)[0]
-    for distance, direction, mode in sorted(found, key=lambda each: each[0]):
+    samples = SampledFamily(loop, to_float(region.limit))
+    for size, signs in first_to_fail(samples, tries):
+        mode = complex(max(np.linalg.eigvals(samples.loop(signs, size)), key=abs))
         for times in _BEYOND:
-            factor = _above(distance * to_float(times))
-            yield FailingPlant(samples.member(direction, factor), factor, mode, ())
+            factor = _above(_FARTHEST * size * to_float(times))
+            yield FailingPlant(samples.member(signs, factor), factor, mode, ())
 
 
 def _above(x: float) -> Fraction:
@@ -93,25 +80,29 @@ def _above(x: float) -> Fraction:
 
 
 @dataclass
-class _Samples:
-    """The loop of a sampled plant in floating point, as a function of [A, B; C, 0] of the plant.
+class SampledFamily:
+    """The loops of a sampled plant in floating point, by the entries of [A, B; C, 0] of the plant.
 
     Attributes
     ----------
-    loop : ClosedLoop
+    of : ClosedLoop
+    edge : float
     """
 
-    loop: ClosedLoop
+    of: ClosedLoop
+    edge: float
+    discrete = True
 
     def __post_init__(self) -> None:
-        sampled = self.loop.plant
+        sampled = self.of.plant
         plant, box = sampled.plant, Box(sampled.plant)
         (how,) = sampled.subject
         self.h, self.n, self.late = to_float(Fraction(how["step"])), plant.n, bool(how["late"])
         self.nominal, self._exact_radii = box.nominal, box.radii
         self.entries = _joined(plant.A, list(plant.B), list(plant.C))
-        self.radii = _joined(box.radii.A, list(box.radii.B), list(box.radii.C))
-        parts, N = self.loop.disturbed, sampled.n
+        radii = _joined(box.radii.A, list(box.radii.B), list(box.radii.C))
+        self.radii: tuple[Floats, ...] = (_FARTHEST * radii,)
+        parts, N = self.of.disturbed, sampled.n
         self.M, self.G, self.U, self.K = (
             matrix_to_float(each) for each in (parts.M, parts.G, parts.U, parts.K)
         )
@@ -122,14 +113,18 @@ class _Samples:
         """[A_h, B_h] of [A, B; C, 0]."""
         from scipy.linalg import expm
 
-        n, width = self.n, entries.shape[1]
-        X = np.zeros((width, width))
-        X[:n] = entries[:n]
-        held: Floats = expm(self.h * X)[:n]
+        held: Floats = expm(self.h * self._generator(entries))[: self.n]
         return held
 
-    def matrix(self, moved: Floats) -> Floats:
+    def _generator(self, entries: Floats) -> Floats:
+        """[A, B; 0, 0]."""
+        X = np.zeros((entries.shape[1],) * 2)
+        X[: self.n] = entries[: self.n]
+        return X
+
+    def loop(self, signs: Signs, size: float) -> Floats:
         """The loop of the plant with moved entries."""
+        moved = size * signs[0] * self.radii[0]
         n, x = self.n, self.from_state[: self.n]
         held, dC = self._held(self.entries + moved) - self.held, moved[n:, :n]
         if self.late:
@@ -139,76 +134,37 @@ class _Samples:
         M: Floats = self.M + self.G @ dC @ x + self.to_plant @ acting
         return M
 
-    def outermost(self, moved: Floats) -> complex:
-        """The eigenvalue of the largest modulus."""
-        values = np.linalg.eigvals(self.matrix(moved))
-        return complex(max(values, key=abs, default=0))
+    def slopes(
+        self, signs: Signs, size: float, left: Complexes, right: Complexes
+    ) -> tuple[Complexes, ...]:
+        """The derivatives of wMv in all entries."""
+        from scipy.linalg import expm_frechet
 
-    def directions(self, moved: Floats, *, outermost: bool = False) -> list[Floats]:
-        """Signs of changes of all entries that move an eigenvalue outward fastest.
-
-        The eigenvalues that seem to reach the border first come first, or the outermost alone.
-        """
-        from scipy.linalg import eig, expm_frechet
-
-        n, M, dC = self.n, self.matrix(moved), moved[self.n :, : self.n]
-        width, x = self.entries.shape[1], self.from_state[:n]
-        X = np.zeros((width, width))
-        X[:n] = (self.entries + moved)[:n]
-        used = self.U + self.K @ dC @ x
-        entering = self.G
+        moved = size * signs[0] * self.radii[0]
+        entries = self.entries + moved
+        n, width, x = self.n, entries.shape[1], self.from_state[: self.n] @ right
+        entering, acted = self.G, self.from_state[:width] @ right
         if not self.late:
-            more = (self._held(self.entries + moved) - self.held)[:, n:]
+            used = self.U @ right + self.K @ (moved[n:, :n] @ x)
+            acted = np.concatenate([x, used])
+            more = (self._held(entries) - self.held)[:, n:]
             entering = entering + self.to_plant @ more @ self.K
-        spectrum: Any = eig(M, left=True)
-        values, left, right = spectrum
-        order = [k for k in np.argsort(-np.abs(values)) if values[k].imag >= 0]
-        ranked = list[tuple[float, Floats]]()
-        for k in order[:1] if outermost else order:
-            size, w, v = abs(values[k]), left[:, k].conj(), right[:, k]
-            scale = w @ v
-            if not size or abs(scale) < 1e-12:
-                continue
-            turn = values[k].conj() / size / scale
-            acted = self.from_state[:width] @ v if self.late else np.r_[x @ v, used @ v]
-            W = np.zeros((width, width))
-            W[:n] = (turn * np.outer(w[:n], acted)).real
-            slope = np.zeros_like(self.entries)
-            derivative: Any = expm_frechet(self.h * X.T, W, compute_expm=False)
-            slope[:n] = self.h * derivative[:n]
-            slope[n:, :n] = (turn * np.outer(w @ entering, x @ v)).real
-            growth = float(np.sum(np.abs(slope) * self.radii))
-            if growth > 0 and isfinite(growth):
-                ranked.append(((1 - size) / growth, np.sign(slope)))
-        ranked.sort(key=lambda each: each[0])
-        return [signs for _, signs in ranked] or [np.zeros_like(self.entries)]
+        W = np.zeros((width, width), dtype=np.complex128)
+        W[:n] = np.outer(left[:n], acted)
+        X = self.h * self._generator(entries).T
+        slope = np.zeros(entries.shape, dtype=np.complex128)
+        for part, unit in ((W.real, 1), (W.imag, 1j)):
+            derivative: Any = expm_frechet(X, part, compute_expm=False)
+            slope[:n] += unit * self.h * derivative[:n]
+        slope[n:, :n] = np.outer(left @ entering, x)
+        return (slope,)
 
-    def border(self, direction: Floats, limit: float) -> float | None:
-        """How far along a direction the loop seems to leave the region first; None if nowhere."""
-        step = direction * self.radii
-        if not np.any(step):
-            return None
-
-        def outside(t: float) -> bool:
-            M = self.matrix(t * step)
-            return not np.all(np.isfinite(M)) or abs(np.linalg.eigvals(M)).max() >= limit
-
-        low, high = 0.0, _FARTHEST * 2.0**-_DOUBLINGS
-        while not outside(high):
-            low, high = high, 2 * high
-            if high > _FARTHEST:
-                return None
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            low, high = (low, middle) if outside(middle) else (middle, high)
-        return high
-
-    def member(self, direction: Floats, factor: Fraction) -> MultiChannelSystem:
-        """The corner of a multiple of the box in a direction."""
+    def member(self, corner: Signs, factor: Fraction) -> MultiChannelSystem:
+        """The plant at a corner of a multiple of the box."""
         plant, radii, n = self.nominal, self._exact_radii, self.n
 
         def part(rows: int, cols: int, D: Matrix) -> Matrix:
-            signs = direction[rows : rows + D.nrows, cols : cols + D.ncols]
+            signs = corner[0][rows : rows + D.nrows, cols : cols + D.ncols]
             entries = ((i, j, D[i, j] * int(signs[i, j]) * factor) for i, j, _ in D.nonzero())
             return Matrix.from_entries(D.shape, entries)
 
