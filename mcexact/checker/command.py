@@ -523,9 +523,9 @@ def verdicts(
             wanted = _expectation(path, partial(read, wanted), limits, clock)
     listed = list(_listed(paths, manifest))
     judged: set[str] = set()
-    for path, many in listed:
+    for manifest_path in (manifest_file(path) for path, many in listed if many):
         with suppress(OutOfTime):
-            judged |= clock.within(partial(_named, manifest_file(path), limits)) if many else set()
+            judged |= clock.within(partial(_named, manifest_path, limits))
     listed = [(path, many) for path, many in listed if many or os.path.normpath(path) not in judged]
     several = replace(wanted, among=len(listed) > 1)
     loops = not wanted.controller or not several.among
