@@ -19,6 +19,7 @@ import math
 import os
 import random
 import sys
+import textwrap
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -410,10 +411,13 @@ def page(families: list[Found]) -> str:
         "",
         "Made by `make costs`.",
         "",
-        f"{drawn_plants} plants of one to six states and one to three agents, each with drawn "
-        f"weights and {CONTROLLERS} controllers that stabilize it. Costs, and the best controller "
-        "of all, are computed by numpy alone (`benchmarks/costs.py`), in another way than by the "
-        "package. A cost below the certified bound would be an error.",
+        textwrap.fill(
+            f"{drawn_plants} plants of one to six states and one to three agents, each with drawn "
+            f"weights and {CONTROLLERS} controllers that stabilize it. Costs, and the best "
+            "controller of all, are computed by numpy alone (`benchmarks/costs.py`), in another "
+            "way than by the package. A cost below the certified bound would be an error.",
+            100,
+        ),
         "",
         "| plants | number | costs below the certified bound | least cost / certified bound "
         "| proposed bound and best cost differ by at most "
@@ -428,9 +432,12 @@ def page(families: list[Found]) -> str:
     lines += [
         "",
         f"Certificates that the checker refuses: {sum(each.unproved for each in families)}.",
-        f"Plants left out, since no {CONTROLLERS} controllers were found that keep all eigenvalues "
-        f"away from the border: {sum(each.left_out for each in families)}. In discrete time A has "
-        "a condition number up to 10⁶.",
+        textwrap.fill(
+            f"Plants left out, since no {CONTROLLERS} controllers were found that keep all "
+            f"eigenvalues away from the border: {sum(each.left_out for each in families)}. "
+            "In discrete time A has a condition number up to 10⁶.",
+            100,
+        ),
         "",
         "The controllers:",
         "",

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import os
 import random
+import textwrap
 import time
 import warnings
 from collections.abc import Callable, Iterator
@@ -251,7 +252,7 @@ def main() -> None:
     }
     parts = ["# What roundings of floats recover", "", "Made by `make rounding`.", ""]
     for text, rows in tables.items():
-        parts += [text, "", *rows(), ""]
+        parts += [textwrap.fill(text, 100), "", *rows(), ""]
     PAGE.write_text("\n".join(parts), encoding="utf-8")
 
 

@@ -11,6 +11,7 @@ Run as ``python proofs/ledger_table.py`` with the package installed, or by ``mak
 from __future__ import annotations
 
 import re
+import textwrap
 from functools import cache
 from pathlib import Path
 
@@ -27,6 +28,7 @@ from mcexact.reproduce.notebook import (
 
 FOLDER = Path(__file__).parent
 BEGIN, END = "<!-- the ledger: made by make ledger -->\n", "<!-- end of the ledger -->\n"
+WIDTH = 110  # characters of a line of prose
 THEOREM = re.compile(
     r"^(?:Theorem|Corollary|Proposition|Lemma|Remark) (\w+)\b.*?(?=\nProof)",
     re.MULTILINE | re.DOTALL,
@@ -111,13 +113,28 @@ TABLES = {
 """The pages with a part that is made, and what makes it."""
 
 
+def wrapped(made: str) -> str:
+    """A text whose paragraphs and items have lines that fit on a screen; tables and code stay."""
+    lines, code = [], False
+    for line in made.split("\n"):
+        code ^= line.startswith("```")
+        if code or len(line) <= WIDTH or line.startswith(("|", "#")):
+            lines.append(line)
+        else:
+            rest = "  " if line.startswith("- ") else ""
+            lines += textwrap.wrap(
+                line, WIDTH, subsequent_indent=rest, break_long_words=False, break_on_hyphens=False
+            )
+    return "\n".join(lines)
+
+
 def renewed(text: str, made: str) -> str:
     """The text with the part as the package makes it now."""
     before, found, rest = text.partition(BEGIN)
     _, closed, after = rest.partition(END)
     if not found or not closed:
         raise SystemExit("the marks around the table are missing")
-    return before + BEGIN + linked(made) + END + after
+    return before + BEGIN + wrapped(linked(made)) + END + after
 
 
 if __name__ == "__main__":

@@ -1,9 +1,11 @@
-"""The form of what persons read: the changelog of a version is one page."""
+"""The form of what persons read: a page for each version, and lines that fit on a screen."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
+
+import pytest
 
 import mcexact
 
@@ -23,3 +25,42 @@ def test_the_changelog_has_one_page_for_each_version() -> None:
 def test_the_changelog_has_no_history_of_faults() -> None:
     first = CHANGELOG.rpartition("\n## ")[2]
     assert not HISTORY.findall(first)
+
+
+WIDTH = 120  # characters of a line in a source
+MADE = re.compile(r"^<!-- the ledger: .*?^<!-- end of the ledger -->", re.MULTILINE | re.DOTALL)
+CODE = re.compile(r"^( *)(`{3,}|\$\$).*?^\1\2", re.MULTILINE | re.DOTALL)
+SPAN = re.compile(r"`[^`]{60,}`")  # of code, which no line may divide
+INDENTED = re.compile(r"(?<=\n)\n(?: {4}.*\n)+")
+# Made by programs from data, or lists of code.
+LISTS = {
+    *("DESIGNS.md", "SPEED.md", "SENTENCES.md", "THEOREMS.md"),
+    *("SURVIVORS.md", "WEAKENED.md"),
+}
+PAGES = sorted(
+    path
+    for folder in (".", "docs", "proofs", "benchmarks", "examples", "verified", "mcexact")
+    for path in (ROOT / folder).glob("*.md" if folder == "." else "**/*.md")
+    if path.name not in LISTS and "generated" not in path.parts
+)
+
+
+def long_lines(text: str) -> list[str]:
+    """The lines of prose that are too long; tables, code and formulas may be."""
+    prose = INDENTED.sub("", CODE.sub("", MADE.sub("", text)))
+    return [
+        line
+        for line in prose.splitlines()
+        if len(SPAN.sub("``", line)) > WIDTH and not line.startswith("|")
+    ]
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_lines_of_pages_can_be_read_in_their_source(path: Path) -> None:
+    assert not long_lines(path.read_text(encoding="utf-8"))
+
+
+def test_a_long_line_is_found_where_it_is_prose() -> None:
+    words = "word " * 30
+    assert long_lines(f"a\n\n{words}\n") == [words]
+    assert not long_lines(f"| {words} |\n\n```text\n{words}\n```\n\n$$\n{words}\n$$\n")
