@@ -18,6 +18,7 @@ from mcexact.cli import command_line
 from mcexact.crosschecks.gallery import exhibits, shown
 from mcexact.model import gallery
 from mcexact.model.gallery import published
+from mcexact.reproduce.notebook import table
 
 ROOT = Path(__file__).parents[1]
 ROWS = ROOT / "benchmarks" / "rows"
@@ -39,6 +40,7 @@ def write_pages(folder: Path) -> None:
         "designs.md": _table(_by_hand()),
         "speed.md": _table(_speed()),
         "glossary.md": glossary_page(),
+        "examinations.md": examinations_page(),
     }
     for name, text in pages.items():
         (made / name).write_text(text, encoding="utf-8")
@@ -195,6 +197,19 @@ def glossary_page() -> str:
     for term, meaning in rows:
         lines += [term.strip(), f": {meaning.strip()}", ""]
     return "\n".join(lines)
+
+
+def examinations_page() -> str:
+    """What `mcexact reproduce` carries out, from the ledger of the package."""
+    head = """# The examinations of the paper
+
+What `mcexact reproduce` carries out: for every row its instances, the code that decides them, the
+certificates that the independent checker verifies, and false statements nearby that an instance has
+to refute. An instance has content where the statement says something about it. The numbers of
+statements are those of the list that `mcexact reproduce` prints, and of `proofs/STATEMENTS.md`.
+
+"""
+    return head + table()
 
 
 def _table(lines: list[str]) -> str:

@@ -2,8 +2,8 @@
 
 All of it is made from `mcexact/reproduce/statements.toml` and `ledger.toml`: the verdicts on the
 numbered results in README.md, all statements in STATEMENTS.md, those that are not proved in
-OPEN.md, the corrections in ERRATA.md, the examinations in EXAMINATIONS.md, and in THEOREMS.md every
-theorem that a statement cites, with its text.  Names of theorems are links to their lines.
+OPEN.md, the corrections in ERRATA.md, and in THEOREMS.md every theorem that a statement cites, with
+its text.  Names of theorems are links to their lines.
 
 Run as ``python proofs/ledger_table.py`` with the package installed, or by ``make ledger``.
 """
@@ -23,7 +23,6 @@ from mcexact.reproduce.notebook import (
     open_table,
     statement_table,
     statements,
-    table,
 )
 
 FOLDER = Path(__file__).parent
@@ -107,7 +106,6 @@ TABLES = {
     "STATEMENTS.md": statement_table,
     "OPEN.md": open_table,
     "ERRATA.md": errata,
-    "EXAMINATIONS.md": table,
     "THEOREMS.md": theorem_pages,
 }
 """The pages with a part that is made, and what makes it."""

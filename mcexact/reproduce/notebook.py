@@ -396,7 +396,7 @@ def examination(key: str) -> Examination:
 
 
 def table() -> str:
-    """The ledger as the table of ``proofs/README.md``."""
+    """The ledger as a table, which the documentation has."""
     lines = [
         "| examined | statements | verdict | section | an instance has content where "
         "| in the code | certificates | theorems, or instances |",
