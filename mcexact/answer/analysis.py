@@ -216,6 +216,13 @@ SETPOINT_DEPENDENT = Template(
     "setpoint.setpoint_rank",
     "set-points",
 )
+SETPOINT_FEWER = Template(
+    "setpoint-fewer-inputs",
+    "no stable linear time-invariant loop holds them all: {inputs:count input} for "
+    "{outputs:count output}",
+    "setpoint.setpoint_rank",
+    "set-points",
+)
 CONNECTED = Template("neighbor-graph-connected", "strongly connected", label="neighbor graph")
 NOT_CONNECTED = Template(
     "neighbor-graph-not-connected", "not strongly connected", label="neighbor graph"
@@ -644,10 +651,13 @@ def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, context: Contex
 # Set-points.
 
 
-@mode_rule("table", SETPOINT_ZERO, SETPOINT_DEPENDENT, premises=("setpoint",))
+@mode_rule("table", SETPOINT_ZERO, SETPOINT_DEPENDENT, SETPOINT_FEWER, premises=("setpoint",))
 def _no_setpoints(setpoint: Claim, context: Context) -> Said:
+    inputs, outputs = context.signals
     if setpoint.invariant_zero:
         yield SETPOINT_ZERO(place=steady_point(context.time))
+    elif not setpoint.solvable and inputs < outputs:
+        yield SETPOINT_FEWER(inputs=inputs, outputs=outputs)
     elif not setpoint.solvable:
         yield SETPOINT_DEPENDENT()
 

@@ -65,6 +65,12 @@ class Context:
         return "delays" if graph is not None and graph.delays else "none"
 
     @property
+    def signals(self) -> tuple[int, int]:
+        """The numbers of inputs and of outputs of the plant, those of all channels together."""
+        channels = self.system.plant.channels
+        return sum(c.B.ncols for c in channels), sum(c.C.nrows for c in channels)
+
+    @property
     def inactive(self) -> list[str]:
         """The channels with B_i = 0 or C_i = 0."""
         return [c.name for c in self.system.channels if c.B.is_zero() or c.C.is_zero()]

@@ -665,6 +665,19 @@ _lost_outputs("setpoint-zero", True)
 _lost_outputs("setpoint-dependent", False)
 
 
+@rule("setpoint-fewer-inputs", SETPOINT, theorem=RANK_RULE)
+def _fewer_inputs(premise: Premise) -> str:
+    """[A, B; C, 0] has more rows than columns."""
+    of_all_outputs(premise)
+    inputs = sum(B_i.ncols for B_i in premise.system.B)
+    outputs = sum(C_i.nrows for C_i in premise.system.C)
+    premise.expect(inputs < outputs, "there are as many inputs as outputs")
+    return (
+        f"{premise.about}: {counted(inputs, 'input')} for {counted(outputs, 'output')}, so that in "
+        "no stable linear time-invariant loop every output tends to every constant set-point"
+    )
+
+
 # What the certificates about sharing imply: bounds, least dimensions, links, delays.
 
 OBSERVABLE_HAUTUS = "joint_controllability.observable_hautus"

@@ -162,6 +162,8 @@ def test_an_invariant_zero_and_dependent_outputs_are_told_apart(time: str, place
     assert rows_of(wash)["set-points"].endswith(f"{place} is an invariant zero")
     twice = MultiChannelSystem([["1/2"]], [[[1]], [[1]]], [[[1]], [[1]]], time=time)
     assert rows_of(twice)["set-points"].endswith("cannot move the outputs independently")
+    few = MultiChannelSystem(A, [[[0], [1]]], [[[0, 1], [1, 0]]], time=time)
+    assert rows_of(few)["set-points"].endswith("1 input for 2 outputs")
 
 
 def test_the_ranks_for_a_subset_are_a_table_of_the_modes_of_A_proved_to_be_all() -> None:

@@ -677,3 +677,13 @@ def _setpoint_zero(said: Said, case: Case) -> bool:
 @judge("setpoint-dependent")
 def _setpoint_dependent(said: Said, case: Case) -> bool:
     return case.own.normal_rank() < _full(case.own)
+
+
+@judge("setpoint-fewer-inputs")
+def _setpoint_fewer(said: Said, case: Case) -> bool:
+    """The numbers are those of the columns and rows, and no rank is that of all rows."""
+    system, values = case.own.system, said.values
+    sizes = int(system.inputs().ncols()), int(system.outputs().nrows())
+    return (values["inputs"], values["outputs"]) == sizes and case.own.normal_rank() < _full(
+        case.own
+    )
