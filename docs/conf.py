@@ -51,6 +51,7 @@ smartquotes = False
 highlight_options = {"pycon": {"stripnl": True}}
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
+copybutton_line_continuation_character = "\\"
 
 html_math_renderer = "mathml"
 html_theme = "pydata_sphinx_theme"
@@ -62,8 +63,7 @@ html_show_sourcelink = False
 html_sidebars = {
     page: []
     for page in (
-        *("index", "install", "tutorial", "overview", "why-exactly", "comparison"),
-        "generated/glossary",
+        *("index", "install", "tutorial", "overview", "why-exactly", "comparison", "glossary"),
     )
 }
 html_theme_options = {

@@ -39,7 +39,6 @@ def write_pages(folder: Path) -> None:
         "exhibits.md": _table(_exhibits()),
         "designs.md": _table(_by_hand()),
         "speed.md": _table(_speed()),
-        "glossary.md": glossary_page(),
         "examinations.md": examinations_page(),
     }
     for name, text in pages.items():
@@ -155,7 +154,15 @@ def _tidy(factor: str) -> str:
 
 def commands_page() -> str:
     """The help of every command, as it is printed."""
-    lines = ["# The command line", ""]
+    lines = [
+        "# The command line",
+        "",
+        "The words of commands and answers, such as [complete](../glossary.md#complete),",
+        "[box](../glossary.md#box), [margin](../glossary.md#margin) and",
+        "[sensible rate](../glossary.md#sensible-rate), are explained in the",
+        "[glossary](../glossary.md).",
+        "",
+    ]
     context = click.Context(command_line, info_name="mcexact", max_content_width=88)
     for path, command in _commands(command_line, context, ("mcexact",)):
         title = " ".join(path)
@@ -181,22 +188,6 @@ def certificates_page() -> str:
     """FORMAT.md, with the paths of files in the repository in the place of links to them."""
     text = (ROOT / "mcexact" / "answer" / "FORMAT.md").read_text(encoding="utf-8")
     return re.sub(r"\[([^\]]+)\]\((?!#|http)([^)]+)\)", r"\1 (`\2`)", text)
-
-
-def glossary_page() -> str:
-    """The glossary of ARCHITECTURE.md, without the words that are not used."""
-    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    table = text.partition("## Glossary")[2].partition("| term |")[2]
-    rows = [line.split("|")[1:3] for line in table.splitlines()[2:] if line.startswith("|")]
-    lines = [
-        "# Glossary",
-        "",
-        "One concept has one word, in this documentation and in the code.",
-        "",
-    ]
-    for term, meaning in rows:
-        lines += [term.strip(), f": {meaning.strip()}", ""]
-    return "\n".join(lines)
 
 
 def examinations_page() -> str:

@@ -2,10 +2,10 @@
 
 - A block ``{code-block}`` with a caption is a file of that name, and so is one of ``json`` below a
   line that ends with the name in backquotes and a colon.
-- In a block ``console`` a line that begins with ``$`` is a command, mcexact or python, and the
-  lines below it are what it prints; ``...`` stands for any text.  ``# status 1`` after a command
-  is its status.  A block of the class ``processor`` is run and not compared: its numbers depend on
-  the processor.
+- In a block ``console`` a line that begins with ``$`` is a command, mcexact or python; a backslash
+  at its end continues it.  The lines below are what it prints; ``...`` stands for any text.
+  ``# status 1`` after a command is its status.  A block of the class ``processor`` is run and not
+  compared: its numbers depend on the processor.
 - A block ``pycon`` is a doctest.  All of them share their names, and the folder of the page.
 """
 
@@ -90,7 +90,8 @@ def _examples(block: Block, path: Path, names: dict[str, Any]) -> int:
 
 def _commands(block: Block, path: Path) -> int:
     """Run the commands of a block and compare what they print."""
-    parts = re.split(r"^\$ (.*)\n", block.text, flags=re.MULTILINE)[1:]
+    text = block.text.replace("\\\n", "")
+    parts = re.split(r"^\$ (.*)\n", text, flags=re.MULTILINE)[1:]
     for call, wanted in zip(parts[::2], parts[1::2], strict=True):
         status = int(found[1]) if (found := _STATUS.search(call)) else 0
         program, *arguments = shlex.split(_STATUS.sub("", call))

@@ -64,3 +64,32 @@ def test_a_long_line_is_found_where_it_is_prose() -> None:
     words = "word " * 30
     assert long_lines(f"a\n\n{words}\n") == [words]
     assert not long_lines(f"| {words} |\n\n```text\n{words}\n```\n\n$$\n{words}\n$$\n")
+
+
+LEADING = [path for path in PAGES if path.parts[len(ROOT.parts)] in {"README.md", "docs"}]
+HEADINGS = {
+    re.sub(r"[^\w -]", "", title).lower().replace(" ", "-")
+    for title in re.findall(
+        r"^## (.*)$", (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8"), re.MULTILINE
+    )
+}
+
+
+def test_what_pages_link_in_the_glossary_is_there() -> None:
+    texts = [path.read_text(encoding="utf-8") for path in LEADING]
+    linked = {place for text in texts for place in re.findall(r"glossary\.md#([\w-]+)", text)}
+    assert linked and linked <= HEADINGS, linked - HEADINGS
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/index.md", "CITATION.cff"])
+def test_the_paper_and_what_reproduces_it_are_named_where_one_begins(page: str) -> None:
+    text = " ".join((ROOT / page).read_text(encoding="utf-8").split())
+    assert "Distributed Feedback Control of Multi-Channel Linear Systems" in text
+    assert "`mcexact reproduce" in text
+
+
+@pytest.mark.parametrize("path", LEADING, ids=lambda path: str(path.relative_to(ROOT)))
+def test_commands_and_what_they_print_fit_into_80_columns(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    consoles = re.findall(r"^`{3}(?:\{code-block\} )?console\n(.*?)^`{3}", text, re.M | re.S)
+    assert all(len(line) <= 80 for each in consoles for line in each.splitlines())
