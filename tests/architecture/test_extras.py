@@ -63,7 +63,7 @@ def drawn_before(path: Path, library: str) -> bool:
 def test_the_page_of_installation_lists_every_extra_of_users() -> None:
     page = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
     assert {*FOR_USERS, "docs"} <= set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
-    assert EXTRAS.keys() - {*FOR_USERS, "docs"} == {"test", "dev", "mutants"}
+    assert EXTRAS.keys() - {*FOR_USERS, "docs"} == {"test", "dev", "mutants", "release"}
 
 
 def test_the_first_screen_of_the_readme_needs_no_extra(tmp_path: Path) -> None:
