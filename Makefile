@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: six-loops samples limited gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs verified verified-agreement
+.PHONY: release six-loops samples limited gaps periodic absence boxes damaged-files hypersurfaces members judged-sentences parameters cluster corpus coverage costs digits rounding package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs impossible-proofs verified verified-agreement
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -198,6 +198,12 @@ zipapp: $(STAMP)
 	mkdir -p dist
 	$(BIN)/mcexact check --export dist/mcexact-checker.pyz
 
+# Wheel and source distribution in dist/, built twice and compared, checked, installed in a new
+# environment, and used as the tutorial does: minutes.
+release: $(STAMP)
+	$(PIP) --editable '.[release]'
+	$(BIN)/python -m tests.assurance.release
+
 # What is known of every statement of the paper, with a report and certificates in reproduction/:
 # less than a minute.
 reproduce: $(STAMP)
@@ -276,7 +282,7 @@ verified-agreement: $(STAMP)
 # What a user needs, without what draws, tests or documents.
 $(CORE): pyproject.toml
 	@echo "Making an environment in .venv, and installing mcexact with the libraries of its core"
-	@echo "(numpy, scipy, sympy, networkx, python-flint and others, 390 MB): one to three minutes ..."
+	@echo "(numpy, scipy, sympy, networkx, python-flint and others, 400 MB): one to three minutes ..."
 	@$(PYTHON) -m venv .venv
 	@$(PIP) --editable .
 	@touch $(CORE)

@@ -36,8 +36,9 @@ nitpicky = False
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
-myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "fieldlist"]
+myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "fieldlist", "substitution"]
 myst_heading_anchors = 3
+myst_substitutions = {"version": release}
 
 autosummary_generate = True
 autosummary_imported_members = True
@@ -55,7 +56,7 @@ copybutton_line_continuation_character = "\\"
 
 html_math_renderer = "mathml"
 html_theme = "pydata_sphinx_theme"
-html_title = "mcexact"
+html_title = f"mcexact {release}"
 html_static_path = ["_static"]
 html_css_files = ["mcexact.css"]
 html_show_sourcelink = False

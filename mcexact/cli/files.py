@@ -418,7 +418,7 @@ def write_folder(folder: Path, files: Mapping[str, str]) -> None:
             for name, text in files.items():
                 path = scratch / "new" / name
                 path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_text(text, encoding="utf-8")
+                path.write_bytes(text.encode("utf-8"))
             if target.exists():
                 target.rename(scratch / "old")
             try:
