@@ -10,6 +10,7 @@ import ast
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -23,7 +24,7 @@ NAMES = {
 }
 
 
-def outside_functions(tree: ast.AST) -> list[ast.AST]:
+def outside_functions(tree: ast.AST) -> list[Any]:
     """The nodes that run when a module is imported."""
     found, waiting = [], [tree]
     while waiting:
