@@ -275,9 +275,10 @@ impossible-proofs:
 verified: $(CORE)
 	@$(MAKE) --no-print-directory -C verified BIN=$(abspath $(BIN))
 
-# Mutants and forgeries of fixed spectra, judged by the checker and by mcexact-verified: minutes.
+# Mutants and forgeries of their common kinds, judged by the checker and by mcexact-verified: minutes.
+# KINDS='setpoint completeness' tries some.
 verified-agreement: $(STAMP)
-	$(BIN)/python -m tests.assurance.campaigns.verified $(or $(N),10000)
+	$(BIN)/python -m tests.assurance.campaigns.verified $(or $(N),10000) $(KINDS)
 
 # What a user needs, without what draws, tests or documents.
 $(CORE): pyproject.toml

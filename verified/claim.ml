@@ -1,5 +1,7 @@
-(* The claim of the kind `fixed_spectrum`.  Trusted: it is what the theorem says of the plant. *)
+(* The claims, as records and as lists of the kernel.  Trusted: they are what the theorems say of the plant. *)
 open Refused
+
+(* The kind `fixed_spectrum`. *)
 
 type factor = { polynomial : Q.t list; in_A : int option; at_most : int; channels : int list; rank : int;
                 stable : bool; discs : Q.t list list }
@@ -61,3 +63,61 @@ let regions time claim =
   { Kernel.g_w = w; g_continuous = time = "continuous"; g_stable = List.map (fun f -> f.stable) claim.factors;
     g_discs = List.map (fun f -> List.map disc f.discs) claim.factors; g_stabilizable = claim.stabilizable;
     g_rate = (match claim.rate with [ low; high ] -> Some (up low, up high) | _ -> None) }
+
+(* The kind `controllability`. *)
+type reach = { together : int list; dimension : int; whole_space : bool; rest : Q.t list }
+
+let read_reach known value =
+  match Json.fields "claim" [ "channels"; "dimension"; "controllable"; "uncontrollable_polynomial" ] value with
+  | [ together; d; flag; p ] ->
+    { together = Json.names "claim.channels" known together; dimension = Json.small "claim.dimension" d;
+      whole_space = Json.boolean "claim.controllable" flag; rest = read_polynomial "claim.uncontrollable_polynomial" 0 p }
+  | _ -> assert false
+
+let mask m places = List.init m (fun i -> List.mem i places)
+let listed_reach m claim =
+  { Kernel.r_T = mask m claim.together; r_dim = claim.dimension; r_all = claim.whole_space; r_poly = integers claim.rest }
+
+(* The kind `transfer_graph`: parts are in the order of their first members, and every channel is in one of them. *)
+type graph = { arcs : (int * int) list; parts : int list list; connected : bool }
+
+let read_arc place known value =
+  match Json.items ~length:2 place value with
+  | [ j; i ] ->
+    let channel name = match Json.names place known (Json.List [ name ]) with [ i ] -> i | _ -> assert false in
+    (channel j, channel i)
+  | _ -> assert false
+
+let read_graph known value =
+  match Json.fields "claim" [ "arcs"; "components"; "strongly_connected" ] value with
+  | [ arcs; parts; flag ] ->
+    let arcs = List.map (read_arc "claim.arcs" known) (Json.items "claim.arcs" arcs) in
+    if not (Json.increasing arcs) then malformed "claim.arcs" "expected them sorted, none twice";
+    let parts = List.map (Json.names "claim.components" known) (Json.items "claim.components" parts) in
+    let once = List.sort compare (List.concat parts) = List.init (List.length known) Fun.id in
+    if not (once && List.for_all (fun part -> part <> []) parts && Json.increasing (List.map List.hd parts)) then
+      invalid "claim.components" "these are not the strong components";
+    { arcs; parts; connected = Json.boolean "claim.strongly_connected" flag }
+  | _ -> assert false
+
+let listed_graph m claim =
+  let rec place k i = function part :: rest -> if List.mem i part then k else place (k + 1) i rest | [] -> assert false in
+  let joined = Array.make_matrix m m false in
+  List.iter (fun (j, i) -> joined.(j).(i) <- true) claim.arcs;
+  { Kernel.g_edges = Array.to_list (Array.map Array.to_list joined); g_parts = List.init m (fun i -> place 0 i claim.parts); g_connected = claim.connected }
+
+(* The kind `completeness`. *)
+let read_complete value =
+  match Json.fields "claim" [ "complete" ] value with [ flag ] -> Json.boolean "claim.complete" flag | _ -> assert false
+
+(* The kind `setpoint`. *)
+type setpoint = { solvable : bool; steady_rank : int; zero : bool option }
+
+let read_setpoint value =
+  match Json.fields "claim" [ "solvable"; "rank"; "invariant_zero" ] value with
+  | [ flag; rank; zero ] ->
+    { solvable = Json.boolean "claim.solvable" flag; steady_rank = Json.small "claim.rank" rank;
+      zero = (if zero = Json.Null then None else Some (Json.boolean "claim.invariant_zero" zero)) }
+  | _ -> assert false
+
+let listed_setpoint claim = { Kernel.p_solvable = claim.solvable; p_rank = claim.steady_rank; p_zero = claim.zero }

@@ -1,13 +1,63 @@
 (* mcexact-verified: checks certificates by the program that Coq extracted from its own proof.
 
-   For each file one line: the verdict, and for CONFIRMED the digests of the plant and of the claim that were read, both
-   of their canonical JSON. *)
+   For each file one line: the verdict, and for CONFIRMED the statement that was proved, behind its digest: the same as
+   that of the checker in Python. *)
 open Refused
 
-let version = "1"
+let version = "2"
 
-(* The plant, the claim, and the rules of a certificate; the digests of plant and claim. *)
-let prepared text =
+(* What a certificate says in words, whether the kernel proves it, and the theorem as a file of Rocq. *)
+type read = { statement : string; proves : unit -> bool; theorem : unit -> string }
+
+(* Of the system that the claim is about: the plant, or its dual. *)
+let claimed kind (plant : Plant.t) dual claim witness =
+  let known = plant.Plant.names and listed = Plant.listed plant in
+  let m = List.length known and s = if dual then Kernel.zdual listed else listed in
+  let about words = Words.statement plant dual words in
+  let file = Rocq.file plant.Plant.digest listed dual in
+  match kind with
+  | "fixed_spectrum" ->
+    let said = Claim.read known claim in
+    let meant = Claim.listed m said and regions = Claim.regions plant.Plant.time said in
+    let rules = Witness.fixed_spectrum s known meant witness in
+    { statement = about (Words.fixed_spectrum plant.Plant.time known said);
+      proves = (fun () -> Kernel.check_whole s rules regions = Some meant); theorem = (fun () -> file (Rocq.fixed_spectrum meant regions rules)) }
+  | "controllability" ->
+    let said = Claim.read_reach known claim in
+    let meant = Claim.listed_reach m said in
+    let annihilator, below = Structure.controllability s known meant witness in
+    { statement = about (Words.controllability known said);
+      proves = (fun () -> Kernel.check_controllability s meant annihilator below); theorem = (fun () -> file (Rocq.controllability meant annihilator below)) }
+  | "transfer_graph" ->
+    let said = Claim.read_graph known claim in
+    let meant = Claim.listed_graph m said in
+    let evidence = Structure.transfer_graph s known said meant witness in
+    { statement = about (Words.transfer_graph known said);
+      proves = (fun () -> Kernel.check_graph s meant evidence); theorem = (fun () -> file (Rocq.transfer_graph meant evidence)) }
+  | "completeness" ->
+    let said = Claim.read_complete claim in
+    let evidence = Structure.completeness s known said witness in
+    { statement = about (Words.completeness said);
+      proves = (fun () -> Kernel.check_complete s evidence = Some said); theorem = (fun () -> file (Rocq.completeness said evidence)) }
+  | "setpoint" ->
+    let said = Claim.read_setpoint claim in
+    let meant = Claim.listed_setpoint said and discrete = plant.Plant.time = "discrete" in
+    let evidence = Structure.setpoint s discrete meant witness in
+    { statement = about (Words.setpoint plant.Plant.time said);
+      proves = (fun () -> Kernel.check_setpoint s discrete meant evidence); theorem = (fun () -> file (Rocq.setpoint discrete meant evidence)) }
+  | _ -> incomplete "kind" "not a kind that is verified here"
+
+(* Whether the claim is about the dual system; other constructions are not verified here. *)
+let read_subject value =
+  match List.map (fun step -> match step with
+      | Json.Object [ ("construction", Json.String "dual") ] -> ()
+      | Json.Object l when (match List.assoc_opt "construction" l with Some (Json.String "dual") -> true | _ -> false) -> malformed "subject" "unknown key"
+      | _ -> incomplete "subject" "no construction but one dual is verified here") (Json.items "subject" value) with
+  | [] -> false
+  | [ () ] -> true
+  | _ -> incomplete "subject" "no construction but one dual is verified here"
+
+let certificate text =
   let document = Json.parse text in
   let member key = match document with
     | Json.Object l -> List.assoc_opt key l | _ -> malformed "file" "expected a certificate" in
@@ -16,31 +66,22 @@ let prepared text =
    | _ -> malformed "format" "expected \"mcexact-certificate/1\"");
   match Json.fields "file" [ "format"; "kind"; "system"; "subject"; "claim"; "witness" ] document with
   | [ _; kind; system; subject; claim; witness ] ->
-    if Json.string "kind" kind <> "fixed_spectrum" then incomplete "kind" "not a kind that is verified here";
-    if Json.items "subject" subject <> [] then incomplete "subject" "no constructions are verified here";
-    let plant = Plant.read system in
-    let known = plant.Plant.names in
-    let listed = Plant.listed plant in
-    let said = Claim.read known claim in
-    let meant = Claim.listed (List.length known) said and regions = Claim.regions plant.Plant.time said in
-    let rules = try Witness.fixed_spectrum listed known meant witness with Division_by_zero -> invalid "witness.modulus" "a number is not invertible modulo l" in
-    (plant.Plant.digest, Sha256.digest (Json.canonical claim), listed, meant, regions, rules)
+    let kind = Json.string "kind" kind in
+    let dual = read_subject subject in
+    (try claimed kind (Plant.read system) dual claim witness
+     with Division_by_zero -> invalid "witness.modulus" "a number is not invertible modulo l")
   | _ -> assert false
 
 let proved text =
-  let (_, _, listed, meant, regions, rules) as parts = prepared text in
-  (match Kernel.check_whole listed rules regions with
-   | Some claim when claim = meant -> ()
-   | _ -> invalid "witness" "the rules do not prove the claim");
-  parts
+  let read = certificate text in
+  if not (read.proves ()) then invalid "witness" "the kernel does not prove the claim";
+  read
 
 let check text =
-  let plant, claim, _, _, _, _ = proved text in
-  Printf.sprintf "CONFIRMED %s %s" plant claim
+  let read = proved text in
+  Printf.sprintf "CONFIRMED %s %s" (Sha256.digest read.statement) read.statement
 
-let rocq text =
-  let plant, _, listed, meant, regions, rules = proved text in
-  Rocq.file plant listed meant regions rules
+let rocq text = (proved text).theorem ()
 
 let read_file path =
   let channel = if path = "-" then stdin else open_in_bin path in

@@ -67,6 +67,25 @@ let hessenberg l rows =
   let rows m = Array.to_list (Array.map Array.to_list m) in
   { Kernel.h_H = rows h; h_L = rows left; h_Y = rows right }
 
+(* The inverse of a square matrix modulo l, by pivots that are units. *)
+let inverted l m =
+  let n = Array.length m in
+  let a = Array.mapi (fun i row -> Array.append (Array.map (fun x -> Z.erem x l) row) (Array.init n (fun j -> if i = j then Z.one else Z.zero))) m in
+  for k = 0 to n - 1 do
+    let p = ref k in
+    while !p < n && Z.sign a.(!p).(k) = 0 do incr p done;
+    if !p = n then raise Division_by_zero;
+    let t = a.(!p) in
+    a.(!p) <- a.(k);
+    let i = inverse l t.(k) in
+    let t = Array.map (fun x -> Z.erem (Z.mul i x) l) t in
+    a.(k) <- t;
+    Array.iteri (fun r row ->
+        let c = row.(k) in
+        if r <> k && Z.sign c <> 0 then Array.iteri (fun j x -> if Z.sign x <> 0 then row.(j) <- Z.erem (Z.sub row.(j) (Z.mul c x)) l) t) a
+  done;
+  Array.map (fun row -> Array.sub row n n) a
+
 let characteristic l n (w : Kernel.similar) = Kernel.zchar l w.Kernel.h_H n
 
 (* Primes from 2^26 downwards. *)

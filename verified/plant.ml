@@ -3,7 +3,7 @@ open Refused
 
 type matrix = { nrows : int; ncols : int; rows : Q.t list list }
 type channel = { name : string; inputs : matrix; outputs : matrix }
-type t = { time : string; states : matrix; channels : channel list; names : string list; digest : string }
+type t = { time : string; states : matrix; channels : channel list; names : string list; uncertain : bool; digest : string }
 
 let longest = 1 lsl 20
 
@@ -107,6 +107,7 @@ let read_radii states channels value =
 
 let read value =
   (match value with
+   | Json.Object l when List.mem_assoc "D" l -> incomplete "system" "plants with feedthrough are not read here"
    | Json.Object l when List.mem_assoc "parameters" l -> incomplete "system" "plants with parameters are not read here"
    | Json.String _ -> incomplete "system" "a plant that is named by its digest is not read here"
    | _ -> ());
@@ -122,7 +123,7 @@ let read value =
     if List.length (List.sort_uniq compare names) <> List.length names then malformed "channels" "expected names of their own";
     read_graph names heard waits;
     read_radii states channels radii;
-    { time; states; channels; names; digest = Sha256.digest (Json.canonical value) }
+    { time; states; channels; names; uncertain = radii <> Json.Null; digest = Sha256.digest (Json.canonical value) }
   | _ -> assert false
 
 (* The same as lists of integers over one denominator. *)

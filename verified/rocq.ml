@@ -12,7 +12,7 @@ let subject = list (list bool)
 let record name parts = "(" ^ String.concat " " (name :: parts) ^ ")"
 
 let channel c = record "ZChannel" [ nat c.zp; nat c.zq; matrix c.zB; matrix c.zC ]
-let system s = record "ZSystem" [ nat s.zn; z s.zD; matrix s.zA; list channel s.zchannels; matrix s.zfeed ]
+let system_text s = record "ZSystem" [ nat s.zn; z s.zD; matrix s.zA; list channel s.zchannels; matrix s.zfeed ]
 let factor f =
   let in_A = match f.f_in_A with None -> "None" | Some a -> Printf.sprintf "(Some %d)" a in
   record "ZFactor" [ row f.f_p; in_A; nat f.f_most; list bool f.f_channels; nat f.f_rank ]
@@ -49,20 +49,91 @@ let rule = function
   | RAllBlocks (t, c, place, ys) -> record "RAllBlocks" [ subject t; claim c; nat place; list premises ys ]
   | RAllTwo (t, c, spectrum, g, moved, ys) -> record "RAllTwo" [ subject t; claim c; nat spectrum; row g; nat moved; list premises ys ]
 
-let file digest s c g rules =
+let option write = function None -> "None" | Some x -> "(Some " ^ write x ^ ")"
+
+(* `controllability` *)
+let source = function FromInput (i, u) -> record "FromInput" [ nat i; nat u ] | FromEarlier j -> record "FromEarlier" [ nat j ]
+let spectrum w = record "SpectrumWitness" [ row w.s_ds; matrix w.s_N; list residue w.s_moduli ]
+let annihilator a = record "Annihilator" [ z a.a_den; matrix a.a_W; list nat a.a_pivots; row a.a_f; spectrum a.a_spectrum ]
+let from_below = function
+  | ByRank w -> record "ByRank" [ record "ReachWitness" [ z w.v_lower; z w.v_ell; z w.v_inv; list source w.v_sources; matrix w.v_X ] ]
+  | ByFacts (outs, rules) -> record "ByFacts" [ list (fun (q, c) -> Printf.sprintf "(%d, %s)" q (matrix c)) outs; list rule rules ]
+
+(* `transfer_graph` *)
+let arcs w = record "ArcsWitness" [ z w.e_ell; z w.e_inv; list (list (list nat)) w.e_targets ]
+let zero w = record "ZeroWitness" [ list bool w.z_from; z w.z_den; matrix w.z_X; list nat w.z_pivots ]
+let parts w = record "PartsWitness" [ list nat w.q_roots; list nat w.q_next; list nat w.q_far; list nat w.q_before; list nat w.q_deep ]
+
+(* `completeness` *)
+let complete = function
+  | IsComplete (rules, w, p) -> record "IsComplete" [ list rule rules; arcs w; parts p ]
+  | ByMode rules -> record "ByMode" [ list rule rules ]
+  | ByZero w -> record "ByZero" [ zero w ]
+  | ByCut (sources, held) -> record "ByCut" [ list bool sources; list bool held ]
+
+(* `setpoint` *)
+let place = function OfState a -> record "OfState" [ nat a ] | OfPort (i, u) -> record "OfPort" [ nat i; nat u ]
+let below w = record "BelowWitness" [ z w.w_l; z w.w_i; matrix w.w_X1; list matrix w.w_X2; list place w.w_columns ]
+let above w = record "AboveWitness" [ z w.x_den; matrix w.x_W1; list matrix w.x_W2; list place w.x_places ]
+let layer (first, rest) = Printf.sprintf "(%s, %s)" (matrix first) (list matrix rest)
+
+(* What a theorem is about and where the meaning of its words is said; its definitions with their types; what it says of
+   the system over a field; and the lemmas that prove it of the plant and of its dual, with their arguments. *)
+type theorem = { name : string; about : string; meaning : string; definitions : (string * string * string) list;
+                 says : (string -> string) -> string; plain : string; turned : string }
+
+let over_fields holds = Printf.sprintf "forall (K : fieldType) (h : {rmorphism rat -> K}), %s" holds
+
+let fixed_spectrum c g rules =
+  { name = "fixed_spectrum"; about = "All fixed modes";
+    meaning = "claim_holds, in mcexact.kernel.fixed_rule, and regions_hold, in\n   mcexact.kernel.regions_rule, say what the claim means.";
+    definitions = [ ("claim", "zclaim", claim c); ("regions", "zregions", regions g); ("rules", "seq rule", list rule rules) ];
+    says = (fun system -> Printf.sprintf "(%s) /\\\n  (forall C : numClosedFieldType, regions_hold %s claim regions)"
+        (over_fields (Printf.sprintf "claim_holds %s claim" (system "K"))) (system "C"));
+    plain = "@check_whole_plant plant rules regions claim"; turned = "@fixed_spectrum_dual plant sized rules regions claim" }
+
+let controllability (c : zreach) a w =
+  { name = "controllability"; about = "What the inputs of some channels reach, of"; meaning = "reach_holds, in mcexact.kernel.reach_rule, says what the claim means.";
+    definitions = [ ("claim", "zreach", record "ZReach" [ list bool c.r_T; nat c.r_dim; bool c.r_all; row c.r_poly ]);
+                    ("above", "annihilator", annihilator a); ("below", "reach_evidence", from_below w) ];
+    says = (fun system -> over_fields (Printf.sprintf "reach_holds %s claim" (system "K")));
+    plain = "@controllability_plant plant sized claim above below"; turned = "@controllability_dual plant sized claim above below" }
+
+let transfer_graph (c : zgraph) w =
+  { name = "transfer_graph"; about = "Which channels reach which, of"; meaning = "graph_holds, in mcexact.kernel.arcs_rule, says what the claim means.";
+    definitions = [ ("claim", "zgraph", record "ZGraph" [ list (list bool) c.g_edges; list nat c.g_parts; bool c.g_connected ]);
+                    ("evidence", "graph_witness", record "GraphWitness" [ arcs w.t_arcs; list (list bool) w.t_held; list zero w.t_zeros; parts w.t_parts; list nat w.t_order ]) ];
+    says = (fun system -> over_fields (Printf.sprintf "graph_holds %s claim" (system "K")));
+    plain = "@transfer_graph_plant plant sized claim evidence"; turned = "@transfer_graph_dual plant sized claim evidence" }
+
+let completeness holds w =
+  { name = "completeness"; about = "Whether it is complete: for"; meaning = "complete is defined in mcexact.completeness.";
+    definitions = [ ("evidence", "complete_evidence", complete w) ];
+    says = (fun system -> Printf.sprintf "complete %s <-> %s" (system "[fieldType of rat]") (bool holds));
+    plain = "@completeness_plant plant sized evidence " ^ bool holds; turned = "@completeness_dual plant sized evidence " ^ bool holds }
+
+let setpoint discrete (c : zsetpoint) w =
+  { name = "setpoint"; about = "The rank that decides set-points, of"; meaning = "setpoint_holds, in mcexact.kernel.setpoint_rule, says what the claim means.";
+    definitions = [ ("claim", "zsetpoint", record "ZSetpoint" [ bool c.p_solvable; nat c.p_rank; option bool c.p_zero ]);
+                    ("evidence", "setpoint_witness", record "SetpointWitness" [ below w.sp_below; above w.sp_above; z w.sp_point; below w.sp_full; list layer w.sp_row ]) ];
+    says = (fun system -> over_fields (Printf.sprintf "setpoint_holds %s %s claim" (bool discrete) (system "K")));
+    plain = Printf.sprintf "@setpoint_plant plant sized %s claim evidence" (bool discrete);
+    turned = Printf.sprintf "@setpoint_dual plant sized %s claim evidence" (bool discrete) }
+
+let file digest s dual t =
+  let system field = if dual then Printf.sprintf "(dual (system_of %s plant))" field else Printf.sprintf "(system_of %s plant)" field in
+  let define (name, kind, text) = Printf.sprintf "Definition %s : %s := %s." name kind text in
   String.concat "\n"
-    [ "(* All fixed modes of the plant " ^ digest ^ ".";
-      "   The lists have A, B_i and C_i over one denominator.  claim_holds, in mcexact.kernel.fixed_rule, and regions_hold, in
-   mcexact.kernel.regions_rule, say what the claim means. *)";
-      "From Coq Require Import ZArith.";
-      "From mathcomp Require Import all_ssreflect all_algebra.";
-      "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts.";
-      "";
-      "Definition plant : zsystem := " ^ system s ^ ".";
-      "Definition claim : zclaim := " ^ claim c ^ ".";
-      "Definition regions : zregions := " ^ regions g ^ ".";
-      "Definition rules : seq rule := " ^ list rule rules ^ ".";
-      "Theorem fixed_spectrum : (forall (K : fieldType) (h : {rmorphism rat -> K}), claim_holds (system_of K plant) claim) /\\";
-      "  (forall C : numClosedFieldType, regions_hold (system_of C plant) claim regions).";
-      "Proof. by apply: (@check_whole_plant plant rules regions claim); vm_compute. Qed.";
-      "" ]
+    ([ Printf.sprintf "(* %s the %splant %s.\n   The lists have A, B_i and C_i over one denominator.  %s *)" (if t.name = "fixed_spectrum" then t.about ^ " of" else t.about)
+         (if dual then "dual of the " else "") digest t.meaning;
+       "From Coq Require Import ZArith.";
+       "From mathcomp Require Import all_ssreflect all_algebra.";
+       "From mcexact Require Import multichannel completeness.";
+       "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts reach_rule arcs_rule setpoint_rule kinds.";
+       "";
+       define ("plant", "zsystem", system_text s) ]
+     @ List.map define t.definitions
+     @ [ "Lemma sized : sized_system plant. Proof. by vm_compute. Qed.";
+         Printf.sprintf "Theorem %s : %s." t.name (t.says system);
+         Printf.sprintf "Proof. by apply: (%s); vm_compute. Qed." (if dual then t.turned else t.plain);
+         "" ])

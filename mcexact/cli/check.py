@@ -237,8 +237,8 @@ def _confirmed(judged: Sequence[Found], seconds: float | None) -> dict[int, str]
     if not places or verified.program() is None:
         return found
     files = [file_of(judged[k][0]) for k in places]
-    systems = [judged[k][1].system_digest for k in places]
-    answers = verified.confirmations(files, systems, seconds)
+    statements = [judged[k][1].statement for k in places]
+    answers = verified.confirmations(files, statements, seconds)
     for k, file, answer in zip(places, files, answers, strict=True):
         if not (answer.confirmed or answer.contradicts):
             continue

@@ -2,8 +2,8 @@
 
 The program is extracted from the proof of its own soundness (``verified/README.md``).  It verifies
 what it can of certificates that the checker has found VALID, and may confirm them; it can make no
-verdict better.  What it read is compared by digests: that of the plant, and that of the claim as
-canonical JSON.  Where the program is missing, or of another version, nothing is confirmed.
+verdict better.  It prints the statement that it has proved, which has to be the one of the checker.
+Where the program is missing, or of another version, nothing is confirmed.
 """
 
 from __future__ import annotations
@@ -16,11 +16,10 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from mcexact.checker.reading import Limits, Refused, parse, read_file
-from mcexact.checker.system import canonical_json, digest_of
+from mcexact.checker.system import digest_of
 
 NAME = "mcexact-verified"
-VERSION = f"{NAME} 1"
+VERSION = f"{NAME} 2"
 """What the program must say of itself: the version of what it prints and of the format it reads."""
 SECONDS = 60.0
 """After this time, or that of the whole run, the program is stopped and has confirmed nothing."""
@@ -69,9 +68,9 @@ def program() -> str | None:
 
 
 def confirmations(
-    paths: Sequence[str], systems: Sequence[str], seconds: float | None = None
+    paths: Sequence[str], statements: Sequence[str], seconds: float | None = None
 ) -> list[Confirmation]:
-    """What the program says of some files that were found VALID, about plants of these digests."""
+    """What the program says of some files that were found VALID, with these statements."""
     path = program()
     run = None if path is None or not paths else _run([path], paths, seconds)
     if run is None:
@@ -79,7 +78,7 @@ def confirmations(
     lines = run.stdout.decode("ascii", "replace").splitlines()
     if len(lines) != len(paths):
         return [Confirmation("ERROR", "the program ended early") for _ in paths]
-    return [_read(*each) for each in zip(lines, paths, systems, strict=True)]
+    return [_read(*each) for each in zip(lines, statements, strict=True)]
 
 
 def _run(
@@ -94,23 +93,14 @@ def _run(
         return None
 
 
-def _read(line: str, path: str, system: str) -> Confirmation:
-    """One line of the program about one file."""
+def _read(line: str, statement: str) -> Confirmation:
+    """One line of the program about a file with this statement."""
     verdict, _, rest = line.partition(" ")
     if verdict != "CONFIRMED":
         return Confirmation(verdict, rest)
-    if rest.split(" ") != [system, _claim(path)]:
-        return Confirmation("ERROR", "it read another plant or another claim")
+    if rest != f"{digest_of(statement)} {statement}":
+        return Confirmation("ERROR", "it states something else")
     return Confirmation(verdict)
-
-
-def _claim(path: str) -> str:
-    """The digest of the claim of a certificate."""
-    try:
-        document = parse(read_file(path, Limits()), Limits())
-    except Refused:
-        return ""
-    return digest_of(canonical_json(document["claim"]))
 
 
 def rocq_file(certificate: str, seconds: float | None = None) -> str:

@@ -26,16 +26,25 @@ Definition allowed (T : seq bool) (chs : seq zchannel) (x : source) : bool :=
 Definition unit_images (l : Z) (X : zmat) (vs : seq zrow) : bool :=
   all (fun kv => zero_mod l (zaxpy (-1) (zunit 1 kv.1) (zmv X kv.2))) (zip (iota 0 (size vs)) vs).
 
-Record reach_witness := ReachWitness { v_ell : Z; v_inv : Z; v_sources : seq source; v_X : zmat }.
+(* A and B_i, i in T, over a smaller denominator: l may divide that of the outputs. *)
+Definition zdivs (g : Z) (M : zmat) : zmat := [seq [seq (x / g)%coqZ | x <- r] | r <- M].
+Definition divisible (g : Z) (M : zmat) : bool := all (all (fun x => Z.eqb (Z.modulo x g) 0)) M.
+Definition zlower (g : Z) (s : zsystem) : zsystem :=
+  ZSystem (zn s) (zD s / g)%coqZ (zdivs g (zA s)) [seq ZChannel (zp ch) (zq ch) (zdivs g (zB ch)) (zC ch) | ch <- zchannels s] (zfeed s).
+Definition lowers (g : Z) (s : zsystem) (T : seq bool) : bool :=
+  [&& Z.ltb 0 g, Z.eqb (Z.modulo (zD s) g) 0, divisible g (zA s) & all (fun bc => ~~ bc.1 || divisible g (zB bc.2)) (zip T (zchannels s))].
+
+Record reach_witness := ReachWitness { v_lower : Z; v_ell : Z; v_inv : Z; v_sources : seq source; v_X : zmat }.
 Definition reach_of (w : reach_witness) : nat := size (v_sources w).
-Definition check_reach (s : zsystem) (T : seq bool) (w : reach_witness) : bool :=
-  let: (l, i) := (v_ell w, v_inv w) in
+Definition check_reach (s0 : zsystem) (T : seq bool) (w : reach_witness) : bool :=
+  let: (l, i, s) := (v_ell w, v_inv w, zlower (v_lower w) s0) in
   let chs := [seq reduced l i ch | ch <- zchannels s] in
   let vs := zvectors l (zscale_mod l i (zA s)) chs [::] (v_sources w) in
-  [&& inverse_modulo l (zD s) i, all (allowed T (zchannels s)) (v_sources w), shape (reach_of w) (zn s) (v_X w) & unit_images l (v_X w) vs].
+  [&& lowers (v_lower w) s0 T, inverse_modulo l (zD s) i, all (allowed T (zchannels s)) (v_sources w), shape (reach_of w) (zn s) (v_X w) &
+      unit_images l (v_X w) vs].
 
-(* Rows W over the denominator a_den, and the proof of the polynomial of Z. *)
-Record annihilator := Annihilator { a_den : Z; a_W : zmat; a_pivots : seq nat; a_spectrum : spectrum_witness }.
+(* Rows W over the denominator a_den, and the polynomial of Z in the form that is proved of it. *)
+Record annihilator := Annihilator { a_den : Z; a_W : zmat; a_pivots : seq nat; a_f : zrow; a_spectrum : spectrum_witness }.
 Definition zpick (places : seq nat) (M : zmat) : zmat := [seq [seq nth z0 r j | j <- places] | r <- M].
 Definition check_annihilator (s : zsystem) (T : seq bool) (f : zrow) (a : annihilator) : bool :=
   let: (e, W, piv) := (a_den a, a_W a, a_pivots a) in
@@ -43,7 +52,7 @@ Definition check_annihilator (s : zsystem) (T : seq bool) (f : zrow) (a : annihi
   let Z := zpick piv WA in
   [&& Z.ltb 0 e, size W == size piv, all (fun j => j < zn s) piv, zmat0 (zmaxpy (-1) (zidentity e (size piv)) (zpick piv W)),
       zmat0 (zmaxpy (- e) WA (zmm Z W)), all (fun bc => ~~ bc.1 || zmat0 (zmm W (zB bc.2))) (zip T (zchannels s)) &
-      check_spectrum (size piv) (e * zD s)%coqZ Z f (a_spectrum a)]%N.
+      same_up_to_scale (a_f a) f && check_spectrum (size piv) (e * zD s)%coqZ Z (a_f a) (a_spectrum a)]%N.
 
 (* The channels T with any outputs: sizes and matrices. *)
 Definition ztogether (s : zsystem) (T : seq bool) (outs : seq (nat * zmat)) : zsystem :=
@@ -85,6 +94,12 @@ by rewrite zaxpyE -ek zunitE phiN1 scaleN1r (zmvE _ _ sX) addrC => /eqP; rewrite
 Qed.
 End Lists.
 
+Lemma same_up (K : fieldType) (h : {rmorphism rat -> K}) f g : same_up_to_scale f g -> up K f = up K g.
+Proof.
+case/(same_up_to_scaleP h)=> f0 g0 e; apply: (scalerI (mulf_neq0 f0 g0)); rewrite /up !scalerA mulrAC mulfV // mul1r.
+by rewrite -mulrA mulfV // mulr1.
+Qed.
+
 Section Below.
 Variables (R : comRingType) (lz : Z) (n b : nat) (A : 'M[R]_n) (B : 'M[R]_(n, b)).
 (* A combination of the first N blocks. *)
@@ -124,6 +139,34 @@ by rewrite (zmodE l0 pl) stepE; apply: spanned_next.
 Qed.
 End Below.
 
+(* The same matrices over the smaller denominator. *)
+Section Lower.
+Variables (K : fieldType) (h : {rmorphism rat -> K}) (g d : Z).
+Hypotheses (g0 : (0 < g)%coqZ) (d0 : (0 < d)%coqZ) (dg : Z.eqb (Z.modulo d g) 0).
+Lemma quotientE x : Z.eqb (Z.modulo x g) 0 -> (x = g * (x / g))%coqZ.
+Proof. by move/Z.eqb_eq => e; apply/Z.div_exact => // ge; move: g0; rewrite ge. Qed.
+Lemma lower_denominator : (0 < d / g)%coqZ.
+Proof.
+have gd : (0 < g * (d / g))%coqZ by rewrite -(quotientE dg).
+exact: (proj1 (Z.mul_pos_cancel_l _ _ g0) gd).
+Qed.
+Lemma lower_over a b M : divisible g M -> over K (d / g) a b (zdivs g M) = over K d a b M.
+Proof.
+move/(all_nthP [::]) => ok; apply/matrixP=> i j; rewrite !overE.
+have nz x : (0 < x)%coqZ -> phi [comRingType of K] x != 0.
+  by move=> x0; apply: phi_neq0 h _ _; apply/negP => /Z.eqb_eq e; rewrite e in x0.
+have g1 := nz _ g0; have q1 := nz _ lower_denominator; have -> : phi [comRingType of K] d = phi _ g * phi _ (d / g)%coqZ by rewrite -phiM -(quotientE dg).
+rewrite invfM.
+have -> : phi [comRingType of K] (nth z0 (nth [::] M i) j) = phi _ g * phi _ (nth z0 (nth [::] (zdivs g M) i) j).
+  have [iM|iM] := ltnP i (size M); last by rewrite (@nth_default _ [::] M) // (@nth_default _ [::] (zdivs g M)) ?size_map // nth_nil phi0 mulr0.
+  rewrite (nth_map [::]) //; have [jr|jr] := ltnP j (size (nth [::] M i)); last by rewrite [nth z0 _ j]nth_default // [nth z0 (map _ _) j]nth_default ?size_map // phi0 mulr0.
+  by rewrite (nth_map z0) // -phiM -quotientE //; have /(all_nthP z0) := ok i iM; apply.
+by rewrite mulrACA mulVf // mul1r.
+Qed.
+Lemma shape_divs a b M : shape a b (zdivs g M) = shape a b M.
+Proof. by rewrite /shape size_map all_map; congr (_ && _); apply: eq_all => r /=; rewrite size_map. Qed.
+End Lower.
+
 Section Sound.
 Variables (s : zsystem) (T : seq bool).
 Variables (K : fieldType) (h : {rmorphism rat -> K}) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
@@ -132,21 +175,32 @@ Notation B_T := (inputs S (channels_at m T)).
 
 Theorem check_reach_sound w : check_reach s T w -> (reach_of w <= \rank (reach (mcA S) B_T n))%N.
 Proof.
-have D0 := represented_D re; have sA := represented_A re; case: (re) => _ en em ep eq eA eB eC.
-rewrite /check_reach -en; set lz := v_ell w; set i := v_inv w; set Az := zscale_mod _ _ _; set chs := map _ _; set vs := zvectors _ _ _ _ _.
-case/and4P=> /andP[/Z.ltb_lt l1 /Z.eqb_eq inv] /(all_nthP (FromEarlier 0)) al sX ok.
+rewrite /check_reach; case/and5P; set g := v_lower w; set s' := zlower g s => /and4P[/Z.ltb_lt g0 dg gA gB].
+have D0 := lower_denominator g0 (represented_D re) dg; have sA : shape n n (zA s') by rewrite shape_divs; apply: represented_A re.
+case: (re) => _ en em ep0 _ eA0 eB0 _; have eA : mcA S = over K (zD s') n n (zA s') by rewrite (lower_over h g0 (represented_D re) dg).
+have chE (k : 'I_m) : channel s' k = ZChannel (zp (channel s k)) (zq (channel s k)) (zdivs g (zB (channel s k))) (zC (channel s k)).
+  by rewrite /channel (nth_map zch0) // -em.
+have ep (k : 'I_m) : p k = zp (channel s' k) by rewrite chE ep0.
+have em' : m = size (zchannels s') by rewrite size_map.
+have sB (k : 'I_m) : shape n (p k) (zB (channel s' k)) by rewrite chE shape_divs; case: (represented_channel re k).
+have eB (k : 'I_m) : k \in channels_at m T -> mcB S k = over K (zD s') n (p k) (zB (channel s' k)).
+  rewrite inE => kT; rewrite chE (lower_over h g0 (represented_D re) dg) //; have /(all_nthP (false, zch0))/(_ k) := gB.
+  have kT' : (k < size T)%N by rewrite ltnNge; apply: contraTN kT => /(nth_default false) ->.
+  by rewrite size_zip leq_min kT' -em ltn_ord nth_zip_cond size_zip leq_min kT' -em ltn_ord /= kT; apply.
+rewrite -en; set lz := v_ell w; set i := v_inv w; set Az := zscale_mod _ _ _; set chs := map _ _; set vs := zvectors _ _ _ _ _.
+move=> /andP[/Z.ltb_lt l1 /Z.eqb_eq inv] /(all_nthP (FromEarlier 0)) al sX ok.
 pose l := modulus_of l1; have l0 := modulus_gt0 l1; pose Zl := [comRingType of 'Z_l]; have pl : phi Zl lz = 0 := phi_modulus l1.
-pose SL : multichannel (Zloc l) n p q := local_system l1 D0 inv s n p q.
+pose SL : multichannel (Zloc l) n p q := local_system l1 D0 inv s' n p q.
 pose A := map_mx (@residue l) (mcA SL); pose B := map_mx (@residue l) (inputs SL (channels_at m T)).
 have resR a d M : map_mx (@residue l) (local l1 D0 inv a d M) = mx Zl a d (zscale_mod lz i M) := residue_local l1 D0 inv a d M.
 have stepE v : cv Zl n (zmv Az v) = A *m cv Zl n v by rewrite /A resR; apply: zmvE; rewrite shape_scale.
-have bE (k : 'I_m) : k \in channels_at m T -> mx Zl n (p k) (zscale_mod lz i (zB (channel s k))) = B *m submxrow 1%:M k.
+have bE (k : 'I_m) : k \in channels_at m T -> mx Zl n (p k) (zscale_mod lz i (zB (channel s' k))) = B *m submxrow 1%:M k.
   by move=> kT; rewrite -resR /B map_inputs mul_submxrow mulmx1 mxrowK kT.
 have en0 k : entered B chs (nth (FromEarlier 0) (v_sources w) k).
   have [kw|kw] := ltnP k (size (v_sources w)); last by rewrite nth_default.
   have := al _ kw; case: (nth _ _ _) => [c u|//] /and3P[cm cT up] /=.
-  rewrite -em in cm; pose c' := Ordinal cm; have up' : (u < p c')%N by rewrite ep.
-  rewrite (nth_map zch0) -?em // -[c]/(val c') (@zcolumnE _ n _ _ _ up') bE ?inE // colE -mulmxA.
+  rewrite -em' in cm; pose c' := Ordinal cm; have up' : (u < p c')%N by rewrite ep.
+  rewrite (nth_map zch0) -?em' // -[c]/(val c') (@zcolumnE _ n _ _ _ up') bE ?inE // colE -mulmxA.
   by exists (submxrow 1%:M c' *m delta_mx (Ordinal up') 0).
 have nil : cv Zl n [::] = 0 by apply/matrixP=> r t; rewrite !mxE nth_nil.
 have [|sv sp] := @zvectorsE Zl lz n _ A B l0 pl Az chs stepE (v_sources w) [::] _ en0.
@@ -154,10 +208,10 @@ have [|sv sp] := @zvectorsE Zl lz n _ A B l0 pl Az chs stepE (v_sources w) [::] 
 rewrite -/vs add0n in sv sp; have ev : reach_of w = size vs by []. rewrite -sv in sp.
 set N := maxn n (size vs); have nN : (n <= N)%N := leq_maxl _ _.
 rewrite -(rank_reach_n _ _ nN); have eAB : reach (mcA S) B_T N = map_mx (into h) (reach (mcA SL) (inputs SL (channels_at m T)) N).
-  rewrite map_reach map_inputs; have up a d M : map_mx (into h) (local l1 D0 inv a d M) = over K (zD s) a d M.
+  rewrite map_reach map_inputs; have up a d M : map_mx (into h) (local l1 D0 inv a d M) = over K (zD s') a d M.
     by rewrite -(into_local l1 D0 inv h) -map_mx_comp.
   congr (reach _ _ N); first by rewrite up.
-  by apply: eq_mxrow => k; case: ifP => // _; rewrite eB /= up.
+  by apply: eq_mxrow => k; case: ifP => // kT; rewrite eB //= up.
 rewrite eAB ev in sX *; have [Y eY] : exists Y, mx Zl (size vs) n (v_X w) *m reach A B N *m Y = 1%:M.
   apply: right_inverse => k; have [y ey] := spanned_reach (spanned_more (leq_maxr n (size vs)) (sp k)).
   exists y; rewrite -ey; exact: (unit_imagesE l0 pl sX ok (ltn_ord k) erefl).
@@ -169,13 +223,13 @@ Theorem check_annihilator_sound f a : check_annihilator s T f a ->
 Proof.
 have D0 := represented_D re; have sA := represented_A re; case: (re) => _ en em ep _ eA eB _.
 pose Kc := [comRingType of K]; rewrite /check_annihilator -en; set e := a_den a; set Wz := a_W a; set piv := a_pivots a; set WA := zmm _ (zA s); set Zz := zpick _ WA.
-case/and5P=> /Z.ltb_lt e0 /eqP sW /(all_nthP 0%N) pn /(zmat0E Kc (size piv) (size piv)) idW /andP[/(zmat0E Kc (size piv) n) eqW /andP[ann spec]].
+case/and5P=> /Z.ltb_lt e0 /eqP sW /(all_nthP 0%N) pn /(zmat0E Kc (size piv) (size piv)) idW /andP[/(zmat0E Kc (size piv) n) eqW /andP[ann /andP[same spec]]].
 set w := size piv in idW eqW *; have nz d : (0 < d)%coqZ -> phi [comRingType of K] d != 0.
   by move=> d0; apply: phi_neq0 h _ _; apply/negP => /Z.eqb_eq ed; rewrite ed in d0.
 have u0 := nz _ e0; have D1 := nz _ D0.
 exists (over K e w n Wz), (over K (e * zD s) w w Zz).
 have WAE : mx [comRingType of K] w n WA = mx _ w n Wz *m mx _ n n (zA s) by rewrite (zmmE _ _ _ _ (eq_leq (shape_size sA))).
-split; last exact: (check_spectrum_sound spec h).
+split; last by rewrite -(same_up h same); apply: (check_spectrum_sound spec h).
 - pose pv (k : 'I_w) := Ordinal (pn k (ltn_ord k)); apply: (pivots_free (piv := pv)); apply/matrixP=> k j.
   have /matrixP/(_ k j) := idW; rewrite zmaxpyE zidentityE phiN1 scaleN1r [in X in _ = X]mxE.
   rewrite mxE [X in X + _]mxE zpickE [X in - X + _]mxE mxE => /eqP; rewrite addrC subr_eq0 => /eqP e1.

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
+import shlex
 import stat
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+import mcexact
 from mcexact import fixed_spectrum
 from mcexact.answer import protocol
 from mcexact.checker.kinds import check_document
-from mcexact.checker.system import canonical_json, digest_of
 from mcexact.cli import verified
 from mcexact.model import gallery
 from tests.cli.calling import call
@@ -44,16 +45,15 @@ def saying(program: Path, line: str, version: str = verified.VERSION, status: in
     """Make a program that prints a line for every file."""
     program.write_text(
         f'#!/bin/sh\n[ "$1" = --version ] && echo "{version}" && exit\n'
-        f'for file in "$@"; do echo "{line}"; done\nexit {status}\n'
+        f'for file in "$@"; do echo {shlex.quote(line)}; done\nexit {status}\n'
     )
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
 
 
-def digests(certificate: Path) -> tuple[str, str]:
-    """The digests of plant and claim."""
-    document = json.loads(certificate.read_text("ascii"))
-    system, claim = (digest_of(canonical_json(document[key])) for key in ("system", "claim"))
-    return system, claim
+def stated(certificate: Path) -> str:
+    """The statement of a certificate behind its digest."""
+    verdict = check_document(certificate.read_bytes())
+    return f"{verdict.statement_digest} {verdict.statement}"
 
 
 def test_without_the_program_nothing_is_said(program: Path, certificate: Path) -> None:
@@ -68,8 +68,7 @@ def test_a_program_of_another_version_is_not_asked(program: Path, certificate: P
 
 
 def test_what_it_confirms_is_said(program: Path, certificate: Path) -> None:
-    plant, claim = digests(certificate)
-    saying(program, f"CONFIRMED {plant} {claim}")
+    saying(program, f"CONFIRMED {stated(certificate)}")
     status, out, err = call("check", str(certificate))
     assert status == 0 and out.startswith("VALID ")
     assert err == f"mcexact-verified confirms {str(certificate)!a}\n"
@@ -92,15 +91,20 @@ def test_a_contradiction_is_a_bug_of_one_of_the_two(
     assert status == 70 and line.partition(" ")[0] in err
 
 
-@pytest.mark.parametrize("place", [0, 1])
-def test_another_plant_or_claim_is_not_confirmed(
-    program: Path, certificate: Path, place: int
-) -> None:
-    read = [*digests(certificate)]
-    read[place] = "0" * 64
-    saying(program, f"CONFIRMED {read[0]} {read[1]}")
+@pytest.mark.parametrize("word", ["plant", "roots of x", "3 states"])
+def test_another_statement_is_not_confirmed(program: Path, certificate: Path, word: str) -> None:
+    digest, _, statement = stated(certificate).partition(" ")
+    assert word in statement
+    saying(program, f"CONFIRMED {digest} {statement.replace(word, 'other')}")
     status, _, err = call("check", str(certificate))
-    assert status == 70 and "another plant or another claim" in err
+    assert status == 70 and "states something else" in err
+
+
+def test_another_digest_is_not_confirmed(program: Path, certificate: Path) -> None:
+    statement = stated(certificate).partition(" ")[2]
+    saying(program, f"CONFIRMED {'0' * 64} {statement}")
+    status, _, err = call("check", str(certificate))
+    assert status == 70 and "states something else" in err
 
 
 def test_a_program_that_ends_early_confirms_nothing(program: Path, certificate: Path) -> None:
@@ -126,8 +130,7 @@ def test_what_it_cannot_verify_is_not_mentioned(program: Path, certificate: Path
 
 
 def test_a_false_certificate_is_not_given_to_it(program: Path, certificate: Path) -> None:
-    plant, claim = digests(certificate)
-    saying(program, f"CONFIRMED {plant} {claim}")
+    saying(program, f"CONFIRMED {stated(certificate)}")
     certificate.write_text(certificate.read_text("ascii").replace('"rank":2', '"rank":1'), "ascii")
     status, out, err = call("check", str(certificate))
     assert (status, err) == (1, "") and out.startswith("INVALID ")
@@ -186,12 +189,25 @@ def test_a_theorem_that_takes_too_long_or_cannot_be_made_is_an_error(
 BUILT = verified.program() is not None
 
 
+QUESTIONS = (
+    mcexact.completeness,
+    mcexact.fixed_spectrum,
+    mcexact.joint_controllability,
+    mcexact.joint_observability,
+    mcexact.setpoint_solvability,
+    mcexact.transfer_graph,
+)
+
+
 @pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
 @pytest.mark.parametrize("name", gallery.names())
 def test_both_checkers_agree_about_every_published_plant(name: str, tmp_path: Path) -> None:
-    text = protocol.encode(fixed_spectrum(gallery.load(name)))
-    path = tmp_path / f"{name}.json"
-    path.write_text(text, "ascii")
-    verdict = check_document(text.encode("ascii"))
-    (answer,) = verified.confirmations([str(path)], [verdict.system_digest])
-    assert verdict.verdict == "VALID" and answer.confirmed
+    plant, paths, statements = gallery.load(name), [], []
+    for question in QUESTIONS:
+        path = tmp_path / f"{question.__name__}.json"
+        path.write_text(protocol.encode(question(plant)), "ascii")
+        verdict = check_document(path.read_bytes())
+        assert verdict.verdict == "VALID"
+        paths.append(str(path))
+        statements.append(verdict.statement)
+    assert all(answer.confirmed for answer in verified.confirmations(paths, statements))

@@ -1,8 +1,8 @@
-"""Both checkers on mutants and forgeries of fixed spectra: what one accepts and the other does not.
+"""Both checkers on mutants and forgeries of their common kinds: what only one of them accepts.
 
-Every try of the attack campaign for the kind is judged by the checker in Python and by the program
-mcexact-verified (`make verified`).  Counted are pairs of verdicts; where both accept, the digests
-of plant and claim have to be equal.  Nothing that is INVALID or MALFORMED may be CONFIRMED.  Every
+Every try of the attack campaign for these kinds, about a plant or its dual, is judged by the checker in Python and by the program
+mcexact-verified (`make verified`).  Counted are pairs of verdicts of each kind; where both accept,
+the statements and their digests have to be equal.  Nothing that is INVALID or MALFORMED may be CONFIRMED.  Every
 other difference is listed with its reason, but for certificates that the program does not read.
 """
 
@@ -13,31 +13,30 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import islice
 from pathlib import Path
 
 from mcexact.checker.kinds import check_document
-from mcexact.checker.system import canonical_json, digest_of
 from mcexact.cli import verified
 from tests.assurance.attack.tries import batch_numbers, drawn_batch, tries
 
-KIND = "fixed_spectrum"
+KINDS = ("completeness", "controllability", "fixed_spectrum", "setpoint", "transfer_graph")
 AT_ONCE = 256
 """Files that the program is given in one call."""
 
 
-def documents(count: int) -> Iterator[bytes]:
-    """The original of each batch about a plant itself, and the texts of its tries."""
-    for number in batch_numbers(50 * count, [KIND]):
+def documents(count: int, kinds: Collection[str]) -> Iterator[tuple[str, bytes]]:
+    """The original of each batch about a plant or its dual, and the texts of its tries."""
+    for number in batch_numbers(50 * count, kinds):
         batch = drawn_batch(number)
-        if batch.original["subject"]:
+        if batch.original["subject"] not in ([], [{"construction": "dual"}]):
             continue
-        yield json.dumps(batch.original).encode("ascii")
+        yield batch.kind, json.dumps(batch.original).encode("ascii")
         for each in tries(number, batch):
             made = each.document
             text = made if isinstance(made, (str, bytes)) else json.dumps(made)
-            yield text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
+            yield batch.kind, text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
 
 
 def answers(program: str, texts: list[bytes], folder: Path) -> list[str]:
@@ -49,30 +48,30 @@ def answers(program: str, texts: list[bytes], folder: Path) -> list[str]:
     return run.stdout.decode("ascii", "replace").splitlines()
 
 
-def main(count: int) -> int:
+def main(count: int, kinds: Collection[str]) -> int:
     """Compare both on this many tries."""
     program = verified.program()
     if program is None:
         print("needs the program mcexact-verified: make verified")
         return 2
-    pairs, reasons, wrong = Counter[tuple[str, str]](), Counter[str](), list[str]()
-    drawn = islice(documents(count), count)
+    pairs, reasons, wrong = Counter[tuple[str, str, str]](), Counter[str](), list[str]()
+    drawn = islice(documents(count, kinds), count)
     with tempfile.TemporaryDirectory() as folder:
         while texts := list(islice(drawn, AT_ONCE)):
-            lines = answers(program, texts, Path(folder))
-            for text, line in zip(texts, lines, strict=True):
+            lines = answers(program, [text for _, text in texts], Path(folder))
+            for (kind, text), line in zip(texts, lines, strict=True):
                 verdict = check_document(text)
                 word, _, rest = line.partition(" ")
-                pairs[verdict.verdict, word] += 1
+                pairs[kind, verdict.verdict, word] += 1
                 if word == "CONFIRMED":
-                    claim = digest_of(canonical_json(json.loads(text)["claim"]))
-                    if verdict.verdict != "VALID" or rest != f"{verdict.system_digest} {claim}":
+                    stated = f"{verdict.statement_digest} {verdict.statement}"
+                    if verdict.verdict != "VALID" or rest != stated:
                         wrong.append(f"{verdict.line()[:160]} | {line[:160]} | {text[:2000]!r}")
                 elif verdict.verdict != word and (word != "INCOMPLETE" or verdict.status == 0):
                     said = f"{verdict.verdict} {verdict.code}".strip()
-                    reasons[f"{said}, but {line[:100]}"] += 1
-    for (ours, theirs), many in sorted(pairs.items()):
-        print(f"{ours:12} {theirs:12} {many}")
+                    reasons[f"{kind}: {said}, but {line[:100]}"] += 1
+    for (kind, ours, theirs), many in sorted(pairs.items()):
+        print(f"{kind:18} {ours:12} {theirs:12} {many}")
     for reason, many in reasons.most_common():
         print(f"{reason}: {many}")
     print(f"{len(wrong)} accepted by the program alone")
@@ -81,4 +80,4 @@ def main(count: int) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1]) if sys.argv[1:] else 10_000))
+    sys.exit(main(int(sys.argv[1]) if sys.argv[1:] else 10_000, sys.argv[2:] or KINDS))
