@@ -67,8 +67,8 @@ def reading_table() -> str:
 PAGE = """# The proofs in an order to read them
 
 The folder [kernel](kernel) is read apart: lists, systems and residues, then the rules, facts and
-kinds last. Here is every file after all that it rests on; the comment at its head says what it proves
-and defines.
+kinds last. Here is every file after all that it rests on; the comment at its head says what it
+proves and defines.
 [paper.v](paper.v) is the paper in its own order, and `instances*.v` apply the theorems to concrete
 systems. The table is the graph of the files, without arcs that follow from others; `make ledger`
 makes it.

@@ -1,9 +1,10 @@
 """Both checkers on mutants and forgeries of their common kinds: what only one of them accepts.
 
-Every try of the attack campaign for these kinds, about a plant or its dual, is judged by the checker in Python and by the program
-mcexact-verified (`make verified`).  Counted are pairs of verdicts of each kind; where both accept,
-the statements and their digests have to be equal.  Nothing that is INVALID or MALFORMED may be CONFIRMED.  Every
-other difference is listed with its reason, but for certificates that the program does not read.
+Every try of the attack campaign for these kinds, about a plant or its dual, is judged by the
+checker in Python and by the program mcexact-verified (`make verified`).  Counted are pairs of
+verdicts of each kind; where both accept, the statements and their digests have to be equal.
+Nothing that is INVALID or MALFORMED may be CONFIRMED.  Every other difference is listed with its
+reason, but for certificates that the program does not read.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ def documents(count: int, kinds: Collection[str]) -> Iterator[tuple[str, bytes]]
         for each in tries(number, batch):
             made = each.document
             text = made if isinstance(made, (str, bytes)) else json.dumps(made)
-            yield batch.kind, text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
+            data = text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
+            yield batch.kind, data
 
 
 def answers(program: str, texts: list[bytes], folder: Path) -> list[str]:
