@@ -153,7 +153,7 @@ def test_the_exported_archive_prints_the_lines_of_the_command(hostile: Path) -> 
     assert both.returncode == 2 and not (hostile / "x.pyz").exists()
 
 
-BOTH = [("-I", "checker"), ("-P", "-m", "mcexact", "check")]
+BOTH = [("-I", "checker"), ("-P", "-m", "mcexact", "check", "--no-verified")]
 """The checker alone, as a folder that Python compiles once, and as a command of the package."""
 
 
