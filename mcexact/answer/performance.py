@@ -310,6 +310,12 @@ MARGINS = {
         "performance-all-outputs-margin", _MARGIN, label="disk margin of all outputs together"
     ),
 }
+ANOTHER_STEP = Template(
+    "performance-another-step",
+    "at least {margin:digits_below} at every single input and output, with the same numbers every "
+    "{step:step}",
+    label="disk margin with a longer step",
+)
 SECTORS = Template(
     "performance-sectors",
     "tends to rest if each input of the plant is any function of the time and of the value that "
@@ -442,6 +448,17 @@ def _margin_rule(name: str) -> None:
 
 for _name in MARGINS:
     _margin_rule(_name)
+
+
+@RULES.rule(
+    "table",
+    ANOTHER_STEP,
+    premises=("longest_step_input_margin", "longest_step_output_margin", "loop"),
+)
+def _another_step(inputs: Certified, outputs: Certified, loop: Certified, context: Context) -> Said:
+    """The least margin of a single input or output, where samples are farther apart."""
+    step, *_ = (Fraction(each.made_by(0).step) for each in (inputs, outputs, loop))
+    yield ANOTHER_STEP(margin=min(inputs.margin, outputs.margin), step=step)
 
 
 def _step_rule(name: str, at: str) -> None:

@@ -55,6 +55,7 @@ from .kinds import (
     nothing_beside,
     refusal,
     same,
+    sampled_again,
 )
 from .parametric_system import FunctionSystem, digest_of_values
 from .reading import (
@@ -70,7 +71,7 @@ from .reading import (
     shown,
     string,
 )
-from .sentences import RULES, Premise
+from .sentences import ANOTHER_STEP, RULES, Premise
 from .summaries import cut
 from .system import System, counted
 
@@ -255,7 +256,7 @@ class Evidence:
             right = large or hashlib.sha256(data).hexdigest() == wanted
             require(right, "digest", "file", "not the bytes that the manifest names")
             with limited(self.budget), keeping(self.kept):
-                any_loop = replace(self.expected, controller="")
+                any_loop = replace(self.expected, controller="", base=self.base)
                 any_loop = Expectation() if name in self.nearby else any_loop
                 found = Check(any_loop, self.limits, self.beside)
                 verdict = found.of(data)
@@ -295,6 +296,8 @@ class Evidence:
         plant = known if isinstance(known, FunctionSystem) else at_values(known)
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
+        if not own and sampled_again(steps, self.base):
+            path = (ANOTHER_STEP, *(step["construction"] for step in steps[1:]))
         statement = f"For {system.words}: {found.words}"
         return Premise(name, document, plant, system, plant, statement, path, nearby=nearby)
 

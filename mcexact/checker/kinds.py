@@ -123,6 +123,9 @@ class Expectation:
     among : bool
         Whether it is one of several certificates, of which some are about the plant and not about
         a loop: these are not asked for the controller.
+    base : list
+        The constructions of the manifest: where they sample the plant, a controller may name this
+        system also in certificates about another step.
     """
 
     system: str = ""
@@ -136,6 +139,7 @@ class Expectation:
     claim: Json = None
     saturation: Saturation = ()
     among: bool = False
+    base: Json = ()
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
         """Expect, in addition, that the certificate is about the plant in a system file."""
@@ -265,6 +269,13 @@ def made_by(steps: Json) -> list[Json]:
 def sampling_of(steps: Json) -> list[Json]:
     """The first construction, if it samples the plant."""
     return [step for step in steps[:1] if made_by([step]) == [SAMPLED]]
+
+
+def sampled_again(steps: Json, base: Json) -> bool:
+    """Whether a subject begins with a plant that is sampled as another one, but for its step."""
+    first = [*sampling_of(steps), *sampling_of(base)]
+    alike = [{**step, "step": None} for step in first]
+    return len(base) == 1 and len(first) == 2 and same(*alike)
 
 
 def same(a: Json, b: Json) -> bool:
@@ -530,6 +541,7 @@ class Check:
         steps = sampling_of(self.document["subject"]) if self.wanted.made_for else []
         if not steps or isinstance(self.plant, FunctionSystem):
             return values
+        steps = self.wanted.base if sampled_again(steps, self.wanted.base) else steps
         held = read_subject(steps, at_values(self.plant))
         return plant_digest(replace(held, uncertainty=None))
 

@@ -41,6 +41,8 @@ SYSTEM: tuple[Path, ...] = ((), ("augmented_outputs",))
 """What agents receive: their own outputs, or also those of their neighbors."""
 DUAL = tuple((*path, "dual") for path in SYSTEM)
 PLANT, HEARD = SYSTEM[:1], SYSTEM[1:]
+ANOTHER_STEP = "another step"
+"""Where a path begins of the plant sampled as for the manifest, but with another step."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,8 @@ class Premise:
     statement : str
         The statement that the checker verified, without the sizes of the system.
     path : tuple of str, or None
-        The constructions of the subject; None if they do not begin at the manifest's system.
+        The constructions of the subject; None if they do not begin at the manifest's system, or
+        at what this would be with `ANOTHER_STEP`, which then stands first.
     pointers : tuple of str
         The pointers of a sentence into this certificate.
     nearby : bool

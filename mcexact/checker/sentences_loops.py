@@ -20,6 +20,7 @@ from .kinds import same
 from .reading import Json, polynomial
 from .roots import in_stability_region
 from .sentences import (
+    ANOTHER_STEP,
     DUAL,
     FIXED_DYNAMIC,
     HAUTUS,
@@ -64,7 +65,11 @@ EQUILIBRIUM = Role(("setpoint",), ((), ("regulated",)))
 
 def controller(known: list[Premise]) -> tuple[Premise, list[Json]]:
     """The programs of the agents, out of a certificate about their loop."""
-    loops = [premise for premise in known if premise.path and premise.path[-1] == "closed_loop"]
+    loops = [
+        premise
+        for premise in known
+        if premise.path and premise.path[-1] == "closed_loop" and premise.path[0] != ANOTHER_STEP
+    ]
     known[0].expect(bool(loops), "expected a certificate about a closed loop")
     return loops[0], loops[0].document["subject"][-1]["controller"]["agents"]
 

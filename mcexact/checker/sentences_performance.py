@@ -10,8 +10,8 @@ from . import budget
 from .budget import spend
 from .kinds import same
 from .reading import rational
-from .sentences import PLANT, Premise, Role, either, restate, rule
-from .sentences_loops import CLOSED, LOOPS, alone, within
+from .sentences import ANOTHER_STEP, PLANT, Premise, Role, either, restate, rule
+from .sentences_loops import CLOSED, LOOP, LOOPS, alone, within
 
 COST, BOUND = Role(("loop_cost",), CLOSED), Role(("cost_bound",), PLANT)
 MARGIN, MARGINS = (Role(("disk_margin",), CLOSED, many=many) for many in (False, True))
@@ -71,18 +71,34 @@ of_ports("performance-all-inputs-margin", "inputs", together=True)
 of_ports("performance-all-outputs-margin", "outputs", together=True)
 
 
-@rule("first-margin", MARGINS, MARGINS)
-def _every_loop(margins: list[Premise], _: list[Premise]) -> str:
-    """A margin of each input by itself, and one of each output by itself.
-
-    Both roles are played by all margins; the claims say which are of inputs and which of outputs.
-    """
+def each_port(margins: list[Premise]) -> str:
+    """A margin of each input by itself, and one of each output by itself."""
     sides = {each["at"]: each for each in margins}
     margins[0].expect(len(sides) == 2, "expected a margin of inputs and one of outputs")
     inputs, outputs = sides["inputs"], sides["outputs"]
     least = min(rational(each["margin"], each.file) for each in (inputs, outputs))
     both = f"{inputs.statement}; {outputs.statement}"
     return f"{both}: each input and each output by itself has a disk margin of at least {least}"
+
+
+@rule("first-margin", MARGINS, MARGINS)
+def _every_loop(margins: list[Premise], _: list[Premise]) -> str:
+    """The margins of all inputs and outputs.
+
+    Both roles are played by all margins; the claims say which are of inputs and which of outputs.
+    """
+    return each_port(margins)
+
+
+AGAIN = Role(("disk_margin",), ((ANOTHER_STEP, *CLOSED[0]),), many=True)
+
+
+@rule("performance-another-step", AGAIN, AGAIN, LOOP)
+def _another_step(margins: list[Premise], _: list[Premise], loop: Premise) -> str:
+    """The margins with another step between the samples, and with the same controller."""
+    again, own = (each.document["subject"] for each in (margins[0], loop))
+    margins[0].expect(same(again[1:], own[1:]), "another controller")
+    return f"{each_port(margins)}, with the controller for the step {own[0]['step']}"
 
 
 def own_peak(peaks: Premise) -> str:

@@ -268,8 +268,8 @@ class _Shaped:
         return longest_step(
             closed.plant,
             closed.controller,
-            closed.graph,
             margin=Fraction(str(self.aims.disk)),
+            prove_all=self.prove_all,
             deadline=deadline,
         )
 
@@ -286,7 +286,7 @@ class _Shaped:
         notes = [*([] if note is None else [note]), *_box_missed(self.aims, every_loop)]
         notes += [] if self.direct is None else [_FIGURES]
         assessment = replace(assessment, notes=(*assessment.notes, *notes))
-        account = design.account_with(every_loop, proved)
+        account = design.account_with(every_loop, proved, longest)
         rows = (*unproved(proved), *assessment.rows())
         figures = measured(design.measures(), rows, account.sentences, design.region.discrete)
         listed = tables(account.sentences, note=account.reading)
@@ -312,11 +312,7 @@ class _Shaped:
         )
         if self.direct is not None:
             return self._of_plant(told, self.direct)
-        if longest is None:
-            return told
-        names = {f"longest_step_{name}.json": proof for name, proof in longest.answers.items()}
-        others = Evidence.about_own_plants(names)
-        return replace(told, evidence=told.evidence.with_others(others))
+        return told
 
     def _of_plant(self, told: Loop, plant: MultiChannelSystem) -> Loop:
         """The design with a certificate about the loop of the plant with its feedthrough."""
@@ -447,7 +443,7 @@ def _box(every_loop: EveryLoop | None) -> tuple[Table, ...]:
 
 
 def _steps(longest: LongestStep | None) -> tuple[Table, ...]:
-    """The table of the longest step, whose certificates are among the evidence."""
+    """The table of the longest step, of whose proofs there is a sentence."""
     if longest is None:
         return ()
     return (Table("other times between samples", (), (("longest step", longest.explain()),)),)

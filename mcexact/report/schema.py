@@ -385,7 +385,7 @@ ASSESSMENT = record(
 
 
 LONGEST_STEP = record(
-    {"step": some(NUMBER), "margin": NUMBER, "not_proved": some(NUMBER)},
+    {"step": some(NUMBER), "margin": NUMBER, "proved": YES, "not_found": some(NUMBER)},
     closed=True,
     says="the longest step, of those that were tried, with which the same controller has a disk "
     "margin at every single input and output",

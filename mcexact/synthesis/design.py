@@ -25,6 +25,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.responses import loop as loop_figure
 from mcexact.synthesis.gate import Arithmetic, CertifiedLoop, Proposal, Request, first_certified
+from mcexact.synthesis.longest_step import LongestStep
 from mcexact.synthesis.optimum.diagnosis import bound_of_eigenvalues, curves_of
 from mcexact.synthesis.performance import Performance
 from mcexact.synthesis.robustness import (
@@ -142,9 +143,12 @@ class Design(ShownByAccount):
         return every_loop(self.loop.closed, self.region, effort, deadline)
 
     def account_with(
-        self, around: EveryLoop | None, performance: Performance | None = None
+        self,
+        around: EveryLoop | None,
+        performance: Performance | None = None,
+        longest: LongestStep | None = None,
     ) -> Account:
-        """Return the account with certificates about all loops in a box, and about performance."""
+        """Return the account with certificates about a box, performance and a longer step."""
         facts: dict[str, Any] = {
             "method": self.method,
             "arithmetic": self.arithmetic,
@@ -165,6 +169,8 @@ class Design(ShownByAccount):
             facts |= failing.facts(closed.plant)
         if performance is not None:
             answers |= performance.answers
+        if longest is not None and longest.step != self.loop.closed.plant.sample_time:
+            answers |= {f"longest_step_{name}": each for name, each in longest.answers.items()}
         context = Context(closed.at_samples, {**facts, **self.parts})
         sentences = DESIGN.sentences(answers, context)
         return Account(answers, context, sentences, closed.subject[:-1], nearby=(FAILING,))

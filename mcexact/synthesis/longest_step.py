@@ -2,29 +2,38 @@
 
 A controller for a sampled plant is a program that somebody runs, perhaps less often than it was
 designed for.  `longest_step` looks among a few longer steps for the longest one with which the same
-program still has a stable loop with a disk margin at every single input and output.  Each step that
-is accepted is proved, by certificates about the plant with that step; that no longer one has them
-is not: it is a search, which assumes that margins fall as steps grow.
+program still has a stable loop with a disk margin at every single input and output.  The search
+computes margins in floating point, and assumes that they fall as steps grow; the step that it finds
+is proved, by certificates about the plant with that step, unless these are too large.  That no
+longer step has the margins is never proved.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.performance import margin_of
+from mcexact.analysis.performance import computed_margins, margin_of, response_of
 from mcexact.answer.performance import DiskMargin
 from mcexact.derived.sampling import is_sampled, sampled_system
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.rational import Entry, approximated, as_fraction, written
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
-from mcexact.model.loop import closed_loop
+from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import Shown
+from mcexact.synthesis.performance import (
+    MOST_BYTES,
+    MOST_SECONDS,
+    NO_TIME,
+    SIDES,
+    margin_size,
+    too_large,
+)
 
 FACTORS = tuple(map(Fraction, ("1", "11/10", "5/4", "3/2", "7/4", "2", "5/2", "3", "4", "6", "8")))
 """The steps that are tried, as multiples of the one of the plant."""
@@ -33,24 +42,27 @@ STANDARD_MARGIN = Fraction(2, 5)
 
 @dataclass(frozen=True, repr=False)
 class LongestStep(Shown):
-    """The longest step that was proved, with its certificates.
+    """The longest step that was found, with its certificates.
 
     Attributes
     ----------
     step : Fraction or None
-        None where not even for the step of the plant a proof was found, or no time was left.
+        None where the margins were not found even for the step of the plant, or no time was left.
     margin : Fraction
         The disk margin at every single input and output.
     longer : Fraction or None
-        The next longer step that was tried, for which no proof was found; None if there is none.
+        The next longer step that was tried, for which they were not found; None if there is none.
     answers : mapping of str to DiskMargin
         ``input_margin`` and ``output_margin``, about the loop with this step.
+    unproved : str
+        Why the margins with this step are computed and not proved; empty if they are proved.
     """
 
     step: Fraction | None
     margin: Fraction
     longer: Fraction | None
     answers: Mapping[str, DiskMargin]
+    unproved: str = ""
 
     def explain(self) -> str:
         """Say what was found, in one line."""
@@ -59,8 +71,9 @@ class LongestStep(Shown):
             return "not sought: no time was left"
         if self.step is None:
             return f"no proof was found for the step of the plant, with {kept}"
-        end = "" if self.longer is None else f"; not proved for {approximated(self.longer)}"
-        return f"{approximated(self.step)}, with {kept}, the longest one of a search{end}"
+        computed = f", computed and not proved: {self.unproved}" if self.unproved else ""
+        end = "" if self.longer is None else f"; not found for {approximated(self.longer)}"
+        return f"{approximated(self.step)}, with {kept}, the longest one of a search{computed}{end}"
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         yield "longest step", self.explain()
@@ -70,7 +83,8 @@ class LongestStep(Shown):
         return {
             "step": None if self.step is None else written(self.step),
             "margin": written(self.margin),
-            "not_proved": None if self.longer is None else written(self.longer),
+            "proved": bool(self.answers),
+            "not_found": None if self.longer is None else written(self.longer),
         }
 
     def __repr__(self) -> str:
@@ -83,6 +97,7 @@ def longest_step(
     graph: NeighborGraph | None = None,
     *,
     margin: Entry = STANDARD_MARGIN,
+    prove_all: bool = False,
     deadline: float | None = None,
 ) -> LongestStep:
     """Search for the longest time between samples with which a controller keeps its margins.
@@ -97,6 +112,9 @@ def longest_step(
         Overrides ``system.neighbors``.
     margin : rational
         The disk margin that every single input and every single output keeps.
+    prove_all : bool
+        Whether the margins are proved however large the certificates are; by default they have at
+        most two megabytes, and take the checker at most five seconds.
     deadline : float, optional
         The time of `time.monotonic` after which no further step is tried.
 
@@ -111,7 +129,7 @@ def longest_step(
 
     Notes
     -----
-    Bisection on a short list of steps, up to eight times that of the plant: at most four are tried.
+    Bisection on a short list of steps, up to eight times that of the plant, with computed margins.
     A proof is about A and B rounded to the decimals of the sampled plant, as that of each margin.
 
     Examples
@@ -134,43 +152,70 @@ def longest_step(
     if alpha <= 0:
         raise UsageError("expected a margin above 0", where="margin")
     own = system.sample_time or Fraction(1)
-    proofs: dict[Fraction, Mapping[str, DiskMargin]] = {}
-    refused: list[Fraction] = []
-    low, high = 0, len(FACTORS)
-    k = 0
-    while low < high:
-        if deadline is not None and time.monotonic() >= deadline:
-            break
-        step = own * FACTORS[k]
-        found = _margins(_every(system, step), controller, graph, alpha)
-        if found is None:
-            refused.append(step)
-            high = k
-        else:
-            proofs[step] = found
-            low = k + 1
-        if k == 0 and found is None:
-            break
-        k = (low + high) // 2
-    longest = max(proofs, default=None)
-    answers = {} if longest is None else proofs[longest]
-    return LongestStep(longest, alpha, min(refused, default=None), answers)
+    search = _Search(system, controller, graph, alpha, [own * each for each in FACTORS], deadline)
+    return search.proved(*search.bisected(), prove_all=prove_all)
 
 
-def _every(system: MultiChannelSystem, step: Fraction) -> MultiChannelSystem:
-    """The plant of a sampled one with another step, as many steps late."""
-    (how,) = system.subject
-    return sampled_system(system.plant, step, how["late"], decimals=how["decimals"])
+@dataclass(frozen=True)
+class _Search:
+    """The search among steps for a controller that is to keep a disk margin."""
 
+    system: MultiChannelSystem
+    controller: Controller
+    graph: NeighborGraph | None
+    margin: Fraction
+    steps: Sequence[Fraction]
+    deadline: float | None
 
-def _margins(
-    system: MultiChannelSystem, controller: Controller, graph: NeighborGraph | None, alpha: Fraction
-) -> Mapping[str, DiskMargin] | None:
-    """The margins at all single inputs and outputs, if both are proved."""
-    loop, found = closed_loop(system, controller, graph), dict[str, DiskMargin]()
-    for side in ("inputs", "outputs"):
-        proof = margin_of(loop, "inputs" if side == "inputs" else "outputs", margin=alpha)
-        if proof is None:
-            return None
-        found[f"{side.removesuffix('s')}_margin"] = proof
-    return found
+    @property
+    def ended(self) -> bool:
+        """Whether no time is left."""
+        return self.deadline is not None and time.monotonic() >= self.deadline
+
+    def loop(self, k: int) -> ClosedLoop:
+        """The loop of the plant with another step, whose inputs are as many steps late."""
+        (how,) = self.system.subject
+        again = sampled_system(
+            self.system.plant, self.steps[k], how["late"], decimals=how["decimals"]
+        )
+        return closed_loop(again, self.controller, self.graph)
+
+    def bisected(self) -> tuple[int, int]:
+        """The places of the longest step with the margins, and of one without, by computation.
+
+        The former is -1, or the latter beyond the last step, if there is none.
+        """
+        low, high = -1, len(self.steps)
+        while low + 1 < high and not self.ended:
+            k = 0 if low < 0 else (low + high) // 2
+            loop = self.loop(k)
+            known = (computed_margins(response_of(loop, side))[0] for side in SIDES)
+            enough = all(each >= self.margin for margins in known for each in margins)
+            low, high = (k, high) if enough else (low, k)
+        return low, high
+
+    def proved(self, low: int, high: int, *, prove_all: bool) -> LongestStep:
+        """The longest step up to a place whose margins are proved, or are too large to be."""
+
+        def found(answers: Mapping[str, DiskMargin], unproved: str = "") -> LongestStep:
+            longer = self.steps[high] if high < len(self.steps) else None
+            step = self.steps[low] if low >= 0 else None
+            return LongestStep(step, self.margin, longer, answers, unproved)
+
+        while low >= 0:
+            loop, plant = self.loop(low), self.system
+            ports = sum(plant.p(i) + plant.q(i) for i in range(plant.m))
+            size = margin_size(loop.dimension, ports)
+            if not prove_all and (size[0] > MOST_BYTES or size[1] > MOST_SECONDS):
+                return found({}, too_large(*size))
+            if self.ended:
+                return found({}, NO_TIME)
+            proofs = {
+                f"{side.removesuffix('s')}_margin": margin_of(loop, side, margin=self.margin)
+                for side in SIDES
+            }
+            answers = {name: each for name, each in proofs.items() if each is not None}
+            if len(answers) == len(proofs):
+                return found(answers)
+            low, high = low - 1, low
+        return found({})

@@ -483,8 +483,7 @@ class PerformanceSearch:
                 left_out[name] = NO_TIME
                 continue
             if not work.allows(each):
-                size = f"about {each.bytes / 1e6:.1f} MB, and takes {each.seconds:.0f} s to check"
-                left_out[name] = f"a proof has {size} (--prove-all)"
+                left_out[name] = too_large(each.bytes, each.seconds)
                 continue
             try:
                 proof = each.prove()
@@ -595,10 +594,10 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
     for name, (side, together) in MARGINS.items():
         ports = p if side == "inputs" else q
         count, size = (1 if together else ports), N + ports
-        seconds = count * _MARGIN * (N + 1) ** 3
+        written, seconds = margin_size(N, count)
         if together and size > _MOST_JOINT:
             seconds = _JOINT * size**3
-        proofs[name] = _Proof.of(margin(side, together=together), count * [N], seconds)
+        proofs[name] = _Proof(margin(side, together=together), written, seconds)
     messages = bool(loop.controller.edges())
     # a derived system keeps its own graph
     linked = plant if plant.subject else plant.with_neighbors(loop.graph)
@@ -609,6 +608,18 @@ def _proofs(loop: ClosedLoop, weights: CostWeights, responses: Responses) -> dic
             lambda: bound_of(plant, weights, graph), 2 * groups * [n], groups * of_plant
         )
     return proofs
+
+
+def margin_size(states: int, inequalities: int) -> tuple[float, float]:
+    """The bytes of a proof of disk margins by so many inequalities, and the checker's seconds."""
+    entries = inequalities * states * (states + 1) / 2
+    return _BYTES * entries, inequalities * _MARGIN * (states + 1) ** 3
+
+
+def too_large(written: float, seconds: float) -> str:
+    """The reason why a proof of so many bytes, and so many seconds of the checker, is left out."""
+    size = f"about {written / 1e6:.1f} MB, and takes {seconds:.0f} s to check"
+    return f"a proof has {size} (--prove-all)"
 
 
 def _saturation_proofs(loop: ClosedLoop) -> dict[str, _Proof]:

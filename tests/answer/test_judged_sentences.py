@@ -23,6 +23,7 @@ from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
+from mcexact.synthesis.longest_step import longest_step
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.setpoint import design_setpoint
@@ -70,7 +71,10 @@ def tracking() -> Iterator[tuple[Said, Case]]:
     yield held, Case(plant_of(plant), asked, document, rows)
 
 
-SAMPLED_RULES = {"sampled-loop", "first-sampled", "first-box", "members-sampled-region-part"}
+SAMPLED_RULES = {
+    *("sampled-loop", "first-sampled", "first-box", "members-sampled-region-part"),
+    "performance-another-step",
+}
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +84,8 @@ def at_samples() -> tuple[list[Said], Case]:
     made = design_decentralized(sampled_system(plant, "1/5", 1))
     document = document_of(json.loads(json.dumps(made.controller.document(), default=str)))
     how = {"step": "1/5", "late": 1, "decimals": 12}
-    account = made.account_with(made.every_loop(), performance_of(made.loop.closed))
+    longest = longest_step(made.loop.closed.plant, made.controller)
+    account = made.account_with(made.every_loop(), performance_of(made.loop.closed), longest)
     rows = [said(each) for each in account.sentences]
     case = Case(plant_of(plant), {"sampling": how}, document, rows)
     return [row for row in rows if row.rule in SAMPLED_RULES], case
@@ -105,7 +110,9 @@ def none_of(plant: Any) -> tuple[list[fmpq_mat], list[fmpq_mat]]:
     return [M * 0 for M in plant.B], [M * 0 for M in plant.C]
 
 
-@pytest.mark.parametrize("change", [{"part": 5}, {"step": "1/4"}, {"late": 0}, {"decimals": 3}])
+@pytest.mark.parametrize(
+    "change", [{"part": 5}, {"step": 9}, {"late": 0}, {"decimals": 3}, {"margin": "9/5"}]
+)
 def test_what_is_false_of_samples_is_denied(
     at_samples: tuple[list[Said], Case], change: dict[str, Any]
 ) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from tests.checker.box_maker import controllable, fixed, stable
-from tests.checker.handmade import Document, certificate, listed, matrix, plant
+from tests.checker.handmade import Document, certificate, changed, listed, matrix, plant
+from tests.checker.performance_plants import form
 
 DUAL = {"construction": "dual"}
 
@@ -200,6 +201,25 @@ HELD_LOOP = certificate(
     AT_SAMPLES,
     HELD,
 )
+# x(t+1) = 0.37 x + 0.63 v, v(t+1) = -x/2, and with other numbers; without delay 0.37 x - 0.32 x.
+AGAIN = [
+    certificate(
+        "disk_margin",
+        TANK,
+        {"at": at, "together": False, "margin": "1/2"},
+        {"parts": [{"ports": [0], "scaling": [1], "P": form([3], [1, 2])}]},
+        {**AT_SAMPLES, "step": 1},
+        HELD,
+    )
+    for at in ("inputs", "outputs")
+]
+AT_ITS_STEP = changed(AGAIN[0], ("subject.0.step", "1/2"))
+PROMPT = [changed(each, ("subject.0.late", 0), ("witness.parts.0.P", form([2]))) for each in AGAIN]
+ROUNDED = [changed(each, ("subject.0.decimals", 5)) for each in AGAIN]
+WEAKER = [
+    changed(each, ("subject.1.controller.agents.0.input.outputs.1", [["-1/4"]])) for each in AGAIN
+]
+"""The margins of the tank with another step, of the step of `HELD_LOOP`, and of other loops."""
 DELAYED_STABLE = stable(
     DAMPED,
     ["1/8", "1/4", "3/8", "1/2", "3/4", 1, "4/3", 2, "8/3", 4, 8],

@@ -57,7 +57,17 @@ from tests.checker import (
     test_setpoint,
     test_single_channel_gains,
 )
-from tests.checker.box_plants import AT_SAMPLES, HELD_ALONE, HELD_AROUND, HELD_LOOP, OF_ONE_PLANT
+from tests.checker.box_plants import (
+    AGAIN,
+    AT_ITS_STEP,
+    AT_SAMPLES,
+    HELD_ALONE,
+    HELD_AROUND,
+    HELD_LOOP,
+    OF_ONE_PLANT,
+    PROMPT,
+    WEAKER,
+)
 from tests.checker.handmade import Document
 from tests.checker.polynomials import generous
 from tests.checker.test_fixed_spectrum import UNEVEN
@@ -352,6 +362,9 @@ def looped(system: Document, agents: list[Document]) -> Found:
             yield found
 
 
+SAMPLES = [HELD_ALONE, HELD_LOOP, *AGAIN, AT_ITS_STEP, *WEAKER, *PROMPT]
+
+
 def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
     """Certificates for sentences about a system that is made from the plant."""
     rng = random.Random(5)
@@ -389,7 +402,7 @@ def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
                     if made is not None:
                         found.append(made)
         yield f"based_{name}", found, base
-    for name, listed in (("alone", [HELD_ALONE, HELD_LOOP]), ("around", [HELD_AROUND])):
+    for name, listed in (("alone", SAMPLES), ("around", [HELD_AROUND])):
         yield f"based_samples_{name}", listed, [AT_SAMPLES]
     for name, rest in (("moved", test_modulo.MOVED), ("seen", test_modulo.DISTANCE)):
         yield f"based_{name}", [rest], rest["subject"]

@@ -9,9 +9,20 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.constructions import read_subject
 from mcexact.checker.kinds import NOT_ABOUT, Expectation, Verdict, difference
 from mcexact.checker.reading import Limits, Refused
 from mcexact.checker.system import FORMAT, canonical_json, digest, read_plant
+from tests.checker.box_plants import (
+    AGAIN,
+    AT_SAMPLES,
+    HELD,
+    HELD_LOOP,
+    PROMPT,
+    ROUNDED,
+    TANK,
+    WEAKER,
+)
 from tests.checker.handmade import (
     FIXED,
     FREE,
@@ -425,3 +436,22 @@ def test_a_manifest_is_about_one_plant_and_boxes_around_it(tmp_path: Any) -> Non
     assert checked(alone["wider"]).verdict == "VALID"
     ((_, verdict), _) = judged(tmp_path, alone, [sentence("heading")], Expectation())
     assert (verdict.code, verdict.place) == ("system", "wider.json system")
+
+
+def test_a_manifest_of_samples_has_the_controller_with_another_step_too(tmp_path: Any) -> None:
+    """The file names the plant at the step of the manifest, and only the step may differ."""
+    held = read_subject([AT_SAMPLES], read_plant(TANK))
+    file = {"format": FORMAT, "system": digest(held), **HELD["controller"]}
+    evidence = {"loop": HELD_LOOP, "inputs": AGAIN[0], "outputs": AGAIN[1]}
+    rule = "performance-another-step"
+
+    def found(evidence: Any) -> list[str]:
+        said = [sentence(rule, *evidence, evidence=evidence)]
+        return [
+            verdict.verdict for _, verdict in judged(tmp_path, evidence, said, controlled(file))
+        ]
+
+    assert found(evidence) == ["IMPLIED"]
+    for others in (WEAKER, ROUNDED, PROMPT):
+        wrong = {**evidence, "outputs": others[1]}
+        assert found(wrong) == [NOT_ABOUT, "INVALID"]

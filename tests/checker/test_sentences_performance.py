@@ -8,11 +8,16 @@ import pytest
 
 from mcexact.checker.sentences import RULES
 from tests.checker.box_plants import (
+    AGAIN,
+    AT_ITS_STEP,
     HELD_ALONE,
     HELD_AROUND,
     HELD_LOOP,
     PART_CERTAIN,
     PART_STABLE,
+    PROMPT,
+    ROUNDED,
+    WEAKER,
 )
 from tests.checker.handmade import Document, changed
 from tests.checker.performance_plants import (
@@ -50,6 +55,8 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("performance-all-outputs-margin", [ALL_OUTPUTS]),
     ("first-margin", [MARGIN, OUTPUT_MARGIN]),
     ("first-margin", [ALL_OUTPUTS, MARGIN]),
+    ("performance-another-step", [HELD_LOOP, *AGAIN]),
+    ("performance-another-step", [HELD_LOOP, AGAIN[1], AGAIN[0], AT_ITS_STEP]),
     ("performance-sectors", [SECTOR]),
     *(("saturation-global first-saturation", [each]) for each in (CUT, INTEGRAL)),
     *(("saturation-region first-saturation-region", [each]) for each in (NEAR, RISEN)),
@@ -78,6 +85,13 @@ DENIED: list[tuple[str, list[Document]]] = [
     ("first-margin", [MARGIN]),
     ("first-margin", [OUTPUT_MARGIN, ALL_OUTPUTS]),
     ("first-margin", [MARGIN, OTHER_LOOP]),
+    ("performance-another-step", AGAIN),
+    ("performance-another-step", [HELD_LOOP, *AGAIN[:1]]),
+    ("performance-another-step", [HELD_LOOP, AT_ITS_STEP, AGAIN[1]]),
+    *(("performance-another-step", [HELD_LOOP, *each]) for each in (PROMPT, ROUNDED, WEAKER)),
+    ("performance-another-step", [HELD_LOOP, AGAIN[0], WEAKER[1]]),
+    ("performance-another-step", [MARGIN, OUTPUT_MARGIN]),
+    ("first-margin performance-input-margin", [HELD_LOOP, *AGAIN]),
     ("performance-sectors", [MARGIN]),
     ("saturation-global first-saturation", [NEAR]),
     ("saturation-region first-saturation-region", [CUT]),

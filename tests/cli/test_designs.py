@@ -258,10 +258,12 @@ def test_the_proofs_of_the_longest_step_are_shown_and_checked_with_the_others() 
     made, handed = at_samples(integrator, 600.0)
     names = {f"longest_step_{side}_margin.json" for side in ("input", "output")}
     assert names < made.evidence.files.keys() and names < made.evidence.certificates.keys()
-    plants = made.evidence.plants
-    assert not isinstance(plants, str) and names < plants.keys()
     for name in names:
         assert check_document(made.evidence.files[name].encode("ascii")).verdict == "VALID"
+    manifest = json.loads(made.evidence.files["manifest.json"])
+    assert names < manifest["certificates"].keys()
+    [sentence] = [s for s in manifest["sentences"] if s["rule"] == "performance-another-step"]
+    assert names < {name for name, *_ in sentence["because"]}
     (row,) = [t.rows for t in made.tables if t.title == "other times between samples"]
     assert row[0][0] == "longest step" and made.document["longest_step"]["step"]
     assert all("longest step" not in str(t) for t in made.tables if "not certified" in t.title)

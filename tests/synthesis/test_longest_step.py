@@ -57,7 +57,12 @@ def test_an_integrator_keeps_a_margin_up_to_the_step_that_is_known() -> None:
     sampled = sampled_system(INTEGRATOR, "1/10")
     found = longest_step(sampled, local_controllers(sampled, [[[-2]]]))
     assert found.step == Fraction(3, 5) and found.longer == Fraction(4, 5)
-    assert found.to_dict() == {"step": "3/5", "margin": "2/5", "not_proved": "4/5"}
+    assert found.to_dict() == {
+        "step": "3/5",
+        "margin": "2/5",
+        "proved": True,
+        "not_found": "4/5",
+    }
     assert "0.6" in found.explain() and "search" in found.explain()
 
 
@@ -68,6 +73,18 @@ def test_without_time_only_nothing_is_said() -> None:
     )
     assert found.step is None and found.longer is None and not found.answers
     assert found.explain() == "not sought: no time was left"
+
+
+def test_large_proofs_are_left_out_unless_all_are_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sampled = sampled_system(INTEGRATOR, "1/10")
+    controller = local_controllers(sampled, [[[-2]]])
+    monkeypatch.setattr("mcexact.synthesis.longest_step.MOST_BYTES", 1)
+    found = longest_step(sampled, controller)
+    assert found.step == Fraction(3, 5) and not found.answers
+    assert not found.to_dict()["proved"] and "computed and not proved" in found.explain()
+    assert longest_step(sampled, controller, prove_all=True).answers
 
 
 def test_what_is_not_sampled_is_refused() -> None:

@@ -21,7 +21,12 @@ from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.optimum.diagnosis import integrators_of
 from mcexact.synthesis.optimum.figures import Aims
-from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint, held_together
+from mcexact.synthesis.setpoint import (
+    SetpointMethod,
+    design_setpoint,
+    held_together,
+    selected,
+)
 from tests.synthesis.test_derived_systems import require_implied
 from tests.synthesis.test_setpoint import require_valid
 
@@ -110,6 +115,42 @@ def test_velocities_cannot_be_held_and_the_refusal_names_what_can() -> None:
     assert refused.value.certificate.about.subject[0]["construction"] == "regulated"
     with pytest.raises(InputError, match="there is no channel 'middle'"):
         design_setpoint(carts(), regulate={"middle": [1]})
+
+
+def ring_of_tanks(m: int = 10) -> MultiChannelSystem:
+    """Pump k moves water from tank k to the next one; what is in all of them decays by itself."""
+    return MultiChannelSystem(
+        [["-1/10" if i == j else 0 for j in range(m)] for i in range(m)],
+        [[[(i == (k + 1) % m) - (i == k)] for i in range(m)] for k in range(m)],
+        [[[int(i == k) for i in range(m)]] for k in range(m)],
+    )
+
+
+@pytest.mark.parametrize("free", range(10))
+def test_nine_of_ten_levels_can_be_held_whichever_is_left_out(free: int) -> None:
+    nine = {str(k + 1): [1] for k in range(10) if k != free}
+    selection = [[[1]] if k != free else [] for k in range(10)]
+    assert setpoint_solvability(regulated_outputs(ring_of_tanks(), selection)).solvable
+    assert held_together(ring_of_tanks(), selected(ring_of_tanks(), nine)) == selected(
+        ring_of_tanks(), nine
+    )
+
+
+@pytest.mark.slow
+def test_nine_of_ten_levels_are_held_and_ten_are_refused(tmp_path: Path) -> None:
+    plant = ring_of_tanks()
+    with pytest.raises(Impossible, match=r"with \(1, 1, 1, 1, 1, 1, 1, 1, 1, 1\) r ≠ 0"):
+        design_setpoint(plant)
+    kept = held_together(plant)
+    assert [S.nrows for S in kept] == [1] * 9 + [0]
+    nine = {name: [1] for name, S in zip(plant.names, kept, strict=True) if S.nrows}
+    design = design_setpoint(plant, regulate=nine, rate="1/20", aims=BRIEF)
+    require_valid(design)
+    require_implied(design.account, tmp_path)
+    wanted = [[k] for k in (1, 0, -1, 2, 0, 3, 1, 1, 1, 7)]
+    run = simulate(plant, design.controller, horizon=400, points=3, reference=wanted)
+    reached = [float(values[-1]) for values in run.values("outputs").values()]
+    assert reached == pytest.approx([1, 0, -1, 2, 0, 3, 1, 1, 1, -8], abs=1e-3)
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])

@@ -150,6 +150,22 @@ def _margin(said: Said, case: Case) -> bool:
     return _single(case, at, number(said.values["margin"]))
 
 
+@judge("performance-another-step")
+def _margin_with_another_step(said: Said, case: Case) -> bool:
+    """Every port of the loop of samples with another step has a margin."""
+    how, margin = case.asked.get("sampling"), number(said.values["margin"])
+    if how is None or case.controller is None or margin <= 0:
+        return False
+    step = Fraction(said.values["step"])
+    written = step.numerator if step.denominator == 1 else str(step)
+    held = case.made({**how, "construction": "sampled", "step": written})
+    loop = disturbed_loop(held, read_agents(held, case.controller))
+    ports = {"inputs": loop.U.nrows(), "outputs": loop.Y.nrows()}
+    return all(
+        has_margin(loop, at, [k], [fmpq(1)], margin) for at in ports for k in range(ports[at])
+    )
+
+
 @judge(
     "members-input-margin",
     "members-output-margin",
