@@ -247,7 +247,8 @@ class _Shaped:
             report.step("a proof for a box of plants")
             effort = {"effort": self.aims.effort} if self.aims.effort else {}
             rest = None if end is None else end - _SHOWING * (end - time.monotonic())
-            every_loop = design.every_loop(**effort, deadline=rest)
+            asked = None if self.aims.box is None else Fraction(self.aims.box)
+            every_loop = design.every_loop(**effort, deadline=rest, part=asked)
         longest = None
         if is_sampled(design.loop.closed.plant):
             if end is not None:

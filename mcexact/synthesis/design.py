@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from math import isfinite
 from typing import Any, Literal
@@ -124,7 +125,9 @@ class Design(ShownByAccount):
         """The certificates, with the sentences that follow from them."""
         return self.account_with(None)
 
-    def every_loop(self, effort: float = 5.0, deadline: float | None = None) -> EveryLoop:
+    def every_loop(
+        self, effort: float = 5.0, deadline: float | None = None, part: Fraction | None = None
+    ) -> EveryLoop:
         """Search a proof for all loops in a box around the plant, and a plant whose loop fails.
 
         Parameters
@@ -133,6 +136,8 @@ class Design(ShownByAccount):
             About the seconds that the search of a proof may take.
         deadline : float, optional
             The time of `time.monotonic` after which no further work is begun.
+        part : Fraction, optional
+            The part of all entries that is tried first.
 
         Returns
         -------
@@ -140,7 +145,7 @@ class Design(ShownByAccount):
             If the plant has radii, the box has these.  Otherwise each radius is the same part of
             its entry, which the search chooses.
         """
-        return every_loop(self.loop.closed, self.region, effort, deadline)
+        return every_loop(self.loop.closed, self.region, effort, deadline, part)
 
     def account_with(
         self,

@@ -36,8 +36,9 @@ WithinRadii = Literal["proved", "open", "refuted"]
 """What is known of all loops within the radii."""
 SIX_DIGITS = Fraction(1, 100_000)
 """The largest relative change of a number that is rounded to six digits, up or down."""
-_PARTS, _SURE = (0.9, 0.6, 0.3, 0.1), (0.3, 0.1)
-"""The parts of the apparently largest box that are tried, and those tried with little work."""
+_PARTS, _SURE, _BOLD = (0.9, 0.6, 0.3, 0.1), (0.3, 0.1), (0.75,)
+"""The parts of the apparently largest box that are tried, those tried with little work, and the one
+before these where the work is enough for both."""
 _POINTS = 2
 _MOST_SIGNALS, _MOST_SEGMENTS, _USUAL = 160, 600, 30
 """Loops with more states, outputs and inputs are left out; for each box at most so many parts of
@@ -50,7 +51,7 @@ _HALF = Fraction(1, 2)
 """The part of a proved box in which disk margins are proved; at its end little is left of them."""
 _LEFT, _FEWEST = 800, 10
 """The parts of the border that are tried for disk margins, and the fewest for one side."""
-_LITTLE = 300
+_LITTLE, _SCARCE = 300, 150
 """With fewer parts of the border than these, only the boxes that likely have a proof are tried."""
 _LATE = "the time limit ended the search of a proof"
 _ASK = "; `mcexact certify --uncertainty 0.1%` asks about one box with more work"
@@ -138,6 +139,8 @@ class _Work:
     each, left : int
     parts : tuple of float
         The parts of what seems to be the largest box that are tried.
+    asked : Fraction or None
+        The part of all entries that is tried before these.
     deadline : float or None
         The time of `time.monotonic` after which nothing else is tried.
     """
@@ -145,15 +148,28 @@ class _Work:
     each: int
     left: int
     parts: tuple[float, ...]
+    asked: Fraction | None = None
     deadline: float | None = None
 
     @classmethod
-    def of(cls, effort: float, size: int, deadline: float | None = None) -> _Work:
+    def of(
+        cls, effort: float, size: int, asked: Fraction | None = None, deadline: float | None = None
+    ) -> _Work:
         """The work of some seconds for a loop with some number of signals."""
         total = int(min(effort * _PER_SECOND * (_USUAL / max(size, 1)) ** 2, 1e6))
-        if total < _LITTLE:
-            return cls(2 * total // 3, total, _SURE, deadline)
-        return cls(min(total // 3, _MOST_SEGMENTS), total, _PARTS, deadline)
+        if _SCARCE <= total < _LITTLE:
+            return cls(total // 2, total, (*_BOLD, *_SURE), asked, deadline)
+        if total < _SCARCE:
+            return cls(2 * total // 3, total, _SURE, asked, deadline)
+        return cls(min(total // 3, _MOST_SEGMENTS), total, _PARTS, asked, deadline)
+
+    def boxes(self, largest: float) -> Iterator[Fraction]:
+        """The parts of all entries that are tried, where so many of them seem to be the most."""
+        if self.asked is not None:
+            yield self.asked
+        for times in self.parts:
+            if part := short(times * min(largest, 1e6)):
+                yield part
 
     @property
     def late(self) -> bool:
@@ -174,7 +190,11 @@ class _Work:
 
 
 def every_loop(
-    loop: ClosedLoop, region: StabilityRegion, effort: float = 5.0, deadline: float | None = None
+    loop: ClosedLoop,
+    region: StabilityRegion,
+    effort: float = 5.0,
+    deadline: float | None = None,
+    part: Fraction | None = None,
 ) -> EveryLoop:
     """Search a proof for all loops in a box around one loop, and a plant whose loop fails.
 
@@ -190,6 +210,8 @@ def every_loop(
         About the seconds that the search of a proof may take; its work is counted and not timed.
     deadline : float, optional
         The time of `time.monotonic` after which no further work is begun.
+    part : Fraction, optional
+        The part of all entries that is tried first, where the plant has no radii.
 
     Notes
     -----
@@ -216,15 +238,15 @@ def every_loop(
         return EveryLoop(
             whole, None, None, None, f"not tried, as the loop has {size} signals{_ASK}"
         )
-    units, work = Units.of(loop.plant), _Work.of(effort, size, deadline)
+    units, work = Units.of(loop.plant), _Work.of(effort, size, part, deadline)
     try:
         if is_sampled(loop.plant):
-            return _searched_at_samples(loop, region, _Work.of(effort, size))
+            return _searched_at_samples(loop, region, _Work.of(effort, size, part))
         if units is None:
             return _searched(loop, region, work)
         found = _searched(loop_in(units, loop), region, work)
         moved = _in_file_units(found, loop, units, deadline)
-        return moved or _searched(loop, region, _Work.of(effort, size, deadline))
+        return moved or _searched(loop, region, _Work.of(effort, size, part, deadline))
     except LimitReached as reached:
         return EveryLoop(whole, None, None, None, f"not tried: {reached.message}")
 
@@ -363,7 +385,7 @@ def _searched(loop: ClosedLoop, region: StabilityRegion, work: _Work) -> EveryLo
             tried = [(*each, gains) for each in boxes for gains in (SIX_DIGITS, None)]
         else:
             # A smaller box in which gains may be rounded is worth more than a larger one.
-            smaller = [*_smaller(search, work.parts)]
+            smaller = [*_smaller(search, work)]
             tried = [(each, whole, gains) for gains in (SIX_DIGITS, None) for each in smaller]
         for about, wanted, gains in dict.fromkeys(tried):
             proof = work.proof(about, wanted, gains)
@@ -392,10 +414,8 @@ def _searched_at_samples(loop: ClosedLoop, region: StabilityRegion, work: _Work)
         else:
             unit = _with_part(loop, _SMALL)
             largest = min((each for each, _ in StabilitySearch(unit, whole).margins()), default=0.0)
-            scale = float(_SMALL) * min(largest, 1e6)
-            parts = [short(times * scale) for times in work.parts]
-            positive = [part for part in parts if part]
-            boxes = [(_with_part(loop, part), whole) for part in (*positive, Fraction(0))]
+            parts = work.boxes(float(_SMALL) * largest)
+            boxes = [(_with_part(loop, part), whole) for part in (*parts, Fraction(0))]
         tried = [(*each, gains) for gains in (SIX_DIGITS, None) for each in boxes]
         for about, wanted, gains in tried:
             proof = work.proof(about, wanted, gains)
@@ -414,13 +434,11 @@ def _with_part(loop: ClosedLoop, part: Fraction) -> ClosedLoop:
     return replace(loop, plant=resampled(loop.plant, plant))
 
 
-def _smaller(search: StabilitySearch, parts: tuple[float, ...]) -> Iterator[ClosedLoop]:
+def _smaller(search: StabilitySearch, work: _Work) -> Iterator[ClosedLoop]:
     """The loop with radii that are smaller and smaller parts of the entries."""
     largest = min((each for each, _ in search.margins()), default=0.0)
-    for times in parts:
-        part = short(times * min(largest, 1e6))
-        if part:
-            yield replace(search.loop, plant=Box(search.loop.plant).scaled(part).system)
+    for part in work.boxes(largest):
+        yield replace(search.loop, plant=Box(search.loop.plant).scaled(part).system)
 
 
 def _failing_at_samples(loop: ClosedLoop, region: StabilityRegion) -> FailingPlant | None:

@@ -183,7 +183,7 @@ PART_STABLE = stable(PART, WAYS, IN_PART, growth=[1], gain_radii=proportional("1
 PART_CERTAIN = stable(PART, WAYS, IN_PART, growth=[1])
 """The same, with gains that are certain."""
 AT_SAMPLES = {"construction": "sampled", "step": "1/2", "late": 1, "decimals": 6}
-HELD = {
+HELD: Document = {
     "construction": "closed_loop",
     "controller": {**proportional("-1/2"), "time": "discrete"},
 }

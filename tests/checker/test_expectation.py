@@ -442,10 +442,10 @@ def test_a_manifest_of_samples_has_the_controller_with_another_step_too(tmp_path
     """The file names the plant at the step of the manifest, and only the step may differ."""
     held = read_subject([AT_SAMPLES], read_plant(TANK))
     file = {"format": FORMAT, "system": digest(held), **HELD["controller"]}
-    evidence = {"loop": HELD_LOOP, "inputs": AGAIN[0], "outputs": AGAIN[1]}
+    evidence: dict[str, Document] = {"loop": HELD_LOOP, "inputs": AGAIN[0], "outputs": AGAIN[1]}
     rule = "performance-another-step"
 
-    def found(evidence: Any) -> list[str]:
+    def found(evidence: dict[str, Document]) -> list[str]:
         said = [sentence(rule, *evidence, evidence=evidence)]
         return [
             verdict.verdict for _, verdict in judged(tmp_path, evidence, said, controlled(file))
@@ -453,5 +453,4 @@ def test_a_manifest_of_samples_has_the_controller_with_another_step_too(tmp_path
 
     assert found(evidence) == ["IMPLIED"]
     for others in (WEAKER, ROUNDED, PROMPT):
-        wrong = {**evidence, "outputs": others[1]}
-        assert found(wrong) == [NOT_ABOUT, "INVALID"]
+        assert found({**evidence, "outputs": others[1]}) == [NOT_ABOUT, "INVALID"]

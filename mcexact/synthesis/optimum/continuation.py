@@ -24,7 +24,9 @@ from fractions import Fraction
 from math import isfinite, log, sqrt
 
 from mcexact.analysis.boxes.loops import StabilitySearch
+from mcexact.derived.sampling import is_sampled, resampled
 from mcexact.errors import McexactError
+from mcexact.exact.matrix import to_float
 from mcexact.exact.rational import percent
 from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.floating.margins import spectral_bound
@@ -45,6 +47,8 @@ _CERTIFIED_PART = 0.9
 """Of what seems to be the largest box, the part that is likely proved."""
 _FASTER, _NARROW, _WALK = 1.5, 1.05, 6
 _MOST_SIGNALS = 120
+_SMALL = Fraction(1, 1000)
+"""A part of the entries of a plant for which the radii of its samples are about in proportion."""
 _SHARE = 0.3
 _INSISTING, _HEAVY = 3, 10.0
 _NEARLY = 0.99
@@ -272,7 +276,7 @@ def with_larger_box(
     Improved
         The first loop that seems to have the box, or ``best`` where none has, or only dearer ones.
     """
-    own = best.problem.network.plant.uncertainty is not None
+    own = best.problem.network.plant.plant.uncertainty is not None
     aimed, whole = (Fraction(1), "the radii") if own else (part or BOX, "each entry")
     cost = best.figures.cost
     seen = box_part(best)
@@ -346,19 +350,22 @@ def box_part(candidate: Candidate) -> float | None:
     problem = candidate.problem
     plant, graph = problem.network.plant, problem.network.graph
     rows, columns = problem.mask.shape
-    if plant.subject or (graph is not None and graph.delays):
+    sampled = is_sampled(plant)
+    if (plant.subject and not sampled) or (graph is not None and graph.delays):
         return None
     if len(problem.A) + rows + columns > _MOST_SIGNALS:
         return None
     loop = closed_loop(plant, controller_of(problem, candidate.K), graph)
-    own = plant.uncertainty is not None
-    unit = loop if own else replace(loop, plant=Box.relative(plant, 1).system)
+    size = Fraction(1) if plant.plant.uncertainty is not None or not sampled else _SMALL
     try:
-        margins = StabilitySearch(unit, StabilityRegion(plant.time)).margins()
+        if plant.plant.uncertainty is None:
+            near = Box.relative(plant.plant, size).system
+            loop = replace(loop, plant=resampled(plant, near) if sampled else near)
+        margins = StabilitySearch(loop, StabilityRegion(plant.time)).margins()
         least = min((each for each, _ in margins), default=0.0)
     except McexactError:
         return None
-    return _CERTIFIED_PART * float(least)
+    return _CERTIFIED_PART * to_float(size) * float(least)
 
 
 def fastest(

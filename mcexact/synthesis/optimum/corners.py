@@ -1,19 +1,24 @@
 """Corners of a box of plants at which the loops of a problem fail first, in floating point.
 
 `boxes.corners` searches them.  A search of controllers counts the costs of the plants at these
-corners (`Objective.members`).
+corners (`Objective.members`).  The box of a sampled plant is that of the plant in continuous time,
+whose entries act on the samples through the exponential (`Held`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from mcexact.analysis.boxes.corners import WORK, Signs, distance_of, first_to_fail
-from mcexact.exact.matrix import matrix_to_float
+from mcexact.derived.sampling import is_sampled
+from mcexact.exact.matrix import hstack, matrix_to_float, to_float
 from mcexact.model.box import Box
+from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Floats, Places
 
 Complexes = npt.NDArray[np.complex128]
@@ -44,6 +49,56 @@ class Corner:
 
 
 @dataclass(frozen=True, eq=False)
+class Held:
+    """A plant in continuous time whose inputs are held between samples.
+
+    Attributes
+    ----------
+    entries : ndarray, n × (n + p)
+        [A, B].
+    step : float
+    late : bool
+        Whether [A_h, B_h] acts on the state and a register, or on the state and the input.
+    """
+
+    entries: Floats
+    step: float
+    late: bool
+
+    @property
+    def n(self) -> int:
+        """The number of states in continuous time."""
+        return len(self.entries)
+
+    def _exponent(self, moved: Floats) -> Floats:
+        """[A, B; 0, 0] h with moved entries."""
+        width = self.entries.shape[1]
+        X = np.zeros((width, width))
+        X[: self.n] = self.step * (self.entries + moved)
+        return X
+
+    def change(self, moved: Floats) -> Floats:
+        """How [A_h, B_h] changes when [A, B] does."""
+        from scipy.linalg import expm
+
+        before, after = (expm(self._exponent(each)) for each in (0 * moved, moved))
+        difference: Floats = (after - before)[: self.n]
+        return difference
+
+    def slopes(self, moved: Floats, W: Complexes) -> Complexes:
+        """The derivatives of Σ W_ij [A_h, B_h]_ij in [A, B], where entries are moved."""
+        from scipy.linalg import expm_frechet
+
+        X, n = self._exponent(moved).T, self.n
+        padded = np.vstack([W, np.zeros((len(X) - n, len(X)))])
+        found = np.zeros(W.shape, dtype=np.complex128)
+        for part, unit in ((padded.real, 1), (padded.imag, 1j)):
+            derivative: Any = expm_frechet(X, part, compute_expm=False)
+            found += unit * self.step * derivative[:n]
+        return found
+
+
+@dataclass(frozen=True, eq=False)
 class Corners:
     """The corners of the box of a plant, for the loops of a problem.
 
@@ -55,6 +110,8 @@ class Corners:
         The radii: those of the plant, or else the moduli of all entries.
     rows, outputs : ndarray of int
         The rows of the problem's C that are outputs of the plant, and the numbers of these.
+    held : Held, optional
+        For a sampled plant: the radii are those of the plant in continuous time.
     """
 
     problem: FeedbackProblem
@@ -63,6 +120,7 @@ class Corners:
     C: Floats
     rows: Places
     outputs: Places
+    held: Held | None = None
 
     @classmethod
     def of(cls, problem: FeedbackProblem) -> Corners:
@@ -80,6 +138,7 @@ class Corners:
         (0.33, array([[1.]]), array([[-1.]]))
         """
         plant = problem.network.plant
+        held, plant = _held(plant), plant.plant if is_sampled(plant) else plant
         own = plant.uncertainty is not None
         radii = Box(plant if own else Box.relative(plant, 1).system).radii
         starts = np.cumsum([0, *(plant.q(i) for i in range(plant.m))])
@@ -97,15 +156,27 @@ class Corners:
             np.vstack([np.zeros((0, plant.n)), *map(matrix_to_float, radii.C)]),
             np.array([*numbers], dtype=np.intp),
             np.array([*numbers.values()], dtype=np.intp),
+            held,
         )
+
+    def moves(self, signs: Signs, size: float) -> Signs:
+        """By what A, B and C differ at a corner of the box whose radii are multiplied by a size."""
+        return tuple(size * S * D for S, D in zip(signs, (self.A, self.B, self.C), strict=True))
 
     def member(self, corner: Corner, size: float) -> FeedbackProblem:
         """The problem for the plant at a corner of the box whose radii are multiplied by a size."""
-        problem, n, p = self.problem, self.problem.n, self.problem.p
+        problem, (n, p) = self.problem, self.B.shape
         A, B, C = problem.A.copy(), problem.B.copy(), problem.C.copy()
-        A[:n, :n] += size * corner.A * self.A
-        B[:n, :p] += size * corner.B * self.B
-        C[self.rows, :n] += (size * corner.C * self.C)[self.outputs]
+        dA, dB, dC = self.moves(corner.signs, size)
+        if self.held is not None:
+            change = self.held.change(np.hstack([dA, dB]))
+            dA, dB = change[:, :n], change[:, n:]
+        A[:n, :n] += dA
+        if self.held is not None and self.held.late:
+            A[:n, n : n + p] += dB
+        else:
+            B[:n, :p] += dB
+        C[self.rows, :n] += dC[self.outputs]
         return replace(problem, A=A, B=B, C=C)
 
     def distance(self, K: Floats, corner: Corner) -> float:
@@ -156,8 +227,23 @@ class _Loops:
     ) -> tuple[Complexes, ...]:
         """The derivatives of w(A + BKC)v in the entries of A, B and C."""
         box, K, w, v = self.box, self.K, left, right
-        n, p, member = box.problem.n, box.problem.p, box.member(Corner(*signs), size)
+        (n, p), member = box.B.shape, box.member(Corner(*signs), size)
         driven, leaving = (K @ (member.C @ v))[:p], (w @ member.B) @ K
         seen_by = np.zeros(len(box.C), dtype=np.complex128)
         np.add.at(seen_by, box.outputs, leaving[box.rows])
-        return np.outer(w[:n], v[:n]), np.outer(w[:n], driven), np.outer(seen_by, v[:n])
+        if box.held is not None and box.held.late:
+            driven = v[n : n + p]
+        W = np.outer(w[:n], np.concatenate([v[:n], driven]))
+        if box.held is not None:
+            dA, dB, _ = box.moves(signs, size)
+            W = box.held.slopes(np.hstack([dA, dB]), W)
+        return W[:, :n], W[:, n:], np.outer(seen_by, v[:n])
+
+
+def _held(plant: MultiChannelSystem) -> Held | None:
+    """How a plant is sampled; None if it is not."""
+    if not is_sampled(plant):
+        return None
+    (how,), own = plant.subject, plant.plant
+    entries = matrix_to_float(hstack([own.A, own.input_matrix()]))
+    return Held(entries, to_float(Fraction(how["step"])), bool(how["late"]))

@@ -442,7 +442,7 @@ def _improved(ladder: Ladder, request: Request, aims: Aims, result: _Result) -> 
         step = more_damped(further, best)
         best, notes = step.candidate, (*notes, *step.notes)
     ladder.tell("a box of plants")
-    if aims.box is None and best.problem.network.plant.uncertainty is None:
+    if aims.box is None and best.problem.network.plant.plant.uncertainty is None:
         step = with_larger_box(further, best)
     else:
         part = None if aims.box is None else Fraction(aims.box)
