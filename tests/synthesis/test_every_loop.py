@@ -91,6 +91,13 @@ def test_little_work_proves_a_smaller_box_and_no_work_none() -> None:
         every_loop(loop(), WHOLE, effort=-1)
 
 
+def test_the_part_that_is_asked_for_is_tried_first() -> None:
+    most = every_loop(loop(), WHOLE).part
+    assert most is not None and most > Fraction(1, 50)
+    assert every_loop(loop(), WHOLE, part=Fraction(1, 50)).part == Fraction(1, 50)
+    assert every_loop(loop(), WHOLE, part=Fraction(99, 100)).part == most
+
+
 def test_after_its_deadline_a_search_begins_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     late = every_loop(loop(), WHOLE, deadline=time.monotonic())
     assert late.proof is None and late.failing is None and not late.margins

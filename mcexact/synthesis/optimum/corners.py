@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -79,11 +80,20 @@ class Held:
 
     def change(self, moved: Floats) -> Floats:
         """How [A_h, B_h] changes when [A, B] does."""
+        difference: Floats = self._held(moved) - self._nominal
+        return difference
+
+    @cached_property
+    def _nominal(self) -> Floats:
+        """[A_h, B_h]."""
+        return self._held(np.zeros(self.entries.shape))
+
+    def _held(self, moved: Floats) -> Floats:
+        """[A_h, B_h] with moved entries."""
         from scipy.linalg import expm
 
-        before, after = (expm(self._exponent(each)) for each in (0 * moved, moved))
-        difference: Floats = (after - before)[: self.n]
-        return difference
+        held: Floats = expm(self._exponent(moved))[: self.n]
+        return held
 
     def slopes(self, moved: Floats, W: Complexes) -> Complexes:
         """The derivatives of Σ W_ij [A_h, B_h]_ij in [A, B], where entries are moved."""

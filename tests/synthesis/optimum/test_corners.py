@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 
 import numpy as np
@@ -9,13 +10,17 @@ import pytest
 
 from mcexact.analysis.boxes.largest import failing_loop
 from mcexact.analysis.boxes.loops import StabilitySearch
+from mcexact.derived.sampling import sampled_system
+from mcexact.exact.matrix import Matrix, matrix_to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.networks import decentralized_network, shared_network
-from mcexact.synthesis.optimum.corners import Corners
+from mcexact.synthesis.optimum.corners import Corner, Corners, Held
+from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights, controller_of
 
 TWO = MultiChannelSystem(
@@ -105,3 +110,68 @@ def test_a_corner_beyond_the_box_does_not_fail() -> None:
     plant = MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
     problem = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
     assert Corners.of(problem).failing(np.array([[-0.1]]), Effort(100)) == []
+
+
+CARTS = MultiChannelSystem(
+    [[0, 1, 0], [-2, "-1/2", 1], [1, 0, "-1/2"]],
+    [[[0], [1], ["1/4"]], [[0], [0], [1]]],
+    [[[1, "1/2", 0]], [[0, 0, 1], [1, 0, 1]]],
+)
+GAINS = np.array([[-0.5, 0.0, 0.0], [0.0, -0.6, -0.1]])
+
+
+@pytest.mark.parametrize("late", [0, 1, 2])
+def test_a_corner_of_a_sampled_plant_is_one_in_continuous_time(late: int) -> None:
+    sampled = sampled_system(CARTS, "1/5", late)
+    problem = FeedbackProblem.of(decentralized_network(sampled), (0, 0), Weights.unit(sampled))
+    corners = Corners.of(problem)
+    [(distance, corner), *_] = corners.failing(GAINS, Effort(1e4))
+    factor, box = Fraction(distance).limit_denominator(10**6), Box.relative(CARTS, 1).radii
+
+    def moved(M: Matrix, D: Matrix, S: np.ndarray) -> list[list[Fraction]]:
+        entries = zip(M.rows(), D.rows(), S.tolist(), strict=True)
+        return [[x + factor * int(s) * d for x, d, s in zip(*row, strict=True)] for row in entries]
+
+    far = MultiChannelSystem(
+        moved(CARTS.A, box.A, corner.A),
+        [moved(CARTS.B(i), box.B[i], corner.B[:, [i]]) for i in range(2)],
+        [
+            moved(CARTS.C(0), box.C[0], corner.C[:1]),
+            moved(CARTS.C(1), box.C[1], corner.C[1:]),
+        ],
+    )
+    exact = closed_loop(sampled_system(far, "1/5", late), controller_of(problem, GAINS)).matrix
+    seen = corners.member(corner, float(factor)).closed(GAINS)
+    assert np.allclose(seen, matrix_to_float(exact), atol=1e-9)
+    assert abs(np.max(np.abs(np.linalg.eigvals(seen))) - 1) < 1e-4
+    # no corner that was drawn is nearer
+    rng = np.random.default_rng(late)
+    for _ in range(10):
+        signs = (rng.choice([-1.0, 1.0], M.shape) for M in corner.signs)
+        assert corners.distance(GAINS, Corner(*signs)) >= distance - 1e-6
+
+
+@pytest.mark.slow
+def test_a_box_of_a_sampled_plant_is_an_aim_of_a_search() -> None:
+    sampled = sampled_system(CARTS, "1/5", 1)
+    wide = design_decentralized(sampled, aims=Aims(effort=1, box=Fraction(3, 20)))
+    around = wide.every_loop()
+    assert around.part is not None and around.failing is not None
+    (seen,) = re.findall(r"within about ([0-9.]+) % of each entry: .* 15 %", wide.notes[-1])
+    assert float(around.part) < float(seen) / 90 and float(seen) < 100 * around.failing.distance
+    near = design_decentralized(sampled, aims=Aims(effort=1, box=Fraction(1, 20)))
+    assert near.every_loop(part=Fraction(1, 20)).part == Fraction(1, 20)
+    assert not any("of each entry" in note for note in near.notes)
+
+
+@pytest.mark.parametrize("late", [0, 1])
+def test_slopes_of_a_sampled_plant_are_those_of_differences(late: int) -> None:
+    held = Held(np.array([[0.0, 1.0, 0.2], [-2.0, -0.5, 1.0]]), 0.3, bool(late))
+    rng = np.random.default_rng(3)
+    W, moved = rng.normal(size=(2, 3)) + 1j * rng.normal(size=(2, 3)), rng.normal(size=(2, 3)) / 9
+    slopes = held.slopes(moved, W)
+    for i, j in np.ndindex(2, 3):
+        unit = np.zeros((2, 3))
+        unit[i, j] = 1e-6
+        change = held.change(moved + unit) - held.change(moved - unit)
+        assert abs(np.sum(W * change) / 2e-6 - slopes[i, j]) < 1e-6
