@@ -62,16 +62,17 @@ _SECTORS = tuple(
     )
 )
 """The ends a of sectors [a, 1] that are tried for a region."""
-_MOST_SECTORS = 4
+_MOST_SECTORS = 2
 """So many of them are tried, from the widest one that seems to be covered on."""
 _EXTRA = (0.3, 0.1, 0.03, 1e-3, 1e-5)
 """What is added to the weight of the states in the forms that are tried: with more of it an
 ellipsoid is rounder, until there is none."""
 _MOST_FORMS = 2
 """So many forms of each sector are rounded and tried exactly, those with the largest balls."""
-_MOST_GAINS = 3
+_MOST_GAINS = 10
 """Of so many gains, those with the widest sectors, the largest balls are compared."""
-_ROOM = 1 + 1e-6
+_ROOM, _ROOMS = 1 + 1e-6, (1.0, 1.002, 1.02)
+"""Factors of a form in whose ellipsoid inputs just stay in their sectors, for errors of rounding."""
 
 
 def saturation_stability(
@@ -327,9 +328,10 @@ def _regional(
     return None
 
 
-def _ellipsoids(saturated: Saturated, n: int) -> list[_Candidate]:
+def _ellipsoids(saturated: Saturated, n: int, first: int | None = None) -> list[_Candidate]:
     """Some forms for each sector, those first whose largest balls of the plant are largest."""
-    first = saturated.first_sector() if all(saturated.nearer) else len(_SECTORS)
+    if first is None:
+        first = saturated.first_sector() if all(saturated.nearer) else len(_SECTORS)
     found = list[_Candidate]()
     for a in _SECTORS[first : first + _MOST_SECTORS]:
         response = saturated.response(a)
@@ -378,6 +380,19 @@ def _region(
     factor = _factor(saturated, P, a)
     if not 0 < factor < np.inf:
         return None
+    tried = (_inside(saturated, n, a, scaling, P, factor * room) for room in _ROOMS)
+    return next((each for each in tried if each is not None), None)
+
+
+def _inside(
+    saturated: Saturated,
+    n: int,
+    a: Fraction,
+    scaling: Sequence[Fraction],
+    P: Floats,
+    factor: float,
+) -> tuple[tuple[Fraction, ...], Ellipsoid] | None:
+    """A multiple of an ellipsoid that is proved with as few bits as suffice."""
     weights = tuple(t * Fraction(factor) for t in scaling)
     own = np.linalg.eigvalsh(P[:n, :n] * factor)
     radius = decimal_below(Fraction(float(1 / np.sqrt(own[-1]) / _ROOM)) if n else Fraction(1), 3)
@@ -431,8 +446,8 @@ def gains_for(
             regional.append((saturated.first_sector(), gains, saturated))
     able = sorted((each for each in regional if each[0] < len(_SECTORS)), key=lambda each: each[0])
     forms = [
-        (_ellipsoids(saturated, loop.plant.n), gains, saturated)
-        for _, gains, saturated in able[:_MOST_GAINS]
+        (_ellipsoids(saturated, loop.plant.n, first), gains, saturated)
+        for first, gains, saturated in able[:_MOST_GAINS]
     ]
     for ellipsoids, gains, saturated in sorted(
         (each for each in forms if each[0]), key=lambda each: each[0][0][0]
