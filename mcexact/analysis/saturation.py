@@ -72,7 +72,7 @@ _MOST_FORMS = 2
 _MOST_GAINS = 10
 """Of so many gains, those with the widest sectors, the largest balls are compared."""
 _ROOM, _ROOMS = 1 + 1e-6, (1.0, 1.002, 1.02)
-"""Factors of a form in whose ellipsoid inputs just stay in their sectors, for errors of rounding."""
+"""Factors of a form in whose ellipsoid inputs just stay in their sectors, up to rounding."""
 
 
 def saturation_stability(
