@@ -146,7 +146,7 @@ def _rows(
         try:
             found, written, checked, verdict, size = _measured(make, decide, runs)
         except LimitReached as reached:
-            yield Row(f"{plant}, {name}", 0.0, "reported", True, f"left open: {reached}"[:90], "s")
+            yield Row(f"{plant}, {name}", 0.0, "reported", True, f"left open: {reached}"[:120], "s")
             continue
         first = first or checked
         largest = max(largest, checked / first)

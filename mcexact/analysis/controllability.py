@@ -9,7 +9,9 @@ they do not control are fixed whatever they measure.
 
 `controllability_indices` has the ranks of [B … A^{k−1}B]: modulo a prime from below; from above by
 the relations among the columns of these blocks, after which ranks grow less.  A plant whose ranks
-are generic has none, and a prime is all the evidence.
+are generic has none, and a prime is all the evidence.  Of large sparse plants these blocks are
+eliminated in a band, in which states that A joins are near each other; what has no narrow band, or
+relations among many columns, is left open beyond 1,500 states.
 
 Observability is controllability of the dual system.  With one parameter in the plant, both are
 decided for all its values (`parameters`).
@@ -34,7 +36,7 @@ from mcexact.analysis.blocks import (
     modes_left,
     transposed_blocks,
 )
-from mcexact.analysis.sparse import annihilator
+from mcexact.analysis.sparse import annihilator, is_large_and_sparse
 from mcexact.answer.evidence import Block, RootDisc
 from mcexact.answer.modes import ByBlocks as FixedByBlocks
 from mcexact.answer.modes import FixedSpectrum
@@ -48,7 +50,7 @@ from mcexact.answer.structure import (
     JointControllability,
 )
 from mcexact.derived.constructions import dual
-from mcexact.derived.modular import generator, residue_systems, short_modulus
+from mcexact.derived.modular import SHORT, generator, residue_systems, short_modulus
 from mcexact.errors import Impossible, InternalError, LimitReached
 from mcexact.exact.krylov import InvariantSubspace, controllable_subspace, krylov_rows
 from mcexact.exact.linear_algebra import (
@@ -59,10 +61,15 @@ from mcexact.exact.linear_algebra import (
     solve_nonsingular,
 )
 from mcexact.exact.matrix import Matrix, hstack
-from mcexact.exact.modular import ModularMatrix, polynomial_residues, primes, residues
+from mcexact.exact.modular import (
+    ModularMatrix,
+    krylov_pivots,
+    polynomial_residues,
+    primes,
+    residues,
+)
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import root_discs
-from mcexact.exact.tables import LARGEST_WRITTEN_OUT
 from mcexact.model.entries import as_matrix, require_shape
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem, any_system
@@ -324,17 +331,14 @@ def controllability_indices(
     any_system(system)
     T = range(system.m) if channels is None else system.indices(channels)
     B = system.input_matrix(T)
-    if system.A.is_sparse and system.n**2 > LARGEST_WRITTEN_OUT:
-        raise LimitReached(
-            f"indices of {system.n} states: the proof is the rank of a Krylov matrix with "
-            f"{system.n} rows, which is not sparse: it would be checked for minutes"
-        )
+    if is_large_and_sparse(system) and (evidence := _by_bands(system, T, B)):
+        return _indices(system, T, *evidence)
     rng = generator(system, "controllability_indices")
     for modular in residue_systems(system, rng, bits=61):
         degrees = _column_degrees(modular.A, residues(B, modular.modulus))
-        evidence = _growth(system.A, B, degrees, modular.modulus, rng)
-        if evidence is not None:
-            return _indices(system, T, _ranks(degrees), evidence)
+        growth = _growth(system.A, B, degrees, modular.modulus, rng)
+        if growth is not None:
+            return _indices(system, T, _ranks(degrees), growth)
     raise InternalError("the stream of primes is endless")
 
 
@@ -408,28 +412,105 @@ def _growth(
     A: Matrix, B: Matrix, degrees: Sequence[int], modulus: int, rng: Random
 ) -> ByGrowth | None:
     """The evidence that the ranks are at most those modulo a prime; None if they are larger."""
-    n, p, ranks = A.nrows, B.ncols, (0, *_ranks(degrees))
-    W, pivots = Matrix.zeros(0, n), tuple[int, ...]()
-    if 0 < ranks[-1] < n:
+    ranks = _ranks(degrees)
+    W, pivots = Matrix.zeros(0, A.nrows), tuple[int, ...]()
+    if ranks and ranks[-1] < A.nrows:
         subspace = controllable_subspace(A, B, rng)
         if subspace.dimension != ranks[-1]:
             return None
         W, pivots = subspace.annihilator(), subspace.free
-    needed, step = -1, p
-    for k, (rank, following) in enumerate(pairwise((*ranks, ranks[-1]))):
-        if following < min(n - len(pivots), rank + step):
-            needed = k
-        step = following - rank
-    inputs = sorted((j for j in range(p) if degrees[j] <= needed), key=lambda j: (degrees[j], j))
+    inputs = _inputs_with_relations(A.nrows - W.nrows, degrees)
     relations = _relations(A, B, degrees, inputs, modulus)
     if relations is None:
         return None
 
     def is_reached(ell: int) -> bool:
-        return _ranks(_column_degrees(residues(A, ell), residues(B, ell))) == ranks[1:]
+        return _ranks(_column_degrees(residues(A, ell), residues(B, ell))) == ranks
 
     short = short_modulus(A.denominator * B.denominator, is_reached, modulus)
     return ByGrowth(short, W, pivots, relations, tuple(inputs))
+
+
+def _inputs_with_relations(dimension: int, degrees: Sequence[int]) -> list[int]:
+    """The inputs whose relations show that ranks grow no faster; ``dimension`` bounds them all."""
+    needed, step, ranks = -1, len(degrees), (0, *_ranks(degrees))
+    for k, (rank, following) in enumerate(pairwise((*ranks, ranks[-1]))):
+        if following < min(dimension, rank + step):
+            needed = k
+        step = following - rank
+    listed = (j for j, degree in enumerate(degrees) if degree <= needed)
+    return sorted(listed, key=lambda j: (degrees[j], j))
+
+
+_MOST_IN_BANDS = 4 * 10**9
+"""The bytes that an elimination in bands may go through: some seconds."""
+_MOST_RELATED = 1000
+"""The columns among which relations are looked for where the plant is large and sparse."""
+_MOST_DENSE = 1500
+"""The states of a sparse plant for which exact elimination takes a minute."""
+
+
+def _by_bands(
+    system: MultiChannelSystem, T: Sequence[int], B: Matrix
+) -> tuple[tuple[int, ...], ByGrowth] | None:
+    """Ranks and evidence of a large sparse plant, with eliminations in bands modulo short primes.
+
+    None if they are not found, and the plant is small enough for other ways.
+
+    Raises
+    ------
+    LimitReached
+        If it is not.
+    """
+    reason = "no short prime keeps the ranks of [B, AB, …]"
+    try:
+        for ell in SHORT:
+            if system.A.denominator * B.denominator % ell:
+                degrees = _banded_degrees(system.A, B, ell)
+                growth = _growth_in_bands(system, T, B, degrees, ell)
+                if growth is not None:
+                    return _ranks(degrees), growth
+    except LimitReached as limit:
+        reason = str(limit)
+    if system.n > _MOST_DENSE:
+        raise LimitReached(f"indices of {system.n} states: {reason}")
+    return None
+
+
+def _banded_degrees(A: Matrix, B: Matrix, ell: int) -> list[int]:
+    """`_column_degrees` for an A of few entries: more blocks as long as these grow."""
+    n, p = B.shape
+    blocks = -(-n // max(p, 1))
+    while True:
+        pivots = krylov_pivots(A, B, blocks, ell, _MOST_IN_BANDS)
+        last = sum(k == blocks - 1 for k, _ in pivots)
+        if len(pivots) == n or not last:
+            break
+        blocks += -(-(n - len(pivots)) // last)  # as many as reach n in steps like the last one
+    degrees = [0] * p
+    for _, j in pivots:
+        degrees[j] += 1
+    return degrees
+
+
+def _growth_in_bands(
+    system: MultiChannelSystem, T: Sequence[int], B: Matrix, degrees: Sequence[int], ell: int
+) -> ByGrowth | None:
+    """`_growth` for a large sparse plant: None also if the evidence would be long."""
+    left = system.n - sum(degrees)
+    W, pivots = Matrix.zeros(0, system.n), tuple[int, ...]()
+    if 0 < left < system.n:
+        part, _ = measured_system(system, T)
+        annihilating = annihilator(part, left)
+        if annihilating is None:
+            return None
+        W, pivots = annihilating
+    inputs = _inputs_with_relations(system.n - W.nrows, degrees)
+    top = max((degrees[j] for j in inputs), default=0)
+    if inputs and sum(min(degree, top + 1) for degree in degrees) > _MOST_RELATED:
+        return None
+    relations = _relations(system.A, B, degrees, inputs, ell)
+    return None if relations is None else ByGrowth(ell, W, pivots, relations, tuple(inputs))
 
 
 def _relations(
@@ -459,6 +540,9 @@ def _relations(
             return None
         places = [(k, j) for k, listed in enumerate(columns) for j in listed]
         for t, j in enumerate(inputs):
+            used = (at for at, row in zip(places, solution.numerators, strict=True) if row[t])
+            if max(used, default=(-1, -1)) > (degrees[j], j):
+                return None  # the prime makes it depend on those before it, not Q
             terms = [(degrees[j], j, -solution.denominator)]
             terms += [(*at, row[t]) for at, row in zip(places, solution.numerators, strict=True)]
             content = math.gcd(*(entry * d**k for k, _, entry in terms))

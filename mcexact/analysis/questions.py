@@ -248,6 +248,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "the controllability indices",
             ports="inputs",
             most=_DENSE,
+            sparse=True,
             for_all_values=True,
         ),
         "observability_indices": Question(
@@ -255,6 +256,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "the observability indices",
             ports="outputs",
             most=_DENSE,
+            sparse=True,
             kind="controllability_indices",
             dual=True,
             for_all_values=True,

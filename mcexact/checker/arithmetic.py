@@ -577,50 +577,62 @@ def rank_modulo(A: Matrix, ell: int) -> int:
 def banded_rank(entries: list[Entry], nrows: int, ncols: int, ell: int) -> int:
     """The rank modulo ℓ ≤ ``SMALL`` of a matrix of few entries, which are residues.
 
-    Columns are eliminated in an order in which those of a row are near each other.  Rows are long
-    integers with a byte for each column from the present one on, and those that have met none of
-    their columns wait.  Bytes are reduced before they overflow.
-
     Theorem ``arithmetic.rank_from_below``.
     """
     spend(200 * (len(entries) + nrows + ncols))
-    place, tables = _by_breadth(entries, nrows, ncols), multiples(ell)
+    place = by_breadth(entries, nrows, ncols)
+    lines: list[list[tuple[int, int]]] = [[] for _ in range(nrows)]
+    for i, j, x in entries:
+        lines[i].append((place[j], x))
+    starting: list[list[tuple[int, int]]] = [[] for _ in range(ncols)]
+    for line in filter(None, lines):
+        first = min(line)[0]
+        spend(max(line)[0] - first)
+        starting[first].append((0, sum(x << 8 * (k - first) for k, x in line)))
+    return sum(banded_pivots(starting, 1, ell))
+
+
+def banded_pivots(starting: list[list[tuple[int, int]]], turns: int, ell: int) -> list[int]:
+    """How many rows of each turn are independent modulo ℓ ≤ ``SMALL`` of those of earlier turns.
+
+    Rows are long integers with a byte for each column from the present one on; for each column
+    those that start there are given, each after its turn.  Nothing is added to a row of an earlier
+    turn but rows of that turn or earlier ones, as the pivot in a column is of the earliest turn
+    there.  So the pivots of the first turns count the rank of the rows of these alone.  Bytes are
+    reduced before they overflow.
+
+    Theorem ``arithmetic.rank_from_below``.
+    """
+    tables = multiples(ell)
 
     def reduced(row: int, factor: int = 1) -> int:
         data = row.to_bytes((row.bit_length() + 7) // 8, "little")
         return _packed(data.translate(tables[factor % ell]), 1)
 
-    lines: list[list[tuple[int, int]]] = [[] for _ in range(nrows)]
-    for i, j, x in entries:
-        lines[i].append((place[j], x))
-    starting: list[list[int]] = [[] for _ in range(ncols)]
-    for line in filter(None, lines):
-        first = min(line)[0]
-        spend(max(line)[0] - first)
-        starting[first].append(sum(x << 8 * (k - first) for k, x in line))
-    count, room, active = 0, 0, list[int]()
+    counts, room, active = [0] * turns, 0, list[tuple[int, int]]()
     for new in counted(starting):
         active += new
-        spend(80 + sum(map(int.bit_length, active)) // 400 + 12 * len(active))
+        spend(80 + sum(row.bit_length() for _, row in active) // 400 + 14 * len(active))
         if not room:
-            spend(sum(map(int.bit_length, active)) // 100)
-            room, active = most_addends(ell) - 1, [*filter(None, map(reduced, active))]
+            spend(sum(row.bit_length() for _, row in active) // 100)
+            room = most_addends(ell) - 1
+            active = [(turn, left) for turn, row in active if (left := reduced(row))]
         room -= 1
-        meeting = [row for row in active if (row & 255) % ell]
-        pivot = min(meeting, key=int.bit_length, default=None)
-        if pivot is None:
-            active = [row >> 8 for row in active]
+        meeting = [(turn, row.bit_length(), row) for turn, row in active if (row & 255) % ell]
+        if not meeting:
+            active = [(turn, row >> 8) for turn, row in active]
             continue
-        count += 1
-        active.remove(pivot)
+        turn, length, pivot = min(meeting)
+        counts[turn] += 1
+        active.remove((turn, pivot))
         f = -inverse((pivot & 255) % ell, ell)
-        spend(ell * (40 + pivot.bit_length() // 30) + budget.inversions(1, 1))
+        spend(ell * (40 + length // 30) + budget.inversions(1, 1))
         taken = [reduced(pivot, f * k) for k in range(ell)]
-        active = [(row + taken[(row & 255) % ell]) >> 8 for row in active]
-    return count
+        active = [(turn, (row + taken[(row & 255) % ell]) >> 8) for turn, row in active]
+    return counts
 
 
-def _by_breadth(entries: list[Entry], nrows: int, ncols: int) -> list[int]:
+def by_breadth(entries: list[Entry], nrows: int, ncols: int) -> list[int]:
     """For each column its place in an order by breadth, from an end of each connected part."""
     columns: list[list[int]] = [[] for _ in range(ncols)]
     rows: list[list[int]] = [[] for _ in range(nrows)]

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 from . import budget, evidence, reading, roots
 from .arithmetic import (
@@ -25,7 +25,9 @@ from .arithmetic import (
     Polynomial,
     Rows,
     SparseMatrix,
+    banded_pivots,
     beside,
+    by_breadth,
     characteristic_polynomial,
     diagonal,
     echelon,
@@ -35,6 +37,7 @@ from .arithmetic import (
     poly_product,
     product,
     rank_modulo,
+    residues,
     stack,
     stripped,
 )
@@ -42,6 +45,7 @@ from .budget import counted, spend
 from .constructions import dual, neighbors_of
 from .evidence import (
     Blocks,
+    SparseProduct,
     annihilator,
     by_blocks,
     inputs,
@@ -161,6 +165,34 @@ def krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[in
     return ranks
 
 
+def banded_krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[int]:
+    """Ranks modulo ℓ ≤ ``SMALL`` of no block, [B_T], …, so many blocks, for an A of few entries.
+
+    The rows of A^k B_T are long integers with a byte for each input, and the states are in an order
+    in which those that A joins are near each other.
+
+    Theorem ``arithmetic.rank_from_below``.
+    """
+    n, B, entries = system.n, inputs(system, T), residues(system.A, ell)
+    spend(200 * (len(entries) + n))
+    place, power = by_breadth(entries, n, n), [0] * n
+    for a, u, x in residues(B, ell):
+        power[place[a]] |= x << 8 * u
+    spend(n * (B.ncols + 8))
+    A = SparseProduct([(place[a], place[b], x) for a, b, x in entries], n, B.ncols, ell)
+    starting: list[list[tuple[int, int]]] = [[] for _ in range(n)]
+    for k in counted(range(blocks)):
+        spend(n * (60 + B.ncols // 2))
+        table = b"".join(row.to_bytes(B.ncols, "little") for row in power)
+        for u in range(B.ncols):
+            column = table[u :: B.ncols]
+            kept = column.lstrip(b"\0")
+            if kept:
+                starting[n - len(kept)].append((k, int.from_bytes(kept, "little")))
+        power = A(power)
+    return [0, *accumulate(banded_pivots(starting, blocks, ell))]
+
+
 def require_reached(system: System, channel: int, ell: int, blocks: int) -> None:
     """Stop unless [B_q, …, A^{blocks−1}B_q] has rank n modulo ℓ."""
     reached = krylov_ranks(system, [channel], ell, blocks)[-1]
@@ -185,7 +217,8 @@ def check_controllability_indices(claim: Json, witness: Json, system: System) ->
     require(increasing, "claim", "claim.ranks", f"expected strictly increasing ranks up to {n}")
     ell, nu, B = modulus(number, "witness.modulus"), len(ranks) - 1, inputs(system, T)
     _require_growth(shown, ranks, system.A, B)
-    reached = krylov_ranks(system, T, ell, nu)
+    few = ell <= SMALL and isinstance(system.A, SparseMatrix)
+    reached = (banded_krylov_ranks if few else krylov_ranks)(system, T, ell, nu)
     # Where the blocks stop growing modulo ℓ, the last rank stands for all that follow.
     reached += [reached[-1]] * (nu + 1 - len(reached))
     enough = all(low >= r for low, r in zip(reached, ranks, strict=True))

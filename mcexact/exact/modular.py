@@ -540,47 +540,119 @@ def sparse_rank(M: Matrix, ell: int, most: int) -> int:
 
     Notes
     -----
-    Rows and columns are nodes of a graph with an edge for each entry, which is put in the order of
-    Cuthill and McKee: entries of a row are near each other.  A row waits for its first column, and
-    is one integer from then on, with a byte for each entry.
+    Columns are in the order of Cuthill and McKee: entries of a row are near each other.
+    """
+    entries = [(i, j, x % ell) for i, j, x in M.nonzero() if x % ell]
+    place = _band_order([(i, j) for i, j, _ in entries], M.shape)
+    rows: list[list[tuple[int, int]]] = [[] for _ in range(M.nrows)]
+    for i, j, x in entries:
+        rows[i].append((place[j], x))
+    waiting: list[list[tuple[int, int]]] = [[] for _ in range(M.ncols)]
+    for i, row in enumerate(rows):
+        if row:
+            first = min(row)[0]
+            waiting[first].append((i, sum(x << 8 * (k - first) for k, x in row)))
+    return len(_banded_pivots(waiting, ell, most))
+
+
+def krylov_pivots(A: Matrix, B: Matrix, blocks: int, ell: int, most: int) -> list[tuple[int, int]]:
+    """The columns A^k b_j, k < blocks, that do not depend modulo ℓ on those before, as (k, j).
+
+    Parameters
+    ----------
+    A, B : Matrix
+        n × n, with few entries that are not 0, and n × p.
+    blocks : int
+        The columns are those of [B, AB, …], so many blocks.
+    ell, most : int
+        As for `sparse_rank`.
+
+    Raises
+    ------
+    LimitReached
+        No narrow band was found, or the columns have more than ``most`` entries.
+
+    Examples
+    --------
+    >>> A = Matrix.from_integers([[0, 1, 0], [0, 0, 0], [0, 0, 0]])
+    >>> B = Matrix.from_integers([[0, 0], [1, 0], [0, 1]])
+    >>> krylov_pivots(A, B, 2, 7, 1000)
+    [(0, 0), (0, 1), (1, 0)]
+    """
+    # start-up: few plants need it
+    import numpy as np
+    from scipy.sparse import coo_array
+
+    n, p = B.shape
+    if n * p * blocks > most:
+        raise LimitReached(f"a Krylov matrix of {n} rows and {p * blocks} columns")
+    places = _band_order([(i, j) for i, j, _ in A.nonzero()], A.shape)
+    place = np.array([places.get(a, -1) for a in range(n)], dtype=np.int64)
+    place[place < 0] = np.setdiff1d(np.arange(n), place)
+    tables = []
+    for M in (A, B):
+        f = pow(M.denominator, -1, ell)
+        cells = [(place[i], place[j] if M is A else j, x * f % ell) for i, j, x in M.nonzero()]
+        i, j, x = np.array(cells, dtype=np.int64).reshape(-1, 3).T
+        tables.append(coo_array((x, (i, j)), shape=M.shape).tocsr())
+    waiting: list[list[tuple[int, int]]] = [[] for _ in range(n)]
+    power = tables[1].toarray()
+    for k in range(blocks):
+        for j, column in enumerate(np.ascontiguousarray(power.T, dtype=np.uint8)):
+            if kept := column.tobytes().lstrip(b"\0"):
+                waiting[n - len(kept)].append((k * p + j, int.from_bytes(kept, "little")))
+        power = (tables[0] @ power) % ell
+    return [divmod(number, p) for number in sorted(_banded_pivots(waiting, ell, most))]
+
+
+def _band_order(cells: list[tuple[int, int]], shape: tuple[int, int]) -> dict[int, int]:
+    """Places of the columns with entries in the order of Cuthill and McKee.
+
+    Rows and columns are nodes of a graph with an edge for each entry.
     """
     # start-up: few plants need it
     import numpy as np
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-    entries = [(i, j, x % ell) for i, j, x in M.nonzero() if x % ell]
-    r = M.nrows
-    ends = np.array([(i, r + j) for i, j, _ in entries], dtype=np.int64).reshape(-1, 2).T
-    ones, size = np.ones(len(entries), dtype=np.int8), r + M.ncols
-    graph = coo_array((ones, ends), shape=(size, size)).tocsr()
+    r, size = shape[0], sum(shape)
+    ends = np.array([(i, r + j) for i, j in cells], dtype=np.int64).reshape(-1, 2).T
+    graph = coo_array((np.ones(len(cells), dtype=np.int8), ends), shape=(size, size)).tocsr()
     order = reverse_cuthill_mckee((graph + graph.T).tocsr(), symmetric_mode=True)
-    place = {int(node) - r: k for k, node in enumerate(order[order >= r])}
-    rows: list[list[tuple[int, int]]] = [[] for _ in range(r)]
-    for i, j, x in entries:
-        rows[i].append((place[j], x))
-    waiting: list[list[int]] = [[] for _ in range(M.ncols)]
-    for row in filter(None, rows):
-        first = min(row)[0]
-        waiting[first].append(sum(x << 8 * (k - first) for k, x in row))
-    rank, active = 0, list[int]()
+    return {int(node) - r: k for k, node in enumerate(order[order >= r])}
+
+
+def _banded_pivots(waiting: list[list[tuple[int, int]]], ell: int, most: int) -> list[int]:
+    """The numbers of the rows that do not depend on rows of lower numbers.
+
+    A row waits for its first column, and is one integer from then on, with a byte for each entry.
+    The pivot in a column is the row of the lowest number, so that rows take nothing of later ones.
+    """
+    pivots, active = list[int](), list[tuple[int, int]]()
     multiples = [bytes(f * x % ell for x in range(256)) for f in range(ell)]
+    room = 0  # how many more residues a byte of each row can take
     for new in waiting:
         active += new
-        most -= sum(map(int.bit_length, active)) // 8
+        most -= sum(row.bit_length() for _, row in active) // 8
         if most < 0:
-            raise LimitReached(f"elimination in a {r} × {M.ncols} matrix, which has no narrow band")
-        meeting = [row for row in active if row & 255]
+            size = f"{sum(map(len, waiting))} × {len(waiting)}"
+            raise LimitReached(f"elimination in a {size} matrix, which has no narrow band")
+        if not room:
+            room = 255 // (ell - 1) - 1
+            reduced = ((number, _times(row, multiples[1])) for number, row in active)
+            active = [(number, row) for number, row in reduced if row]
+        room -= 1
+        meeting = [(number, row) for number, row in active if (row & 255) % ell]
         if not meeting:
-            active = [row >> 8 for row in active]
+            active = [(number, row >> 8) for number, row in active]
             continue
-        pivot = min(meeting, key=int.bit_length)
-        active.remove(pivot)
-        rank, f = rank + 1, -pow(pivot & 255, -1, ell)
+        number, pivot = min(meeting)
+        active.remove((number, pivot))
+        pivots.append(number)
+        f = -pow(pivot & 255, -1, ell)
         taken = [_times(pivot, multiples[f * x % ell]) for x in range(ell)]
-        sums = ((row + taken[row & 255]) >> 8 if row & 255 else row >> 8 for row in active)
-        active = [row for row in (_times(row, multiples[1]) for row in sums) if row]
-    return rank
+        active = [(number, (row + taken[(row & 255) % ell]) >> 8) for number, row in active]
+    return pivots
 
 
 def _times(row: int, table: bytes) -> int:

@@ -16,6 +16,7 @@ from mcexact.checker.arithmetic import (
     Echelon,
     Matrix,
     NotAUnit,
+    banded_pivots,
     banded_rank,
     characteristic_polynomial,
     characteristic_polynomial_modulo,
@@ -254,6 +255,27 @@ def test_a_band_of_many_rows_that_all_meet_keeps_its_bytes_apart(ell: int) -> No
         for j in range(n)
     ]
     assert 40 <= banded_rank(entries, n, n, ell) <= r
+
+
+@pytest.mark.parametrize("ell", [2, 7, 61])
+def test_pivots_in_a_band_count_the_ranks_of_the_first_turns(ell: int) -> None:
+    rng, late = random.Random(ell), 0
+    for _ in range(60):
+        ncols, turns, width = rng.randint(1, 30), rng.randint(1, 5), rng.randint(1, 12)
+        starting: list[list[tuple[int, int]]] = [[] for _ in range(ncols)]
+        rows: list[tuple[int, list[int]]] = []
+        for _ in range(rng.randint(0, 30)):
+            first, turn = rng.randrange(ncols), rng.randrange(turns)
+            line = [0] * first + [rng.randrange(ell) for _ in range(first, ncols)]
+            line[first + width :] = [0] * len(line[first + width :])
+            rows.append((turn, line))
+            starting[first].append((turn, int.from_bytes(bytes(line[first:]), "little")))
+        expected, basis = [0] * turns, Echelon(ell)
+        for turn, line in sorted(rows, key=lambda row: row[0]):
+            expected[turn] += basis.add(line) is not None
+        assert banded_pivots(starting, turns, ell) == expected
+        late += sum(expected[1:])
+    assert late > 100
 
 
 def test_a_pivot_in_a_band_has_to_be_a_unit() -> None:

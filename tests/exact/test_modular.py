@@ -18,6 +18,7 @@ from mcexact.exact.modular import (
     ModularMatrix,
     ModularPolynomial,
     hstack,
+    krylov_pivots,
     low_rank_update,
     polynomial_residues,
     primes,
@@ -299,6 +300,31 @@ def test_ranks_of_sparse_matrices_are_those_of_all_entries(ell: int) -> None:
         cells |= {(0, j): x for (i, j), x in cells.items() if i == 1}
         M = Matrix.from_entries((nrows, ncols), [(i, j, x) for (i, j), x in cells.items()])
         assert sparse_rank(M, ell, 10**6) == residues(M, ell).rank()
+
+
+@pytest.mark.parametrize("ell", [7, 13, 61])
+def test_krylov_pivots_are_the_columns_that_depend_on_none_before(ell: int) -> None:
+    rng, deficient = random.Random(ell), 0
+    for _ in range(20):
+        n, p, blocks = rng.randint(46, 60), rng.randint(1, 8), rng.randint(1, 12)
+        cells = {(i, (i + rng.randint(0, 2)) % n): rng.randint(1, 99) for i in [*range(n)] * 2}
+        cells = {(i, j): x for (i, j), x in cells.items() if i < n - 9 or j >= n - 9}
+        A = Matrix.from_entries((n, n), [(i, j, x) for (i, j), x in cells.items()])
+        A = A * Fraction(1, 5)
+        B = Matrix.from_entries(
+            (n, p), [(rng.randrange(n), j, rng.randint(1, 6)) for j in range(p)]
+        )
+        powers = [residues(B, ell)]
+        for _ in range(blocks - 1):
+            powers.append(residues(A, ell) @ powers[-1])
+        columns = [row for power in powers for row in power.T.rows()]
+        pivots = ModularMatrix.from_rows(columns, ell, ncols=n).T.rref()[1]
+        deficient += len(pivots) < min(n, blocks * p)
+        found = krylov_pivots(A, B, blocks, ell, 10**6)
+        assert found == [divmod(c, p) for c in pivots]
+    assert deficient > 3
+    with pytest.raises(LimitReached, match="a Krylov matrix of"):
+        krylov_pivots(A, B, blocks, ell, n * p * blocks - 1)
 
 
 def test_a_matrix_without_a_narrow_band_is_left_open() -> None:
