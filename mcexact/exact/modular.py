@@ -593,15 +593,15 @@ def krylov_pivots(A: Matrix, B: Matrix, blocks: int, ell: int, most: int) -> lis
     for M in (A, B):
         f = pow(M.denominator, -1, ell)
         cells = [(place[i], place[j] if M is A else j, x * f % ell) for i, j, x in M.nonzero()]
-        i, j, x = np.array(cells, dtype=np.int64).reshape(-1, 3).T
-        tables.append(coo_array((x, (i, j)), shape=M.shape).tocsr())
+        rows, cols, entries = np.array(cells, dtype=np.int64).reshape(-1, 3).T
+        tables.append(coo_array((entries, (rows, cols)), shape=M.shape).tocsr())
     waiting: list[list[tuple[int, int]]] = [[] for _ in range(n)]
     power = tables[1].toarray()
     for k in range(blocks):
         for j, column in enumerate(np.ascontiguousarray(power.T, dtype=np.uint8)):
             if kept := column.tobytes().lstrip(b"\0"):
                 waiting[n - len(kept)].append((k * p + j, int.from_bytes(kept, "little")))
-        power = (tables[0] @ power) % ell
+        power = np.asarray(tables[0] @ power) % ell
     return [divmod(number, p) for number in sorted(_banded_pivots(waiting, ell, most))]
 
 

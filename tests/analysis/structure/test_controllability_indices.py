@@ -12,7 +12,7 @@ from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import dual
 from mcexact.errors import LimitReached
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular import residues
+from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.draws import exact, sparse_system
 from tests.oracle.enumeration import PlainSystem, product, rank
@@ -84,11 +84,11 @@ def masses(n: int, m: int, seed: int, rest: int = 0) -> MultiChannelSystem:
 def modular_ranks(system: MultiChannelSystem) -> tuple[int, ...]:
     """The ranks of [B … A^{k−1}B] modulo a long prime until they stop growing, with all zeros."""
     ell = 2**61 - 1
-    A, power, blocks, ranks = residues(system.A, ell), system.input_matrix(), [], [0]
-    power = residues(power, ell)
+    A, power = residues(system.A, ell), residues(system.input_matrix(), ell)
+    blocks, ranks = list[list[int]](), [0]
     while len(ranks) < 2 or ranks[-1] > ranks[-2]:
         blocks += power.T.rows()
-        ranks.append(type(A).from_rows(blocks, ell, ncols=system.n).rank())
+        ranks.append(ModularMatrix.from_rows(blocks, ell, ncols=system.n).rank())
         power = A @ power
     return tuple(ranks[1:-1])
 
