@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,16 @@ PAGES = sorted(
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: str(path.relative_to(DOCS.parent)))
 def test_a_page_says_what_happens(path: Path, tmp_path: Path) -> None:
     assert run(path, tmp_path) > 0
+
+
+def test_the_walks_with_other_libraries_take_ten_lines_each() -> None:
+    page = (DOCS / "how-to" / "five-libraries.md").read_text(encoding="utf-8")
+    walks = [each for each in blocks(page) if each.language in {"pycon", "python"}]
+    assert len(walks) == 5
+    for walk in walks:
+        code = re.findall(r"^(?:>>>|\.\.\.) .*$", walk.text, re.MULTILINE)
+        code = code or [line for line in walk.text.splitlines() if line.strip()]
+        assert 0 < len(code) <= 10, walk.line
 
 
 WRONG = {
