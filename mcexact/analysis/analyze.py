@@ -522,6 +522,13 @@ class Analysis(ShownByAccount):
         return modulo(self.system, "both")
 
     @cached_property
+    def quotient(self) -> MultiChannelSystem:
+        """Return the system with the channels of each strong component merged into one."""
+        from mcexact.derived.constructions import merged
+
+        return merged(self.system, self["transfer_graph"].components)
+
+    @cached_property
     def lifted(self) -> MultiChannelSystem:
         """Return the plant with sub-states, as many as the bound, shared over links with delays."""
         from mcexact.derived.constructions import lifted_system
@@ -646,6 +653,8 @@ class Analysis(ShownByAccount):
                 more.add("linked_fixed_spectrum")
             if self._has_joint_modes(outcomes):
                 more.add("minimal_fixed_spectrum")
+            if self._has_decentralized_modes(outcomes):
+                more.add("quotient_fixed_spectrum")
         if more <= self._asked:
             return outcomes
         self._asked |= more
@@ -659,6 +668,18 @@ class Analysis(ShownByAccount):
         if question is None or question.reason_to_leave_out(self.system):
             return False
         return any(not each.controllable for each in lacks)
+
+    def _has_decentralized_modes(self, outcomes: Mapping[str, Any]) -> bool:
+        """Whether a mode is known to be fixed as some channels act, and others measure."""
+        needed = [outcomes.get(name) for name in ("fixed_spectrum", "transfer_graph")]
+        if any(each is None or isinstance(each, LimitReached) for each in needed):
+            return False
+        question = self.questions.get("quotient_fixed_spectrum")
+        if question is None or question.reason_to_leave_out(self.system):
+            return False
+        m = self.system.m
+        own = self.information == "own"
+        return own and any(0 < len(factor.channels) < m for factor in needed[0].factors)
 
     def _links_may_move_modes(self, spectrum: Any) -> bool:
         """Whether modes are fixed without the links of the plant, if this was decided."""

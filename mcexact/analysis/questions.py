@@ -76,10 +76,11 @@ class Question:
         Module of `mcexact.analysis` and function, separated by a colon.
     help : str
         A clause that says what is decided.
-    about : {"system", "plant", "linked", "minimal", "lifted", "held"}
+    about : {"system", "plant", "linked", "minimal", "quotient", "lifted", "held"}
         What is asked about.  "plant" is the plant, "linked" the plant with the outputs that agents
         receive over the graph, and "system" the one or the other, as the caller chooses what agents
-        feed back.  "minimal" is a minimal realization of "system".  "lifted" and "held" are the
+        feed back.  "minimal" is a minimal realization of "system", and "quotient" has the
+        channels of each strong component of its transfer graph merged.  "lifted" and "held" are the
         plant with sub-states shared over links with delays, "held" with sub-states that are shared
         alone, and held for the delays.
     needs : {"", "neighbors", "uncertainty", "subset", "channel", "channels"}
@@ -232,6 +233,15 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "which modes are fixed without what all channels together do not control or do not "
             "observe; by default if there is such a part",
             about="minimal",
+            by_default=False,
+            most=_MOST_OF_MINIMAL,
+            kind="fixed_spectrum",
+        ),
+        "quotient_fixed_spectrum": Question(
+            "fixed_modes:fixed_spectrum",
+            "which modes no causal decentralized control moves, even if it varies in time or is "
+            "nonlinear; by default if some channels lack control and others lack sight of a mode",
+            about="quotient",
             by_default=False,
             most=_MOST_OF_MINIMAL,
             kind="fixed_spectrum",

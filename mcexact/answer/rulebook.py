@@ -19,6 +19,7 @@ from mcexact.answer import (
     several_parameters,
     sharing,
     sharing_gap,
+    time_varying,
 )
 from mcexact.answer.sentence import Context, Rulebook
 from mcexact.answer.templates import Template, templates
@@ -36,9 +37,11 @@ ANALYSIS = Rulebook(
         *modulo.FILTER_RULES,
         *modulo.PART_RULES,
         *analysis.ANALYSIS_RULES,
+        *time_varying.ANSWER_RULES,
         *modulo.OPTION_RULES,
         *analysis.MODE_RULES,
         *modulo.JOINT_RULES,
+        *time_varying.TABLE_RULES,
         *nearby.WHY_RULES,
         *sharing.SHARING_RULES,
         *sharing_gap.GAP_RULES,
@@ -127,7 +130,7 @@ def in_words(sentences: Iterable[Sentence]) -> str:
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
         Rulebook([*ANALYSIS, *(rule for own in OWN.values() for rule in own)]),
-        (nearby, modulo, analysis, boxes, sharing, sharing_gap),
+        (nearby, modulo, time_varying, analysis, boxes, sharing, sharing_gap),
     ),
     "analyze, with parameters": (PARAMETERS, (parameters,)),
     "allocate": (ALLOCATION, (sharing, sharing_gap)),

@@ -433,6 +433,10 @@ FORMS: dict[str, Write] = {
         outputs="linear time-invariant control by the outputs of all neighbors",
         instant="linear time-invariant control by the outputs of all neighbors without delay",
     ),
+    "causal": choice(
+        own="decentralized control",
+        alone="decentralized control without communication",
+    ),
     "information": choice(
         own="each agent feeds back its own output",
         outputs="each agent feeds back the outputs of all its neighbors",

@@ -462,6 +462,43 @@ def _feedthrough(filtered: Premise) -> str:
     return f"For {base.words}: the {modes} are the fixed modes of {filtered.system.words}"
 
 
+# Control that varies in time or is nonlinear: the plant with its strong components merged.
+
+OWN_GRAPH = Role(("transfer_graph",), PLANT)
+QUOTIENT = Role(FIXED.kinds, (("merged",),))
+TIME_VARYING = "B. D. O. Anderson and J. B. Moore 1981; L. Gong and M. Aldeen 1997"
+ANY = "no causal decentralized control, also none that varies in time or is nonlinear,"
+CAUSAL = "time_varying.no_causal_control_moves"
+
+
+def quotient(key: str, holds: Holds, what: str, theorem: str = "") -> None:
+    """Enter a rule about a system whose parts are the strong components of the transfer graph."""
+
+    @rule(key, QUOTIENT, OWN_GRAPH, theorem=theorem)
+    def _say(modes: Premise, graph: Premise) -> str:
+        parts = modes.document["subject"][-1]["parts"]
+        strong = sorted(map(sorted, parts)) == sorted(map(sorted, graph["components"]))
+        modes.expect(strong, "the merged channels are not the strong components")
+        modes.expect(bool(holds(modes)), "the claim is different")
+        return f"{graph.about}: {what.format(polynomial_text(modes['polynomial']))}"
+
+
+quotient("quotient-fixed-none", free, "merged by strong components it has no fixed mode")
+quotient("quotient-fixed", lambda c: not free(c), f"{ANY} moves the roots of {{}}", CAUSAL)
+quotient(
+    "no-causal-control",
+    lambda c: not c["stabilizable"],
+    f"{ANY} stabilizes it, as none moves the roots of {{}}",
+    CAUSAL,
+)
+quotient(
+    "time-varying-stabilizes",
+    lambda c: c["stabilizable"],
+    "some causal decentralized control stabilizes it",
+    TIME_VARYING,
+)
+
+
 # How the spectrum can be assigned.
 
 ANY_CHANNEL = followed("channel controllers in any one channel assign the whole spectrum")

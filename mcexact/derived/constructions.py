@@ -261,9 +261,10 @@ def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiC
 
     With the strong components of the plant's transfer graph as parts, the fixed modes of the
     result are those that no decentralized controller of the plant moves, not even one that varies
-    with time or is nonlinear; some such controller stabilizes the plant iff they are all stable.
-    This theorem is cited (Anderson and Moore 1981; Gong and Aldeen 1997) and claimed by no
-    certificate: a certificate claims what the fixed modes of the result are, and no more.
+    with time or is nonlinear (``time_varying.no_causal_control_moves``); some such controller
+    stabilizes the plant iff they are all stable (Anderson and Moore 1981; Gong and Aldeen 1997).
+    The certificate of the result's fixed modes, with that of the transfer graph, implies the one
+    and the other.
 
     Examples
     --------

@@ -28,7 +28,7 @@ from mcexact.checker.kinds import Expectation, Verdict
 from mcexact.checker.reading import Limits
 from mcexact.checker.sentences import RULES, Premise, Rule
 from mcexact.checker.sentences_loops import DIMENSIONS
-from mcexact.derived.constructions import Share, extended_system
+from mcexact.derived.constructions import Share, extended_system, merged
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
@@ -60,6 +60,8 @@ GOOD = {"IMPLIED", "REMARK"}
 """The verdicts on a sentence with which nothing is wrong."""
 PAPER = gallery.load("liu2020-3ch-no-communication")
 RING = NeighborGraph.ring(PAPER.names)
+ONE_PART_AND_TWO = ("movable-by-periodic-gains", "hidden-triple-mode")
+"""Plants whose transfer graph is strongly connected, and has two components."""
 
 
 @pytest.mark.parametrize("template", TEMPLATES, ids=lambda template: template.key)
@@ -138,6 +140,8 @@ OPPOSITE = [
     ("lifted-nothing-fixed", "lifted-fixed"),
     ("held-nothing-fixed", "held-fixed"),
     ("decentralized-none", "fixed-besides"),
+    ("quotient-fixed-none", "quotient-fixed"),
+    ("time-varying-stabilizes", "no-causal-control"),
 ]
 ELSEWHERE = (
     "feedthrough",
@@ -186,6 +190,7 @@ def with_hidden_mode(mode: int) -> MultiChannelSystem:
 def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path) -> None:
     evidence = [answers(PAPER), answers(PAPER.with_neighbors(RING))]
     evidence += map(answers, [gallery.load("quadruple-tank-pminus"), *map(drawn, range(12))])
+    evidence += [answers(gallery.load(name)) for name in ONE_PART_AND_TWO]
     evidence += map(answers, [with_hidden_mode(1), with_hidden_mode(2)])
     evidence += [{"a": TWICE}, {"a": BLIND}, {"a": CUT}]
     evidence += [{"a": changed(BLIND, ("claim.channels", ["1"]))}]
@@ -220,6 +225,22 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
     }
     assert not {key for key in about if not implied[key]}
     assert {key for key in about if not denied[key]} == ALWAYS
+
+
+@pytest.mark.parametrize(("name", "right"), [*zip(ONE_PART_AND_TWO, ([0, 3], [1, 2]), strict=True)])
+def test_time_varying_control_is_judged_by_strong_components_alone(
+    tmp_path: Path, name: str, right: list[int]
+) -> None:
+    plant = gallery.load(name)
+    keys = ["quotient-fixed-none", "quotient-fixed", "no-causal-control", "time-varying-stabilizes"]
+    for k, parts in enumerate([[list(plant.names)], [[each] for each in plant.names]]):
+        evidence = {"modes": document(fixed_spectrum(merged(plant, parts)))}
+        evidence["graph"] = document(transfer_graph(plant))
+        (tmp_path / str(k)).mkdir()
+        listed = [sentence(key, *evidence, evidence=evidence) for key in keys]
+        found = said(write(tmp_path / str(k), evidence, manifest(evidence, listed)))
+        implied = [i for i, each in enumerate(found) if each.verdict == "IMPLIED"]
+        assert implied == (right if k == ONE_PART_AND_TWO.index(name) else [])
 
 
 def test_an_exponent_of_a_product_does_not_limit_how_often_one_root_stays(tmp_path: Path) -> None:

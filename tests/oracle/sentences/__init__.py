@@ -18,6 +18,7 @@ from tests.oracle.sentences import (
     performance,
     saturation,
     sharing,
+    time_varying,
 )
 from tests.oracle.sentences.analysis import JUDGES
 from tests.oracle.sentences.cases import Case, Facts, Region, Said, UnjudgedError, plant_of, said
@@ -61,5 +62,5 @@ def verdict(sentence: Said, case: Case) -> bool | None:
 __all__ = [
     "JUDGES", "UNJUDGED", "Case", "Facts", "Region", "Said", "UnjudgedError", "designs", "members",
     "modulo", "nearby", "parameters", "performance", "plant_of", "said", "saturation", "sharing",
-    "verdict",
+    "time_varying", "verdict",
 ]  # fmt: skip

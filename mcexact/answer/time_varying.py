@@ -1,0 +1,80 @@
+"""Sentences about control that varies in time or is nonlinear: quotient fixed modes.
+
+Linear time-invariant decentralized control leaves the fixed modes where they are.  Of these,
+control that varies in time leaves only the *quotient* fixed modes: those of the plant with the
+channels of each strong component of its transfer graph merged into one.  `ANSWER_RULES` say whether
+any causal decentralized control stabilizes a plant which linear time-invariant control does not,
+and `TABLE_RULES` list the quotient fixed modes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mcexact.answer.analysis import slowest
+from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
+from mcexact.answer.templates import Sentence, Template
+
+Said = Iterator[Sentence]
+
+_NECESSARY = "time_varying.no_causal_control_moves"
+
+TIME_VARYING = Template(
+    "time-varying-stabilizes",
+    "Time-varying {control:causal} can stabilize the plant.",
+    "B. D. O. Anderson and J. B. Moore 1981; L. Gong and M. Aldeen 1997",
+)
+NO_CAUSAL = Template(
+    "no-causal-control",
+    "No causal {control:causal} can stabilize it, even if it varies in time or is nonlinear: a "
+    "mode stays that {slowest:behavior}.",
+    _NECESSARY,
+)
+_LABEL = "quotient fixed modes"
+NONE = Template("quotient-fixed-none", "none", label=_LABEL)
+QUOTIENT = Template("quotient-fixed", "{p:modes}", _NECESSARY, _LABEL)
+
+ANSWER_RULES, TABLE_RULES = Rulebook(), Rulebook()
+
+
+def _of_the_system(quotient: Certified, graph: Claim, context: Context) -> bool:
+    """Whether the parts are the strong components of the system that the sentences are about."""
+    *before, last = quotient.subject
+    merged = quotient.made_by(len(before)).parts if last["construction"] == "merged" else ()
+    components = graph.components
+    return len(before) == len(context.system.subject) and _sets(merged) == _sets(components)
+
+
+def _sets(parts: Iterator[list[str]]) -> set[frozenset[str]]:
+    return {frozenset(part) for part in parts}
+
+
+@ANSWER_RULES.rule(
+    "answer",
+    TIME_VARYING,
+    NO_CAUSAL,
+    premises=("fixed_spectrum", "transfer_graph", "quotient_fixed_spectrum"),
+)
+def _stabilized(
+    fixed_spectrum: Claim,
+    transfer_graph: Claim,
+    quotient_fixed_spectrum: Certified,
+    context: Context,
+) -> Said:
+    """Whether any causal control stabilizes a plant that linear time-invariant control does not."""
+    quotient = quotient_fixed_spectrum
+    if fixed_spectrum.stabilizable or not _of_the_system(quotient, transfer_graph, context):
+        return
+    linked = context.neighbors is not None and context.neighbors.edges()
+    by = "alone" if linked else "own"
+    if quotient.stabilizable:
+        yield TIME_VARYING(control=by)
+    else:
+        yield NO_CAUSAL(control=by, slowest=slowest(quotient, context))
+
+
+@TABLE_RULES.rule("table", NONE, QUOTIENT, premises=("transfer_graph", "quotient_fixed_spectrum"))
+def _quotient(transfer_graph: Claim, quotient_fixed_spectrum: Certified, context: Context) -> Said:
+    if _of_the_system(quotient_fixed_spectrum, transfer_graph, context):
+        p = quotient_fixed_spectrum.polynomial
+        yield QUOTIENT(p=p) if p.degree else NONE()
