@@ -671,15 +671,15 @@ class Analysis(ShownByAccount):
 
     def _has_decentralized_modes(self, outcomes: Mapping[str, Any]) -> bool:
         """Whether a mode is known to be fixed as some channels act, and others measure."""
-        needed = [outcomes.get(name) for name in ("fixed_spectrum", "transfer_graph")]
-        if any(each is None or isinstance(each, LimitReached) for each in needed):
+        spectrum, graph = (outcomes.get(name) for name in ("fixed_spectrum", "transfer_graph"))
+        if not isinstance(spectrum, Answer) or not isinstance(graph, Answer):
             return False
         question = self.questions.get("quotient_fixed_spectrum")
         if question is None or question.reason_to_leave_out(self.system):
             return False
-        m = self.system.m
-        own = self.information == "own"
-        return own and any(0 < len(factor.channels) < m for factor in needed[0].factors)
+        known: Any = spectrum
+        own, m = self.information == "own", self.system.m
+        return own and any(0 < len(factor.channels) < m for factor in known.factors)
 
     def _links_may_move_modes(self, spectrum: Any) -> bool:
         """Whether modes are fixed without the links of the plant, if this was decided."""

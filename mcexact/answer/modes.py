@@ -123,8 +123,8 @@ class FixedSpectrum(Answer):
     """The modes that are fixed under all linear time-invariant decentralized feedback.
 
     That is u_i = F_i y_i with constant F_i, or with a dynamic controller of its own at each channel
-    (Wang and Davison 1973).  Feedback that varies with time can move some of them; the gallery has
-    an example, ``movable-by-periodic-gains``.
+    (Wang and Davison 1973).  Feedback that varies with time can move some of them: not those that
+    are also fixed modes of the plant with its strong components `merged`.
 
     Attributes
     ----------

@@ -9,7 +9,7 @@ and `TABLE_RULES` list the quotient fixed modes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from mcexact.answer.analysis import slowest
 from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
@@ -45,7 +45,7 @@ def _of_the_system(quotient: Certified, graph: Claim, context: Context) -> bool:
     return len(before) == len(context.system.subject) and _sets(merged) == _sets(components)
 
 
-def _sets(parts: Iterator[list[str]]) -> set[frozenset[str]]:
+def _sets(parts: Iterable[Iterable[str]]) -> set[frozenset[str]]:
     return {frozenset(part) for part in parts}
 
 
