@@ -651,10 +651,10 @@ class Analysis(ShownByAccount):
         if not self._chosen:
             if self._links_may_move_modes(outcomes.get("fixed_spectrum")):
                 more.add("linked_fixed_spectrum")
+            elif self._has_decentralized_modes(outcomes):
+                more.add("quotient_fixed_spectrum")
             if self._has_joint_modes(outcomes):
                 more.add("minimal_fixed_spectrum")
-            if self._has_decentralized_modes(outcomes):
-                more.add("quotient_fixed_spectrum")
         if more <= self._asked:
             return outcomes
         self._asked |= more

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from mcexact.answer.analysis import slowest
 from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template
 
@@ -26,8 +25,7 @@ TIME_VARYING = Template(
 )
 NO_CAUSAL = Template(
     "no-causal-control",
-    "No causal {control:causal} can stabilize it, even if it varies in time or is nonlinear: a "
-    "mode stays that {slowest:behavior}.",
+    "No other causal {control:causal} can stabilize it.",
     _NECESSARY,
 )
 _LABEL = "quotient fixed modes"
@@ -70,7 +68,7 @@ def _stabilized(
     if quotient.stabilizable:
         yield TIME_VARYING(control=by)
     else:
-        yield NO_CAUSAL(control=by, slowest=slowest(quotient, context))
+        yield NO_CAUSAL(control=by)
 
 
 @TABLE_RULES.rule("table", NONE, QUOTIENT, premises=("transfer_graph", "quotient_fixed_spectrum"))

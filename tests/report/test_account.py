@@ -276,7 +276,7 @@ def test_a_channel_without_effect_on_a_mode_is_not_said_to_reach_it() -> None:
     plant = MultiChannelSystem(
         [[1, 0], [0, 2]], [[[1], [0]], [[0], [1]], [[0], [0]]], [[[0, 1]], [[0, 1]], [[1, 1]]]
     )
-    [told] = said(plant)[1:]
+    *_, told = said(plant)
     assert "channel 3 does not control it, channels 1 and 2 do not observe it" in told
     assert "reach" not in told
 

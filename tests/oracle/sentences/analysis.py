@@ -184,16 +184,11 @@ def _not_stabilizable(said: Said, case: Case) -> bool:
 @judge("slowest")
 def _slowest(said: Said, case: Case) -> bool:
     """The slowest fixed mode lies in the enclosure, and the text says how it behaves."""
-    return slowest_of(facts_of(said, case).fixed, said, case)
-
-
-def slowest_of(modes: Sequence[fmpq_poly], said: Said, case: Case) -> bool:
-    """Whether the slowest root of these factors is as it is said."""
     time, low, high, is_stable = said.values["slowest"]
-    all_stable = all(Region(time).contains(p) for p in modes)
-    if not modes or time != case.plant.time or is_stable != all_stable:
+    facts = facts_of(said, case)
+    if not facts.fixed or time != case.plant.time or is_stable != stable(facts):
         return False
-    roots = [z for p in modes for z in roots_of(p)]
+    roots = [z for p in facts.fixed for z in roots_of(p)]
     if time == "discrete":
         value = max(abs(complex(z)) for z in roots)
     else:
