@@ -135,8 +135,8 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
 ) -> None:
     found = analyze(PAPER)
     told = found.to_dict()["questions"]
-    asked = [name for name in found.asked if name != "quotient_fixed_spectrum"]
-    assert asked == list(found.by_default)
+    usual = [name for name in found.asked if name != "quotient_fixed_spectrum"]
+    assert usual == list(found.by_default)
     assert [each["question"] for each in told] == list(found.asked)
     assert all(each["outcome"] == "decided" and each["seconds"] >= 0 for each in told)
     fewer = dict(QUESTIONS) | {"setpoint": replace(QUESTIONS["setpoint"], most=2)}
