@@ -11,6 +11,8 @@ from mcexact.errors import MissingExtra, UsageError
 from mcexact.exact.roots import is_discrete
 
 BLUE, RED, GRAY, LIGHT = "#1f4e79", "#b03a2e", "#888888", "#ebebeb"
+ON_DARK, ON_LIGHT = "#fefefe", "#010101"
+"""Inks on colors that stay as they are in the dark, where white and black change."""
 PANEL = 4.4, 3.5
 """The size in inches of a picture of which two fit beside each other on a page."""
 NAMED = 8

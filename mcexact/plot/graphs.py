@@ -13,7 +13,16 @@ from typing import Any
 
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import to_float
-from mcexact.plot.canvas import GRAY, cut, empty_figure, one_axis, plain_label, several_axes
+from mcexact.plot.canvas import (
+    GRAY,
+    ON_DARK,
+    ON_LIGHT,
+    cut,
+    empty_figure,
+    one_axis,
+    plain_label,
+    several_axes,
+)
 
 # Directed graphs of channels.
 
@@ -177,7 +186,7 @@ def _draw_circle(
         circle[name] = Circle(at, size, facecolor=color, edgecolor="#333333", zorder=3)
         axis.add_patch(circle[name])
         if inside:
-            ink = "white" if color != PLAIN else "black"
+            ink = ON_DARK if color != PLAIN else "black"
             axis.text(*at, name, ha="center", va="center", color=ink, zorder=4, parse_math=False)
         else:
             x, y = (c + (size + 0.06) * f(a) for c, f in zip(at, (math.cos, math.sin), strict=True))
@@ -302,7 +311,7 @@ def gains(controller: Any, ax: Any = None) -> Any:
         for i, row in enumerate(cells):
             for j, each in enumerate(row):
                 if each:
-                    ink = "white" if abs(_shade(each, largest)) > 0.8 else "black"
+                    ink = ON_DARK if abs(_shade(each, largest)) > 0.8 else ON_LIGHT
                     text = f"{each:.3g}"
                     axis.text(j, i, text, ha="center", va="center", color=ink, fontsize="x-small")
     axis.set_title(f"gains, the largest {largest:.3g}", fontsize="medium")

@@ -116,10 +116,40 @@ class Picture:
         image = io.BytesIO()
         with matplotlib.rc_context({"svg.hashsalt": "mcexact", "svg.fonttype": "path"}):
             self.figure.savefig(image, format="svg", metadata={"Date": None, "Creator": None})
-        text = base64.b64encode(image.getvalue()).decode("ascii")
+        text = base64.b64encode(in_the_dark(image.getvalue())).decode("ascii")
         width = float(self.figure.get_figwidth())
         uri = f"data:image/svg+xml;base64,{text}"
         return EmbeddedPicture(self.title, self.alternative, uri, width)
+
+
+DARK = {
+    "#ffffff": "#16181b",
+    "#000000": "#e6e7e9",
+    "#333333": "#c9ccd1",
+    "#555555": "#b4b8be",
+    "#888888": "#a4a9b0",
+    "#ebebeb": "#2a2e33",
+    "#e8e8e8": "#3a3f45",
+    "#f4f4f4": "#202327",
+    "#1f4e79": "#8ab8f0",
+    "#1f78b4": "#6db3e8",
+    "#b03a2e": "#ff9a86",
+}
+"""The colors of pictures, and those that take their places where a reader prefers the dark."""
+
+
+def in_the_dark(image: bytes) -> bytes:
+    """Return an SVG with a style for the dark; what has no color in an SVG is black."""
+    ink = DARK["#000000"]
+    rules = [f"svg{{fill:{ink};color-scheme:light dark}}"]
+    rules += [
+        f'[style*="{part}: {light}"]{{{part}:{dark}!important}}'
+        for light, dark in DARK.items()
+        for part in ("fill", "stroke")
+    ]
+    style = f"<style>@media screen and (prefers-color-scheme:dark){{{''.join(rules)}}}</style>"
+    before, mark, after = image.partition(b"<defs>")
+    return before + style.encode("ascii") + mark + after
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,8 @@ from mcexact.exact import matrix
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
+from mcexact.plot.canvas import GRAY
+from mcexact.plot.graphs import PLAIN
 from mcexact.report.figures import graph_pictures
 from mcexact.report.pages import account_page
 from mcexact.report.text import latex
@@ -46,6 +49,17 @@ def test_the_page_of_an_analysis_parses_strictly_and_asks_nobody(name: str) -> N
     text = page_of(gallery.load(name))
     assert external_addresses(text) == []
     assert 'http-equiv="Content-Security-Policy"' in text and "prefers-color-scheme" in text
+
+
+def test_pictures_have_the_colors_of_the_page_in_the_dark() -> None:
+    uri = graph_pictures(account_of(hostile()))[-1].embedded().uri
+    drawn = base64.b64decode(uri.partition(",")[2]).decode()
+    style = drawn.partition("<style>@media screen and (prefers-color-scheme:dark)")[2]
+    changed = dict(re.findall(r"(\[style[^]]*\])\{(\w+:#\w{6})!important", style))
+    assert changed['[style*="fill: #ffffff"]'] == "fill:#16181b"
+    # What lies on the paper is changed with it.
+    assert {f'[style*="stroke: {each}"]' for each in (PLAIN, GRAY, "#000000")} <= changed.keys()
+    assert drawn.index("<style>") < drawn.index("<defs>")
 
 
 def test_names_that_look_like_html_are_harmless() -> None:
