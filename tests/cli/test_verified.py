@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
+import shutil
 import stat
-from collections.abc import Iterator
+import subprocess
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -211,3 +215,39 @@ def test_both_checkers_agree_about_every_published_plant(name: str, tmp_path: Pa
         paths.append(str(path))
         statements.append(verdict.statement)
     assert all(answer.confirmed for answer in verified.confirmations(paths, statements))
+
+
+PROOFS = Path(__file__).parents[2] / "proofs"
+"""The theorems that the kernel rests on, once `make verified` has compiled them."""
+THEOREMS = (PLANT, "compleib-tf1", "quadruple-tank-pminus", "siljak-two-subsystems-farina")
+
+
+def proved(file: Path) -> bool:
+    """Whether Coq reads and proves a file."""
+    call = ["coqc", "-Q", str(PROOFS), "mcexact", "-w", "none", str(file)]
+    return subprocess.run(call, capture_output=True, check=False).returncode == 0
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not BUILT or not (PROOFS / "kernel" / "kinds.vo").exists() or shutil.which("coqc") is None,
+    reason="needs the compiled proofs: make verified",
+)
+@pytest.mark.parametrize("question", QUESTIONS, ids=lambda each: each.__name__)
+@pytest.mark.parametrize("name", THEOREMS)
+def test_coq_proves_the_theorem_about_a_published_plant(
+    name: str, question: Callable[[mcexact.MultiChannelSystem], Any], tmp_path: Path
+) -> None:
+    certificate, theorem = tmp_path / "certificate.json", tmp_path / "theorem.v"
+    certificate.write_text(protocol.encode(question(gallery.load(name))), "ascii")
+    assert call("check", "--rocq", str(theorem), str(certificate))[0] == 0
+    assert proved(theorem)
+    text = theorem.read_text("ascii")
+    other = re.sub(r"Definition plant.* := \(ZSystem \d+ (\d+)", _doubled, text)
+    theorem.write_text(other, "ascii")
+    assert other != text and not proved(theorem)
+
+
+def _doubled(match: re.Match[str]) -> str:
+    """Another denominator, and so half the plant."""
+    return f"{match[0][: -len(match[1])]}{2 * int(match[1])}"
