@@ -28,16 +28,18 @@ let premises y =
   record "FactorPremises" [ nat y.y_fixed; nat y.y_coprime; nat y.y_simple; nat y.y_most; nat y.y_low; nat y.y_spectrum; exponent y.y_exponent ]
 let residue w = record "ResidueWitness" [ z w.m_ell; z w.m_inv; z w.m_scale; z w.m_before; similar w.m_similar ]
 
-let shrunk name t p c d =
-  record name [ subject t; row p; record "ShrunkWitness" [ list bool c.b_T; list matrix c.b_U; list matrix c.b_V; z c.b_den; list nat c.b_pivots; nat c.b_rank; matrix c.b_Y; list matrix c.b_X; z c.b_dX ]; nat d ]
+let shrunk name places p c d =
+  record name (places @ [ row p; record "ShrunkWitness" [ list bool c.b_T; list matrix c.b_U; list matrix c.b_V; z c.b_den; list nat c.b_pivots; nat c.b_rank; matrix c.b_Y; list matrix c.b_X; z c.b_dX ]; nat d ])
 
 let rule = function
   | RNothing t -> record "RNothing" [ subject t ]
   | RKrylov (t, c) ->
     record "RKrylov" [ subject t; record "KrylovWitness" [ z c.k_ell; z c.k_inv; list matrix c.k_F; nat c.k_channel; row c.k_x; row c.k_y; row c.k_d; row c.k_a; row c.k_e ] ]
   | RTwo (t, c) -> record "RTwo" [ subject t; record "TwoWitness" [ loop c.tw_loop; similar c.tw_similar; row c.tw_u; row c.tw_v ] ]
-  | RShrunk (t, p, c, d) -> shrunk "RShrunk" t p c d
-  | RDual (t, p, c, d) -> shrunk "RDual" t p c d
+  | RShrunk (t, p, c, d) -> shrunk "RShrunk" [ subject t ] p c d
+  | RDual (t, p, c, d) -> shrunk "RDual" [ subject t ] p c d
+  | RLocal (t, states, driven, p, c, d) -> shrunk "RLocal" [ subject t; list bool states; list bool driven ] p c d
+  | RLocalDual (t, states, driven, p, c, d) -> shrunk "RLocalDual" [ subject t; list bool states; list bool driven ] p c d
   | RCoprime (p, q, c) -> record "RCoprime" [ row p; row q; record "Bezout" [ z c.z_ell; z c.z_inv; row c.z_u; row c.z_v ] ]
   | RBlocks (t, blocks, places) -> record "RBlocks" [ subject t; list nat blocks; list nat places ]
   | RSpectrum (t, f, w) -> record "RSpectrum" [ subject t; row f; record "SpectrumWitness" [ row w.s_ds; matrix w.s_N; list residue w.s_moduli ] ]

@@ -132,118 +132,89 @@ let factor (channels : Kernel.zchannel list) chosen n =
 
 let scale_rows k = List.map (List.map (Z.mul k))
 
-(* The subspace as the kernel wants it; `part` are the states that it is about, all of them or some that drive others. *)
-let shrunk (s : Kernel.zsystem) known p place value =
-  let n = s.Kernel.zn and degree = List.length p - 1 and m = List.length s.Kernel.zchannels in
-  let inner states (channels : Kernel.zchannel list) known value =
-    (match value with
-     | Json.Object l when List.mem_assoc "dual" l -> incomplete place "a subspace of the dual system of some states is not read here"
-     | _ -> ());
-    match Json.fields place [ "channels_T"; "U"; "V"; "pivots" ] value with
-    | [ t; u; v; pivots ] ->
-      let size = List.length states in
-      let t = Json.names place known t and pivots = Json.positions place size pivots in
-      let y, dX, parts, x, total = factor channels t size in
-      let width = List.length pivots in
-      let du, us = layers place size width degree u in
-      let dv, vs = layers place total width degree v in
-      let common = Z.lcm du dv in
-      let us = List.map (scale_rows (Z.mul dX (Z.divexact common du))) us in
-      let vs = List.map (fun v -> Kernel.zmm x (scale_rows (Z.divexact common dv) v)) vs in
-      (t, y, dX, parts, us, vs, Z.mul common dX, pivots)
-    | _ -> assert false in
+(* A shrunk subspace of a system of so many states with these channels out of m, the places of which are `acting`. *)
+let shrunk m acting size (channels : Kernel.zchannel list) known p place value =
+  (match value with
+   | Json.Object l when List.mem_assoc "states" l || List.mem_assoc "dual" l -> malformed place "expected a shrunk subspace"
+   | _ -> ());
+  match Json.fields place [ "channels_T"; "U"; "V"; "pivots" ] value with
+  | [ t; u; v; pivots ] ->
+    let degree = List.length p - 1 in
+    let t = Json.names place known t and pivots = Json.positions place size pivots in
+    let y, dX, parts, x, total = factor channels t size in
+    let width = List.length pivots in
+    let du, us = layers place size width degree u in
+    let dv, vs = layers place total width degree v in
+    let common = Z.lcm du dv in
+    let us = List.map (scale_rows (Z.mul dX (Z.divexact common du))) us in
+    let vs = List.map (fun v -> Kernel.zmm x (scale_rows (Z.divexact common dv) v)) vs in
+    let xs = Array.make m [] in
+    List.iter2 (fun i part -> xs.(i) <- part) acting parts;
+    { Kernel.b_T = mask m (picked t acting); b_U = us; b_V = vs; b_den = Z.mul common dX; b_pivots = pivots;
+      b_rank = (match y with row :: _ -> List.length row | [] -> 0); b_Y = y; b_X = Array.to_list xs; b_dX = dX }
+  | _ -> assert false
+
+(* A shrunk subspace, or one of the dual system: which, and its witness.  `turn` is the dual. *)
+let turned_or_not (s : Kernel.zsystem) acting known p place value =
+  let m = List.length s.Kernel.zchannels in
+  let read (s : Kernel.zsystem) value = shrunk m acting s.Kernel.zn (picked acting s.Kernel.zchannels) (picked acting known) p place value in
+  match value with
+  | Json.Object l when List.mem_assoc "dual" l ->
+    (match Json.fields place [ "channels_T"; "dual" ] value with
+     | [ t; inner ] ->
+       let w = read (Kernel.zdual s) inner in
+       let others = List.filter (fun i -> not (List.nth w.Kernel.b_T i)) acting in
+       if picked (Json.names place (picked acting known) t) acting <> others then invalid place "T is not the complement of that of the dual system";
+       (true, others, w)
+     | _ -> assert false)
+  | _ -> let w = read s value in (false, List.filter (fun i -> List.nth w.Kernel.b_T i) acting, w)
+
+(* The states that some drive, and the channels that see these or those. *)
+let followed (s : Kernel.zsystem) states =
+  let n = s.Kernel.zn and m = List.length s.Kernel.zchannels in
+  let driven = Array.make n [] in
+  List.iteri (fun a row -> List.iteri (fun b x -> if Z.sign x <> 0 then driven.(b) <- a :: driven.(b)) row) s.Kernel.zA;
+  let entered = Array.of_list (List.map (fun (ch : Kernel.zchannel) ->
+      List.concat (List.mapi (fun a row -> if nonzero row then [ a ] else []) ch.Kernel.zB)) s.Kernel.zchannels) in
+  let heard = Array.make n [] in
+  List.iteri (fun i (ch : Kernel.zchannel) -> List.iter (List.iteri (fun b x ->
+      if Z.sign x <> 0 && not (List.mem i heard.(b)) then heard.(b) <- i :: heard.(b))) ch.Kernel.zC) s.Kernel.zchannels;
+  let found = Array.make n false and seeing = Array.make m false in
+  List.iter (fun a -> found.(a) <- true) states;
+  let rec follow = function
+    | [] -> ()
+    | b :: rest ->
+      let fresh = List.filter (fun i -> not seeing.(i)) heard.(b) in
+      List.iter (fun i -> seeing.(i) <- true) fresh;
+      let next = List.sort_uniq compare (List.filter (fun a -> not found.(a)) (driven.(b) @ List.concat_map (fun i -> entered.(i)) fresh)) in
+      List.iter (fun a -> found.(a) <- true) next;
+      follow (next @ rest) in
+  follow states;
+  (found, seeing, entered)
+
+(* The loss of rank of a pencil as a rule. *)
+let loss (s : Kernel.zsystem) known p d place value =
+  let n = s.Kernel.zn and m = List.length known in
   match value with
   | Json.Object l when List.mem_assoc "states" l ->
     (match Json.fields place [ "states"; "channels_T"; "subspace" ] value with
      | [ states; t; subspace ] ->
        let states = Json.positions place n states in
-       let inside = Array.make n false in
-       List.iter (fun a -> inside.(a) <- true) states;
-       (* The states that these drive, and the channels that see these or those. *)
-       let driven = Array.make n [] in
-       List.iteri (fun a row -> List.iteri (fun b x -> if Z.sign x <> 0 then driven.(b) <- a :: driven.(b)) row) s.Kernel.zA;
-       let entered = Array.of_list (List.map (fun ch -> List.filter (fun a -> nonzero (List.nth ch.Kernel.zB a)) (range n)) s.Kernel.zchannels) in
-       let heard = Array.make n [] in
-       List.iteri (fun i ch -> List.iter (List.iteri (fun b x -> if Z.sign x <> 0 && not (List.mem i heard.(b)) then heard.(b) <- i :: heard.(b))) ch.Kernel.zC) s.Kernel.zchannels;
-       let found = Array.copy inside and seeing = Array.make m false in
-       let rec follow = function
-         | [] -> ()
-         | b :: rest ->
-           let fresh = List.filter (fun i -> not seeing.(i)) heard.(b) in
-           List.iter (fun i -> seeing.(i) <- true) fresh;
-           let next = List.filter (fun a -> not found.(a)) (driven.(b) @ List.concat_map (fun i -> entered.(i)) fresh) in
-           let next = List.sort_uniq compare next in
-           List.iter (fun a -> found.(a) <- true) next;
-           follow (next @ rest) in
-       follow states;
-       let others = List.filter (fun a -> found.(a) && not inside.(a)) (range n) in
+       let found, seeing, entered = followed s states in
+       let inside = Array.of_list (mask n states) in
        let acting = List.filter (fun i -> seeing.(i) && List.exists (fun a -> inside.(a)) entered.(i)) (range m) in
-       let cut (ch : Kernel.zchannel) = { ch with Kernel.zB = picked states ch.Kernel.zB; zC = List.map (columns states) ch.Kernel.zC } in
-       let channels = List.map (fun i -> cut (List.nth s.Kernel.zchannels i)) acting in
-       let t', y, dX, parts, us, vs, den, pivots = inner states channels (picked acting known) subspace in
-       let chosen = List.filter (fun i -> seeing.(i) && (not (List.mem i acting) || List.mem i (picked t' acting))) (range m) in
+       let turned, within, w = turned_or_not (Kernel.zpart s (Array.to_list inside)) acting known p place subspace in
+       let chosen = List.filter (fun i -> seeing.(i) && (not (List.mem i acting) || List.mem i within)) (range m) in
        if Json.names place known t <> chosen then invalid place "T is not the channels that see what the states drive";
-       let k = List.length others and lead = List.nth p degree in
-       (* With denominators that are divisible by the last coefficient of p. *)
-       let us = List.map (scale_rows lead) us and vs = List.map (scale_rows lead) vs and den = Z.mul den lead in
-       let width = List.length pivots and r = match vs with v :: _ -> List.length v | [] -> 0 in
-       let place_of = Array.make n (-1) in
-       List.iteri (fun i a -> place_of.(a) <- i) others;
-       let zeros c = List.init c (fun _ -> Z.zero) in
-       let unit i = List.init k (fun j -> if i = j then Z.one else Z.zero) in
-       let rows left right = (* an n-row matrix from rows for the others and rows for the states *)
-         let at = Array.make n [] in
-         List.iteri (fun i a -> at.(a) <- left i) others;
-         List.iteri (fun i a -> at.(a) <- right i) states;
-         at in
-       let full left right wide = Array.to_list (Array.map (fun row -> if row = [] then zeros wide else row) (rows left right)) in
-       let u_layer t u = full (fun i -> (if t = 0 then List.map (Z.mul den) (unit i) else zeros k) @ zeros width) (fun i -> zeros k @ List.nth u i) (k + width) in
-       let us' = List.mapi u_layer us in
-       let y' = full (fun i -> unit i @ zeros r) (fun i -> zeros k @ List.nth y i) (k + r) in
-       let a_rows = Array.of_list s.Kernel.zA in
-       let dd = List.map (fun a -> columns others a_rows.(a)) others and dz = List.map (fun a -> columns states a_rows.(a)) others in
-       let zD = s.Kernel.zD in
-       let v_layer t =
-         let u = match List.nth_opt us t with Some u -> u | None -> List.map (fun _ -> zeros width) states in
-         let v = match List.nth_opt vs t with Some v -> v | None -> List.init r (fun _ -> zeros width) in
-         let mixed = scale_rows Z.minus_one (Kernel.zmm dz u) in
-         let pad wide row = row @ zeros (wide - List.length row) in
-         let top i =
-           let row = List.map (fun x -> if t = 0 then Z.neg (Z.mul den x) else Z.zero) (List.nth dd i) in
-           (* x itself, or its residue modulo p of degree 1 *)
-           let x = if degree = 1 then Z.neg (Z.mul zD (Z.mul (Z.divexact den lead) (List.hd p))) else if t = 1 then Z.mul zD den else Z.zero in
-           List.mapi (fun j e -> if i = j then Z.add e x else e) row in
-         List.mapi (fun i row -> top i @ pad width row) mixed @ List.map (fun row -> zeros k @ pad width row) v in
-       let vs' = List.init (max (List.length us) (max (List.length vs) (min degree 2))) v_layer in
-       let xs = List.mapi (fun i (ch : Kernel.zchannel) ->
-           if not (List.mem i chosen) then []
-           else
-             let lower = match List.find_opt (fun (j, _) -> j = i) (List.combine acting parts) with
-               | Some (_, (_ :: _ as x)) -> x | _ -> List.init r (fun _ -> zeros ch.Kernel.zp) in
-             scale_rows dX (picked others ch.Kernel.zB) @ lower) s.Kernel.zchannels in
-       { Kernel.b_T = mask m chosen; b_U = us'; b_V = vs'; b_den = den; b_pivots = others @ picked pivots states; b_rank = k + r;
-         b_Y = y'; b_X = xs; b_dX = dX }
+       let chosen = mask m chosen and driven = List.map2 (fun f i -> f && not i) (Array.to_list found) (Array.to_list inside) in
+       let states = Array.to_list inside in
+       if turned then Kernel.RLocalDual ([], states, driven, p, { w with Kernel.b_T = List.map not chosen }, d)
+       else Kernel.RLocal ([], states, driven, p, { w with Kernel.b_T = chosen }, d)
      | _ -> assert false)
   | _ ->
-    let t, y, dX, parts, us, vs, den, pivots = inner (range n) s.Kernel.zchannels known value in
-    { Kernel.b_T = mask m t; b_U = us; b_V = vs; b_den = den; b_pivots = pivots;
-      b_rank = (match y with row :: _ -> List.length row | [] -> 0); b_Y = y; b_X = parts; b_dX = dX }
-
-(* The same as a rule, for the system or for its dual. *)
-let loss (s : Kernel.zsystem) known p d place value =
-  match value with
-  | Json.Object l when List.mem_assoc "dual" l ->
-    (match Json.fields place [ "channels_T"; "dual" ] value with
-     | [ t; inner ] ->
-       (match inner with
-        | Json.Object l when List.mem_assoc "states" l || List.mem_assoc "dual" l -> malformed place "expected a shrunk subspace"
-        | _ -> ());
-       let w = shrunk (Kernel.zdual s) known p place inner in
-       let others = List.filter (fun i -> not (List.nth w.Kernel.b_T i)) (range (List.length known)) in
-       if Json.names place known t <> others then invalid place "T is not the complement of that of the dual system";
-       Kernel.RDual ([], p, w, d)
-     | _ -> assert false)
-  | _ -> Kernel.RShrunk ([], p, shrunk s known p place value, d)
+    (match turned_or_not s (range m) known p place value with
+     | true, _, w -> Kernel.RDual ([], p, w, d)
+     | false, _, w -> Kernel.RShrunk ([], p, w, d))
 
 (* Polynomials over Q. *)
 let rational p = List.map Q.of_bigint p

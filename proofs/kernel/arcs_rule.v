@@ -43,13 +43,6 @@ Definition unseen_zero (z : zero_witness) (ch : zchannel) : bool := zmat0 (zmm (
 
 Section Lists.
 Variable R : comRingType.
-Lemma mask_zero held r b : zrow0 (mask held r) -> nth false held b -> phi R (nth z0 r b) = 0.
-Proof.
-elim: held r b => [|c held IH] [|x r] b; rewrite ?nth_nil ?phi0 //; case: b => [|b]; case: c => //=.
-- by case/andP=> /Z.eqb_eq ->.
-- by case/andP=> _; apply: IH.
-exact: IH.
-Qed.
 Lemma ztakeE a b (piv : seq nat) M (pv : 'I_(size piv) -> 'I_a) : (forall k, pv k = nth 0%N piv k :> nat) ->
   mx R (size piv) b (ztake piv M) = rowsub pv (mx R a b M).
 Proof. by move=> e; apply/matrixP=> k j; rewrite !mxE (nth_map 0%N) // e. Qed.

@@ -51,6 +51,8 @@ Inductive rule :=
  | RTwo of subject & two_witness
  | RShrunk of subject & zrow & shrunk_witness & nat
  | RDual of subject & zrow & shrunk_witness & nat   (* a shrunk subspace of the dual system *)
+ | RLocal of subject & seq bool & seq bool & zrow & shrunk_witness & nat  (* one of some states, and what they drive *)
+ | RLocalDual of subject & seq bool & seq bool & zrow & shrunk_witness & nat
  | RCoprime of zrow & zrow & bezout
  | RBlocks of subject & seq nat & seq nat     (* the block of each state, and for each block the place of its fact *)
  | RSpectrum of subject & zrow & spectrum_witness
@@ -105,6 +107,10 @@ Definition step (s0 : zsystem) (e : env) (r : rule) : option (subject * fact) :=
   | RTwo t c => if check_two (resolve s0 t) c then Some (t, Bounded (zn (resolve s0 t))) else None
   | RShrunk t p c d => if check_shrunk (resolve s0 t) p c d then Some (t, Fixed p (b_T c) d) else None
   | RDual t p c d => if check_shrunk (zdual (resolve s0 t)) p c d then Some (t, Fixed p (map negb (b_T c)) d) else None
+  | RLocal t Z D p c d => let s := resolve s0 t in
+    if check_driven s Z D (b_T c) && check_shrunk (zpart s Z) p c d then Some (t, Fixed p (b_T c) d) else None
+  | RLocalDual t Z D p c d => let s := resolve s0 t in
+    if check_driven s Z D (map negb (b_T c)) && check_shrunk (zdual (zpart s Z)) p c d then Some (t, Fixed p (map negb (b_T c)) d) else None
   | RCoprime p q c => if check_coprime p q c then Some ([::], Coprime p q) else None
   | RBlocks t blk ps => let s := resolve s0 t in
     if all (fun k => k < size ps)%N blk && check_order s blk
@@ -200,12 +206,14 @@ End Sound.
 
 Lemma step_sound s0 e r f : sized_system s0 -> all_hold s0 e -> step s0 e r = Some f -> holds (resolve s0 f.1) f.2.
 Proof.
-move=> sz ok; case: r => [t|t c|t c|t g c d|t g c d|f1 g c|t blk ps|t g w|t g c|t g k c|t g d c|t c pb ys|t c ps g pm ys] /=.
+move=> sz ok; case: r => [t|t c|t c|t g c d|t g c d|t Z D g c d|t Z D g c d|f1 g c|t blk ps|t g w|t g c|t g k c|t g d c|t c pb ys|t c ps g pm ys] /=.
 - by case=> <- K h n m p q S re; apply: nothing_bounded.
 - by case ch: check_krylov => // -[<-] K h n m p q S re; apply: (check_krylov_sound ch h re).
 - by case ch: check_two => // -[<-] K h n m p q S re; rewrite /= -(re_n re); apply: (check_two_sound h re ch).
 - by case ch: check_shrunk => // -[<-] K h n m p q S re; apply: (check_shrunk_sound h re ch).
 - by case ch: check_shrunk => // -[<-] K h n m p q S re; apply: (check_dual_sound h re ch).
+- by case: ifP => // /andP[dr ch] -[<-] K h n m p q S re; apply: (check_local_sound h re dr ch).
+- by case: ifP => // /andP[dr ch] -[<-] K h n m p q S re; apply: (check_local_dual_sound h re dr ch).
 - by case ch: check_coprime => // -[<-] K h n m p q S re; apply: (check_coprime_sound ch h).
 - case: ifP => // /andP[few ord]; case pb: part_bounds => [L|] // -[<-] K h n m p q S re.
   have [g -> gE] := part_boundsE ok pb; apply: (blocks_sound re few ord) => i ir n' S' re'.

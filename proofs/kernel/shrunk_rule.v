@@ -3,8 +3,8 @@
 
    Modulo p, (xI - A) U = Y V and C_i U = 0 for i outside T; the columns of the integer matrix Y span the B_i for i in
    T; some rows of U are the identity, and U has d columns more than Y.  Certificates have B_T in place of Y, and its
-   rank in place of the number of columns: who prepares the witness finds Y and X with B_i = Y X_i.  The subspace of
-   some states that drive others is one of the whole system, with a column of U and of Y for each state that is driven
+   rank in place of the number of columns: who prepares the witness finds Y and X with B_i = Y X_i.  One of some states Z
+   that drive others, D, proves the same of the whole system, if no others follow Z and D without acting on Z
    (local_subspace.v).  One of the dual system proves the same for the other channels (dual_subspace.v). *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
@@ -194,3 +194,85 @@ have sT : size (b_T c) = m.
 apply: dual_subspace_loss; rewrite channels_at_compl // setCK.
 exact: (check_shrunk_subspace h (dual_represents re) ok).
 Qed.
+
+(* The subspace of some states Z: nothing that they drive, D, acts on them. *)
+Definition check_driven (s : zsystem) (Z D T : seq bool) : bool :=
+  [&& size Z == zn s, size D == zn s, all (fun zd => ~~ (zd.1 && zd.2)) (zip Z D),
+      all (fun x => let: (z, (d, r)) := x in d || zrow0 (mask D r) && (z || zrow0 (mask Z r))) (zip Z (zip D (zA s))) &
+      (size T == size (zchannels s)) && all (fun bc => if bc.1
+        then all (fun x => let: (z, (d, r)) := x in [|| z, d | zrow0 r]) (zip Z (zip D (zB bc.2)))
+        else all (fun r => zrow0 (mask D r)) (zC bc.2)) (zip T (zchannels s))].
+Lemma mask_zero (R : comRingType) held r b : zrow0 (mask held r) -> nth false held b -> phi R (nth z0 r b) = 0.
+Proof.
+elim: held r b => [|c held IH] [|x r] b; rewrite ?nth_nil ?phi0 //; case: b => [|b]; case: c => //=.
+- by case/andP=> /Z.eqb_eq ->.
+- by case/andP=> _; apply: IH.
+exact: IH.
+Qed.
+Section Local.
+Variables (s : zsystem) (Z D T : seq bool).
+Variables (K : fieldType) (h : {rmorphism rat -> K}) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
+Hypotheses (re : represents s S) (ok : check_driven s Z D T).
+Notation inZ := (masked Z n).
+Notation inD := (masked D n).
+Record driven_states : Prop := DrivenStates {
+  ds_apart : forall a, a \in inD -> a \notin inZ;
+  ds_closed : forall a b, a \notin inD -> b \in inD -> mcA S a b = 0;
+  ds_driven : forall a b, a \notin inZ -> a \notin inD -> b \in inZ -> mcA S a b = 0;
+  ds_acting : forall i a u, i \in channels_at m T -> a \notin inZ -> a \notin inD -> mcB S i a u = 0;
+  ds_unseen : forall i v b, i \notin channels_at m T -> b \in inD -> mcC S i v b = 0 }.
+Lemma driven_states_of : driven_states /\ size Z = n.
+Proof.
+have sA := represented_A re; case: (re) => _ en em ep eq eA eB eC; move: ok; rewrite /check_driven -en.
+case/and5P=> /eqP sZ /eqP sD /(all_nthP (false, false)) ap /(all_nthP (false, (false, [::]))) rows /andP[/eqP sT /(all_nthP (false, zch0)) chs].
+have row (a : 'I_n) : nth false D a || zrow0 (mask D (nth [::] (zA s) a)) && (nth false Z a || zrow0 (mask Z (nth [::] (zA s) a))).
+  have := rows a; rewrite !size_zip sZ sD (shape_size sA) !minnn ltn_ord => /(_ isT).
+  by rewrite !nth_zip ?size_zip ?sZ ?sD ?(shape_size sA) ?minnn.
+have ch (i : 'I_m) : if nth false T i then all (fun x => let: (z, (d, r)) := x in [|| z, d | zrow0 r]) (zip Z (zip D (zB (channel s i))))
+    else all (fun r => zrow0 (mask D r)) (zC (channel s i)).
+  by have := chs i; rewrite size_zip sT minnn -em ltn_ord => /(_ isT); rewrite nth_zip.
+split=> //; split=> [a|a b|a b|i a u|i v b]; rewrite ?inE.
+- move=> Da; have := ap a; rewrite size_zip sZ sD minnn ltn_ord => /(_ isT); rewrite nth_zip ?sZ ?sD //= Da andbT.
+  by [].
+- move=> Da Db; have := row a; rewrite (negPf Da) /= => /andP[/(mask_zero [comRingType of K])/(_ Db) e _].
+  by rewrite eA overE e mulr0.
+- move=> Za Da Zb; have := row a; rewrite (negPf Da) (negPf Za) /= => /andP[_ /(mask_zero [comRingType of K])/(_ Zb) e].
+  by rewrite eA overE e mulr0.
+- move=> iT Za Da; have := ch i; rewrite iT => /(all_nthP (false, (false, [::])))/(_ a); have [sB _] := represented_channel re i.
+  rewrite !size_zip sZ sD (shape_size sB) !minnn ltn_ord => /(_ isT).
+  rewrite !nth_zip ?size_zip ?sZ ?sD ?(shape_size sB) ?minnn //= (negPf Za) (negPf Da) /= => /(zrow0_nth [comRingType of K] u) e.
+  by rewrite eB overE e mulr0.
+move=> iT Db; have := ch i; rewrite (negPf iT) => /(all_nthP [::])/(_ v); have [_ sC] := represented_channel re i.
+rewrite (shape_size sC) ltn_ord => /(_ isT)/(mask_zero [comRingType of K])/(_ Db) e.
+by rewrite eC overE e mulr0.
+Qed.
+End Local.
+Section LocalRules.
+Variables (s : zsystem) (Z D : seq bool) (pl : zrow) (c : shrunk_witness) (d : nat).
+Variables (K : fieldType) (h : {rmorphism rat -> K}) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
+Hypothesis re : represents s S.
+Theorem check_local_sound : check_driven s Z D (b_T c) -> check_shrunk (zpart s Z) pl c d ->
+  (forall F, up K pl ^+ d %| char_poly (closed_loop S F)) /\
+  (forall lambda, root (up K pl) lambda -> (\rank (pencil S (~: channels_at m (b_T c)) lambda) + d <= n)%N).
+Proof.
+move=> dr ok; have [[apart closed driven acting unseen] sZ] := driven_states_of re dr; apply: loss_sound (checked_nonzero h ok) _.
+apply: loss_of; apply: (@shrunk_subspace_local _ _ _ _ _ S _ _ d _ _ apart closed driven acting unseen m id (channels_at m (b_T c))).
+- by move=> i iT; right; exists i.
+- by move=> i iT; right; exists i.
+exact: (check_shrunk_subspace h (part_represents re sZ) ok).
+Qed.
+Theorem check_local_dual_sound : check_driven s Z D (map negb (b_T c)) -> check_shrunk (zdual (zpart s Z)) pl c d ->
+  (forall F, up K pl ^+ d %| char_poly (closed_loop S F)) /\
+  (forall lambda, root (up K pl) lambda -> (\rank (pencil S (~: channels_at m (map negb (b_T c))) lambda) + d <= n)%N).
+Proof.
+move=> dr ok; have [[apart closed driven acting unseen] sZ] := driven_states_of re dr; apply: loss_sound (checked_nonzero h ok) _.
+have sT : size (b_T c) = m.
+  move: ok; rewrite /check_shrunk => /and5P[_ _ _ _ /and5P[/eqP -> _ _ _ _]].
+  by rewrite !size_map (re_m re).
+apply: (@dual_subspace_local _ _ _ _ _ S _ _ d _ _ apart closed driven acting unseen m id (channels_at m (map negb (b_T c)))).
+- by move=> i iT; right; exists i.
+- by move=> i iT; right; exists i.
+have -> : ~: channels_at m (map negb (b_T c)) = channels_at m (b_T c) by rewrite channels_at_compl // setCK.
+exact: (check_shrunk_subspace h (dual_represents (part_represents re sZ)) ok).
+Qed.
+End LocalRules.
