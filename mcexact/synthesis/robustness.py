@@ -141,6 +141,8 @@ class _Work:
         The parts of what seems to be the largest box that are tried.
     asked : Fraction or None
         The part of all entries that is tried before these.
+    first : int
+        The number for the first box, if it is another one; otherwise 0.
     deadline : float or None
         The time of `time.monotonic` after which nothing else is tried.
     """
@@ -150,6 +152,7 @@ class _Work:
     parts: tuple[float, ...]
     asked: Fraction | None = None
     deadline: float | None = None
+    first: int = 0
 
     @classmethod
     def of(
@@ -157,10 +160,11 @@ class _Work:
     ) -> _Work:
         """The work of some seconds for a loop with some number of signals."""
         total = int(min(effort * _PER_SECOND * (_USUAL / max(size, 1)) ** 2, 1e6))
-        if _SCARCE <= total < _LITTLE:
-            return cls(total // 2, total, (*_BOLD, *_SURE), asked, deadline)
-        if total < _SCARCE:
-            return cls(2 * total // 3, total, _SURE, asked, deadline)
+        if total < _LITTLE:
+            bold = _BOLD if total >= _SCARCE and asked is None else ()
+            first = total // 3 if bold or asked is not None else 0
+            # what likely has a proof is tried with as much work as without the first box
+            return cls(2 * total // 3, total + first + 2, (*bold, *_SURE), asked, deadline, first)
         return cls(min(total // 3, _MOST_SEGMENTS), total, _PARTS, asked, deadline)
 
     def boxes(self, largest: float) -> Iterator[Fraction]:
@@ -180,10 +184,11 @@ class _Work:
         self, loop: ClosedLoop, region: StabilityRegion, gains: Fraction | None
     ) -> BoxStability | None:
         """A proof for the box of the plant, if it is found soon."""
-        if self.left < self.each or not self.each or self.late:
+        most, self.first = self.first or self.each, 0
+        if self.left < most or not most or self.late:
             return None
         radii = None if gains is None else gain_radii(loop.controller, gains)
-        search = StabilitySearch(loop, region, radii, self.each, deadline=self.deadline)
+        search = StabilitySearch(loop, region, radii, most, deadline=self.deadline)
         border = search.border(Fraction(1))
         self.left -= search.tested
         return border
