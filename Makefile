@@ -251,7 +251,7 @@ cluster: $(STAMP)
 
 # The list of all sentences that the commands print about a system, from their templates.
 sentences: $(STAMP)
-	$(BIN)/python -m mcexact.answer.rulebook
+	$(BIN)/python -m mcexact.answer.listing
 
 # Installs Coq where it is missing and where it may, compiles every proof, and demands that no
 # theorem rests on an axiom: minutes.

@@ -19,26 +19,11 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mcexact.answer import protocol
-from mcexact.answer.parameters import (
-    ON_LINE,
-    RULES,
-    WITHIN_RANGES,
-    apart_from_poles,
-    joined,
-    undefined_where,
-)
 from mcexact.answer.protocol import Answer
 from mcexact.answer.sentence import MANIFEST, PLANT, Context, Sentences, manifest
-from mcexact.answer.several_parameters import RULES as SEVERAL
-from mcexact.answer.several_parameters import (
-    Hypersurface,
-    Hypersurfaces,
-    Line,
-    sentences_of_several,
-)
 from mcexact.answer.templates import count
 from mcexact.exact.matrix import reading_in_words
 from mcexact.model.box import radii_in_words
@@ -46,6 +31,9 @@ from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import canonical, write_text
 from mcexact.shown import Shown, grid
+
+if TYPE_CHECKING:
+    from mcexact.answer.several_parameters import Line
 
 # A plant with radii: the sentences about every plant within them, which come first.
 
@@ -346,6 +334,9 @@ class Account(Shown):
 
     def rows(self, name: str) -> tuple[Row, ...]:
         """The rows of an answer for all values: the values, what holds there, and why."""
+        # start-up: few plants have parameters
+        from mcexact.answer.parameters import WITHIN_RANGES, joined
+
         answer = self.answers[name]
         if name in WITHIN_RANGES:
             return ((", ".join(self.given.system.parameters_in_words), WITHIN_RANGES[name], ""),)
@@ -361,6 +352,9 @@ class Account(Shown):
 
     def proofs(self, names: Collection[str]) -> tuple[tuple[str, ...], ...]:
         """The rows of the sentences that repeat what certificates say of their lines."""
+        # start-up: few plants have parameters
+        from mcexact.answer.parameters import ON_LINE
+
         keys = {ON_LINE[name].key for name in names if name in ON_LINE}
         return tuple(each.cells for each in self.sentences.at("line") if each.template.key in keys)
 
@@ -466,6 +460,11 @@ def account_for_all_values(plant: ParametricSystem, answers: Mapping[str, Any]) 
     answers : mapping
         The answers by the names of their questions.
     """
+    # start-up: few plants have parameters
+    from mcexact.answer.parameters import RULES
+    from mcexact.answer.several_parameters import RULES as SEVERAL
+    from mcexact.answer.several_parameters import sentences_of_several
+
     several = len(plant.parameters) > 1
     given = Context(plant, _wording(plant, answers))
     derived = (SEVERAL if several else RULES).sentences(by_certificate(answers), given)
@@ -475,6 +474,9 @@ def account_for_all_values(plant: ParametricSystem, answers: Mapping[str, Any]) 
 
 def _wording(plant: ParametricSystem, answers: Mapping[str, Any]) -> dict[str, Any]:
     """What the sentences repeat of the plant, besides its sizes."""
+    # start-up: few plants have parameters
+    from mcexact.answer.parameters import apart_from_poles
+
     several = len(plant.parameters) > 1
     constant = all(entry.denominator.is_constant() for row in plant.A.rows for entry in row)
     return {
@@ -490,6 +492,10 @@ def _wording(plant: ParametricSystem, answers: Mapping[str, Any]) -> dict[str, A
 
 def _undefined(plant: ParametricSystem, answers: Mapping[str, Any]) -> list[str]:
     """The values within the ranges at which an entry is undefined, as conditions."""
+    # start-up: few plants have parameters
+    from mcexact.answer.parameters import undefined_where
+    from mcexact.answer.several_parameters import Hypersurface, Hypersurfaces
+
     if len(plant.parameters) == 1:
         return undefined_where(plant)
     spectra = (each for each in answers.values() if isinstance(each, Hypersurfaces))
@@ -515,6 +521,9 @@ def _says_all(name: str, answer: Any) -> bool:
 
 def _lines(answer: Any) -> list[Line[Any]]:
     """The lines of the certificates of an answer about several parameters, in their order."""
+    # start-up: few plants have parameters
+    from mcexact.answer.several_parameters import Hypersurfaces
+
     if isinstance(answer, Hypersurfaces):
         return [*answer.lines]
     parts = answer if isinstance(answer, tuple) else getattr(answer, "columns", {}).values()

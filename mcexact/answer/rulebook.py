@@ -1,28 +1,17 @@
-"""All rules together, answers in plain words, and the list of sentences."""
+"""The rules about answers of `analyze` and `allocate`, and answers in plain words.
+
+The rules about loops and about parameters are in `mcexact.answer.listing`, with the list of all
+sentences: few plants need them, and they take longer to import than most questions.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
-from types import ModuleType
+from collections.abc import Iterable, Mapping
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mcexact.answer import (
-    analysis,
-    boxes,
-    loops,
-    modulo,
-    nearby,
-    parameters,
-    performance,
-    saturation,
-    several_parameters,
-    sharing,
-    sharing_gap,
-    time_varying,
-)
+from mcexact.answer import analysis, modulo, nearby, sharing, sharing_gap, time_varying
 from mcexact.answer.sentence import Context, Rulebook
-from mcexact.answer.templates import Template, templates
 
 if TYPE_CHECKING:
     from mcexact.answer.protocol import Answer
@@ -49,24 +38,26 @@ ANALYSIS = Rulebook(
     ]
 )
 ALLOCATION = Rulebook([*sharing.ALLOCATION_RULES, *sharing_gap.NOTE_RULES])
-PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 LINKS = sharing.LINK_RULES
-_OF_LOOPS = (*performance.RULES, *saturation.RULES, *modulo.LOOP_PART_RULES)
-DESIGN = Rulebook([*loops.DESIGN, *_OF_LOOPS])
-VERDICT = Rulebook([*loops.VERDICT, *_OF_LOOPS])
-REFUSALS = loops.REFUSAL_RULES
-OWN: Mapping[str, Rulebook] = {
-    "box_controllable": boxes.BOX_CONTROLLABLE_RULES,
-    "box_fixed": boxes.BOX_FIXED_RULES,
-    "common_dimension": sharing.COMMON_DIMENSION_RULES,
+OWN: Mapping[str, str] = {
+    "box_controllable": "boxes:BOX_CONTROLLABLE_RULES",
+    "box_fixed": "boxes:BOX_FIXED_RULES",
+    "common_dimension": "sharing:COMMON_DIMENSION_RULES",
 }
-"""Rules about answers of one kind alone."""
+"""Rules about answers of one kind alone: the module that has them, and their name."""
+
+
+def own_rules(kind: str) -> Rulebook:
+    """The rules about answers of this kind alone."""
+    module, _, name = OWN[kind].partition(":")
+    rules: Rulebook = getattr(import_module(f"mcexact.answer.{module}"), name)
+    return rules
 
 
 def with_own(rules: Rulebook, answers: Mapping[str, Any]) -> Rulebook:
     """Join these rules and those about the kinds of answers."""
     kinds = dict.fromkeys(answer.kind for answer in answers.values())
-    return Rulebook([*rules, *(rule for kind in kinds for rule in OWN.get(kind, ()))])
+    return Rulebook([*rules, *(rule for kind in kinds if kind in OWN for rule in own_rules(kind))])
 
 
 # Answers in plain words: the sentences that follow from one alone, or its whole theorem.
@@ -123,77 +114,3 @@ def explained(answer: Answer) -> str:
 def in_words(sentences: Iterable[Sentence]) -> str:
     """Return sentences, one a line, each after its label if it has one."""
     return "\n".join(each.line for each in sentences)
-
-
-# The list of all sentences, which is written to `SENTENCES.md`.
-
-TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
-    "analyze": (
-        Rulebook([*ANALYSIS, *(rule for own in OWN.values() for rule in own)]),
-        (nearby, modulo, time_varying, analysis, boxes, sharing, sharing_gap),
-    ),
-    "analyze, with parameters": (PARAMETERS, (parameters,)),
-    "allocate": (ALLOCATION, (sharing, sharing_gap)),
-    "allocate --links": (LINKS, (sharing,)),
-    "design, certify": (Rulebook([*DESIGN, *VERDICT]), (loops, performance, saturation)),
-    "design, if there is none": (REFUSALS, (loops,)),
-}
-"""The rules of each topic, and the modules that define their templates."""
-FILE = Path(__file__).with_name("SENTENCES.md")
-
-_INTRODUCTION = """\
-# Every sentence about a system
-
-The templates below make all sentences of `mcexact analyze`, `allocate`, `design` and `certify` on a
-user's system, in text, JSON, HTML and LaTeX. A rule decides when a sentence holds. It
-reads the claims of its premises and nothing else; the manifest records the values that it read, and
-the independent checker verifies the manifest with its own rules. A premise is a certificate, given
-by the stem of its file (`loop` is the one about the closed loop); the checker verifies every
-certificate before the command ends. A sentence without premises repeats the user's input, or says
-how a proof was found. A *remark* claims nothing: it is a title, or says that something is not
-decided or not proved; the checker does not count it as implied. If a sentence does not only repeat
-claims, it has a theorem: machine-checked theorems of `proofs/`, or the authors of a published one.
-`make sentences` writes this file.
-"""
-
-
-def everything() -> Iterator[Template]:
-    """Return all templates, in the order of the list."""
-    for topic in TOPICS:
-        yield from templates_of(topic)
-
-
-def templates_of(topic: str) -> Iterator[Template]:
-    """Return the templates that the rules of a topic fill, in the order of their definition."""
-    rulebook, modules = TOPICS[topic]
-    filled = {template for rule in rulebook for template in rule.templates}
-    yield from (template for template in templates(*modules) if template in filled)
-
-
-def premises_of(template: Template, rulebook: Rulebook) -> tuple[str, ...]:
-    """Return the questions whose answers are premises of each template."""
-    seen = (rule.premises for rule in rulebook if template in rule.templates)
-    return tuple(dict.fromkeys(name for names in seen for name in names))
-
-
-def listing() -> str:
-    """Return the text of `SENTENCES.md`."""
-    parts = [_INTRODUCTION]
-    for topic, (rulebook, _) in TOPICS.items():
-        parts.append(f"## {topic}\n")
-        parts.append("| sentence | text | premises | theorem |\n|---|---|---|---|")
-        parts += [_row(template, rulebook) for template in templates_of(topic)]
-        parts.append("")
-    return "\n".join(parts)
-
-
-def _row(template: Template, rulebook: Rulebook) -> str:
-    text = f"{template.label}: {template.text}" if template.label else template.text
-    premises = ", ".join(f"`{premise}`" for premise in premises_of(template, rulebook))
-    premises = premises if template.claims else "*remark*"
-    cells = (template.key, f"`{text}`", premises, template.theorem)
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
-
-
-if __name__ == "__main__":
-    FILE.write_text(listing(), encoding="utf-8")

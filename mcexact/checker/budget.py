@@ -15,16 +15,21 @@ long is charged before it starts, by a formula in the sizes of its numbers and m
 - The message names a budget that should suffice.  For this estimate loops run through `counted`,
   which records how many turns are left.
 
+A check ends with a `Verdict`, which says also what the check took.  It is here because a process
+that reads the verdicts of another one needs nothing else of the checker.
+
 What several certificates of a manifest need is made once (`kept`): the plant, a subject, a proof
 that each of them repeats.  Then it is charged once, too.
 """
+
+from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from dataclasses import dataclass, field, replace
+from typing import Any, NoReturn, TypeVar
 
 GRANTED = 4 * 10**7
 PER_BYTE = 4000
@@ -48,6 +53,77 @@ class Refused(Exception):
     def __init__(self, verdict: str, code: str, place: str, message: str) -> None:
         super().__init__(verdict, code, place, message)
         self.verdict, self.code, self.place, self.message = verdict, code, place, message
+
+
+NOT_ABOUT = "NOT ABOUT"
+"""The verdict on a certificate about something else than what was asked for."""
+STATUSES = dict.fromkeys(("VALID", "IMPLIED", "REMARK", "COUNTED"), 0)
+STATUSES |= {"INVALID": 1, NOT_ABOUT: 1, "MALFORMED": 3, "INCOMPLETE": 5}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The verdict on one certificate or one sentence.
+
+    Attributes
+    ----------
+    verdict : str
+        VALID (for a sentence IMPLIED, or REMARK if it claims nothing), INVALID, NOT ABOUT,
+        MALFORMED, INCOMPLETE, or ERROR for a bug in this checker; COUNTED for the numbers of these
+        in a manifest.
+    statement : str
+        What was proved, in words, or counted; else empty.
+    statement_digest : str
+        The SHA-256 of the statement of a certificate.
+    summary : str
+        What it says in one line, without all that its words mean; of a sentence what follows from
+        its premises, empty where that is what one of them states.
+    system_digest : str
+        The SHA-256 of the certificate's plant; empty if it could not be read.
+    controller_digest : str
+        The SHA-256 of the controller of the closed loop that the certificate is about; empty if it
+        is about none.
+    code, place, message : str
+        If it is not VALID, a word for the reason, the place in the document, and a sentence.
+    spent : int
+        The units of work that it took.
+    """
+
+    verdict: str
+    statement: str = ""
+    statement_digest: str = ""
+    summary: str = ""
+    system_digest: str = ""
+    controller_digest: str = ""
+    code: str = ""
+    place: str = ""
+    message: str = ""
+    spent: int = field(default=0, compare=False)
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError("a verdict is neither true nor false: ask whether .verdict is VALID")
+
+    @property
+    def status(self) -> int:
+        """The exit status that belongs to this verdict."""
+        return STATUSES.get(self.verdict, 70)
+
+    def inside(self, where: str) -> Verdict:
+        """The verdict with its place inside of a larger document, if it is not good."""
+        return replace(self, place=f"{where} {self.place}" if self.status else "")
+
+    def line(self, name: str = "", *, short: bool = False) -> str:
+        """The verdict as one line of text, with the name of what it is about behind it.
+
+        It has the statement and its digest, or with ``short`` the summary.
+        """
+        words = [self.statement_digest, self.statement]
+        if self.status:
+            words = [self.code, f"{self.place}: {self.message}"]
+        elif short and self.verdict in ("VALID", "IMPLIED", "REMARK"):
+            words = [self.summary]
+            name += ":" if name and self.summary else ""
+        return " ".join(part for part in (self.verdict, name, *words) if part)
 
 
 @dataclass

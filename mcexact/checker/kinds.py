@@ -18,9 +18,9 @@ import re
 import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from types import FrameType
-from typing import Any, NoReturn, TypeVar
+from typing import Any, TypeVar
 
 from . import (
     boxes,
@@ -36,6 +36,8 @@ from . import (
 )
 from .arithmetic import NotAUnit
 from .budget import MORE, Budget, current, kept, limited
+from .budget import NOT_ABOUT as NOT_ABOUT
+from .budget import Verdict as Verdict
 from .cells import subject_of
 from .constructions import read_subject
 from .discs import LOOP, SAMPLED, at_values
@@ -71,8 +73,6 @@ DIGEST = re.compile(r"[0-9a-f]{64}")
 LINE = re.compile(r"(?:VALID (?:[0-9]+ )?(?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
 """A statement, alone or in the line of its verdict."""
 CLAIM = 'a claim as a JSON object {"kind": ..., "subject": [...], "claim": {...}}'
-NOT_ABOUT = "NOT ABOUT"
-"""The verdict on a certificate about something else than what was asked for."""
 PLANT = ".plant"
 """The end of the name of a plant's file, behind its digest."""
 Plant = System | FunctionSystem
@@ -375,73 +375,6 @@ KINDS = {
     "transfer_graph": Rule(structure.check_transfer_graph, structure.transfer_graph_statement),
 }
 """The rule of each kind."""
-STATUSES = dict.fromkeys(("VALID", "IMPLIED", "REMARK", "COUNTED"), 0)
-STATUSES |= {"INVALID": 1, NOT_ABOUT: 1, "MALFORMED": 3, "INCOMPLETE": 5}
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """The verdict on one certificate or one sentence.
-
-    Attributes
-    ----------
-    verdict : str
-        VALID (for a sentence IMPLIED, or REMARK if it claims nothing), INVALID, NOT ABOUT,
-        MALFORMED, INCOMPLETE, or ERROR for a bug in this checker; COUNTED for the numbers of these
-        in a manifest.
-    statement : str
-        What was proved, in words, or counted; else empty.
-    statement_digest : str
-        The SHA-256 of the statement of a certificate.
-    summary : str
-        What it says in one line, without all that its words mean; of a sentence what follows from
-        its premises, empty where that is what one of them states.
-    system_digest : str
-        The SHA-256 of the certificate's plant; empty if it could not be read.
-    controller_digest : str
-        The SHA-256 of the controller of the closed loop that the certificate is about; empty if it
-        is about none.
-    code, place, message : str
-        If it is not VALID, a word for the reason, the place in the document, and a sentence.
-    spent : int
-        The units of work that it took.
-    """
-
-    verdict: str
-    statement: str = ""
-    statement_digest: str = ""
-    summary: str = ""
-    system_digest: str = ""
-    controller_digest: str = ""
-    code: str = ""
-    place: str = ""
-    message: str = ""
-    spent: int = field(default=0, compare=False)
-
-    def __bool__(self) -> NoReturn:
-        raise TypeError("a verdict is neither true nor false: ask whether .verdict is VALID")
-
-    @property
-    def status(self) -> int:
-        """The exit status that belongs to this verdict."""
-        return STATUSES.get(self.verdict, 70)
-
-    def inside(self, where: str) -> Verdict:
-        """The verdict with its place inside of a larger document, if it is not good."""
-        return replace(self, place=f"{where} {self.place}" if self.status else "")
-
-    def line(self, name: str = "", *, short: bool = False) -> str:
-        """The verdict as one line of text, with the name of what it is about behind it.
-
-        It has the statement and its digest, or with ``short`` the summary.
-        """
-        words = [self.statement_digest, self.statement]
-        if self.status:
-            words = [self.code, f"{self.place}: {self.message}"]
-        elif short and self.verdict in ("VALID", "IMPLIED", "REMARK"):
-            words = [self.summary]
-            name += ":" if name and self.summary else ""
-        return " ".join(part for part in (self.verdict, name, *words) if part)
 
 
 def check_document(

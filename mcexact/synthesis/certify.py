@@ -36,9 +36,9 @@ from mcexact.analysis.stability import (
 from mcexact.answer.account import Account
 from mcexact.answer.boxes import BoxStability
 from mcexact.answer.evidence import RootDisc
+from mcexact.answer.listing import VERDICT
 from mcexact.answer.loops import StabilityVerdict
 from mcexact.answer.protocol import Answer
-from mcexact.answer.rulebook import VERDICT
 from mcexact.answer.sentence import Context
 from mcexact.errors import InputError, LimitReached, UsageError, one_of, telling
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float

@@ -12,8 +12,8 @@ from typing import Any, Literal
 from mcexact.analysis.boxes.failure import FAILING
 from mcexact.analysis.stability import certify_stability
 from mcexact.answer.account import Account, ShownByAccount
+from mcexact.answer.listing import DESIGN
 from mcexact.answer.protocol import Answer
-from mcexact.answer.rulebook import DESIGN
 from mcexact.answer.sentence import Context
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import finite, matrix_to_float, to_float

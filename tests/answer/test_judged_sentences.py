@@ -12,7 +12,8 @@ from flint import fmpq, fmpq_mat
 
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.sharing import minimal_shared_dimensions
-from mcexact.answer.rulebook import ALLOCATION, everything
+from mcexact.answer.listing import everything
+from mcexact.answer.rulebook import ALLOCATION
 from mcexact.answer.sentence import Context
 from mcexact.answer.sharing import SHARING_RULES
 from mcexact.derived.constructions import Share

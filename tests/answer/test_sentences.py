@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from mcexact.answer.account import Account
-from mcexact.answer.rulebook import (
+from mcexact.answer.listing import (
     FILE,
     TOPICS,
     everything,

@@ -20,8 +20,8 @@ from mcexact.analysis.questions import asked_by
 from mcexact.analysis.sharing import minimal_shared_dimensions
 from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.account import Account
+from mcexact.answer.listing import everything
 from mcexact.answer.protocol import document
-from mcexact.answer.rulebook import everything
 from mcexact.answer.templates import Template
 from mcexact.checker.command import Evidence
 from mcexact.checker.kinds import Expectation, Verdict

@@ -13,8 +13,8 @@ import pytest
 from mcexact import MultiChannelSystem, ParametricSystem, analyze
 from mcexact.answer import parameters as say
 from mcexact.answer.account import Account
+from mcexact.answer.listing import PARAMETERS, premises_of
 from mcexact.answer.loops import EVERY_VALUE
-from mcexact.answer.rulebook import PARAMETERS, premises_of
 from mcexact.answer.templates import templates
 from mcexact.checker.kinds import check_document
 from mcexact.checker.sentences import RULES

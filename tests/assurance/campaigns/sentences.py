@@ -27,9 +27,9 @@ from mcexact.analysis.questions import asked_by
 from mcexact.analysis.saturation import gains_for, gains_none, saturation_of
 from mcexact.answer import protocol
 from mcexact.answer.account import Account
+from mcexact.answer.listing import everything
 from mcexact.answer.loops import EVERY_LOOP_RULES
 from mcexact.answer.performance import RULES as PERFORMANCE
-from mcexact.answer.rulebook import everything
 from mcexact.answer.saturation import RULES as SATURATION
 from mcexact.answer.sentence import Context
 from mcexact.answer.templates import Sentence
