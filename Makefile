@@ -59,6 +59,7 @@ bench: $(STAMP)
 designs: $(STAMP)
 	$(BIN)/python -m benchmarks.gallery_designs
 	$(BIN)/python -m benchmarks.families
+	$(BIN)/python -m benchmarks.one_agent
 
 # What is proved for every plant in a box, of the published plants: half an hour.  PARTS='members size'
 # measures some; a folder of further system files can be among them.

@@ -14,7 +14,7 @@ from statistics import median
 
 from benchmarks.kept_rows import ROWS, Row, kept
 from mcexact.synthesis.assessment import FAILS
-from mcexact.synthesis.optimum.figures import DISK
+from mcexact.synthesis.optimum.figures import DISK, TOGETHER
 from mcexact.synthesis.optimum.figures import LEAST_DAMPING as DAMPING
 
 PAGE = Path(__file__).with_name("DESIGNS.md")
@@ -57,6 +57,10 @@ margin, computed: one static gain for each agent by BFGS on the same cost (for u
 each agent the optimal state feedback of its own part of the plant (local LQR) and the optimal
 controller of its own part (local LQG); and the optimal controller of all agents together by
 python-control, which nobody can build who has no fast links between all agents.
+
+`python -m benchmarks.one_agent` asks for the exceptions again, for one agent that has all outputs
+and all inputs: where the same search finds nothing better, the plant is the reason, and not what
+its agents do not know.
 """
 
 
@@ -94,20 +98,40 @@ def exceptions(row: Row) -> list[str]:
     return told
 
 
+def is_open(row: Row) -> bool:
+    """Whether a controller is an exception for what it does, and no proof says why."""
+    if row["answer"] not in ("designed", "theorem") or (row.get("beyond all") or inf) < FAILS:
+        return False
+    slow = row["damping"] is not None and row["damping"] < DAMPING
+    fragile = row["disk"] is None or row["disk"] < DISK
+    return slow or fragile or row["install"] != "yes" or (row["ratio"] or inf) > RATIO
+
+
 def _why_not(row: Row) -> str:
     reasons = row["why not"]
     told = [f"{name}: {reasons[name]}" for name in ("loop_cost", "cost_bound") if name in reasons]
     return "; ".join(told).replace("_", " ") or "the loop is not stable in double precision"
 
 
-def reason(row: Row) -> str:
-    """Why a row is an exception, where that is known."""
+def reason(row: Row, alone: Row | None = None) -> str:
+    """Why a row is an exception, where that is known.
+
+    Parameters
+    ----------
+    row : dict
+    alone : dict, optional
+        What the same search finds for one agent that has all outputs and all inputs.
+    """
     told = list[str]()
     if row["name"] in REMARKS:
         told.append(REMARKS[row["name"]])
     central = (row.get("by hand") or {}).get("python-control")
-    if central is not None and central["disk"] < DISK:
-        told.append(f"one controller for all agents has a disk margin of {central['disk']:.2g}")
+    if alone is not None and is_open(row):
+        told.append(_of_one_agent(row, alone))
+    elif central is not None and central["disk"] < DISK:
+        told.append(
+            f"the cheapest controller for all agents has a disk margin of {central['disk']:.2g}"
+        )
     if (row.get("beyond all") or inf) < FAILS:
         told.append(
             f"no controller, not even one for all agents, stabilizes a plant within "
@@ -115,10 +139,33 @@ def reason(row: Row) -> str:
         )
     if row["answer"] in ("designed", "theorem"):
         told += row["warnings"][:1]
+        told += row.get("missed", [])
     return "; ".join(told)
 
 
-def page(gallery: Rows, families: Rows, before: Rows) -> str:
+def _of_one_agent(row: Row, alone: Row) -> str:
+    """What the same search finds for one agent, in the figures that make the row an exception."""
+    whose = "by the same search one controller for all agents"
+    if alone["answer"] not in ("designed", "theorem"):
+        return f"{whose} was not found: {_short(alone['told'])}"
+    figures = list[str]()
+    if row["ratio"] is None or row["ratio"] > RATIO:
+        figures.append(f"cost/bound {_figure(alone['ratio'])}")
+    if row["disk"] is None or row["disk"] < DISK:
+        figures.append(f"disk margin {_figure(alone['disk'])}")
+    if row["joint"] is None or row["joint"] < TOGETHER:
+        figures.append(f"joint margin {_figure(alone['joint'])}")
+    if row["damping"] is not None and row["damping"] < DAMPING:
+        figures.append(f"damping {_figure(alone['damping'])}")
+    if (row["fails within"] or inf) < FAILS:
+        within = alone["fails within"]
+        part = "none" if within is None else f"one within {100 * within:.3g} %"
+        figures.append(f"plants nearby that fail: {part}")
+    verdict = _VERDICTS[alone["install"]]
+    return f"{whose} has {', '.join([*figures, verdict])}"
+
+
+def page(gallery: Rows, families: Rows, before: Rows, alone: Rows | None = None) -> str:
     """The whole page.
 
     Parameters
@@ -127,8 +174,10 @@ def page(gallery: Rows, families: Rows, before: Rows) -> str:
         What was measured.
     before : mapping of str to row
         What was recorded of the same requests before there was a search for the least cost.
+    alone : mapping of str to row, optional
+        What the same search finds for one agent in place of several, for exceptions.
     """
-    both = {**gallery, **families}
+    both, alone = {**gallery, **families}, alone or {}
     lines = [_HEAD, f"Measured on {'; '.join(sorted({r['machine'] for r in both.values()}))}.", ""]
     lines += ["## Summary", "", *_summary(gallery, families, before), ""]
     lines += [_verdicts(both, before), ""]
@@ -140,7 +189,10 @@ def page(gallery: Rows, families: Rows, before: Rows) -> str:
     odd = [row for row in both.values() if exceptions(row)]
     lines += _table(
         ("plant or family", "what", "why"),
-        [(row["name"], "; ".join(exceptions(row)), reason(row)) for row in odd],
+        [
+            (row["name"], "; ".join(exceptions(row)), reason(row, alone.get(row["name"])))
+            for row in odd
+        ],
     )
     for title, rows in (("Published plants", gallery), ("Families", families)):
         answers = Counter(_ANSWERS[row["answer"]] for row in rows.values())
@@ -305,7 +357,7 @@ def written() -> str:
     names = "gallery_designs", "families"
     gallery, families = (kept(ROWS / f"{name}.jsonl") for name in names)
     before = [kept(ROWS / f"{name}_before.jsonl") for name in names]
-    return page(gallery, families, before[0] | before[1])
+    return page(gallery, families, before[0] | before[1], kept(ROWS / "one_agent.jsonl"))
 
 
 if __name__ == "__main__":

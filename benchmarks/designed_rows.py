@@ -31,6 +31,8 @@ from mcexact.synthesis.performance import performance_of
 EFFORT, BOX = 12.0, 3.0
 """About the seconds for each search of a controller and of a box."""
 _MOST_STATES, _TRIES = 60, 8
+_COMPUTED, _SOUGHT = "(computed)", "(a search, not a proof)"
+"""How notes about aims end that were missed."""
 
 
 def answered(
@@ -121,6 +123,7 @@ def _figures(design: Design, effort: float, box: float) -> Row:
         "install": known.install,
         "first line": known.first_line(account.sentences.at("first")),
         "warnings": list(known.warnings),
+        "missed": [each for each in design.notes if each.endswith((_COMPUTED, _SOUGHT))],
     }
 
 

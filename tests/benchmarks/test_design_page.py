@@ -71,9 +71,23 @@ def test_an_exception_of_a_plant_that_is_fragile_in_one_hand_says_so() -> None:
     hand: dict[str, Any] = {"python-control": {"order": 3, "over bound": 1.0, "disk": 0.05}}
     row: dict[str, Any] = {**DESIGNED, "by hand": hand, "warnings": ["a margin is low"]}
     assert reason(row) == (
-        "one controller for all agents has a disk margin of 0.05; a margin is low"
+        "the cheapest controller for all agents has a disk margin of 0.05; a margin is low"
     )
     assert reason(DESIGNED) == ""
+
+
+def test_an_exception_says_what_the_search_finds_for_one_agent() -> None:
+    low: dict[str, Any] = {"disk": 0.06, "install": "no"}
+    row, alone = {**DESIGNED, **low, "disk": 0.004}, {**DESIGNED, **low}
+    told = "by the same search one controller for all agents has disk margin 0.06, do not install"
+    assert reason(row, alone) == told
+    assert f"| {told} |" in page({row["name"]: row}, {}, {}, {row["name"]: alone})
+    assert reason(DESIGNED, alone) == ""
+    assert "plants nearby that fail: one within 0.5 %" in reason(
+        {**row, "fails within": 0.005}, {**alone, "fails within": 0.005}
+    )
+    none: Row = {"answer": "limit", "told": "nothing was found"}
+    assert reason(row, none).endswith("for all agents was not found: nothing was found")
 
 
 def test_a_plant_nearby_that_no_controller_stabilizes_is_a_reason() -> None:

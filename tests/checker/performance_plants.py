@@ -83,6 +83,9 @@ BOUND = certificate(
         ]
     },
 )
+# The same of a plant whose input enters twice as much as its output shows.
+ENTERING = plant([[0]], ([[2]], [[1]]), time="discrete")
+ENTERED = certificate("cost_bound", ENTERING, BOUND["claim"], BOUND["witness"])
 # x' = x + u: the regulator has P = -F = 1 + √2, and S > 0 adds to the bound.
 SHARED = changed(
     certificate("cost_bound", DRIVEN, BOUND["claim"], BOUND["witness"]),

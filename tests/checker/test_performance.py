@@ -14,6 +14,7 @@ from tests.checker.performance_plants import (
     BOUND,
     COST,
     EACH,
+    ENTERED,
     FILTERED,
     GROUPS,
     GROWING,
@@ -39,6 +40,7 @@ ACCEPTED = [
     ("together, and so each by itself", changed(BOTH, ("claim.together", False))),
     ("a bound with a small bandwidth", changed(SHARED, ("claim.weights.bandwidth", 20))),
     ("nearly the largest margin of this matrix", changed(MARGIN, ("claim.margin", "31/50"))),
+    ("a bound in discrete time of inputs that enter otherwise than outputs show", ENTERED),
     ("a sector of one line", changed(SECTOR, ("claim.sectors", [[1, 1]]))),
 ]  # fmt: skip
 

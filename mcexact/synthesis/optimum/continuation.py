@@ -4,6 +4,7 @@ The structure stays, and each step starts from the end of the one before it, whi
 than another search:
 
 - `with_margins` insists on margins that a search did not reach;
+- `eased` does so at a part of a rate that nobody asked for;
 - `sounder` asks for a margin of all inputs and of all outputs together, and for a loop that is not
   slower than the plant alone;
 - `more_damped` asks for a damping ratio, and `with_larger_box` for a box of plants around the given
@@ -51,6 +52,8 @@ _SMALL = Fraction(1, 1000)
 """A part of the entries of a plant for which the radii of its samples are about in proportion."""
 _SHARE = 0.3
 _INSISTING, _HEAVY = 3, 10.0
+_EASED = (4, 8, 16)
+"""By how much a rate is divided whose loops lack the margins."""
 _NEARLY = 0.99
 """The part of the pace of the plant alone at which a loop does not count as slower."""
 _FURTHER = (1.0, 1.1, 1.2, 1.35, 1.6, 2.2)
@@ -123,6 +126,43 @@ def with_margins(ladder: Ladder, candidates: Sequence[Candidate]) -> list[Candid
         if any(each.peaks.keep(ladder.target.limits) for each in found):
             break
     return found
+
+
+def eased(
+    ladder: Ladder, candidates: Sequence[Candidate]
+) -> tuple[StabilityRegion, list[Candidate]] | None:
+    """Look for the margins at a part of the rate, from loops that lack them.
+
+    Parameters
+    ----------
+    ladder : Ladder
+        With a rate that nobody asked for.
+    candidates : sequence of Candidate
+        The best first.
+
+    Returns
+    -------
+    StabilityRegion, list of Candidate, or None
+        The region of the first part of the rate, and loops in it, of which the first has the
+        margins.  None if no such loop was found.
+
+    Notes
+    -----
+    Where inputs hardly move a mode, such as those of a light structure with few actuators, what
+    damps it costs margins.
+    """
+    asked, found = ladder.target.region, [*candidates]
+    for times in _EASED:
+        if ladder.effort.over:
+            break
+        region = _like(asked, region_of_pace(asked.time, pace_of(asked) / times))
+        target, part = replace(ladder.target, region=region), ladder.effort.part(0.5)
+        slow = replace(ladder, target=target, effort=part)
+        ladder.tell(f"larger margins with {region}")
+        found = ranked(slow, [*with_margins(slow, found), *found])
+        if found[0].peaks.keep(target.limits):
+            return region, found
+    return None
 
 
 @dataclass(frozen=True)

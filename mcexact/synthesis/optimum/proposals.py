@@ -33,6 +33,7 @@ from mcexact.synthesis.network_design import network_proposals, require_fast
 from mcexact.synthesis.networks import DerivedNetwork, decentralized_network, shared_network
 from mcexact.synthesis.optimum.continuation import (
     DAMPING,
+    eased,
     fastest,
     more_damped,
     sounder,
@@ -415,11 +416,35 @@ def _completed(
     if request.brisk is not None and result.candidates:
         more = drawn_further(_more(ladder, _FURTHER), result.candidates)
         result = replace(result, candidates=tuple(ranked(ladder, [*more, *result.candidates])))
+        if not result.keeps_margins:
+            ladder, result = _eased(ladder, result)
     if request.brisk is None and not result.keeps_margins:
         return _slower(family, request, aims, weights, result) or result
     if result.candidates and (request.brisk is not None or aims.box is not None):
         return _improved(ladder, request, aims, result)
     return result
+
+
+def _eased(ladder: Ladder, result: _Result) -> tuple[Ladder, _Result]:
+    """Take a part of a rate that nobody asked for, where this gives the margins."""
+    ladder = _more(ladder, _FURTHER)
+    found = eased(ladder, result.candidates)
+    if found is None:
+        return ladder, result
+    region, candidates = found
+    target = replace(ladder.target, region=region)
+    notes = (*result.notes, _too_slow(ladder.target.region, region, target.limits))
+    slow = replace(ladder, target=target)
+    return slow, replace(result, candidates=tuple(candidates), target=target, notes=notes)
+
+
+def _too_slow(chosen: StabilityRegion, region: StabilityRegion, limits: Limits) -> str:
+    """What is told where margins are kept in place of a rate that nobody asked for."""
+    return (
+        f"no loop with {chosen} was found that has a disk margin of {limits.disk:g} in every "
+        f"single loop and a margin of {limits.margin:g} at all inputs together: {region} was taken "
+        "(a search, not a proof)"
+    )
 
 
 def _more(ladder: Ladder, times: float = _AFTERWARDS) -> Ladder:

@@ -442,7 +442,7 @@ def _rank(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> Rank:
 
 _KEPT, _MOST_FREED, _SAME = 2, 3000, 1e-3
 _GOOD_ENOUGH, _DEAR, _HOPELESS = 2.0, 0.05, 1000.0
-_ENTERING, _BEHIND = 0.3, 1.5
+_ENTERING, _ENTERING_TIED, _BEHIND = 0.3, 0.5, 1.5
 _FURTHER_SEEDS = 6
 
 
@@ -471,7 +471,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
             if ladder.effort.over:
                 continue
             before = ladder.effort.left
-            value, draft = _draft(ladder, start, _ENTERING / 3**failures)
+            value, draft = _draft(ladder, start, 1 / 3**failures)
             failures += not np.isfinite(value)
             if value <= ladder.enough and _finish(ladder, draft, candidates):
                 return candidates
@@ -527,7 +527,7 @@ def drawn_further(ladder: Ladder, candidates: Sequence[Candidate]) -> list[Candi
         name = f"order {least + more} per agent, seed {seed}"
         ladder.tell(f"{name}{_so_far(ladder, [*candidates, *found])}")
         start = Start(name, problem, drawn_dynamics(problem, seed))
-        value, draft = _draft(ladder, start, _ENTERING)
+        value, draft = _draft(ladder, start)
         if np.isfinite(value):
             _followed(ladder, draft, found)
     return found
@@ -567,8 +567,8 @@ def _as_it_is(ladder: Ladder, start: Start) -> list[Candidate]:
     return [] if candidate is None else [candidate]
 
 
-def _draft(ladder: Ladder, start: Start, share: float) -> tuple[float, Start]:
-    """Follow a start into the region and for a few steps, with a share of the effort.
+def _draft(ladder: Ladder, start: Start, part_of: float = 1.0) -> tuple[float, Start]:
+    """Follow a start into the region and for a few steps, with a part of the usual effort.
 
     Its cost is returned, too, which is infinite if the region is not reached.  It leaves out the
     barrier, which is high at the border of the region, from where polishing moves away.
@@ -576,7 +576,8 @@ def _draft(ladder: Ladder, start: Start, share: float) -> tuple[float, Start]:
     problem, x = start.problem, start.problem.entries(start.K)
     if problem.ties is not None:
         x = settled(problem, x, ladder.target, ladder.effort.part(0.4))
-    part = ladder.effort.part(share if problem.ties is None else 0.5)
+    usual = _ENTERING if problem.ties is None else _ENTERING_TIED
+    part = ladder.effort.part(usual * part_of)
     entered = inside(problem, x, ladder.target, part)
     if entered is None:
         return np.inf, start

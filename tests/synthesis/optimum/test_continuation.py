@@ -13,10 +13,12 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.gate import Request
 from mcexact.synthesis.networks import decentralized_network
 from mcexact.synthesis.optimum import continuation
 from mcexact.synthesis.optimum.continuation import (
     box_part,
+    eased,
     fastest,
     more_damped,
     sounder,
@@ -33,6 +35,7 @@ from mcexact.synthesis.optimum.figures import (
     least_cost,
 )
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
+from mcexact.synthesis.optimum.proposals import Family, optimum
 from mcexact.synthesis.optimum.search import Candidate, Ladder, candidate_of
 from mcexact.synthesis.robustness import every_loop
 
@@ -237,3 +240,28 @@ def test_margins_that_a_search_missed_are_insisted_on() -> None:
     insisted = with_margins(ladder, [fragile])
     assert any(each.peaks.keep(MARGINS) for each in insisted)
     assert min(each.figures.cost for each in insisted) > 0
+
+
+def test_a_rate_that_nobody_asked_for_gives_way_to_the_margins() -> None:
+    turning = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, "-1/2"]]])
+    quick = [[-800.0, 343.0], [1000.0, -430.0]]  # three eigenvalues of -10, and a zero of 2
+    ladder, fragile = found(turning, quick, (1,), rate=8)
+    assert not fragile.peaks.keep(MARGINS)
+    reached = eased(ladder, [fragile])
+    assert reached is not None
+    region, [best, *_] = reached
+    assert region.edge < 8 and best.peaks.keep(MARGINS)
+    assert best.figures.bound < -float(region.edge)
+    assert eased(replace(ladder, effort=Effort(0)), [fragile]) is None
+
+
+def test_a_search_says_which_rate_gave_way_to_the_margins() -> None:
+    request = Request.of(DOUBLE, rate=8, arithmetic="float")
+    asked = replace(request, brisk=request.region)
+    result = optimum(Family(decentralized_network(DOUBLE)), asked, Aims(effort=1, disk=0.9))
+    assert result.peaks.keep(Limits(0.9, 0.3)) and result.asked is None
+    assert result.region is not None and result.region.edge < 8
+    note = result.notes[0]
+    assert note.startswith("no loop with Re λ < -8 was found that has a disk margin of 0.9")
+    assert f"{result.region} was taken" in note
+    assert result.figures.bound < -float(result.region.edge)
