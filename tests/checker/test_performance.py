@@ -72,6 +72,10 @@ REJECTED = [
     ("a gain that no regulator has", SHARED, (f"{GROUP}.F", matrix([9])), "INVALID"),
     ("a share of 1", SHARED, (f"{GROUP}.share", 1), "INVALID"),
     ("a negative share", SHARED, (f"{GROUP}.share", -1), "INVALID"),
+    ("a negative share alone, as for inputs that cost twice as much", SHARED, (
+        (f"{GROUP}.P", form([1], exponent=1)), (f"{GROUP}.S", form([1], exponent=-1)),
+        (f"{GROUP}.F", matrix([0])), (f"{GROUP}.share", -1), ("claim.cost", 4),
+    ), "INVALID"),
     ("a group twice", BOUND, (
         ("witness.groups", BOUND["witness"]["groups"] * 2), ("claim.cost", 1)
     ), "INVALID"),
