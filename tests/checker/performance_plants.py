@@ -86,6 +86,15 @@ BOUND = certificate(
 # The same of a plant whose input enters twice as much as its output shows.
 ENTERING = plant([[0]], ([[2]], [[1]]), time="discrete")
 ENTERED = certificate("cost_bound", ENTERING, BOUND["claim"], BOUND["witness"])
+# x(t+1) = x + u: P = 3/2, S = 1/2 and F = -3/5 prove 3/2, and 9/25 · 1/4 · (1 + 3/2) · 1/2 more.
+STEPPING = changed(
+    certificate("cost_bound", STEP, BOUND["claim"], BOUND["witness"]),
+    ("claim.cost", "129/80"),
+    ("witness.groups.0.P", form([6], exponent=-1)),
+    ("witness.groups.0.S", form([2], exponent=-1)),
+    ("witness.groups.0.F", {"denominator": 5, "entries": [[-3]]}),
+    ("witness.groups.0.share", "1/4"),
+)
 # x' = x + u: the regulator has P = -F = 1 + √2, and S > 0 adds to the bound.
 SHARED = changed(
     certificate("cost_bound", DRIVEN, BOUND["claim"], BOUND["witness"]),

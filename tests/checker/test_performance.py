@@ -24,6 +24,7 @@ from tests.checker.performance_plants import (
     SECTOR,
     SHARED,
     STEP,
+    STEPPING,
     UNBOUNDED,
     UNSEEN,
     form,
@@ -41,6 +42,7 @@ ACCEPTED = [
     ("a bound with a small bandwidth", changed(SHARED, ("claim.weights.bandwidth", 20))),
     ("nearly the largest margin of this matrix", changed(MARGIN, ("claim.margin", "31/50"))),
     ("a bound in discrete time of inputs that enter otherwise than outputs show", ENTERED),
+    ("a bound in discrete time with a share", STEPPING),
     ("a sector of one line", changed(SECTOR, ("claim.sectors", [[1, 1]]))),
 ]  # fmt: skip
 
@@ -72,6 +74,7 @@ REJECTED = [
     ("a gain that no regulator has", SHARED, (f"{GROUP}.F", matrix([9])), "INVALID"),
     ("a share of 1", SHARED, (f"{GROUP}.share", 1), "INVALID"),
     ("a negative share", SHARED, (f"{GROUP}.share", -1), "INVALID"),
+    ("more than a share adds in discrete time", STEPPING, ("claim.cost", "130/80")),
     ("a negative share alone, as for inputs that cost twice as much", SHARED, (
         (f"{GROUP}.P", form([1], exponent=1)), (f"{GROUP}.S", form([1], exponent=-1)),
         (f"{GROUP}.F", matrix([0])), (f"{GROUP}.share", -1), ("claim.cost", 4),
