@@ -92,7 +92,7 @@ STEPPING = changed(
     ("claim.cost", "129/80"),
     ("witness.groups.0.P", form([6], exponent=-1)),
     ("witness.groups.0.S", form([2], exponent=-1)),
-    ("witness.groups.0.F", {"denominator": 5, "entries": [[-3]]}),
+    ("witness.groups.0.F", matrix([-3], denominator=5)),
     ("witness.groups.0.share", "1/4"),
 )
 # x' = x + u: the regulator has P = -F = 1 + √2, and S > 0 adds to the bound.
@@ -103,6 +103,36 @@ SHARED = changed(
     ("witness.groups.0.S", form([2])),
     ("witness.groups.0.F", matrix([-2])),
     ("witness.groups.0.share", "1/4"),
+)
+# x(t+1) = x/2 + 2u, y = 3x, with weights and intensities that all differ.
+UNLIKE = plant([["1/2"]], ([[2]], [[3]]), time="discrete")
+UNLIKE_WEIGHTS = {"states": [2], "inputs": [3], "disturbances": [5], "noise": [7]}
+# u = -y/12 forgets the state at once: P = 9/4 > 2 + 3/16 proves 45/4 + 7/16 + 7/48.
+UNLIKE_COST = certificate(
+    "loop_cost",
+    UNLIKE,
+    {"weights": UNLIKE_WEIGHTS, "cost": "71/6"},
+    {"P": form([9], exponent=-1)},
+    static(UNLIKE, "-1/12"),
+)
+# P = 2, S = 39/64 and F = -1/5 prove 10, and 1/25 · 1/4 · (3 + 8) · 39/64 more.
+UNLIKE_BOUND = changed(
+    STEPPING,
+    ("system", UNLIKE),
+    ("claim", {"weights": UNLIKE_WEIGHTS, "cost": "64429/6400"}),
+    ("witness.groups.0.disturbances", [5]),
+    ("witness.groups.0.noise", [7]),
+    ("witness.groups.0.P", form([2])),
+    ("witness.groups.0.S", form([39], exponent=-3)),
+    ("witness.groups.0.F", matrix([-1], denominator=5)),
+)
+# u = -y/24: T = -1/4 / (x - 1/4) at both ports, whose |T + 1/2| is at most 7/10.
+UNLIKE_MARGIN = certificate(
+    "disk_margin",
+    UNLIKE,
+    {"at": "inputs", "together": False, "margin": 1},
+    {"parts": [{"ports": [0], "scaling": [1], "P": form([1], exponent=-2)}]},
+    static(UNLIKE, "-1/24"),
 )
 # Agent 1 drives agent 2 and hears nothing of it.
 ONE_WAY = plant([[0, 0], [2, 0]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]]), time="discrete")

@@ -26,6 +26,9 @@ from tests.checker.performance_plants import (
     STEP,
     STEPPING,
     UNBOUNDED,
+    UNLIKE_BOUND,
+    UNLIKE_COST,
+    UNLIKE_MARGIN,
     UNSEEN,
     form,
     static,
@@ -43,6 +46,15 @@ ACCEPTED = [
     ("nearly the largest margin of this matrix", changed(MARGIN, ("claim.margin", "31/50"))),
     ("a bound in discrete time of inputs that enter otherwise than outputs show", ENTERED),
     ("a bound in discrete time with a share", STEPPING),
+    ("a cost with weights that differ", UNLIKE_COST),
+    ("a bound with weights that differ", UNLIKE_BOUND),
+    ("a margin of an input that enters otherwise", UNLIKE_MARGIN),
+    ("a margin of an output that shows otherwise", changed(
+        UNLIKE_MARGIN, ("claim.at", "outputs"), ("witness.parts.0.P", form([9], exponent=1))
+    )),
+    ("a sector with a scaling", changed(
+        SECTOR, ("witness.scaling", [4]), ("witness.P", form([2]))
+    )),
     ("a sector of one line", changed(SECTOR, ("claim.sectors", [[1, 1]]))),
 ]  # fmt: skip
 
@@ -75,6 +87,13 @@ REJECTED = [
     ("a share of 1", SHARED, (f"{GROUP}.share", 1), "INVALID"),
     ("a negative share", SHARED, (f"{GROUP}.share", -1), "INVALID"),
     ("more than a share adds in discrete time", STEPPING, ("claim.cost", "130/80")),
+    ("a cost just below with weights that differ", UNLIKE_COST, ("claim.cost", "11833/1000")),
+    ("too small a P for what inputs cost", UNLIKE_COST, (
+        (P, form([138], exponent=-3)), ("claim.cost", 100)
+    ), "INVALID"),
+    ("a bound just above with weights that differ", UNLIKE_BOUND, ("claim.cost", "1007/100")),
+    ("more than the margin of this input", UNLIKE_MARGIN, ("claim.margin", "8/5"), "INVALID"),
+    ("noise below twice what passes", SHARED, ("claim.weights.bandwidth", "19/5"), "INVALID"),
     ("a negative share alone, as for inputs that cost twice as much", SHARED, (
         (f"{GROUP}.P", form([1], exponent=1)), (f"{GROUP}.S", form([1], exponent=-1)),
         (f"{GROUP}.F", matrix([0])), (f"{GROUP}.share", -1), ("claim.cost", 4),
