@@ -134,6 +134,33 @@ UNLIKE_MARGIN = certificate(
     {"parts": [{"ports": [0], "scaling": [1], "P": form([1], exponent=-2)}]},
     static(UNLIKE, "-1/24"),
 )
+# x2(t+1) = u, x1(t+1) = x2, u = 0: T = 0.
+SHIFTING = plant([[0, 1], [0, 0]], ([[0], [1]], [[1, 0]]), time="discrete")
+SHIFTING_MARGIN = certificate(
+    "disk_margin",
+    SHIFTING,
+    {"at": "inputs", "together": False, "margin": 1},
+    {"parts": [{"ports": [0], "scaling": [1], "P": form([1], [0, 2], exponent=-1)}]},
+    static(SHIFTING, 0),
+)
+# P and S are diagonal, and so large that another order of the states would be too much.
+SHIFTING_BOUND = changed(
+    STEPPING,
+    ("system", SHIFTING),
+    ("claim", {"weights": weights(2, 1), "cost": "9/4"}),
+    ("witness.groups.0.disturbances", [1, 1]),
+    ("witness.groups.0.P", form([3], [0, 6], exponent=-1)),
+    ("witness.groups.0.S", form([9], [0, 8], exponent=-2)),
+    ("witness.groups.0.F", matrix([0, 0])),
+    ("witness.groups.0.share", 0),
+)
+PUSHED_BOUND = changed(
+    SHIFTING_BOUND,
+    ("system", plant([[0, 1], [0, 0]], ([[0], [1]], [[1, 0]]))),
+    ("claim.cost", 1),
+    ("witness.groups.0.P", form([1], [0, 3], exponent=-1)),
+    ("witness.groups.0.S", form([3], [0, 1], exponent=-1)),
+)
 # Agent 1 drives agent 2 and hears nothing of it.
 ONE_WAY = plant([[0, 0], [2, 0]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]]), time="discrete")
 HALVES = {

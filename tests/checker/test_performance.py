@@ -12,6 +12,7 @@ from tests.checker.performance_plants import (
     ALL,
     BOTH,
     BOUND,
+    CONTINUOUS_SECTOR,
     COST,
     EACH,
     ENTERED,
@@ -20,9 +21,12 @@ from tests.checker.performance_plants import (
     GROWING,
     MARGIN,
     MEASURED,
+    PUSHED_BOUND,
     RESTING,
     SECTOR,
     SHARED,
+    SHIFTING_BOUND,
+    SHIFTING_MARGIN,
     STEP,
     STEPPING,
     UNBOUNDED,
@@ -51,6 +55,12 @@ ACCEPTED = [
     ("a margin of an input that enters otherwise", UNLIKE_MARGIN),
     ("a margin of an output that shows otherwise", changed(
         UNLIKE_MARGIN, ("claim.at", "outputs"), ("witness.parts.0.P", form([9], exponent=1))
+    )),
+    ("a margin of a chain", SHIFTING_MARGIN),
+    ("a bound of a chain", SHIFTING_BOUND),
+    ("a bound of a mass", PUSHED_BOUND),
+    ("a sector with a scaling in continuous time", changed(
+        CONTINUOUS_SECTOR, ("witness.scaling", [4]), ("witness.P", form([3], exponent=1))
     )),
     ("a sector with a scaling", changed(
         SECTOR, ("witness.scaling", [4]), ("witness.P", form([2]))
