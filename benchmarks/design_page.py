@@ -125,6 +125,8 @@ def reason(row: Row, alone: Row | None = None) -> str:
     told = list[str]()
     if row["name"] in REMARKS:
         told.append(REMARKS[row["name"]])
+    if row["name"].endswith(" setpoint") and (row.get("ratio") or 0.0) > RATIO:
+        told.append("the bound is for controllers that hold no set-points")
     central = (row.get("by hand") or {}).get("python-control")
     if alone is not None and is_open(row):
         told.append(_of_one_agent(row, alone))

@@ -90,6 +90,11 @@ def test_an_exception_says_what_the_search_finds_for_one_agent() -> None:
     assert reason(row, none).endswith("for all agents was not found: nothing was found")
 
 
+def test_a_cost_of_set_points_stands_over_a_bound_without_them() -> None:
+    row = {**DESIGNED, "name": "plant setpoint", "ratio": 20.0}
+    assert reason(row) == "the bound is for controllers that hold no set-points"
+
+
 def test_a_plant_nearby_that_no_controller_stabilizes_is_a_reason() -> None:
     row = {**DESIGNED, "install": "with care", "beyond all": 0.00036, "warnings": ["it fails"]}
     told = "stabilizes a plant within 0.036 % of each entry (proved); it fails"
