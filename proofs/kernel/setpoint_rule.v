@@ -265,8 +265,8 @@ Definition setpoint_holds (discrete : bool) (K : fieldType) n m (p q : 'I_m -> n
   [/\ \rank (system_matrix S 1 (- discrete%:R)) = p_rank c, p_solvable c = (p_rank c == n + \sum_i q i)%N &
       match p_zero c with
       | None => p_solvable c
-      | Some true => exists x, \rank (system_matrix S (-1) x) = (n + \sum_i q i)%N
-      | Some false => forall x, (\rank (system_matrix S (-1) x) < n + \sum_i q i)%N end].
+      | Some true => ~~ p_solvable c /\ exists x, \rank (system_matrix S (-1) x) = (n + \sum_i q i)%N
+      | Some false => ~~ p_solvable c /\ forall x, (\rank (system_matrix S (-1) x) < n + \sum_i q i)%N end].
 Record setpoint_witness := SetpointWitness { sp_below : below_witness; sp_above : above_witness; sp_point : Z; sp_full : below_witness;
   sp_row : seq (zmat * seq zmat) }.
 Definition check_setpoint (s : zsystem) (discrete : bool) (c : zsetpoint) (w : setpoint_witness) : bool :=
@@ -275,8 +275,8 @@ Definition check_setpoint (s : zsystem) (discrete : bool) (c : zsetpoint) (w : s
       size (x_places (sp_above w)) + p_rank c == rows & [&& p_solvable c == (p_rank c == rows) &
       match p_zero c with
       | None => p_solvable c
-      | Some true => check_below s (-1) (sp_point w) (sp_full w) && (size (w_columns (sp_full w)) == rows)
-      | Some false => zgone s [::] (sp_row w) && has (zsome (zn s) (map zq (zchannels s))) (sp_row w) end]]%N.
+      | Some true => [&& ~~ p_solvable c, check_below s (-1) (sp_point w) (sp_full w) & size (w_columns (sp_full w)) == rows]
+      | Some false => [&& ~~ p_solvable c, zgone s [::] (sp_row w) & has (zsome (zn s) (map zq (zchannels s))) (sp_row w)] end]]%N.
 
 Theorem check_setpoint_sound s discrete c w : check_setpoint s discrete c w -> forall (K : fieldType) (h : {rmorphism rat -> K}) n m (p q : 'I_m -> nat)
   (S : multichannel K n p q), represents s S -> setpoint_holds discrete S c.
@@ -288,7 +288,7 @@ set b := if _ then _ else _; have eb : phi [comRingType of K] b = - discrete%:R 
 case/and5P=> /(check_below_sound h re) low /(check_above_sound h re) up /eqP sl /eqP su /andP[/eqP solv zero].
 rewrite eb phi1 sl in low up; split=> //.
   by apply/eqP; rewrite eqn_leq low andbT -(leq_add2l (size (x_places (sp_above w)))) su addnC.
-move: zero; case: (p_zero c) => [[]|] //; last by case/andP=> gone some x; exact: (normal_rank h re x gone some).
-case/andP=> /(check_below_sound h re); rewrite phiN1 => full /eqP sf; exists (phi [comRingType of K] (sp_point w)).
+move: zero; case: (p_zero c) => [[]|] //; last by case/and3P=> not gone some; split=> // x; exact: (normal_rank h re x gone some).
+case/and3P=> not /(check_below_sound h re); rewrite phiN1 => full /eqP sf; split=> //; exists (phi [comRingType of K] (sp_point w)).
 by apply/eqP; rewrite eqn_leq rank_leq_row -{1}sf.
 Qed.

@@ -217,6 +217,24 @@ def test_both_checkers_agree_about_every_published_plant(name: str, tmp_path: Pa
     assert all(answer.confirmed for answer in verified.confirmations(paths, statements))
 
 
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+@pytest.mark.parametrize("zero", [True, False])
+def test_no_invariant_zero_is_confirmed_where_set_points_can_be_held(
+    zero: bool, tmp_path: Path
+) -> None:
+    plant = mcexact.MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
+    document = json.loads(protocol.encode(mcexact.setpoint_solvability(plant)))
+    document["claim"]["invariant_zero"] = zero
+    document["witness"]["point" if zero else "normal"] = (
+        1 if zero else {"denominator": 1, "coefficients": [[[1, 0]]]}
+    )
+    path = tmp_path / "setpoint.json"
+    path.write_text(json.dumps(document), "ascii")
+    assert check_document(path.read_bytes()).verdict == "INVALID"
+    (answer,) = verified.confirmations([str(path)], [""])
+    assert answer.verdict == "INVALID"
+
+
 PROOFS = Path(__file__).parents[2] / "proofs"
 """The theorems that the kernel rests on, once `make verified` has compiled them."""
 THEOREMS = (PLANT, "compleib-tf1", "quadruple-tank-pminus", "siljak-two-subsystems-farina")
