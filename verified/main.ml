@@ -69,7 +69,7 @@ let certificate text =
     let kind = Json.string "kind" kind in
     let dual = read_subject subject in
     (try claimed kind (Plant.read system) dual claim witness
-     with Division_by_zero -> invalid "witness.modulus" "a number is not invertible modulo l")
+     with Division_by_zero -> incomplete "witness.modulus" "a number is not invertible modulo l, as evidence is prepared here")
   | _ -> assert false
 
 let proved text =

@@ -94,8 +94,10 @@ let controllability (s : Kernel.zsystem) known (claim : Kernel.zreach) value =
   (annihilator, below)
 
 (* Edges j -> i with a power each: for each j and each power the channels i. *)
-let targets (s : Kernel.zsystem) l triples =
+let targets (s : Kernel.zsystem) given triples =
   let m = List.length s.Kernel.zchannels in
+  (* Without edges no number is taken modulo l. *)
+  let l = if triples = [] then Z.nextprime (Z.add s.Kernel.zD Z.one) else given in
   let most = Array.make m (-1) in
   List.iter (fun (j, _, k) ->
       if k >= s.Kernel.zn then invalid "witness" "a power is not below the number of states";
