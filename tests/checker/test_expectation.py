@@ -34,6 +34,7 @@ from tests.checker.handmade import (
     listed,
 )
 from tests.checker.manifests import EVIDENCE, manifest, sentence, write
+from tests.checker.manifests import said as manifest_said
 from tests.checker.test_closed_loop_spectrum import CONTROLLER, HALF, LOOP, SCALAR
 
 ABOUT = digest(read_plant(SCALAR))
@@ -454,3 +455,16 @@ def test_a_manifest_of_samples_has_the_controller_with_another_step_too(tmp_path
     assert found(evidence) == ["IMPLIED"]
     for others in (WEAKER, ROUNDED, PROMPT):
         assert found({**evidence, "outputs": others[1]}) == [NOT_ABOUT, "INVALID"]
+
+
+def test_a_sentence_about_a_controller_is_about_the_step_of_the_manifest(tmp_path: Any) -> None:
+    evidence: dict[str, Document] = {"again": AGAIN[0], "loop": HELD_LOOP}
+    said = [sentence("design-order", evidence=evidence)]
+    document = {**manifest(evidence, said), "subject": [AT_SAMPLES]}
+    (verdict,) = manifest_said(write(tmp_path, evidence, document))
+    assert verdict.verdict == "IMPLIED" and "sampled every 1/2 " in verdict.statement
+    # alone, the certificate about another step shows no controller of the manifest's system
+    alone = {"again": AGAIN[0]}
+    document = {**manifest(alone, said), "subject": [AT_SAMPLES]}
+    (verdict,) = manifest_said(write(tmp_path, alone, document))
+    assert (verdict.verdict, verdict.code) == ("INVALID", "claim")
