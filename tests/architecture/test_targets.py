@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -10,13 +11,48 @@ import pytest
 import mcexact
 
 ROOT = Path(__file__).parents[2]
-MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
-RULES = set(re.findall(r"^([a-z][a-z-]*):", MAKEFILE, re.MULTILINE))
+MAKEFILES = {
+    name: (ROOT / name).read_text(encoding="utf-8") for name in ("Makefile", "campaigns.mk")
+}
+OF = {name: re.findall(r"^([a-z][a-z-]*):", text, re.M) for name, text in MAKEFILES.items()}
+RULES = {*OF["Makefile"], *OF["campaigns.mk"]}
+MOST = 14
+"""So many targets a person can know by heart."""
 
 
-def test_every_target_without_a_file_has_a_rule() -> None:
-    (phony,) = re.findall(r"^\.PHONY: (.*)$", MAKEFILE, re.MULTILINE)
-    assert set(phony.split()) <= RULES
+@pytest.mark.parametrize("name", MAKEFILES)
+def test_every_target_without_a_file_has_a_rule(name: str) -> None:
+    (phony,) = re.findall(r"^\.PHONY: (.*)$", MAKEFILES[name], re.MULTILINE)
+    assert set(phony.split()) == set(OF[name])
+
+
+def test_what_people_use_is_few_and_the_rest_are_campaigns() -> None:
+    assert len(OF["Makefile"]) <= MOST
+    assert not {*OF["Makefile"]} & {*OF["campaigns.mk"]}
+
+
+def printed(*arguments: str) -> str:
+    """What make would do, or prints."""
+    call = ["make", "--no-print-directory", *arguments]
+    return subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+
+
+def test_a_campaign_can_be_named_to_make_itself_with_its_variables() -> None:
+    assert "tests.assurance.attack 5" in printed("-n", "attack", "N=5")
+    with pytest.raises(subprocess.CalledProcessError):
+        printed("-n", "no-target-of-this-name")
+
+
+def test_the_campaigns_are_listed_with_what_each_does() -> None:
+    said = printed("-f", "campaigns.mk")
+    for name in OF["campaigns.mk"]:
+        assert re.search(rf"^{name}\n    \w", said, re.MULTILINE), name
+
+
+def test_the_page_for_contributors_says_when_to_run_each() -> None:
+    page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    for name in RULES - {"help"}:
+        assert f"`make {name}`" in page, name
 
 
 @pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "SECURITY.md", "ARCHITECTURE.md"])

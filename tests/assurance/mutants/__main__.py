@@ -28,7 +28,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / "build" / "mutants"
 CHECKER = Path("mcexact/checker")
-COPIED = ("mcexact", "tests", "proofs", "pyproject.toml", "README.md", "Makefile")
+COPIED = ("mcexact", "tests", "proofs", "pyproject.toml", "README.md", "Makefile", "campaigns.mk")
 
 
 def copy(tree: Path) -> None:
