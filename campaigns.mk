@@ -184,7 +184,7 @@ rounding: $(STAMP)
 
 # The list of all sentences that the commands print about a system, from their templates.
 sentences: $(STAMP)
-	$(BIN)/python -m mcexact.answer.rulebook
+	$(BIN)/python -m mcexact.answer.listing
 
 # The JSON Schemas of files and of --json, from their declarations: seconds.
 schemas: $(STAMP)
