@@ -2,6 +2,16 @@
 
 from __future__ import annotations
 
+import random
+from typing import Any
+
+import pytest
+
+from mcexact.checker import structure
+from mcexact.checker.arithmetic import Matrix, SparseMatrix
+from mcexact.checker.evidence import inputs
+from mcexact.checker.structure import banded_krylov_ranks, krylov_ranks
+from mcexact.checker.system import System
 from tests.checker.handmade import (
     GENERIC,
     INDICES,
@@ -11,6 +21,7 @@ from tests.checker.handmade import (
     changed,
     checked,
     layers,
+    listed,
     matrix,
     plant,
 )
@@ -195,3 +206,44 @@ def test_the_words_name_the_index() -> None:
         "controllability index is 2"
     )
     assert checked(NO_INDEX).statement.endswith("the controllability index is none")
+
+
+@pytest.mark.parametrize("ell", [7, 61])
+def test_ranks_in_a_band_are_those_of_all_entries(ell: int) -> None:
+    rng, stopped = random.Random(ell), 0
+    for _ in range(25):
+        n, p, blocks = rng.randint(46, 60), rng.randint(1, 6), rng.randint(1, 14)
+        cells = {(i, min(i + rng.randint(0, 2), n - 1)): rng.randint(1, 9) for i in range(n)}
+        cells |= {(i + 1, i): rng.randint(1, 9) for i in range(n - 1) if rng.random() < 0.9}
+        A = SparseMatrix(n, n, sorted((i, j, x) for (i, j), x in cells.items()), 5)
+        columns = [(rng.randrange(n), u, rng.randint(1, 6)) for u in range(p - 1)]
+        both = Matrix([[0] * 2 for _ in range(n)], 2)
+        both.rows[0][0] = both.rows[n // 2][1] = 1
+        B = [both, SparseMatrix(n, p - 1, sorted(columns))]
+        system = System("continuous", ["1", "2"], A, B, [Matrix.zeros(1, n)] * 2)
+        for T in ([0], [1], [0, 1]):
+            ranks = krylov_ranks(system, T, ell, blocks)
+            ranks += ranks[-1:] * (blocks + 1 - len(ranks))
+            assert banded_krylov_ranks(system, T, ell, blocks) == ranks
+            stopped += ranks[-1] < min(n, blocks * inputs(system, T).ncols)
+        assert banded_krylov_ranks(system, [], ell, blocks) == [0] * (blocks + 1)
+    assert stopped > 5
+
+
+def test_sparse_plants_are_in_a_band_modulo_small_numbers_only(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    n = 46
+    chain = listed([[int(i == j + 1) for j in range(n)] for i in range(n)], n)
+    claim = {"channels": ["1"], "ranks": [*range(1, n + 1)], "index": n, "indices": [n]}
+    found = certificate(KIND, plant(chain, ([[1], *[[0]] * (n - 1)], [[0] * n])), claim, GENERIC)
+    asked = list[int]()
+
+    def counting(*arguments: Any) -> list[int]:
+        asked.append(arguments[2])
+        return banded_krylov_ranks(*arguments)
+
+    monkeypatch.setattr(structure, "banded_krylov_ranks", counting)
+    for ell, many in ((7, 1), (61, 2), (67, 2)):
+        assert checked(changed(found, ("witness.modulus", ell))).verdict == "VALID"
+        assert len(asked) == many
