@@ -45,7 +45,8 @@ are shared, and seconds are longer.
 
 The peer in `absence` is what practice does: the eigenvalues of A and of one drawn closed loop, by
 `numpy.linalg.eigvals`, which proves nothing. [TEN_MILLION.md](TEN_MILLION.md) says what these
-figures mean for larger plants.
+figures mean for larger plants, and [LARGEST_COSTS.md](LARGEST_COSTS.md) what takes `analyze` most
+of its time.
 """
 
 PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {

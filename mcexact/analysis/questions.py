@@ -207,7 +207,7 @@ _SHARING = (
 )
 _DENSE = 1500
 """The states of a sparse plant for which exact elimination takes a minute."""
-_MOST_OF_MINIMAL = 300
+_MOST_OF_MINIMAL = 500
 """The states up to which joint fixed modes are told from others by default."""
 _JOINT, _ALONE = _joint(spectrum="fixed_spectrum"), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}
