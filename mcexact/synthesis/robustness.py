@@ -162,7 +162,7 @@ class _Work:
         total = int(min(effort * _PER_SECOND * (_USUAL / max(size, 1)) ** 2, 1e6))
         if total < _LITTLE:
             bold = _BOLD if total >= _SCARCE and asked is None else ()
-            first = total // 3 if bold or asked is not None else 0
+            first = total // 2 if asked is not None else total // 3 if bold else 0
             # what likely has a proof is tried with as much work as without the first box
             return cls(2 * total // 3, total + first + 2, (*bold, *_SURE), asked, deadline, first)
         return cls(min(total // 3, _MOST_SEGMENTS), total, _PARTS, asked, deadline)
