@@ -645,20 +645,31 @@ class Analysis(ShownByAccount):
         )
 
     def _outcomes(self) -> dict[str, Any]:
-        """The outcomes by question, with the change that existing links make to fixed modes."""
-        outcomes = self._all_outcomes()
-        more = set[str]()
+        """Decide all questions asked, and those that follow from what is fixed; their outcomes.
+
+        Indices of many states take longest, and come last: a limit shall not discard others for
+        them.
+        """
+        early = [name for name in self.asked if not self.questions[name].ports]
+        self._decide(early)
         if not self._chosen:
+            outcomes = {name: self._answers[name] for name in early}
             if self._links_may_move_modes(outcomes.get("fixed_spectrum")):
-                more.add("linked_fixed_spectrum")
+                self._asked.add("linked_fixed_spectrum")
             elif self._has_decentralized_modes(outcomes):
-                more.add("quotient_fixed_spectrum")
+                self._asked.add("quotient_fixed_spectrum")
             if self._has_joint_modes(outcomes):
-                more.add("minimal_fixed_spectrum")
-        if more <= self._asked:
-            return outcomes
-        self._asked |= more
-        return self._all_outcomes()
+                self._asked.add("minimal_fixed_spectrum")
+        self._decide(sorted(self.asked, key=lambda name: bool(self.questions[name].ports)))
+        self._end_child()
+        return {name: self._answers[name] for name in self.asked}
+
+    def _decide(self, names: Sequence[str]) -> None:
+        """Decide questions, and what they need, in the time that is left."""
+        if self._left is not None and (rest := [n for n in names if n not in self._answers]):
+            self._decide_in_time(rest)
+        for name in names:
+            self._outcome(name)
 
     def _has_joint_modes(self, outcomes: Mapping[str, Any]) -> bool:
         """Whether all channels together are known not to control or not to observe a mode."""
@@ -687,17 +698,6 @@ class Analysis(ShownByAccount):
         linked = self.information == "own" and graph is not None and graph.edges()
         known = spectrum is not None and not isinstance(spectrum, LimitReached)
         return bool(linked and known and not spectrum.empty)
-
-    def _all_outcomes(self) -> dict[str, Any]:
-        """Decide all questions asked or needed; their outcomes in the order of the table."""
-        # Indices of many states take longest: a limit shall not discard others for them.
-        names = sorted(self.asked, key=lambda name: bool(self.questions[name].ports))
-        if self._left is not None and (rest := [n for n in names if n not in self._answers]):
-            self._decide_in_time(rest)
-            self._end_child()
-        for name in names:
-            self._outcome(name)
-        return {name: self._answers[name] for name in self.asked}
 
     @property
     def answers(self) -> dict[str, Any]:

@@ -300,7 +300,7 @@ def test_a_limit_on_time_keeps_what_was_decided(
     assert not [each for each in found.sentences if "left-out" in each.template.key]
     with pytest.raises(LimitReached, match="time limit of 8 s"):
         _ = found.controllability_indices
-    assert lines[-1] == "7 of 9 questions decided, now the controllability indices"
+    assert lines[-1] == "8 of 10 questions decided, now the controllability indices"
     found.save(tmp_path)
     assert {path.stem for path in tmp_path.iterdir()} == {
         "manifest",
