@@ -2,8 +2,8 @@
 
 The entries of a plant in continuous time act on its samples through the exponential, so that the
 small changes of `boxes.failure` do not apply.  `failing_samples` searches corners of boxes instead
-(`corners.first_to_fail`): `SampledFamily` has the loops, and the derivatives of an eigenvalue with
-respect to all entries by one derivative of the exponential.
+(`corners.first_to_fail`): `SampledFamily` has the loops, and `Held` the samples and their
+derivatives with respect to all entries, by one derivative of the exponential.
 
 All of this is floating point, and finding none proves nothing.  Whether the loop of such a plant
 fails is decided exactly afterwards, for its samples to the decimals of the given one.
@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -79,6 +80,72 @@ def _above(x: float) -> Fraction:
     return Fraction(-(-(Fraction(x) * scale) // 1)) / scale
 
 
+@dataclass(frozen=True, eq=False)
+class Held:
+    """A plant in continuous time whose inputs are held between samples.
+
+    Attributes
+    ----------
+    entries : ndarray, n × (n + p)
+        [A, B].
+    step : float
+    late : bool
+        Whether [A_h, B_h] acts on the state and a register, or on the state and the input.
+    """
+
+    entries: Floats
+    step: float
+    late: bool
+
+    @classmethod
+    def of(cls, sampled: MultiChannelSystem) -> Held:
+        """The plant that was sampled, and how."""
+        (how,), plant = sampled.subject, sampled.plant
+        entries = matrix_to_float(hstack([plant.A, plant.input_matrix()]))
+        return cls(entries, to_float(Fraction(how["step"])), bool(how["late"]))
+
+    @property
+    def n(self) -> int:
+        """The number of states in continuous time."""
+        return len(self.entries)
+
+    def _exponent(self, moved: Floats) -> Floats:
+        """[A, B; 0, 0] h with moved entries."""
+        width = self.entries.shape[1]
+        X = np.zeros((width, width))
+        X[: self.n] = self.step * (self.entries + moved)
+        return X
+
+    def change(self, moved: Floats) -> Floats:
+        """How [A_h, B_h] changes when [A, B] does."""
+        difference: Floats = self._held(moved) - self._nominal
+        return difference
+
+    @cached_property
+    def _nominal(self) -> Floats:
+        """[A_h, B_h]."""
+        return self._held(np.zeros(self.entries.shape))
+
+    def _held(self, moved: Floats) -> Floats:
+        """[A_h, B_h] with moved entries."""
+        from scipy.linalg import expm
+
+        held: Floats = expm(self._exponent(moved))[: self.n]
+        return held
+
+    def slopes(self, moved: Floats, W: Complexes) -> Complexes:
+        """The derivatives of Σ W_ij [A_h, B_h]_ij in [A, B], where entries are moved."""
+        from scipy.linalg import expm_frechet
+
+        X, n = self._exponent(moved).T, self.n
+        padded = np.vstack([W, np.zeros((len(X) - n, len(X)))])
+        found = np.zeros(W.shape, dtype=np.complex128)
+        for part, unit in ((padded.real, 1), (padded.imag, 1j)):
+            derivative: Any = expm_frechet(X, part, compute_expm=False)
+            found += unit * self.step * derivative[:n]
+        return found
+
+
 @dataclass
 class SampledFamily:
     """The loops of a sampled plant in floating point, by the entries of [A, B; C, 0] of the plant.
@@ -95,11 +162,8 @@ class SampledFamily:
 
     def __post_init__(self) -> None:
         sampled = self.of.plant
-        plant, box = sampled.plant, Box(sampled.plant)
-        (how,) = sampled.subject
-        self.h, self.n, self.late = to_float(Fraction(how["step"])), plant.n, bool(how["late"])
+        self.n, self.held, box = sampled.plant.n, Held.of(sampled), Box(sampled.plant)
         self.nominal, self._exact_radii = box.nominal, box.radii
-        self.entries = _joined(plant.A, list(plant.B), list(plant.C))
         radii = _joined(box.radii.A, list(box.radii.B), list(box.radii.C))
         self.radii: tuple[Floats, ...] = (_FARTHEST * radii,)
         parts, N = self.of.disturbed, sampled.n
@@ -107,27 +171,13 @@ class SampledFamily:
             matrix_to_float(each) for each in (parts.M, parts.G, parts.U, parts.K)
         )
         self.to_plant, self.from_state = np.eye(len(self.M))[:, : self.n], np.eye(len(self.M))[:N]
-        self.held = self._held(self.entries)
-
-    def _held(self, entries: Floats) -> Floats:
-        """[A_h, B_h] of [A, B; C, 0]."""
-        from scipy.linalg import expm
-
-        held: Floats = expm(self.h * self._generator(entries))[: self.n]
-        return held
-
-    def _generator(self, entries: Floats) -> Floats:
-        """[A, B; 0, 0]."""
-        X = np.zeros((entries.shape[1],) * 2)
-        X[: self.n] = entries[: self.n]
-        return X
 
     def loop(self, signs: Signs, size: float) -> Floats:
         """The loop of the plant with moved entries."""
         moved = size * signs[0] * self.radii[0]
         n, x = self.n, self.from_state[: self.n]
-        held, dC = self._held(self.entries + moved) - self.held, moved[n:, :n]
-        if self.late:
+        held, dC = self.held.change(moved[:n]), moved[n:, :n]
+        if self.held.late:
             acting = held @ self.from_state[: held.shape[1]]
         else:
             acting = held[:, :n] @ x + held[:, n:] @ (self.U + self.K @ dC @ x)
@@ -138,24 +188,16 @@ class SampledFamily:
         self, signs: Signs, size: float, left: Complexes, right: Complexes
     ) -> tuple[Complexes, ...]:
         """The derivatives of wMv in all entries."""
-        from scipy.linalg import expm_frechet
-
         moved = size * signs[0] * self.radii[0]
-        entries = self.entries + moved
-        n, width, x = self.n, entries.shape[1], self.from_state[: self.n] @ right
+        n, width, x = self.n, moved.shape[1], self.from_state[: self.n] @ right
         entering, acted = self.G, self.from_state[:width] @ right
-        if not self.late:
+        if not self.held.late:
             used = self.U @ right + self.K @ (moved[n:, :n] @ x)
             acted = np.concatenate([x, used])
-            more = (self._held(entries) - self.held)[:, n:]
+            more = self.held.change(moved[:n])[:, n:]
             entering = entering + self.to_plant @ more @ self.K
-        W = np.zeros((width, width), dtype=np.complex128)
-        W[:n] = np.outer(left[:n], acted)
-        X = self.h * self._generator(entries).T
-        slope = np.zeros(entries.shape, dtype=np.complex128)
-        for part, unit in ((W.real, 1), (W.imag, 1j)):
-            derivative: Any = expm_frechet(X, part, compute_expm=False)
-            slope[:n] += unit * self.h * derivative[:n]
+        slope = np.zeros(moved.shape, dtype=np.complex128)
+        slope[:n] = self.held.slopes(moved[:n], np.outer(left[:n], acted))
         slope[n:, :n] = np.outer(left @ entering, x)
         return (slope,)
 

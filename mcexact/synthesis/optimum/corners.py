@@ -2,24 +2,21 @@
 
 `boxes.corners` searches them.  A search of controllers counts the costs of the plants at these
 corners (`Objective.members`).  The box of a sampled plant is that of the plant in continuous time,
-whose entries act on the samples through the exponential (`Held`).
+whose entries act on the samples through the exponential (`samples.Held`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from functools import cached_property
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from mcexact.analysis.boxes.corners import WORK, Signs, distance_of, first_to_fail
+from mcexact.analysis.boxes.samples import Held
 from mcexact.derived.sampling import is_sampled
-from mcexact.exact.matrix import hstack, matrix_to_float, to_float
+from mcexact.exact.matrix import matrix_to_float
 from mcexact.model.box import Box
-from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Floats, Places
 
 Complexes = npt.NDArray[np.complex128]
@@ -47,65 +44,6 @@ class Corner:
     def same(self, other: Corner) -> bool:
         """Whether all signs are equal."""
         return all(map(np.array_equal, self.signs, other.signs))
-
-
-@dataclass(frozen=True, eq=False)
-class Held:
-    """A plant in continuous time whose inputs are held between samples.
-
-    Attributes
-    ----------
-    entries : ndarray, n × (n + p)
-        [A, B].
-    step : float
-    late : bool
-        Whether [A_h, B_h] acts on the state and a register, or on the state and the input.
-    """
-
-    entries: Floats
-    step: float
-    late: bool
-
-    @property
-    def n(self) -> int:
-        """The number of states in continuous time."""
-        return len(self.entries)
-
-    def _exponent(self, moved: Floats) -> Floats:
-        """[A, B; 0, 0] h with moved entries."""
-        width = self.entries.shape[1]
-        X = np.zeros((width, width))
-        X[: self.n] = self.step * (self.entries + moved)
-        return X
-
-    def change(self, moved: Floats) -> Floats:
-        """How [A_h, B_h] changes when [A, B] does."""
-        difference: Floats = self._held(moved) - self._nominal
-        return difference
-
-    @cached_property
-    def _nominal(self) -> Floats:
-        """[A_h, B_h]."""
-        return self._held(np.zeros(self.entries.shape))
-
-    def _held(self, moved: Floats) -> Floats:
-        """[A_h, B_h] with moved entries."""
-        from scipy.linalg import expm
-
-        held: Floats = expm(self._exponent(moved))[: self.n]
-        return held
-
-    def slopes(self, moved: Floats, W: Complexes) -> Complexes:
-        """The derivatives of Σ W_ij [A_h, B_h]_ij in [A, B], where entries are moved."""
-        from scipy.linalg import expm_frechet
-
-        X, n = self._exponent(moved).T, self.n
-        padded = np.vstack([W, np.zeros((len(X) - n, len(X)))])
-        found = np.zeros(W.shape, dtype=np.complex128)
-        for part, unit in ((padded.real, 1), (padded.imag, 1j)):
-            derivative: Any = expm_frechet(X, part, compute_expm=False)
-            found += unit * self.step * derivative[:n]
-        return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,8 +76,7 @@ class Corners:
 
         Examples
         --------
-        >>> from mcexact.model.system import MultiChannelSystem
-        >>> from mcexact.synthesis.networks import decentralized_network
+        >>>         >>> from mcexact.synthesis.networks import decentralized_network
         >>> from mcexact.synthesis.optimum.problem import Weights
         >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
         >>> problem = FeedbackProblem.of(decentralized_network(plant), [0], Weights.unit(plant))
@@ -148,7 +85,7 @@ class Corners:
         (0.33, array([[1.]]), array([[-1.]]))
         """
         plant = problem.network.plant
-        held, plant = _held(plant), plant.plant if is_sampled(plant) else plant
+        held, plant = (Held.of(plant), plant.plant) if is_sampled(plant) else (None, plant)
         own = plant.uncertainty is not None
         radii = Box(plant if own else Box.relative(plant, 1).system).radii
         starts = np.cumsum([0, *(plant.q(i) for i in range(plant.m))])
@@ -248,12 +185,3 @@ class _Loops:
             dA, dB, _ = box.moves(signs, size)
             W = box.held.slopes(np.hstack([dA, dB]), W)
         return W[:, :n], W[:, n:], np.outer(seen_by, v[:n])
-
-
-def _held(plant: MultiChannelSystem) -> Held | None:
-    """How a plant is sampled; None if it is not."""
-    if not is_sampled(plant):
-        return None
-    (how,), own = plant.subject, plant.plant
-    entries = matrix_to_float(hstack([own.A, own.input_matrix()]))
-    return Held(entries, to_float(Fraction(how["step"])), bool(how["late"]))

@@ -10,6 +10,7 @@ import pytest
 
 from mcexact.analysis.boxes.largest import failing_loop
 from mcexact.analysis.boxes.loops import StabilitySearch
+from mcexact.analysis.boxes.samples import Held
 from mcexact.derived.sampling import sampled_system
 from mcexact.exact.matrix import Matrix, matrix_to_float
 from mcexact.exact.roots import StabilityRegion
@@ -19,7 +20,7 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.networks import decentralized_network, shared_network
-from mcexact.synthesis.optimum.corners import Corner, Corners, Held
+from mcexact.synthesis.optimum.corners import Corner, Corners
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights, controller_of
 
