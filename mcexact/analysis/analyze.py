@@ -681,7 +681,7 @@ class Analysis(ShownByAccount):
         return any(not each.controllable for each in lacks)
 
     def _has_decentralized_modes(self, outcomes: Mapping[str, Any]) -> bool:
-        """Whether a mode is known to be fixed as some channels act, and others measure."""
+        """Whether a fixed mode is known that some channels do not control, others not observe."""
         spectrum, graph = (outcomes.get(name) for name in ("fixed_spectrum", "transfer_graph"))
         if not isinstance(spectrum, Answer) or not isinstance(graph, Answer):
             return False

@@ -209,6 +209,9 @@ _DENSE = 1500
 """The states of a sparse plant for which exact elimination takes a minute."""
 _MOST_OF_MINIMAL = 500
 """The states up to which joint fixed modes are told from others by default."""
+_MOST_OF_QUOTIENT = 100
+"""The states up to which quotient fixed modes are decided by default: it takes as long again, to
+decide and to check, as the fixed modes of the plant."""
 _JOINT, _ALONE = _joint(spectrum="fixed_spectrum"), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}
 
@@ -243,7 +246,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "nonlinear; by default if some channels lack control and others lack sight of a mode",
             about="quotient",
             by_default=False,
-            most=_MOST_OF_MINIMAL,
+            most=_MOST_OF_QUOTIENT,
             kind="fixed_spectrum",
         ),
         "completeness": Question(

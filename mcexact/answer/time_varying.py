@@ -21,7 +21,8 @@ _NECESSARY = "time_varying.no_causal_control_moves"
 TIME_VARYING = Template(
     "time-varying-stabilizes",
     "Time-varying {control:causal} can stabilize the plant.",
-    "B. D. O. Anderson and J. B. Moore 1981; L. Gong and M. Aldeen 1997",
+    "B. D. O. Anderson and J. B. Moore 1981; P. P. Khargonekar and A. B. Ozguler 1994; "
+    "L. Gong and M. Aldeen 1997",
 )
 NO_CAUSAL = Template(
     "no-causal-control",

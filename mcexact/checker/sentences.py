@@ -466,7 +466,10 @@ def _feedthrough(filtered: Premise) -> str:
 
 OWN_GRAPH = Role(("transfer_graph",), PLANT)
 QUOTIENT = Role(FIXED.kinds, (("merged",),))
-TIME_VARYING = "B. D. O. Anderson and J. B. Moore 1981; L. Gong and M. Aldeen 1997"
+TIME_VARYING = (
+    "B. D. O. Anderson and J. B. Moore 1981; P. P. Khargonekar and A. B. Ozguler 1994; "
+    "L. Gong and M. Aldeen 1997"
+)
 ANY = "no causal decentralized control, also none that varies in time or is nonlinear,"
 CAUSAL = "time_varying.no_causal_control_moves"
 
