@@ -76,7 +76,8 @@ class Corners:
 
         Examples
         --------
-        >>>         >>> from mcexact.synthesis.networks import decentralized_network
+        >>> from mcexact.model.system import MultiChannelSystem
+        >>> from mcexact.synthesis.networks import decentralized_network
         >>> from mcexact.synthesis.optimum.problem import Weights
         >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
         >>> problem = FeedbackProblem.of(decentralized_network(plant), [0], Weights.unit(plant))
