@@ -316,6 +316,12 @@ ANOTHER_STEP = Template(
     "{step:step}",
     label="disk margin with a longer step",
 )
+HELD = Template(
+    "performance-at-samples",
+    "at least {margin:digits_below} at every single input and output, with the controller every "
+    "{step:step} by Tustin's rule, rounded to 12 digits, and inputs that are set at once",
+    label="disk margin at samples",
+)
 SECTORS = Template(
     "performance-sectors",
     "tends to rest if each input of the plant is any function of the time and of the value that "
@@ -457,8 +463,22 @@ for _name in MARGINS:
 )
 def _another_step(inputs: Certified, outputs: Certified, loop: Certified, context: Context) -> Said:
     """The least margin of a single input or output, where samples are farther apart."""
-    step, *_ = (Fraction(each.made_by(0).step) for each in (inputs, outputs, loop))
-    yield ANOTHER_STEP(margin=min(inputs.margin, outputs.margin), step=step)
+    if is_sampled(context.system):
+        step, *_ = (Fraction(each.made_by(0).step) for each in (inputs, outputs, loop))
+        yield ANOTHER_STEP(margin=min(inputs.margin, outputs.margin), step=step)
+
+
+@RULES.rule(
+    "table",
+    HELD,
+    premises=("longest_step_input_margin", "longest_step_output_margin", "loop"),
+)
+def _at_samples(inputs: Certified, outputs: Certified, loop: Certified, context: Context) -> Said:
+    """The least margin of a single input or output, where the controller runs at samples."""
+    _ = loop.made_by(0).construction
+    if not is_sampled(context.system):
+        step, _ = (Fraction(each.made_by(0).step) for each in (inputs, outputs))
+        yield HELD(margin=min(inputs.margin, outputs.margin), step=step)
 
 
 def _step_rule(name: str, at: str) -> None:

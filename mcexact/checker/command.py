@@ -51,9 +51,11 @@ from .kinds import (
     Verdict,
     attempt,
     check_document,
+    made_by,
     memory,
     nothing_beside,
     refusal,
+    require_asked,
     same,
     sampled_again,
 )
@@ -71,7 +73,9 @@ from .reading import (
     shown,
     string,
 )
-from .sentences import ANOTHER_STEP, RULES, Premise
+from .sentences import ANOTHER_STEP, AT_SAMPLES, RULES, Premise
+from .sentences_loops import CLOSED
+from .sentences_performance import held_from
 from .summaries import cut
 from .system import System, counted
 
@@ -145,6 +149,9 @@ def verdicts_of(
         return
     if expected.controller and not any(each.system.controller for each in known.premises.values()):
         yield {"file": NAME}, refusal(NOT_ABOUT, "controller", "file", "about no closed loop")
+    strange = attempt(known.require_held) if expected.controller else None
+    if strange is not None:
+        yield {"file": NAME}, strange
     numbers = {name: str(k) for k, name in enumerate(sorted(digests), 1)}
     for k, sentence in enumerate(sentences):
         cited = dict.fromkeys(numbers[name] for name, *_ in sentence["because"])
@@ -256,13 +263,15 @@ class Evidence:
             right = large or hashlib.sha256(data).hexdigest() == wanted
             require(right, "digest", "file", "not the bytes that the manifest names")
             with limited(self.budget), keeping(self.kept):
-                any_loop = replace(self.expected, controller="", base=self.base)
+                held = not self.base
+                any_loop = replace(self.expected, controller="", base=self.base, at_samples=held)
                 any_loop = Expectation() if name in self.nearby else any_loop
                 found = Check(any_loop, self.limits, self.beside)
                 verdict = found.of(data)
                 if verdict.verdict == "VALID":
-                    if found.controller:
-                        steps = found.document["subject"]
+                    steps = found.document["subject"]
+                    # that of a loop of samples is compared when all loops are known
+                    if found.controller and (self.base or tuple(made_by(steps)) != AT_SAMPLES):
                         self.expected.require_subject(steps, found.controller)
                     self.premises[name] = self._premise(name, found)
                     if name in self.nearby:
@@ -281,6 +290,15 @@ class Evidence:
                 meant = constructed(self.base, first.plant)
             for name, each in self.premises.items():
                 self.premises[name] = replace(each, meant=meant)
+
+    def require_held(self) -> None:
+        """Stop unless every loop of samples has the controller of a loop in continuous time."""
+        loops = [each for each in self.own() if each.path in CLOSED]
+        for known in [] if self.base else [e for e in self.own() if e.path == AT_SAMPLES]:
+            with limited(self.budget):
+                held = any(held_from(known, loop) for loop in loops)
+            message = "about another controller than that of the loop at samples, by Tustin's rule"
+            require_asked(held, "controller", known.file, message)
 
     def own(self) -> list[Premise]:
         """The certificates about the plant of the manifest, or boxes around it."""

@@ -126,6 +126,9 @@ class Expectation:
     base : list
         The constructions of the manifest: where they sample the plant, a controller may name this
         system also in certificates about another step.
+    at_samples : bool
+        Whether a controller in continuous time is asked for, and a loop of samples may have one
+        that is compared with it later.
     """
 
     system: str = ""
@@ -140,6 +143,7 @@ class Expectation:
     saturation: Saturation = ()
     among: bool = False
     base: Json = ()
+    at_samples: bool = False
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
         """Expect, in addition, that the certificate is about the plant in a system file."""
@@ -472,7 +476,7 @@ class Check:
     def _named(self, values: str) -> str:
         """The digest that controllers name: that of the sampled plant, if it is sampled first."""
         steps = sampling_of(self.document["subject"]) if self.wanted.made_for else []
-        if not steps or isinstance(self.plant, FunctionSystem):
+        if not steps or isinstance(self.plant, FunctionSystem) or self.wanted.at_samples:
             return values
         steps = self.wanted.base if sampled_again(steps, self.wanted.base) else steps
         held = read_subject(steps, at_values(self.plant))

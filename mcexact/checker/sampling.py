@@ -8,15 +8,20 @@ The terms V_k = (hA)^(k−1) h[A, B] / k! of the series are integers over a powe
 to the nearest one.  F_k bounds, entry by entry, how far V_k is from that of any member: what is
 exact and certain has 0.  What follows after the last term is bounded by the last one and by weights
 w > 0 with |hA| w ≤ ν w, since entries of hA may differ in size by the units of the states.
+
+`is_held` says whether a controller is that in continuous time which runs at the samples by Tustin's
+rule, rounded.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 from . import budget
-from .arithmetic import Matrix, Rows, absolute
+from .arithmetic import Matrix, Rows, absolute, beside, divided
 from .budget import spend
+from .system import System
 
 TURNS = 24
 """How often the weights are improved."""
@@ -149,3 +154,66 @@ def _reached(F: Matrix, P: Matrix) -> list[int]:
                 masks[i] |= masks[j]
         moved = masks != before
     return masks
+
+
+# Controllers in continuous time, at the samples.
+
+ROUNDED = Fraction(1, 2 * 10**11)
+"""The part by which a number changes at most that is rounded to 12 significant digits."""
+Program = dict[str, Any]
+
+
+def is_held(own: Program, held: Program, system: System, h: Fraction) -> bool:
+    """Whether one controller is the other at samples, by Tustin's rule to 12 digits.
+
+    With X = (I − (h/2)A)⁻¹ an agent z' = Az + By, u = Cz + Dy becomes
+
+        z(t+1) = X(I + (h/2)A) z + hXB y,   u = CX z + (D + (h/2)CXB) y,
+
+    set-points as outputs.  An agent that shares states is not at samples that of anyone.  Both are
+    as `read_controller` returns them, for the agents of the system.
+    """
+    pairs = zip(own["agents"], held["agents"], strict=True)
+    times = own["time"] == "continuous" and held["time"] == "discrete"
+    return times and all(
+        _is_held(first, second, system, i, h / 2) for i, (first, second) in enumerate(pairs)
+    )
+
+
+def _is_held(own: Program, held: Program, system: System, i: int, half: Fraction) -> bool:
+    """The same of agent i; ``half`` is half the step."""
+    k, p = own["private"], system.B[i].ncols
+    widths = {name: C_j.nrows for name, C_j in zip(system.names, system.C, strict=True)}
+
+    def read(agent: Program, label: str, nrows: int) -> tuple[Matrix, Matrix]:
+        """What a map reads of the private state, and of all outputs and the own set-points."""
+        used = agent.get(label, {})
+        outputs = used.get("outputs", {})
+        seen = [outputs.get(j, Matrix.zeros(nrows, width)) for j, width in widths.items()]
+        wanted = used.get("reference", Matrix.zeros(nrows, system.C[i].nrows))
+        return used.get("private", Matrix.zeros(nrows, k)), beside([*seen, wanted], nrows)
+
+    if any(each["shared"] or "hold" in each for each in (own, held)) or held["private"] != k:
+        return False
+    (A, B), (C, D) = read(own, "private_update", k), read(own, "input", p)
+    identity = Matrix.unit_rows(k, 0, k)
+    solved = divided(identity - A.times(half), beside([identity + A.times(half), B], k))
+    if solved is None:
+        return False
+    update, fed = solved.across(range(k)), solved.across(range(k, k + B.ncols)).times(half)
+    meant = (update, fed.times(2)), ((C @ (update + identity)).times(Fraction(1, 2)), D + C @ fed)
+    found = read(held, "private_update", k), read(held, "input", p)
+    pairs = zip([*meant[0], *meant[1]], [*found[0], *found[1]], strict=True)
+    return all(_is_rounded(exact, rounded) for exact, rounded in pairs)
+
+
+def _is_rounded(exact: Matrix, rounded: Matrix) -> bool:
+    """Whether every entry is that of another matrix, rounded to 12 significant digits or better."""
+    missed, most = absolute(rounded - exact), absolute(exact).times(ROUNDED)
+    spend(budget.fractions(exact.nrows * exact.ncols, missed.limbs + most.limbs))
+    d, e = missed.denominator, most.denominator
+    return all(
+        x * e <= y * d
+        for first, second in zip(missed.rows, most.rows, strict=True)
+        for x, y in zip(first, second, strict=True)
+    )

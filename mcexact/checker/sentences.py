@@ -44,6 +44,9 @@ PLANT, HEARD = SYSTEM[:1], SYSTEM[1:]
 ANOTHER_STEP = "another step"
 """Where a path begins of the plant sampled as for the manifest, but with another step."""
 
+AT_SAMPLES: Path = ("sampled", "closed_loop")
+"""The path of a loop of samples, where the manifest is about the plant in continuous time."""
+
 
 @dataclass(frozen=True)
 class Premise:

@@ -21,6 +21,7 @@ from .reading import Json, polynomial
 from .roots import in_stability_region
 from .sentences import (
     ANOTHER_STEP,
+    AT_SAMPLES,
     DUAL,
     FIXED_DYNAMIC,
     HAUTUS,
@@ -68,7 +69,8 @@ def controller(known: list[Premise]) -> tuple[Premise, list[Json]]:
     loops = [
         premise
         for premise in known
-        if premise.path and premise.path[-1] == "closed_loop" and premise.path[0] != ANOTHER_STEP
+        if premise.path and premise.path[-1] == "closed_loop" and premise.path != AT_SAMPLES
+        if premise.path[0] != ANOTHER_STEP
     ]
     known[0].expect(bool(loops), "expected a certificate about a closed loop")
     return loops[0], loops[0].document["subject"][-1]["controller"]["agents"]

@@ -10,8 +10,10 @@ from . import budget
 from .budget import spend
 from .kinds import same
 from .reading import rational
-from .sentences import ANOTHER_STEP, PLANT, Premise, Role, either, restate, rule
+from .sampling import is_held
+from .sentences import ANOTHER_STEP, AT_SAMPLES, PLANT, Premise, Role, either, restate, rule
 from .sentences_loops import CLOSED, LOOP, LOOPS, alone, within
+from .system import read_controller
 
 COST, BOUND = Role(("loop_cost",), CLOSED), Role(("cost_bound",), PLANT)
 MARGIN, MARGINS = (Role(("disk_margin",), CLOSED, many=many) for many in (False, True))
@@ -99,6 +101,30 @@ def _another_step(margins: list[Premise], _: list[Premise], loop: Premise) -> st
     again, own = (each.document["subject"] for each in (margins[0], loop))
     margins[0].expect(same(again[1:], own[1:]), "another controller")
     return f"{each_port(margins)}, with the controller for the step {own[0]['step']}"
+
+
+HELD = Role(("disk_margin",), (AT_SAMPLES,), many=True)
+
+
+def held_from(at_samples: Premise, loop: Premise) -> bool:
+    """Whether a loop of samples has a controller in continuous time by Tustin's rule."""
+    (sampling, again), (own,) = (each.document["subject"] for each in (at_samples, loop))
+    programs = [
+        read_controller(step["controller"], at_samples.file, at_samples.plant)
+        for step in (own, again)
+    ]
+    h = rational(sampling["step"], at_samples.file)
+    return is_held(programs[0], programs[1], at_samples.plant, h)
+
+
+@rule("performance-at-samples", HELD, HELD, LOOP)
+def _at_samples(margins: list[Premise], _: list[Premise], loop: Premise) -> str:
+    """The margins of the loop in continuous time with its controller at samples, without delay."""
+    first = margins[0]
+    first.expect(first.document["subject"][0]["late"] == 0, "inputs are applied late")
+    first.expect(held_from(first, loop), "another controller than that of the loop at samples")
+    held = "its controller is that of the loop in continuous time"
+    return f"{each_port(margins)}; {held} by Tustin's rule, rounded to 12 digits"
 
 
 def own_peak(peaks: Premise) -> str:

@@ -43,7 +43,7 @@ from mcexact.derived.feedthrough import input_filters, plant_controller
 from mcexact.derived.sampling import is_sampled
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.rational import Limits, percent, written
-from mcexact.exact.roots import StabilityRegion
+from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.model.controller import controller_text
 from mcexact.model.regulated import positions_of, selection_in_words
 from mcexact.model.system import MultiChannelSystem
@@ -67,7 +67,9 @@ _PROVING = 0.5
 _SHOWING = 0.2
 """The part of the rest of the time that is left for showing the result."""
 _STEPPING = 5.0
-"""The seconds after which no longer step is tried."""
+"""The seconds after which no longer step of a sampled plant is tried."""
+_HOLDING = 3.0
+"""The seconds after which no other step of a controller in continuous time is tried."""
 _NOTHING_ELSE = (
     "the time limit ended the proofs of the cost and of the margins, whose figures are computed, "
     "and no box of plants was sought"
@@ -250,7 +252,8 @@ class _Shaped:
             asked = None if self.aims.box is None else Fraction(self.aims.box)
             every_loop = design.every_loop(**effort, deadline=rest, part=asked)
         longest = None
-        if is_sampled(design.loop.closed.plant):
+        plant = design.loop.closed.plant
+        if is_sampled(plant) or not is_discrete(plant.time):
             if end is not None:
                 report.keep(DESIGNED, shown(proved, _NO_STEP))
             longest = self._longest_step(end, report)
@@ -259,11 +262,11 @@ class _Shaped:
         )
 
     def _longest_step(self, end: float | None, report: Reporting) -> LongestStep:
-        """The longest step of a sampled plant with which the controller keeps its margins."""
+        """The longest time between samples with which the controller keeps its margins."""
         closed = self.design.loop.closed
         report.step("the longest step with these margins")
         now = time.monotonic()
-        deadline = now + _STEPPING
+        deadline = now + (_STEPPING if is_sampled(closed.plant) else _HOLDING)
         if end is not None:
             deadline = min(deadline, end - _SHOWING * (end - now))
         return longest_step(
@@ -447,7 +450,8 @@ def _steps(longest: LongestStep | None) -> tuple[Table, ...]:
     """The table of the longest step, of whose proofs there is a sentence."""
     if longest is None:
         return ()
-    return (Table("other times between samples", (), (("longest step", longest.explain()),)),)
+    title = "the controller at samples" if longest.held else "other times between samples"
+    return (Table(title, (), (("longest step", longest.explain()),)),)
 
 
 def _require_readable(design: Design, limits: Limits) -> None:

@@ -386,6 +386,7 @@ ASSESSMENT = record(
 
 LONGEST_STEP = record(
     {"step": some(NUMBER), "margin": NUMBER, "proved": YES, "not_found": some(NUMBER)},
+    {"left_out": TEXT},
     closed=True,
     says="the longest step, of those that were tried, with which the same controller has a disk "
     "margin at every single input and output",

@@ -174,7 +174,8 @@ class Design(ShownByAccount):
             facts |= failing.facts(closed.plant)
         if performance is not None:
             answers |= performance.answers
-        if longest is not None and longest.step != self.loop.closed.plant.sample_time:
+        own = self.loop.closed.plant.sample_time
+        if longest is not None and (longest.held or longest.step != own):
             answers |= {f"longest_step_{name}": each for name, each in longest.answers.items()}
         context = Context(closed.at_samples, {**facts, **self.parts})
         sentences = DESIGN.sentences(answers, context)

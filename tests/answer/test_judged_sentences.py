@@ -111,6 +111,25 @@ def none_of(plant: Any) -> tuple[list[fmpq_mat], list[fmpq_mat]]:
     return [M * 0 for M in plant.B], [M * 0 for M in plant.C]
 
 
+@pytest.fixture(scope="module")
+def held() -> tuple[Said, Case]:
+    """What is said of a loop in continuous time whose controller runs at samples."""
+    plant = MultiChannelSystem([[0, 1], [0, -1]], [[[0], [1]]], [[[1, 0]]])
+    made = design_decentralized(plant)
+    document = document_of(json.loads(json.dumps(made.controller.document(), default=str)))
+    account = made.account_with(None, None, longest_step(plant, made.controller))
+    rows = [said(each) for each in account.sentences]
+    [row] = [row for row in rows if row.rule == "performance-at-samples"]
+    return row, Case(plant_of(plant), {}, document, rows)
+
+
+def test_a_controller_at_samples_has_the_margin_that_is_told(held: tuple[Said, Case]) -> None:
+    row, case = held
+    assert verdict(row, case)
+    for change in ({"step": 9}, {"margin": "9/5"}):
+        assert verdict(replace(row, values={**row.values, **change}), case) is False
+
+
 @pytest.mark.parametrize(
     "change", [{"part": 5}, {"step": 9}, {"late": 0}, {"decimals": 3}, {"margin": "9/5"}]
 )

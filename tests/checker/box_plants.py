@@ -220,6 +220,65 @@ WEAKER = [
     changed(each, ("subject.1.controller.agents.0.input.outputs.1", [["-1/4"]])) for each in AGAIN
 ]
 """The margins of the tank with another step, of the step of `HELD_LOOP`, and of other loops."""
+
+
+def lagging(time: str, *numbers: str) -> Document:
+    """A construction of an agent with z' = az + by, u = cz + dy."""
+    a, b, c, d = ([[x]] for x in numbers)
+    agent = {
+        "name": "1",
+        "shared": 0,
+        "private": 1,
+        "shared_update": {},
+        "private_update": {"outputs": {"1": b}, "private": a},
+        "input": {"outputs": {"1": d}, "private": c},
+    }
+    return {"construction": "closed_loop", "controller": {"time": time, "agents": [agent]}}
+
+
+LAGGING = certificate(
+    "stability",
+    TANK,
+    {"bound": None, "stable": True},
+    {"method": "polynomial"},
+    lagging("continuous", "-2", "1", "-1/2", "-1/2"),
+)
+# h = 1/2: X = 2/3, so that z(t+1) = z/3 + y/3, u = -z/3 - 7/12 y.
+BY_TUSTIN = [
+    certificate(
+        "disk_margin",
+        TANK,
+        {"at": at, "together": False, "margin": "1/2"},
+        {"parts": [{"ports": [0], "scaling": [1], "P": form([3], [0, 1])}]},
+        {**AT_SAMPLES, "late": 0},
+        lagging("discrete", "1/3", "1/3", "-1/3", "-7/12"),
+    )
+    for at in ("inputs", "outputs")
+]
+LATE = [
+    changed(each, ("subject.0.late", 1), ("witness.parts.0.P", form([3], [0, 1], [-1, 1, 3])))
+    for each in BY_TUSTIN
+]
+OF_AGENT = "subject.1.controller.agents.0"
+TO_12_DIGITS = [
+    changed(
+        each,
+        (f"{OF_AGENT}.input.private", [["-0.333333333333"]]),
+        (f"{OF_AGENT}.input.outputs.1", [["-0.583333333333"]]),
+    )
+    for each in BY_TUSTIN
+]
+OTHERWISE = [
+    [changed(each, change) for each in BY_TUSTIN]
+    for change in (
+        (f"{OF_AGENT}.input.private", [["-0.33333333333"]]),
+        (f"{OF_AGENT}.input.outputs.1", [["-1/2"]]),
+        (f"{OF_AGENT}.private_update.private", [["0.3679"]]),
+        (f"{OF_AGENT}.private_update.outputs.1", [["-1/3"]]),
+        ("subject.0.step", "11/20"),
+    )
+]
+"""The margins of a tank with a dynamic agent at samples, by Tustin's rule, and with others."""
 DELAYED_STABLE = stable(
     DAMPED,
     ["1/8", "1/4", "3/8", "1/2", "3/4", 1, "4/3", 2, "8/3", 4, 8],

@@ -16,11 +16,15 @@ from mcexact.checker.system import FORMAT, canonical_json, digest, read_plant
 from tests.checker.box_plants import (
     AGAIN,
     AT_SAMPLES,
+    BY_TUSTIN,
     HELD,
     HELD_LOOP,
+    LAGGING,
+    OTHERWISE,
     PROMPT,
     ROUNDED,
     TANK,
+    TO_12_DIGITS,
     WEAKER,
 )
 from tests.checker.handmade import (
@@ -455,6 +459,38 @@ def test_a_manifest_of_samples_has_the_controller_with_another_step_too(tmp_path
     assert found(evidence) == ["IMPLIED"]
     for others in (WEAKER, ROUNDED, PROMPT):
         assert found({**evidence, "outputs": others[1]}) == [NOT_ABOUT, "INVALID"]
+
+
+def test_a_manifest_has_a_controller_at_samples_by_tustins_rule(tmp_path: Any) -> None:
+    """A file of the controller in continuous time admits loops of samples that run it."""
+    file = {
+        "format": FORMAT,
+        "system": digest(read_plant(TANK)),
+        **LAGGING["subject"][0]["controller"],
+    }
+    rule = "performance-at-samples"
+
+    def found(margins: list[Document], file: Document = file) -> list[tuple[str, str]]:
+        evidence: dict[str, Document] = {"loop": LAGGING, "in": margins[0], "out": margins[1]}
+        said = [sentence(rule, *evidence, evidence=evidence)]
+        verdicts = judged(tmp_path, evidence, said, controlled(file))
+        return [(verdict.verdict, verdict.code) for _, verdict in verdicts]
+
+    for right in (BY_TUSTIN, TO_12_DIGITS):
+        assert found(right) == [("IMPLIED", "")]
+    for others in OTHERWISE:
+        assert found(others) == [(NOT_ABOUT, "controller"), ("INVALID", "claim")]
+    strange = {**file, **OTHERWISE[0][0]["subject"][1]["controller"]}
+    assert (NOT_ABOUT, "controller") in found(OTHERWISE[0], strange)
+
+
+def test_a_loop_of_samples_alone_is_none_of_a_controller_in_continuous_time(tmp_path: Any) -> None:
+    file = {"format": FORMAT, "system": "", **LAGGING["subject"][0]["controller"]}
+    verdict = answered(BY_TUSTIN[0], controlled(file))
+    assert (verdict.verdict, verdict.code) == (NOT_ABOUT, "controller")
+    evidence: dict[str, Document] = {"in": BY_TUSTIN[0]}
+    found = judged(tmp_path, evidence, [sentence("heading")], controlled(file))
+    assert (NOT_ABOUT, "controller") in [(each.verdict, each.code) for _, each in found]
 
 
 def test_a_sentence_about_a_controller_is_about_the_step_of_the_manifest(tmp_path: Any) -> None:

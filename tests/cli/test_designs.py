@@ -272,6 +272,19 @@ def test_the_proofs_of_the_longest_step_are_shown_and_checked_with_the_others() 
     assert any("longest time between samples" in line for line in handed[-1].verdict)
 
 
+def test_a_controller_in_continuous_time_has_its_longest_step_too() -> None:
+    integrator = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+    made, handed = parts_of(system_text(integrator).encode(), {}, 600.0)
+    names = {f"longest_step_{side}_margin.json" for side in ("input", "output")}
+    manifest = json.loads(made.evidence.files["manifest.json"])
+    assert names < manifest["certificates"].keys()
+    [sentence] = [s for s in manifest["sentences"] if s["rule"] == "performance-at-samples"]
+    assert {*names, "stability.json"} >= {name for name, *_ in sentence["because"]} >= names
+    (row,) = [t.rows for t in made.tables if t.title == "the controller at samples"]
+    assert row[0][0] == "longest step" and made.document["longest_step"]["proved"]
+    assert "box_stability.json" in handed[-1].evidence.files
+
+
 def test_limits_are_written_where_nothing_is_proved_of_them() -> None:
     integrator = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
     controller = local_controllers(integrator, [[[-1]]])
@@ -337,12 +350,12 @@ def designed(
 
 
 def test_with_a_time_limit_a_design_is_handed_over_before_each_further_proof(plant: str) -> None:
-    made, (at_once, certified, with_margins) = handed_over(plant, 600.0)
-    steps = (at_once, certified, with_margins, made)
+    made, (at_once, certified, with_margins, with_box) = handed_over(plant, 600.0)
+    steps = (at_once, certified, with_margins, with_box, made)
     proved = [set(each.evidence.certificates) for each in steps]
-    assert proved[0] == proved[1] < proved[2] < proved[3]
+    assert proved[0] == proved[1] < proved[2] < proved[3] < proved[4]
     told = ["\n".join(each.verdict) for each in steps]
-    assert ["time limit" in each for each in told] == [True, True, True, False]
+    assert ["time limit" in each for each in told] == [True, True, True, True, False]
     care = "Install with care: the time limit left no time to compute its margins"
     assert at_once.verdict[0].startswith(care)
     assert certified.verdict[0].startswith("Worth installing")

@@ -14,9 +14,9 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpq_mat
 
-from tests.oracle.certificates.controllers import read_agents
+from tests.oracle.certificates.controllers import Agent, read_agents
 from tests.oracle.certificates.performance import (
     Disturbed,
     cost_of,
@@ -164,6 +164,47 @@ def _margin_with_another_step(said: Said, case: Case) -> bool:
     return all(
         has_margin(loop, at, [k], [fmpq(1)], margin) for at in ports for k in range(ports[at])
     )
+
+
+@judge("performance-at-samples")
+def _margin_at_samples(said: Said, case: Case) -> bool:
+    """Every port of the loop of samples has a margin, with the controller by Tustin's rule."""
+    margin, h = number(said.values["margin"]), Fraction(said.values["step"])
+    if case.controller is None or case.controller["time"] != "continuous" or margin <= 0:
+        return False
+    agents = [
+        _by_tustin(*each, h / 2) for each in enumerate(read_agents(case.plant, case.controller))
+    ]
+    step = h.numerator if h.denominator == 1 else str(h)
+    held = case.made({"construction": "sampled", "step": step, "late": 0, "decimals": 12})
+    loop = disturbed_loop(held, agents)
+    ports = {"inputs": loop.U.nrows(), "outputs": loop.Y.nrows()}
+    return all(
+        has_margin(loop, at, [k], [fmpq(1)], margin) for at in ports for k in range(ports[at])
+    )
+
+
+def _by_tustin(i: int, agent: Agent, half: Fraction) -> Agent:
+    """Agent i at samples; its numbers are not rounded."""
+    own, k, h = ("private", i), agent.private, fmpq(half.numerator, half.denominator)
+    one = fmpq_mat(k, k, [int(a == b) for a in range(k) for b in range(k)])
+    update, control = (dict(agent.maps[label]) for label in ("private_update", "input"))
+    A = update.pop(own, one * 0)
+    X = (one - A * h).inv() if k else one
+    C = control.pop(own, None)
+    fed = {signal: X * M for signal, M in update.items()}
+    again = Agent(0, k)
+    again.maps["shared_update"] = {}
+    again.maps["private_update"] = {own: X * (one + A * h)}
+    again.maps["private_update"] |= {signal: M * (2 * h) for signal, M in fed.items()}
+    again.maps["input"] = control
+    if C is not None:
+        again.maps["input"] = control | {
+            signal: C * M * h + control[signal] if signal in control else C * M * h
+            for signal, M in fed.items()
+        }
+        again.maps["input"][own] = C * X
+    return again
 
 
 @judge(
