@@ -30,27 +30,23 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 
-from mcexact import (
-    Box,
-    MultiChannelSystem,
-    box_controllability,
-    box_fixed_modes,
-    box_stability,
-    box_stabilizability,
-    check,
-    fixed_spectrum,
-    gallery,
-    largest_uncertainty,
-    load_system,
-    local_controllers,
-)
+from mcexact import MultiChannelSystem, check, fixed_spectrum, gallery, load_system
 from mcexact.analysis.boxes.cover import Outside
 from mcexact.analysis.boxes.members import FixedModeSearch
 from mcexact.analysis.boxes.pencils import Members
 from mcexact.answer.protocol import encode
+from mcexact.boxes import (
+    Box,
+    box_controllability,
+    box_fixed_modes,
+    box_stability,
+    box_stabilizability,
+    largest_uncertainty,
+)
 from mcexact.derived.drawn.networks import network_system
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
+from mcexact.designs import local_controllers
 from mcexact.errors import LimitReached
 
 T = TypeVar("T")

@@ -34,8 +34,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 import numpy.typing as npt
 
-from mcexact import CostWeights, MultiChannelSystem, check, cost_bound
+from mcexact import MultiChannelSystem, check
 from mcexact.analysis.performance import computed_bound
+from mcexact.performance import CostWeights, cost_bound
 
 PAGE = Path(__file__).with_name("COSTS.md")
 PLANTS, CONTROLLERS, SEED = 200, 5, 38

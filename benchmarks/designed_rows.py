@@ -16,10 +16,10 @@ from math import isfinite, nan
 from typing import Any
 
 from benchmarks.kept_rows import Row
-from mcexact import Aims
 from mcexact.analysis.boxes.failure import failing_plant
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.derived.constructions import merged
+from mcexact.designs import Aims
 from mcexact.errors import Impossible, LimitReached, OutOfReach
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.box import Box

@@ -34,8 +34,6 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from mcexact import (
-    Aims,
-    Design,
     check,
     design_decentralized,
     design_extended,
@@ -43,6 +41,7 @@ from mcexact import (
     gallery,
     load_system,
 )
+from mcexact.designs import Aims, Design
 from mcexact.errors import Impossible, LimitReached
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

@@ -22,18 +22,11 @@ from fractions import Fraction
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from mcexact import (
-    LimitReached,
-    MultiChannelSystem,
-    design_setpoint,
-    gallery,
-    load_system,
-    sampled_system,
-    saturation_stability,
-    with_anti_windup,
-)
+from mcexact import LimitReached, MultiChannelSystem, design_setpoint, gallery, load_system
+from mcexact.constructions import sampled_system
 from mcexact.model.controller import Controller
 from mcexact.model.limits import InputLimits, Range
+from mcexact.performance import saturation_stability, with_anti_windup
 from mcexact.simulation.real import RealRun, simulate_real
 from mcexact.synthesis.setpoint import held_together, selected
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import json
 import re
 import shutil
@@ -31,8 +32,9 @@ def write_pages(folder: Path) -> None:
     (made / "notebooks").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         shutil.copy(notebook, made / "notebooks")
+    (made / "interface").mkdir()
     pages = {
-        "api.md": api_page(),
+        **interface_pages(),
         "gallery.md": gallery_page(),
         "commands.md": commands_page(),
         "certificates.md": certificates_page(),
@@ -45,56 +47,58 @@ def write_pages(folder: Path) -> None:
         (made / name).write_text(text, encoding="utf-8")
 
 
-# The names of `mcexact.__init__.pyi`, by the folder that each comes from.
-TOPICS = {
-    "model": "Systems, controllers and their files",
-    "exact": "Exact numbers",
-    "derived": "Systems made from systems",
-    "analysis": "Questions",
-    "synthesis": "Design and certification",
-    "simulation": "Simulation",
-    "sweeps": "Many systems",
-    "report": "Tables",
-    "crosschecks": "Comparison with floating point",
-    "answer": "Answers and certificates",
-    "checker": "The checker's verdict",
-    "errors": "Errors",
-}
-
-
-def api_page() -> str:
-    """Every public name under the topic of its folder; numpydoc sets the docstrings."""
-    stub = (ROOT / "mcexact" / "__init__.pyi").read_text(encoding="utf-8")
-    origins = dict(
-        reversed(pair) for pair in re.findall(r"^from \.(\w+)[\w.]* import \(?\s*(\w+)", stub, re.M)
-    )
-    lines = [
+def interface_pages() -> dict[str, str]:
+    """A page for the names at the top and one for each public module; numpydoc sets docstrings."""
+    said = inspect.getdoc(mcexact) or ""
+    modules = re.findall(r"^`(\w+)`  ", said, re.M)
+    groups = re.findall(r"^(\w[^\n]*)\n((?:    [A-Za-z][\w ]*\n)+)", said, re.M)
+    top = [
         "# The Python interface",
         "",
         "These are all public names. Other names may change without notice. Every example on these",
         "pages runs as a test.",
         "",
+        "```{toctree}",
+        *(f"interface/{module}" for module in modules),
+        "```",
+        "",
     ]
-    topics = {**TOPICS, **{each: each for each in sorted({*origins.values()} - TOPICS.keys())}}
-    for folder, title in topics.items():
-        chosen = [name for name in mcexact.__all__ if origins.get(name) == folder]
-        if chosen:
-            lines += [f"## {title}", "", "```{eval-rst}", ".. currentmodule:: mcexact", ""]
-            lines += [".. autosummary::", "   :toctree: api", "   :nosignatures:", ""]
-            lines += [*(f"   {name}" for name in chosen), "```", ""]
-    for module, title in (("testing", "Drawn systems for tests"), ("plot", "Pictures")):
-        lines += [f"## {title}", "", "```{eval-rst}", f".. currentmodule:: mcexact.{module}", ""]
-        lines += [".. autosummary::", "   :toctree: api", "   :nosignatures:", ""]
-        lines += [*(f"   {name}" for name in _functions(module)), "```", ""]
-    return "\n".join(lines)
+    for title, names in groups:
+        top += [f"## {title}", "", *_summary("mcexact", names.split(), "api")]
+    return {
+        "api.md": "\n".join(top),
+        **{f"interface/{module}.md": _module_page(f"mcexact.{module}") for module in modules},
+    }
 
 
-def _functions(module: str) -> list[str]:
+def _module_page(module: str) -> str:
+    """What a public module says of itself, which begins with its use, and its names."""
+    said = ["```{eval-rst}", f".. automodule:: {module}", "```", ""]
+    return "\n".join([f"# {module}", "", *said, *_summary(module, public(module), "../api")])
+
+
+def _summary(module: str, names: list[str], place: str) -> list[str]:
+    """A table of names, each with a page of its own."""
+    lines = ["```{eval-rst}", f".. currentmodule:: {module}", "", ".. autosummary::"]
+    return [
+        *lines,
+        f"   :toctree: {place}",
+        "   :nosignatures:",
+        "",
+        *(f"   {name}" for name in names),
+        "```",
+        "",
+    ]
+
+
+def public(module: str) -> list[str]:
     """The public functions and classes of a module of the package."""
-    found = importlib.import_module(f"mcexact.{module}")
-    named = ((name, getattr(found, name)) for name in dir(found) if name[0] != "_")
+    found = importlib.import_module(module)
+    named = {name: getattr(found, name) for name in getattr(found, "__all__", dir(found))}
     return sorted(
-        name for name, value in named if callable(value) and value.__module__.startswith("mcexact.")
+        name
+        for name, value in named.items()
+        if name[0] != "_" and callable(value) and value.__module__.startswith("mcexact.")
     )
 
 

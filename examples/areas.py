@@ -13,12 +13,11 @@ from mcexact import (
     MultiChannelSystem,
     NeighborGraph,
     assess,
-    c2d,
     check,
     design_extended,
     fixed_spectrum,
-    lifted_system,
 )
+from mcexact.constructions import c2d, lifted_system
 
 INERTIA = (Fraction(4), Fraction(6))
 DAMPING = Fraction("0.4")

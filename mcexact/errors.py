@@ -1,4 +1,16 @@
-"""Errors with exit statuses, the checks of arguments, and a warning of rounding."""
+"""Errors with exit statuses, the checks of arguments, and a warning of rounding.
+
+    >>> import mcexact
+    >>> try:
+    ...     mcexact.MultiChannelSystem([[0.1]], [[[1]]], [[[1]]])
+    ... except mcexact.errors.FloatRefused as refused:
+    ...     print(refused.where)
+    A[0][0]
+
+Every error is a `McexactError`.  An `InputError` says what is wrong with what was given, an
+`Impossible` carries the certificate of why there is no such controller, and a `LimitReached` says
+which limit was met, so nothing is decided.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +24,21 @@ from importlib.util import find_spec
 from math import inf
 from numbers import Real
 from typing import Any, TypeVar
+
+__all__ = [
+    "FloatRefused",
+    "Impossible",
+    "InputError",
+    "InternalError",
+    "LimitReached",
+    "McexactError",
+    "MissingExtra",
+    "NotWritten",
+    "OtherFormat",
+    "OutOfReach",
+    "RoundingWarning",
+    "UsageError",
+]
 
 Plant = TypeVar("Plant")
 
@@ -257,7 +284,9 @@ class RoundingWarning(UserWarning):
 
     `MultiChannelSystem.from_float`, `from_stacked`, `from_statespace` and `load_system` warn with
     it.  It says which plant nearby, with the same zeros, has another answer.  Nothing is looked for
-    where the category is ignored: ``warnings.simplefilter("ignore", mcexact.RoundingWarning)``.
+    where the category is ignored::
+
+        warnings.simplefilter("ignore", mcexact.errors.RoundingWarning)
     """
 
 

@@ -631,11 +631,15 @@ class Analysis(ShownByAccount):
         plant = self._own
         if self.parameters:
             named = ", ".join(plant.parameters_in_words)
-            return f"ParametricAnalysis(n={plant.n}, m={plant.m}, parameters: {named})"
-        open_ = sum(name not in self._answers for name in self._asked)
+            return f"Analysis(n={plant.n}, m={plant.m}, parameters: {named})"
+        decided = sum(name in self._answers for name in self._asked)
+        factors = getattr(self._answers.get("fixed_spectrum"), "factors", None)
+        known = "" if factors is None else "no mode is fixed; "
+        if factors:
+            known = f"roots of {', '.join(str(each.polynomial) for each in factors)} are fixed; "
         return (
-            f"Analysis(n={plant.n}, m={plant.m}, {plant.time} time: "
-            f"{len(self._answers)} questions decided, {open_} asked and not yet)"
+            f"Analysis(n={plant.n}, m={plant.m}, {plant.time} time: {known}"
+            f"{decided} of {len(self._asked)} questions decided)"
         )
 
     def __bool__(self) -> NoReturn:
@@ -877,10 +881,6 @@ class Analysis(ShownByAccount):
         if self.parameters:
             return self["fixed_spectrum"].plot(ax, **options)
         return structure(self.system, self["fixed_spectrum"], self["transfer_graph"], ax, **options)
-
-
-ParametricAnalysis = Analysis
-"""The same class, by the name that stands for a plant with parameters."""
 
 
 def _parameters(plant: Any) -> tuple[str, ...]:

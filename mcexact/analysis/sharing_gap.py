@@ -278,7 +278,7 @@ def extremal_plant(
 
     Examples
     --------
-    >>> from mcexact import common_dimension, shared_dimension_bound
+    >>> from mcexact.sharing import common_dimension, shared_dimension_bound
     >>> plant = extremal_plant(sharing_gap(NeighborGraph.ring(6)))
     >>> shared_dimension_bound(plant).deficiency, common_dimension(plant).dimension
     (2, 1)

@@ -14,6 +14,7 @@ components.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from mcexact.answer.evidence import (
     Block,
@@ -66,6 +67,18 @@ class FixedFactor(Part):
     rank: int
     stable: bool
     roots: tuple[RootDisc, ...]
+
+    def sympy_roots(self) -> list[Any]:
+        """Return the roots as exact numbers of sympy: of degree 2 in radicals, else ``CRootOf``.
+
+        Examples
+        --------
+        >>> from mcexact import fixed_spectrum, gallery
+        >>> fixed_spectrum(gallery("hidden-triple-mode")).factors[0].sympy_roots()
+        [1]
+        """
+        found: list[Any] = self.polynomial.to_sympy().all_roots()
+        return found
 
 
 @dataclass(frozen=True)

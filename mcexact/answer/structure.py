@@ -224,6 +224,14 @@ class TransferGraph(Answer):
             receivers.setdefault(j, []).append(i)
         return {j: tuple(reached) for j, reached in receivers.items()}
 
+    def to_networkx(self) -> Any:
+        """Return a ``networkx.DiGraph`` on the names of the channels, with the edges."""
+        import networkx
+
+        found = networkx.DiGraph(list(self.arcs))
+        found.add_nodes_from(self.about.names)
+        return found
+
     def plot(self, ax: Any = None) -> Any:
         """Draw the graph; see `mcexact.plot.graph`."""
         return graph(self, ax, title="transfer graph")

@@ -145,7 +145,8 @@ def plant_controller(controller: Controller, plant: MultiChannelSystem) -> Contr
 
     Examples
     --------
-    >>> from mcexact import certify_controller, local_controllers
+    >>> from mcexact import certify_controller
+    >>> from mcexact.designs import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], D=[[1]])
     >>> gains = local_controllers(input_filters(plant), [[["-6", 1]]])
     >>> controller = plant_controller(gains, plant)

@@ -76,7 +76,8 @@ def export_controller(
 
     Examples
     --------
-    >>> from mcexact import MultiChannelSystem, local_controllers
+    >>> from mcexact import MultiChannelSystem
+    >>> from mcexact.designs import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
     >>> sorted(export_controller(local_controllers(plant, [[["-1/2"]]]), "st"))
     ['agent_1.st', 'controller.json', 'equations.json']
@@ -105,7 +106,8 @@ def in_code(controller: Controller, fixed: FixedPoint | None = None) -> Controll
 
     Examples
     --------
-    >>> from mcexact import MultiChannelSystem, local_controllers
+    >>> from mcexact import MultiChannelSystem
+    >>> from mcexact.designs import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
     >>> [agent] = in_code(local_controllers(plant, [[["-1/10"]]])).agents
     >>> agent.input.outputs[0][0, 0]

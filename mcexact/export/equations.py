@@ -142,7 +142,8 @@ def steps_of(controller: Controller) -> tuple[AgentStep, ...]:
 
     Examples
     --------
-    >>> from mcexact import MultiChannelSystem, local_controllers
+    >>> from mcexact import MultiChannelSystem
+    >>> from mcexact.designs import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
     >>> [step] = steps_of(local_controllers(plant, [[["-1/2"]]]))
     >>> step.identifier, step.u
@@ -301,7 +302,8 @@ class AgentRun:
 
     Examples
     --------
-    >>> from mcexact import MultiChannelSystem, local_controllers
+    >>> from mcexact import MultiChannelSystem
+    >>> from mcexact.designs import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
     >>> [step] = steps_of(local_controllers(plant, [[["-1/2"]]]))
     >>> AgentRun(step)([3.0], [], {})

@@ -225,7 +225,8 @@ class FixedAgent:
 
     Examples
     --------
-    >>> from mcexact import MultiChannelSystem, local_controllers
+    >>> from mcexact import MultiChannelSystem
+    >>> from mcexact.designs import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
     >>> fixed = FixedPoint(2, {"u": 2**20})  # -1/3 becomes -1/4, and u has 10 fractional bits
     >>> [step] = steps_of(local_controllers(plant, [[["-1/3"]]]))
@@ -345,7 +346,7 @@ def least_fixed_point(
 
     Examples
     --------
-    >>> from mcexact import local_controllers
+    >>> from mcexact.designs import local_controllers
     >>> plant = MultiChannelSystem([["33/20"]], [[[1]]], [[[1]]], time="discrete")
     >>> safe = least_fixed_point(plant, local_controllers(plant, [[["-4/5"]]]))
     >>> safe.fixed.bits, str(safe.fixed.number(Fraction(4, 5)))

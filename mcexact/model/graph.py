@@ -553,10 +553,12 @@ def _agents(names: Sequence[str] | int) -> tuple[Any, ...]:
     return several(names, "names", "names, or a number of agents")
 
 
-def graph_for(
-    graph: NeighborGraph | Mapping[str, Iterable[str]] | None, names: tuple[str, ...]
-) -> NeighborGraph | None:
-    """Return a graph on the channels with these names, from a graph or a mapping of names.
+def graph_for(graph: Any, names: tuple[str, ...]) -> NeighborGraph | None:
+    """Return a graph on the channels with these names.
+
+    Parameters
+    ----------
+    graph : NeighborGraph, networkx.DiGraph, mapping of str to iterable of str, or None
 
     Raises
     ------
@@ -567,10 +569,12 @@ def graph_for(
         return None
     if isinstance(graph, Mapping):
         return NeighborGraph.from_names(names, graph)
+    if hasattr(graph, "is_directed"):
+        return NeighborGraph.from_networkx(graph, names)
     if not isinstance(graph, NeighborGraph):
         raise InputError(
-            f"expected a NeighborGraph, found {type(graph).__name__}; "
-            "use NeighborGraph.from_networkx for a networkx graph",
+            "expected a NeighborGraph, a networkx.DiGraph or a mapping of names, "
+            f"found {type(graph).__name__}",
             where="neighbors",
         )
     if graph.names != names:

@@ -29,10 +29,8 @@ from mcexact.exact.matrix import (
     hstack,
     matrix_from_float,
     matrix_to_float,
-    to_float,
     vstack,
 )
-from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.entries import as_matrix, require_shape, require_square
 from mcexact.model.graph import NeighborGraph
@@ -391,12 +389,9 @@ def _statespace(
     with MissingExtra.named("control"):
         import control
 
-    dt: Any = 0
-    if is_discrete(plant.time):
-        dt = True if plant.sample_time is None else to_float(plant.sample_time)
     return control.ss(
         *(matrix_to_float(part) for part in parts),
-        dt,
+        plant.dt,
         inputs=[label for letter in inputs for label in _labels(letter, plant)],
         outputs=[label for letter in outputs for label in _labels(letter, plant)],
         name=plant.name or None,

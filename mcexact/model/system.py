@@ -28,7 +28,17 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate
 from math import lcm
-from typing import Any, ClassVar, Generic, Literal, Self, SupportsIndex, TypeVar, overload
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    ClassVar,
+    Generic,
+    Literal,
+    Self,
+    SupportsIndex,
+    TypeVar,
+    overload,
+)
 
 from mcexact import shown
 from mcexact.errors import (
@@ -46,7 +56,9 @@ from mcexact.exact.matrix import (
     has_rounded,
     hstack,
     matrix_from_float,
+    matrix_to_float,
     reading_in_words,
+    to_float,
     vstack,
 )
 from mcexact.exact.rational import as_fraction, rational_text
@@ -88,6 +100,9 @@ from mcexact.model.text import (
     sha256,
 )
 from mcexact.shown import LINE, Shown, fitting, latex, table, words
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 # The matrices B_i or C_i of all channels, by position or by name.
 
@@ -388,7 +403,8 @@ class ByChannel(Shown, Generic[M]):
 
         Examples
         --------
-        >>> from mcexact import Box, MultiChannelSystem
+        >>> from mcexact import MultiChannelSystem
+        >>> from mcexact.boxes import Box
         >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
         >>> Box.relative(plant, "1/100").system.digest_of_values() == plant.digest()
         True
@@ -731,6 +747,45 @@ class MultiChannelSystem(ByChannel[Matrix]):
         if self.D is not None:
             raise InputError(f"radii: {self._unfit}", where="uncertainty")
         return uncertainty
+
+    @property
+    def nstates(self) -> int:
+        """The number of states, n, by the name that python-control uses."""
+        return self.n
+
+    @property
+    def ninputs(self) -> int:
+        """The number of inputs of all channels."""
+        return sum(self.p(i) for i in range(self.m))
+
+    @property
+    def noutputs(self) -> int:
+        """The number of outputs of all channels."""
+        return sum(self.q(i) for i in range(self.m))
+
+    @property
+    def dt(self) -> float | bool:
+        """The sample time as in python-control: 0 in continuous time, True if it is not known."""
+        if not is_discrete(self.time):
+            return 0
+        return True if self.sample_time is None else to_float(self.sample_time)
+
+    def poles(self) -> npt.NDArray[Any]:
+        """Compute the eigenvalues of A in floating point.
+
+        Returns
+        -------
+        array of complex, n
+            For exact enclosures use `mcexact.questions.open_loop_spectrum`.
+
+        Examples
+        --------
+        >>> MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[1, 0]]]).poles()
+        array([-1.+0.j, -2.+0.j])
+        """
+        import numpy as np
+
+        return np.linalg.eigvals(matrix_to_float(self.A)).astype(complex)
 
     def _fill(self, **fields: Any) -> None:
         for key, value in fields.items():

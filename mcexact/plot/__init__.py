@@ -4,6 +4,11 @@ Every function takes ``ax`` (by default it draws on a new figure) and returns th
 pyplot, changes a global setting or shows a window: a figure is shown by a notebook, or saved with
 ``savefig``.  Pages and ``.plot()`` methods draw with the same functions.  This stage takes plain
 numbers and objects with the named attributes, and needs the extra ``plot``.
+
+    >>> import mcexact
+    >>> plant = mcexact.gallery("liu2020-3ch-no-communication")
+    >>> figure = mcexact.plot.graph(mcexact.transfer_graph(plant))
+    >>> figure.savefig("arcs.svg")  # doctest: +SKIP
 """
 
 from mcexact.plot.eigenvalues import eigenvalues as eigenvalues

@@ -309,7 +309,8 @@ def to_pandas(results: Any) -> Any:
     Parameters
     ----------
     results : Analysis, Trajectory, or iterable of answers or of the records of a sweep
-        One row for each answer, time or system; exact numbers stay exact.
+        One row for each answer, time or system.  Exact numbers stay exact; the times of a
+        trajectory are floats.
 
     Returns
     -------
@@ -335,6 +336,8 @@ def to_pandas(results: Any) -> Any:
     with MissingExtra.named("pandas"):
         import pandas
 
+    if hasattr(results, "snapshots"):
+        return pandas.DataFrame(results.to_rows()).astype({"t": float})
     if hasattr(results, "to_rows"):
         return pandas.DataFrame(results.to_rows())
     several = isinstance(results, Iterable) and not isinstance(results, str)

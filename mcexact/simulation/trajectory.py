@@ -20,9 +20,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain, pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from mcexact.errors import InputError, LimitReached, UsageError, shown_value
+from mcexact.errors import InputError, LimitReached, MissingExtra, UsageError, shown_value
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Rounding, largest_entry, matrix_to_float, to_float
 from mcexact.exact.rational import number
@@ -48,6 +48,9 @@ from mcexact.simulation.network import (
     set_initial,
     signal_of,
 )
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 # Integration in continuous time.
 
@@ -494,6 +497,62 @@ class Trajectory(Shown):
         rows = self.to_rows()
         return {name: [row[name] for row in rows] for name in rows[0]}
 
+    @property
+    def t(self) -> npt.NDArray[Any]:
+        """The times as floats: an array of shape (N,)."""
+        return _array([[time] for time in self.times]).ravel()
+
+    @property
+    def x(self) -> npt.NDArray[Any]:
+        """The plant's state as floats: an array of shape (N, n), a row for each time."""
+        return _array([each.plant for each in self.snapshots])
+
+    @property
+    def y(self) -> npt.NDArray[Any]:
+        """The outputs of all agents as floats: (N, outputs), in the order of ``names``."""
+        return _array([[*chain(*each.outputs)] for each in self.snapshots])
+
+    @property
+    def u(self) -> npt.NDArray[Any]:
+        """The inputs of all agents as floats: (N, inputs), in the order of ``names``."""
+        return _array([[*chain(*each.inputs)] for each in self.snapshots])
+
+    @property
+    def r(self) -> npt.NDArray[Any]:
+        """The set-points of all agents as floats: (N, outputs); without set-points (N, 0)."""
+        return _array([[*chain(*each.reference)] for each in self.snapshots])
+
+    def to_control(self) -> Any:
+        """Return a ``TimeResponseData`` of python-control, with outputs y, states x and inputs u.
+
+        Raises
+        ------
+        MissingExtra
+            If python-control is not installed.
+
+        Examples
+        --------
+        >>> from mcexact.designs import local_controllers
+        >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
+        >>> run = simulate(plant, local_controllers(plant, [[["-1/2"]]]), initial=[1], horizon=3)
+        >>> run.t, run.y[:, 0]
+        (array([0., 1., 2., 3.]), array([1.   , 0.5  , 0.25 , 0.125]))
+        >>> run.to_control().states.shape
+        (1, 4)
+        """
+        with MissingExtra.named("control"):
+            import control
+
+        return control.TimeResponseData(
+            self.t,
+            self.y.T,
+            self.x.T,
+            self.u.T,
+            output_labels=self.names("outputs"),
+            input_labels=self.names("inputs"),
+            issiso=self.y.shape[1] == self.u.shape[1] == 1,
+        )
+
     def has_estimates(self) -> bool:
         """Whether each agent's shared sub-state has the dimension of the plant's state."""
         first = self.snapshots[0]
@@ -582,6 +641,13 @@ class Trajectory(Shown):
         ]
 
 
+def _array(rows: Sequence[Sequence[Any]]) -> npt.NDArray[Any]:
+    """Return rows of native numbers as an array of floats."""
+    import numpy as np
+
+    return np.array([[as_float(value) for value in row] for row in rows], dtype=float)
+
+
 def as_float(value: Any) -> float:
     """A native number as the nearest float; infinity beyond floats."""
     return to_float(value) if isinstance(value, (int, Fraction)) else float(value)
@@ -661,7 +727,8 @@ def simulate(
 
     Examples
     --------
-    >>> from mcexact import AgentProgram, Controller, LinearMap, Matrix, MultiChannelSystem
+    >>> from mcexact import Controller, Matrix, MultiChannelSystem
+    >>> from mcexact.designs import AgentProgram, LinearMap
     >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[1]]], time="discrete")
     >>> agent = AgentProgram("1", 0, 0, input=LinearMap({0: Matrix.from_rows([["-3/2"]])}))
     >>> run = simulate(plant, Controller("discrete", "", (agent,)), horizon=2)

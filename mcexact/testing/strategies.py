@@ -641,3 +641,13 @@ def assert_valid(
     if not verdict.valid:
         raise AssertionError(verdict.explain())
     return verdict.statement
+
+
+# `st.from_type`, and so `st.builds` and `@given(infer)`, for functions with annotated arguments.
+
+st.register_type_strategy(MultiChannelSystem, systems().map(lambda drawn: drawn.system))
+st.register_type_strategy(
+    NeighborGraph,
+    st.integers(1, 4).flatmap(lambda m: neighbor_graphs([str(i + 1) for i in range(m)])),
+)
+st.register_type_strategy(ParametricSystem, parametric_systems())

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 import mcexact
-from mcexact import Box, MultiChannelSystem, ParametricSystem
+from mcexact import MultiChannelSystem, ParametricSystem
 from mcexact.answer.protocol import Answer, encode
+from mcexact.boxes import Box
 from mcexact.checker.kinds import check_document
 from mcexact.errors import InputError, McexactError, UsageError
 
@@ -38,7 +39,7 @@ OF_CHANNELS = (
 def asked(name: str, system: str, channels: Any) -> Any:
     """The answer for some channels, by the function for as many parameters."""
     if system == "several" and not name.startswith("box"):
-        decide: Any = mcexact.exceptional_hypersurfaces
+        decide: Any = mcexact.parameters.exceptional_hypersurfaces
         return decide(SYSTEMS[system], name, channels=channels)
     return getattr(mcexact, name)(SYSTEMS[system], channels)
 
@@ -93,11 +94,11 @@ KNOWN: dict[str, tuple[Callable[..., Any], str, Callable[[Any], Any]]] = {
         )
     },
     "assignability": (mcexact.assignability, "graph", mcexact.transfer_graph),
-    "box_setpoints": (mcexact.box_setpoints, "solvability", mcexact.setpoint_solvability),
+    "box_setpoints": (mcexact.boxes.box_setpoints, "solvability", mcexact.setpoint_solvability),
     "pencil_ranks": (
         lambda system, **known: mcexact.pencil_ranks(system, ["1"], **known),
         "spectrum",
-        mcexact.open_loop_spectrum,
+        mcexact.questions.open_loop_spectrum,
     ),
 }
 
@@ -117,6 +118,6 @@ def test_an_answer_that_is_known_is_about_this_system(name: str) -> None:
 
 def test_with_a_mode_that_is_fixed_nominally_no_proof_is_searched() -> None:
     box, found = Box.relative(FIXED, "1/1000").system, mcexact.fixed_spectrum(FIXED)
-    for function in (mcexact.box_fixed_modes, mcexact.box_stabilizability):
+    for function in (mcexact.boxes.box_fixed_modes, mcexact.boxes.box_stabilizability):
         with pytest.raises(mcexact.LimitReached, match="the plant itself"):
             function(box, spectrum=found)

@@ -10,22 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mcexact import (
-    AgentProgram,
-    Controller,
-    LinearMap,
-    Matrix,
-    MultiChannelSystem,
-    local_controllers,
-    saturation_stability,
-    with_anti_windup,
-)
+from mcexact import Controller, Matrix, MultiChannelSystem
 from mcexact.analysis.saturation import Saturated, entering, gains_for, gains_none, saturation_of
 from mcexact.answer.check import check
 from mcexact.answer.saturation import SaturationStability
+from mcexact.designs import AgentProgram, LinearMap, local_controllers
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import matrix_to_float
 from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.performance import saturation_stability, with_anti_windup
 from tests.oracle.drawn.performance import drawn_loop
 
 ONE = (Fraction(-1), Fraction(1))

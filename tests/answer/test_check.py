@@ -8,17 +8,17 @@ from typing import Any
 import pytest
 
 from mcexact import (
-    Aims,
     MultiChannelSystem,
     certify_controller,
     check,
     design_decentralized,
-    dual,
     fixed_spectrum,
     save_controller,
 )
 from mcexact.answer import protocol
+from mcexact.constructions import dual
 from mcexact.derived.constructions import feedback
+from mcexact.designs import Aims
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix
 

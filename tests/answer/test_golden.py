@@ -112,19 +112,22 @@ def of_its_channels(system: MultiChannelSystem) -> Answers:
     yield "channel_controllability", mcexact.joint_controllability(system, [name])
     yield "channel_observability", mcexact.joint_observability(system, [name])
     for want in ("controllable", "observable", "both"):
-        yield f"channel_gains_{want}", mcexact.single_channel_gains(system, name, want=want)
-    yield "every_channel", mcexact.single_channel_gains(system)
+        yield (
+            f"channel_gains_{want}",
+            mcexact.questions.single_channel_gains(system, name, want=want),
+        )
+    yield "every_channel", mcexact.questions.single_channel_gains(system)
     spectrum = open_loop_spectrum(system)
     yield "spectrum_of_A", spectrum
     for factor, _ in spectrum.polynomial.factor():
-        yield "pencil_rank", mcexact.pencil_rank(system, [name], factor)
+        yield "pencil_rank", mcexact.questions.pencil_rank(system, [name], factor)
     if system.m > 1:
-        yield "complementary_subsystem", mcexact.complementary_subsystem(system, [name])
-    yield "stability", mcexact.certify_stability(system, method="polynomial")
+        yield "complementary_subsystem", mcexact.questions.complementary_subsystem(system, [name])
+    yield "stability", mcexact.questions.certify_stability(system, method="polynomial")
     if system.n:
         ones = Matrix.from_integers([[1] * system.n for _ in range(system.n)])
         try:
-            found = mcexact.exceptional_gains(ones, system.A, system.input_matrix())
+            found = mcexact.questions.exceptional_gains(ones, system.A, system.input_matrix())
         except Impossible as refused:
             yield "exceptional_gains_refused", refused.certificate
             return
@@ -145,7 +148,7 @@ def of_regions() -> Iterator[tuple[str, Any]]:
         "not in a region": {"rate": 2, "damping": "1/2", "largest_modulus": 5},
     }
     for name, given in limits.items():
-        yield name, mcexact.certify_stability(loop, method="polynomial", **given)
+        yield name, mcexact.questions.certify_stability(loop, method="polynomial", **given)
 
 
 def of_samples() -> Iterator[tuple[str, Any]]:
@@ -153,7 +156,7 @@ def of_samples() -> Iterator[tuple[str, Any]]:
     cart = MultiChannelSystem([[0, 1], [0, "-1/3"]], [[[0], [1]], [[1], [0]]], [[[1, 0]], [[0, 1]]])
     for name, plant in (("cart", cart), ("tanks", gallery.load("quadruple-tank-pminus"))):
         for late in (0, 2):
-            sampled = mcexact.sampled_system(plant, "1/7", late)
+            sampled = mcexact.constructions.sampled_system(plant, "1/7", late)
             yield f"{name}, {late} late", open_loop_spectrum(sampled)
             yield f"{name}, {late} late", mcexact.transfer_graph(sampled)
 
@@ -161,9 +164,9 @@ def of_samples() -> Iterator[tuple[str, Any]]:
 def of_parts() -> Iterator[tuple[str, Any]]:
     """Plants without what no output shows, or what no input moves."""
     for name in ("relative-positions-4", "swing-grid-four-buses"):
-        left = mcexact.modulo(gallery.load(name))
+        left = mcexact.constructions.modulo(gallery.load(name))
         yield name, mcexact.fixed_spectrum(left)
-        yield f"{name}, dual", mcexact.fixed_spectrum(mcexact.dual(left))
+        yield f"{name}, dual", mcexact.fixed_spectrum(mcexact.constructions.dual(left))
 
 
 def of_feedthrough() -> Iterator[tuple[str, Any]]:
@@ -189,7 +192,7 @@ def of_a_parameter() -> Iterator[tuple[str, Any]]:
     yield "controllability", mcexact.joint_controllability(plant, ["1", "2"])
     yield "observability", mcexact.joint_observability(plant)
     ring = mcexact.NeighborGraph.ring(plant.names)
-    extended = mcexact.extended_system(plant, (0, 0, 1), graph=ring)
+    extended = mcexact.constructions.extended_system(plant, (0, 0, 1), graph=ring)
     yield "shared dimensions", mcexact.fixed_spectrum(extended)
     yield "set-points", mcexact.setpoint_solvability(tanks("t", "7/10"))
     for k, ranks in enumerate(mcexact.observability_indices(plant, ["2"])):
@@ -231,21 +234,24 @@ def with_a_parameter(A: Any, ports: Any, bounds: Any = (None, None)) -> mcexact.
 def of_its_graph(plant: MultiChannelSystem) -> Answers:
     """What agents can share, at once and with the delays of their messages."""
     yield "neighbor_graph", neighbor_graph(plant)
-    yield "sharing_gap", mcexact.sharing_gap(plant)
+    yield "sharing_gap", mcexact.sharing.sharing_gap(plant)
     zero = [[[0] * plant.n for _ in range(plant.p(i))] for i in range(plant.m)]
-    yield "error_gains", mcexact.error_gains(plant, zero).answer
-    for name, found in of_the_system(mcexact.augmented_outputs(plant)):
+    yield "error_gains", mcexact.questions.error_gains(plant, zero).answer
+    for name, found in of_the_system(mcexact.constructions.augmented_outputs(plant)):
         yield f"augmented_{name}", found
     for share in SHARING:
-        bound = mcexact.shared_dimension_bound(plant, share=share)
+        bound = mcexact.sharing.shared_dimension_bound(plant, share=share)
         yield f"shared_dimension_bound_{share}", bound
-        yield f"common_dimension_{share}", mcexact.common_dimension(plant, share=share)
+        yield f"common_dimension_{share}", mcexact.sharing.common_dimension(plant, share=share)
         for free in (False, True):
             found = least(
-                mcexact.minimal_shared_dimensions, plant, share=share, free_assignability=free
+                mcexact.sharing.minimal_shared_dimensions,
+                plant,
+                share=share,
+                free_assignability=free,
             )
             yield f"minimal_shared_dimensions_{share}", found
-        extended = mcexact.extended_system(plant, [1] * plant.m, share)
+        extended = mcexact.constructions.extended_system(plant, [1] * plant.m, share)
         yield f"extended_fixed_spectrum_{share}", mcexact.fixed_spectrum(extended)
         yield (
             f"links_{share}",
@@ -289,7 +295,7 @@ def designs() -> Iterator[tuple[str, Answers]]:
         plant = plant.with_neighbors(NeighborGraph.ring(plant.names))
         for design in ("observer", "decentralized", "extended", "setpoint"):
             # The gains of a search depend on the processor.
-            alone = {} if design == "observer" else {"aims": mcexact.Aims(effort=0)}
+            alone = {} if design == "observer" else {"aims": mcexact.designs.Aims(effort=0)}
             try:
                 made = getattr(mcexact, f"design_{design}")(plant, rate=1, **alone)
             except Impossible as refused:

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from mcexact import (
+from mcexact import MultiChannelSystem, analyze, certify_controller, fixed_spectrum
+from mcexact.answer.account import leading
+from mcexact.boxes import (
     Box,
-    MultiChannelSystem,
-    analyze,
     box_controllability,
     box_fixed_modes,
     box_stability,
     box_stabilizability,
-    certify_controller,
-    fixed_spectrum,
-    local_controllers,
 )
-from mcexact.answer.account import leading
 from mcexact.derived.constructions import augmented_outputs
+from mcexact.designs import local_controllers
 
 PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
 NEAR, FAR = (Box.relative(PLANT, part).system for part in ("1/100", "9/10"))

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from sympy import CRootOf, Interval, Poly, Rational, symbols
 
-from mcexact import ParametricSystem, analyze, fixed_spectrum, load_parametric_system
+from mcexact import ParametricSystem, analyze, fixed_spectrum
 from mcexact.errors import UsageError
+from mcexact.parameters import load_parametric_system
 from tests.report.schemas import faults
 
 PLANT = ParametricSystem(

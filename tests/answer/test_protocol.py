@@ -94,7 +94,7 @@ def test_loops_controllers_and_trajectories_are_told_in_one_line() -> None:
     design = mcexact.design_observer(plant, rate=1)
     moved = mcexact.simulate(plant, design.controller, points=3)
     results: list[Any] = [design, design.loop, design.controller, design.account, moved]
-    results += [mcexact.crosscheck(plant), mcexact.exceptional_gains([[0]], [[1]], [[1]])]
+    results += [mcexact.crosscheck(plant), mcexact.questions.exceptional_gains([[0]], [[1]], [[1]])]
     for found in results:
         line = repr(found)
         assert len(line) <= LINE and "\n" not in line

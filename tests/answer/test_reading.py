@@ -46,26 +46,26 @@ FEEDBACK = [[["1/3", 0], [2, -1]], []]
 
 MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "the plant": lambda: PLANT,
-    "augmented_outputs": lambda: mcexact.augmented_outputs(PLANT),
-    "dual": lambda: mcexact.dual(PLANT),
+    "augmented_outputs": lambda: mcexact.constructions.augmented_outputs(PLANT),
+    "dual": lambda: mcexact.constructions.dual(PLANT),
     "feedback": lambda: feedback(PLANT, GAINS),
     "full_output": lambda: full_output(PLANT, 1),
     "arcs": lambda: add_links(ONE_WAY, [(1, 0)]),
-    "extended": lambda: mcexact.extended_system(PLANT, [1, 2], "states"),
-    "lifted": lambda: mcexact.lifted_system(PLANT, [1, 0]),
-    "held": lambda: mcexact.held_system(PLANT, [0, 2]),
-    "slow": lambda: mcexact.slow_system(PLANT, 2 * PLANT.n),
-    "input_filters": lambda: mcexact.input_filters(PLANT),
-    "integrators": lambda: mcexact.setpoint_system(PLANT),
+    "extended": lambda: mcexact.constructions.extended_system(PLANT, [1, 2], "states"),
+    "lifted": lambda: mcexact.constructions.lifted_system(PLANT, [1, 0]),
+    "held": lambda: mcexact.constructions.held_system(PLANT, [0, 2]),
+    "slow": lambda: mcexact.constructions.slow_system(PLANT, 2 * PLANT.n),
+    "input_filters": lambda: mcexact.constructions.input_filters(PLANT),
+    "integrators": lambda: mcexact.constructions.setpoint_system(PLANT),
     "regulated": lambda: regulated_outputs(PLANT, [[[2]], [["1/2", 1]]]),
-    "sampled": lambda: mcexact.sampled_system(CONTINUOUS, "1/10", 1),
+    "sampled": lambda: mcexact.constructions.sampled_system(CONTINUOUS, "1/10", 1),
     "servo": lambda: servo_system(PLANT, [[], [[0, 1]]]),
-    "merged": lambda: mcexact.merged(PLANT, [["a", "b"]]),
+    "merged": lambda: mcexact.constructions.merged(PLANT, [["a", "b"]]),
     "modulo": lambda: without_part(HIDDEN, "unobservable", [[0, "1/2", 1]]),
-    "restricted": lambda: mcexact.restricted(PLANT, ["b"]),
-    "error": lambda: mcexact.error_system(PLANT, FEEDBACK),
-    "several": lambda: mcexact.dual(
-        full_output(mcexact.extended_system(add_links(ONE_WAY, [(1, 0)]), [0, 1]), 0)
+    "restricted": lambda: mcexact.constructions.restricted(PLANT, ["b"]),
+    "error": lambda: mcexact.constructions.error_system(PLANT, FEEDBACK),
+    "several": lambda: mcexact.constructions.dual(
+        full_output(mcexact.constructions.extended_system(add_links(ONE_WAY, [(1, 0)]), [0, 1]), 0)
     ),
 }
 
@@ -73,7 +73,7 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
 def test_a_line_is_made_again(tmp_path: Path) -> None:
     ports = [[["a"], [1]], [["b"], [1]]], [[[1, "a*b"]], [[0, 1]]]
     plant = mcexact.ParametricSystem([["a", 1], [0, "b"]], *ports, parameters=["a", "b"])
-    line = mcexact.along_line(plant, {"a": 1, "b": 0}, {"a": "1/2", "b": -1})
+    line = mcexact.constructions.along_line(plant, {"a": 1, "b": 0}, {"a": "1/2", "b": -1})
     for found in (mcexact.fixed_spectrum(line), mcexact.joint_observability(line)):
         mcexact.save_certificate(found, tmp_path / "line.json", system_by_digest=True)
         read = mcexact.load_certificate(tmp_path / "line.json", plant)
@@ -98,7 +98,7 @@ def test_a_closed_loop_is_made_again(tmp_path: Path) -> None:
     )
     made = mcexact.design_observer(plant, rate=1)
     system = closed_loop(plant, made.controller).system
-    for found in (open_loop_spectrum(system), mcexact.certify_stability(system, rate=1)):
+    for found in (open_loop_spectrum(system), mcexact.questions.certify_stability(system, rate=1)):
         mcexact.save_certificate(found, tmp_path / "loop.json")
         read = mcexact.load_certificate(tmp_path / "loop.json")
         assert read == found

@@ -72,7 +72,7 @@ def test_the_first_screen_of_the_readme_needs_no_extra(tmp_path: Path) -> None:
         f"import sys; sys.modules.update(dict.fromkeys({sorted(EXTRA_OF)!r}))\n"
         "from pathlib import Path\n"
         "from tests.documentation.pages import run\n"
-        f"assert run(Path({str(ROOT / 'README.md')!r}), Path({str(tmp_path)!r})) == 18\n"
+        f"assert run(Path({str(ROOT / 'README.md')!r}), Path({str(tmp_path)!r})) == 19\n"
         "from mcexact.crosschecks.demonstration import demonstration\n"
         "assert demonstration().rank == 20\n"
     )

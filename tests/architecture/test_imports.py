@@ -27,6 +27,8 @@ STAGE = {
     "sweeps": 10,
     "reproduce": 11,
 }
+DOORS = {"constructions", "questions", "parameters", "boxes", "performance", "sharing", "designs"}
+"""The public modules, which give names of all stages a place and do nothing."""
 BESIDE = {"checker", "testing", "cli", "errors", "shown", "processes"}
 EXACT_STAGES = {"exact", "model", "derived", "answer", "analysis", "checker"}
 SHOWN = {"answer", "model", "exact", "plot", "simulation", "errors", "shown"}
@@ -81,7 +83,7 @@ def may_import(importer: str, imported: str) -> bool:
     """Whether one part of the package may import another."""
     if importer == imported or importer in {"cli", "__main__"}:
         return True
-    if importer == "__init__":  # only names, loaded when they are used
+    if importer == "__init__" or importer in DOORS:  # only names
         return True
     if imported in {"errors", "shown", "processes"}:
         return importer != "checker"

@@ -53,11 +53,6 @@ def test_what_waits_for_a_child_loads_no_library_with_threads(command: str) -> N
     assert not {"'numpy'", "'scipy'", "'matplotlib'"} & set(loaded.strip("[]").split(", "))
 
 
-@pytest.mark.parametrize("name", sorted(mcexact.__all__))
-def test_every_exported_name_is_there(name: str) -> None:
-    assert getattr(mcexact, name) is not None
-
-
 def test_a_name_that_is_not_exported_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match=r"mcexact.*nothing"):
         mcexact.nothing  # type: ignore[attr-defined]  # noqa: B018

@@ -8,18 +8,16 @@ import numpy.typing as npt
 
 import mcexact
 from mcexact import (
-    Analysis,
-    Design,
-    FixedSpectrum,
     Matrix,
     MultiChannelSystem,
     Polynomial,
-    Verdict,
     analyze,
     check,
     design_decentralized,
     fixed_spectrum,
 )
+from mcexact.designs import Design
+from mcexact.questions import Analysis, FixedSpectrum, Verdict
 from mcexact.testing import Drawn, assert_valid, systems
 
 

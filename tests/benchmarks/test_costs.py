@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from benchmarks import costs
-from mcexact import CostBound, cost_bound
+from mcexact.performance import CostBound, cost_bound
 
 
 def test_no_drawn_controller_is_below_the_bound_which_is_near_the_best() -> None:

@@ -7,21 +7,15 @@ from typing import Any
 
 import pytest
 
-from mcexact import (
-    MultiChannelSystem,
-    UsageError,
-    analyze,
-    certify_controller,
-    disk_margin,
-    input_filters,
-    local_controllers,
-    open_loop_spectrum,
-    regulated_outputs,
-    setpoint_solvability,
-)
+from mcexact import MultiChannelSystem, analyze, certify_controller, setpoint_solvability
 from mcexact.answer.protocol import document
 from mcexact.checker.kinds import KINDS
+from mcexact.constructions import input_filters, regulated_outputs
+from mcexact.designs import local_controllers
+from mcexact.errors import UsageError
 from mcexact.model.loop import closed_loop
+from mcexact.performance import disk_margin
+from mcexact.questions import open_loop_spectrum
 from tests.checker.handmade import Document, changed, checked
 from tests.checker.manifests import manifest, said, sentence, write
 from tests.checker.tables import accepts, rejects

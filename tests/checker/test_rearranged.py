@@ -14,12 +14,9 @@ from mcexact import (
     NeighborGraph,
     ParametricSystem,
     check,
-    dual,
-    extended_system,
     fixed_spectrum,
     joint_controllability,
     joint_observability,
-    restricted,
     setpoint_solvability,
 )
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
@@ -29,6 +26,7 @@ from mcexact.checker.budget import Budget, Refused, limited
 from mcexact.checker.cells import REARRANGING, subject_of
 from mcexact.checker.parametric_system import ParametricSystem as Read
 from mcexact.checker.parametric_system import read_parametric
+from mcexact.constructions import dual, extended_system, restricted
 from mcexact.derived import constructions
 from mcexact.derived.constructions import along_line, feedback
 from mcexact.errors import InputError, UsageError

@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from mcexact import Box, MultiChannelSystem
+from mcexact import MultiChannelSystem
+from mcexact.boxes import Box
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.parametric_system import plant_of_file
 from mcexact.checker.reading import Limits, Refused

@@ -8,13 +8,8 @@ from pathlib import Path
 
 import jsonschema
 
-from mcexact import (
-    MultiChannelSystem,
-    load_controller,
-    sampled_system,
-    save_controller,
-    save_system,
-)
+from mcexact import MultiChannelSystem, load_controller, save_controller, save_system
+from mcexact.constructions import sampled_system
 from mcexact.model.statespace import local_controllers
 from mcexact.report.schema import schema_text
 from tests.cli.calling import call

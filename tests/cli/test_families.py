@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from mcexact import Box, fixed_spectrum, load_system
+from mcexact import fixed_spectrum, load_system
+from mcexact.boxes import Box
 from mcexact.cli.sweep import values
 from mcexact.model.system_file import read_system
 from tests.cli.calling import call

@@ -36,13 +36,13 @@ def test_the_list_names_every_plant_with_its_source_and_what_it_shows() -> None:
 
 @pytest.mark.parametrize("name", gallery.parametric_names())
 def test_what_is_known_of_a_plant_with_parameters_is_what_is_decided(name: str) -> None:
-    plant = mcexact.load_parametric_system(f"gallery:{name}")
+    plant = mcexact.parameters.load_parametric_system(f"gallery:{name}")
     known, [each] = gallery.expected(name), [p for p in published() if p.name == name]
     assert plant.source and each.parameters == plant.parameters
     for value in (*known["generic"], *known["exceptional"]):
         assert value in each.shows
     if len(plant.parameters) > 1:
-        found = mcexact.exceptional_hypersurfaces(plant)
+        found = mcexact.parameters.exceptional_hypersurfaces(plant)
         exceptional = [str(surface.polynomial) for surface in found.hypersurfaces]
         generic = [mode_in_x(p) for p in found.generic]
     else:

@@ -8,15 +8,14 @@ from pathlib import Path
 import pytest
 
 from mcexact import (
-    AgentProgram,
     Controller,
-    LinearMap,
     Matrix,
     MultiChannelSystem,
     load_controller,
     save_controller,
     save_system,
 )
+from mcexact.designs import AgentProgram, LinearMap
 from tests.end_to_end.command_line import run
 
 EVERYWHERE, REGION = "first-saturation", "first-saturation-region"

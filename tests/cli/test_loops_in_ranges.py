@@ -9,13 +9,9 @@ from typing import Any
 
 import pytest
 
-from mcexact import (
-    certify_controller,
-    load_controller,
-    load_parametric_system,
-    local_controllers,
-    save_controller,
-)
+from mcexact import certify_controller, load_controller, save_controller
+from mcexact.designs import local_controllers
+from mcexact.parameters import load_parametric_system
 from tests.cli.calling import call
 from tests.report.schemas import faults
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from mcexact import MissingExtra
 from mcexact.cli import main
+from mcexact.errors import MissingExtra
 from mcexact.floating.verdicts import control_rank
 from mcexact.model import gallery
 from mcexact.plot.canvas import _figure_class, empty_figure

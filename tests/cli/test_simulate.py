@@ -6,13 +6,9 @@ import csv
 import json
 from pathlib import Path
 
-from mcexact import (
-    MultiChannelSystem,
-    local_controllers,
-    sampled_system,
-    save_controller,
-    save_system,
-)
+from mcexact import MultiChannelSystem, save_controller, save_system
+from mcexact.constructions import sampled_system
+from mcexact.designs import local_controllers
 from tests.cli.calling import call
 
 

@@ -9,16 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from mcexact import (
-    Box,
-    MultiChannelSystem,
-    c2d,
-    fixed_spectrum,
-    local_controllers,
-    save_controller,
-    save_system,
-)
+from mcexact import MultiChannelSystem, fixed_spectrum, save_controller, save_system
+from mcexact.boxes import Box
 from mcexact.cli.options import part
+from mcexact.constructions import c2d
+from mcexact.designs import local_controllers
 from mcexact.model.system_file import read_system
 from tests.cli.calling import call
 from tests.report.schemas import faults

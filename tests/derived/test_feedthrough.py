@@ -24,7 +24,6 @@ from mcexact import (
     check,
     completeness,
     fixed_spectrum,
-    input_filters,
     joint_controllability,
     joint_observability,
     setpoint_solvability,
@@ -34,11 +33,13 @@ from mcexact.checker import constructions
 from mcexact.checker.constructions import read_subject
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import read_plant
+from mcexact.constructions import input_filters
 from mcexact.derived.constructions import add_links, feedback, full_output
 from mcexact.derived.feedthrough import without_feedthrough
 from mcexact.derived.modulo import without_part
 from mcexact.model.loop import closed_loop
 from mcexact.model.text import plain
+from tests.public import PUBLIC
 
 DRAWS = 500
 A, B, C = [[-1, -1], [-1, -1]], [[[-1], [-1]], [[1], [0]]], [[[1, 0]], [[1, 1]]]
@@ -314,16 +315,16 @@ def test_constructions_and_filters_change_places() -> None:
         D=[[11, 12, 13], [21, 22, 23], [31, 32, 33]],
         neighbors={"1": ["2"], "2": [], "3": ["1", "2"]},
     )
-    alone = mcexact.restricted(plant, ["3", "1"])
+    alone = mcexact.constructions.restricted(plant, ["3", "1"])
     assert alone.D is not None and alone.D.tolist() == [[11, 13], [31, 33]]
-    together = mcexact.merged(plant, [["1", "3"], ["2"]])
+    together = mcexact.constructions.merged(plant, [["1", "3"], ["2"]])
     assert together.D is not None
     assert together.D.tolist() == [[11, 13, 12], [31, 33, 32], [21, 23, 22]]
-    heard = mcexact.augmented_outputs(plant)
+    heard = mcexact.constructions.augmented_outputs(plant)
     assert heard.feedthrough(0, 1).tolist() == [[12], [22]]
     assert heard.feedthrough(2, 0).tolist() == [[11], [21], [31]]
-    assert mcexact.dual(plant).feedthrough(0, 1).tolist() == [[21]]
-    picked = mcexact.regulated_outputs(plant, [[[2]], [], [[1], [-1]]])
+    assert mcexact.constructions.dual(plant).feedthrough(0, 1).tolist() == [[21]]
+    picked = mcexact.constructions.regulated_outputs(plant, [[[2]], [], [[1], [-1]]])
     assert picked.D is not None
     assert picked.D.tolist() == [[22, 24, 26], [31, 32, 33], [-31, -32, -33]]
     assert add_links(plant, [(2, 1)]).D == plant.D
@@ -345,26 +346,28 @@ def test_filters_of_a_system_without_feedthrough_change_no_fixed_mode() -> None:
 
 CARRIED = {
     "arcs": lambda s: add_links(s, [(0, 1)]),
-    "augmented_outputs": mcexact.augmented_outputs,
-    "closed_loop": lambda s: closed_loop(s, mcexact.local_controllers(s, [[[1]], [[1]]])).system,
-    "dual": mcexact.dual,
+    "augmented_outputs": mcexact.constructions.augmented_outputs,
+    "closed_loop": lambda s: (
+        closed_loop(s, mcexact.designs.local_controllers(s, [[[1]], [[1]]])).system
+    ),
+    "dual": mcexact.constructions.dual,
     "input_filters": input_filters,
-    "merged": lambda s: mcexact.merged(s, [["1"], ["2"]]),
+    "merged": lambda s: mcexact.constructions.merged(s, [["1"], ["2"]]),
     "modulo": lambda s: without_part(s, "uncontrollable", [[1, -1]]),
-    "regulated": lambda s: mcexact.regulated_outputs(s, [[[1]], [[2]]]),
-    "restricted": lambda s: mcexact.restricted(s, ["1"]),
+    "regulated": lambda s: mcexact.constructions.regulated_outputs(s, [[[1]], [[2]]]),
+    "restricted": lambda s: mcexact.constructions.restricted(s, ["1"]),
 }
 REFUSED = {
-    "error": lambda s: mcexact.error_system(s, [[[1, 1]], [[1, 1]]]),
-    "extended": lambda s: mcexact.extended_system(s, [1, 0]),
+    "error": lambda s: mcexact.constructions.error_system(s, [[[1, 1]], [[1, 1]]]),
+    "extended": lambda s: mcexact.constructions.extended_system(s, [1, 0]),
     "feedback": lambda s: feedback(s, [[[1]], [[1]]]),
     "full_output": lambda s: full_output(s, 0),
-    "held": lambda s: mcexact.held_system(s, [1, 0]),
-    "integrators": mcexact.setpoint_system,
-    "lifted": lambda s: mcexact.lifted_system(s, [1, 0]),
-    "sampled": lambda s: mcexact.sampled_system(s, Fraction(1, 10)),
-    "servo": lambda s: mcexact.servo_system(s, [[[1]], [[1]]]),
-    "slow": lambda s: mcexact.slow_system(s, 4),
+    "held": lambda s: mcexact.constructions.held_system(s, [1, 0]),
+    "integrators": mcexact.constructions.setpoint_system,
+    "lifted": lambda s: mcexact.constructions.lifted_system(s, [1, 0]),
+    "sampled": lambda s: mcexact.constructions.sampled_system(s, Fraction(1, 10)),
+    "servo": lambda s: mcexact.constructions.servo_system(s, [[[1]], [[1]]]),
+    "slow": lambda s: mcexact.constructions.slow_system(s, 4),
 }
 DISCRETE = {"held", "lifted", "slow"}
 TAKEN = {
@@ -388,8 +391,7 @@ TAKEN = {
 def of_systems() -> dict[str, Any]:
     """The public functions whose first argument is a system, by name."""
     found = {}
-    for name in mcexact.__all__:
-        public = getattr(mcexact, name)
+    for name, public in PUBLIC.items():
         if inspect.isfunction(public):
             first = next(iter(inspect.signature(public).parameters.values()), None)
             if first is not None and "MultiChannelSystem" in str(first.annotation):
@@ -452,7 +454,7 @@ def test_an_answer_about_a_system_with_feedthrough_is_not_made() -> None:
 
 def test_radii_are_refused_beside_feedthrough() -> None:
     plant = with_feedthrough()
-    radii = mcexact.Box.relative(MultiChannelSystem(plant.A, list(plant.B), list(plant.C)), 1)
+    radii = mcexact.boxes.Box.relative(MultiChannelSystem(plant.A, list(plant.B), list(plant.C)), 1)
     with pytest.raises(InputError, match="radii"):
         plant.with_uncertainty(radii.system.uncertainty)
 

@@ -12,23 +12,20 @@ from flint import fmpq, fmpq_mat
 
 import mcexact
 from mcexact import (
-    AgentProgram,
     Controller,
-    LinearMap,
     Matrix,
     MultiChannelSystem,
     NeighborGraph,
-    UsageError,
     certify_controller,
     check,
     design_decentralized,
-    input_filters,
-    local_controllers,
-    plant_controller,
     simulate,
 )
 from mcexact.checker.constructions import read_subject
 from mcexact.checker.system import read_plant
+from mcexact.constructions import input_filters, plant_controller
+from mcexact.designs import AgentProgram, LinearMap, local_controllers
+from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model.loop import closed_loop
 from mcexact.model.text import plain

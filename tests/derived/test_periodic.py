@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcexact import design_extended, held_system, testing
+from mcexact import design_extended, testing
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.sharing import shared_dimension_bound
+from mcexact.constructions import held_system
 from mcexact.derived.constructions import slow_system, union_graph
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix

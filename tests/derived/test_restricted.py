@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcexact import fixed_spectrum, restricted, testing
+from mcexact import fixed_spectrum, testing
+from mcexact.constructions import restricted
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle import enumeration

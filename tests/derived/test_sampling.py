@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from mcexact import c2d
+from mcexact.constructions import c2d
 from mcexact.derived.sampling import sampled_system, tustin
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import inverse

@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
-from mcexact import load_system, local_controllers, save_controller
+from mcexact import load_system, save_controller
 from mcexact.cli.commands import COMMANDS
+from mcexact.designs import local_controllers
 from tests.end_to_end.command_line import run
 
 HEAD = {"format": "mcexact-system/1", "time": "continuous"}

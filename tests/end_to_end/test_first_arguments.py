@@ -5,13 +5,13 @@ from typing import Any
 
 import pytest
 
-import mcexact
 from mcexact.errors import InputError
+from tests.public import PUBLIC
 
 ABOUT_SYSTEMS = [
     name
-    for name in mcexact.__all__
-    if inspect.isfunction(function := getattr(mcexact, name))
+    for name, function in PUBLIC.items()
+    if inspect.isfunction(function)
     and next(iter(inspect.signature(function).parameters.values())).annotation
     == "MultiChannelSystem"
 ]
@@ -24,7 +24,7 @@ def test_functions_about_systems_are_recognized_by_their_annotations() -> None:
 @pytest.mark.parametrize("name", ABOUT_SYSTEMS)
 @pytest.mark.parametrize("wrong", [[[1, 2], [3, 4]], "plant.json", None], ids=repr)
 def test_a_wrong_first_argument_is_named_with_the_right_call(name: str, wrong: Any) -> None:
-    function = getattr(mcexact, name)
+    function = PUBLIC[name]
     needed = [
         each
         for each in list(inspect.signature(function).parameters.values())[1:]

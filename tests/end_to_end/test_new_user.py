@@ -33,21 +33,21 @@ PRINTED: dict[str, str] = {
     "PLANT.neighbors": "None",
     "mcexact.fixed_spectrum(PLANT)": "FixedSpectrum(polynomial=1, factors=(), stabilizable=True, "
     "best_rate=None)",
-    "mcexact.open_loop_spectrum(PLANT).polynomial": "Polynomial.of('-5/2', 1, 1)",
-    "mcexact.open_loop_spectrum(PLANT).polynomial.to_sympy().as_expr()": "x**2 + x - 5/2",
+    "mcexact.questions.open_loop_spectrum(PLANT).polynomial": "Polynomial.of('-5/2', 1, 1)",
+    "mcexact.questions.open_loop_spectrum(PLANT).polynomial.to_sympy().as_expr()": "x**2 + x - 5/2",
     "DESIGN": "Design(decentralized, exact, order 1, certified)",
     "DESIGN.controller": "Controller(2 agents, order 1, continuous time)",
     "DESIGN.certificates['closed_loop_spectrum'].polynomial": "Polynomial.of(6, 11, 6, 1)",
     "mcexact.certify_controller(PLANT, DESIGN.controller, rate=0.5).stable": "True",
     "mcexact.StabilityRegion.of('continuous', rate=0.5).bound": "Fraction(1, 2)",
-    "mcexact.c2d(PLANT, 0.5).sample_time": "Fraction(1, 2)",
+    "mcexact.constructions.c2d(PLANT, 0.5).sample_time": "Fraction(1, 2)",
     "mcexact.simulate(PLANT, DESIGN.controller, initial=[1.0, 0], horizon=0.5)": "Trajectory("
     "2 agents, 201 times from 0 to 1/2, continuous time, float)",
     "float32(0.1, 'decimal')": "Fraction(1, 10)",
     "float32(0.1, 'dyadic')": "Fraction(13421773, 134217728)",
     "MultiChannelSystem.from_float([[0.5, Fraction(1, 3)], [0, 1]], [[[1.0], [0]]], [[[1, 0]]], "
     "rounding='decimal').A": "Matrix.from_rows([['1/2', '1/3'], [0, 1]])",
-    "next(mcexact.sweep([mcexact.Draw(1)])).to_row()['n']": "4",
+    "next(mcexact.sweep([mcexact.constructions.Draw(1)])).to_row()['n']": "4",
 }
 
 
@@ -83,11 +83,14 @@ REFUSED: dict[str, tuple[type[Exception], str]] = {
     "mcexact.save_controller(DESIGN, 'c.json')": (InputError, "a design has it as .controller"),
     "mcexact.save_certificate(DESIGN, 'c.json')": (InputError, "expected an Answer, found Design"),
     "mcexact.sweep(PLANT)": (UsageError, "expected several systems, such as [plant]"),
-    "mcexact.local_controllers(PLANT, [np.eye(1), np.eye(1)])": (
+    "mcexact.designs.local_controllers(PLANT, [np.eye(1), np.eye(1)])": (
         FloatRefused,
         'parts[0].D: a float is not exact: give local_controllers the rounding "decimal"',
     ),
-    "mcexact.pencil_rank(PLANT, ['pump'], 1.0)": (FloatRefused, "mode: a float is not exact"),
+    "mcexact.questions.pencil_rank(PLANT, ['pump'], 1.0)": (
+        FloatRefused,
+        "mode: a float is not exact",
+    ),
     "MultiChannelSystem(np.eye(2), ONE, ONE)": (FloatRefused, "from_float"),
     "MultiChannelSystem([[0, 1], [0, 0]], [[0], [1]], [[1, 0]])": (
         InputError,

@@ -42,17 +42,17 @@ def tanks() -> MultiChannelSystem:
 
 
 @cache
-def design() -> mcexact.Design:
+def design() -> mcexact.designs.Design:
     return mcexact.design_decentralized(tanks(), spectrum={"closed_loop": [-1, -2, -3]})
 
 
 @cache
-def run() -> mcexact.Trajectory:
+def run() -> mcexact.simulation.Trajectory:
     return mcexact.simulate(tanks(), design().controller, points=4)
 
 
 @cache
-def record() -> mcexact.Record:
+def record() -> mcexact.questions.Record:
     [found] = mcexact.sweep([plant()])
     return found
 
@@ -66,13 +66,13 @@ def wide(channels: int) -> MultiChannelSystem:
 RESULTS: dict[str, Callable[[], Any]] = {
     "system": plant,
     "wide system": lambda: wide(70),
-    "derived system": lambda: mcexact.dual(plant()),
+    "derived system": lambda: mcexact.constructions.dual(plant()),
     "channel": lambda: plant().channels[0],
     "answer": lambda: mcexact.fixed_spectrum(plant()),
     "factor": lambda: mcexact.fixed_spectrum(plant()).factors[0],
     "interval": lambda: mcexact.fixed_spectrum(plant()).best_rate,
     "answer about a derived system": lambda: mcexact.fixed_spectrum(
-        mcexact.merged(tanks(), [["1", "2"]])
+        mcexact.constructions.merged(tanks(), [["1", "2"]])
     ),
     "verdict": lambda: mcexact.check(mcexact.fixed_spectrum(plant())),
     "bad verdict": lambda: mcexact.check(mcexact.fixed_spectrum(plant()), tanks()),
@@ -186,7 +186,7 @@ def test_an_answer_about_a_derived_system_is_stated_as_a_theorem() -> None:
 
 
 def test_plain_data_of_a_system_is_a_system_file() -> None:
-    for system in (plant(), tanks(), mcexact.dual(tanks()), wide(3)):
+    for system in (plant(), tanks(), mcexact.constructions.dual(tanks()), wide(3)):
         read = read_system(json.dumps(system.to_dict()))
         assert (read.A, read.B, read.C, read.neighbors) == (
             system.A, system.B, system.C, system.neighbors

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from mcexact import certify_controller, load_controller, load_system, sampled_system
+from mcexact import certify_controller, load_controller, load_system
+from mcexact.constructions import sampled_system
 from mcexact.export.code import export_controller
 from mcexact.export.equations import EQUATIONS
 from mcexact.simulation.real import Quantizer, simulate_real

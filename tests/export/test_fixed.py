@@ -13,15 +13,8 @@ from typing import Any
 
 import pytest
 
-from mcexact import (
-    AgentProgram,
-    Controller,
-    LinearMap,
-    Matrix,
-    MultiChannelSystem,
-    certify_controller,
-    check,
-)
+from mcexact import Controller, Matrix, MultiChannelSystem, certify_controller, check
+from mcexact.designs import AgentProgram, LinearMap
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.export.code import export_controller, in_code
 from mcexact.export.compiled import CompiledAgent

@@ -13,17 +13,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcexact import (
-    Box,
-    Matrix,
-    MultiChannelSystem,
-    Radii,
-    box_fixed_modes,
-    dual,
-    load_system,
-    save_system,
-    testing,
-)
+from mcexact import Matrix, MultiChannelSystem, load_system, save_system, testing
+from mcexact.boxes import Box, Radii, box_fixed_modes
+from mcexact.constructions import dual
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.rational import Limits
 from mcexact.model.radii import typed_radii, typed_radius

@@ -14,13 +14,13 @@ from mcexact import (
     MultiChannelSystem,
     load_controller,
     load_system,
-    local_controllers,
     save_controller,
     save_system,
 )
 from mcexact.checker.reading import Limits, Refused
 from mcexact.checker.system import read_controller_file, read_system_file
 from mcexact.derived.sampling import c2d, sampled_system
+from mcexact.designs import local_controllers
 from mcexact.errors import InputError, UsageError
 from mcexact.model.controller import read_controller
 from mcexact.model.limits import limits_document, limits_in, limits_in_words, read_input_limits

@@ -14,13 +14,13 @@ from mcexact import (
     MultiChannelSystem,
     ParametricSystem,
     gallery,
-    load_parametric_system,
     load_system,
     minimal_communication,
     save_system,
 )
 from mcexact.errors import FloatRefused, InputError, LimitReached, UsageError
 from mcexact.model.system_file import read_parametric_system
+from mcexact.parameters import load_parametric_system
 
 t, a, b = symbols("t a b")
 

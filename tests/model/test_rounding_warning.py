@@ -8,15 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mcexact import (
-    MultiChannelSystem,
-    RoundingWarning,
-    errors,
-    from_stacked,
-    from_statespace,
-    load_system,
-)
-from mcexact.errors import examine_rounded_by, warn_of_rounding
+from mcexact import MultiChannelSystem, errors, from_statespace, load_system
+from mcexact.constructions import from_stacked
+from mcexact.errors import RoundingWarning, examine_rounded_by, warn_of_rounding
 from mcexact.model.files import save_system
 
 INERTIAS = np.array([1.2, 2.8, 0.7])

@@ -138,7 +138,7 @@ def test_what_is_no_exact_matrix_is_refused(A, message):
         (
             ([[1]], [[[1]]], [[[1]]]),
             {"neighbors": networkx.DiGraph()},
-            "neighbors: expected a NeighborGraph, found DiGraph",
+            "graph: expected the channels as nodes; no node for '1'",
         ),
     ],
 )

@@ -12,12 +12,13 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from mcexact import MultiChannelSystem, ParametricSystem, analyze, pencil_rank
+from mcexact import MultiChannelSystem, ParametricSystem, analyze
 from mcexact.errors import InputError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_functions import RationalFunction
 from mcexact.model.entries import as_function
+from mcexact.questions import pencil_rank
 from tests.oracle.parametric import subsets
 
 Point = Mapping[str, Fraction]

@@ -6,13 +6,9 @@ from typing import Any
 
 import pytest
 
-from mcexact import (
-    ParametricSystem,
-    exceptional_hypersurfaces,
-    fixed_spectrum,
-    load_parametric_system,
-)
+from mcexact import ParametricSystem, fixed_spectrum
 from mcexact.errors import UsageError
+from mcexact.parameters import exceptional_hypersurfaces, load_parametric_system
 
 
 def test_exceptional_values_are_marked_with_their_modes() -> None:

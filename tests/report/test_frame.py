@@ -30,17 +30,20 @@ def test_answers_about_many_systems_are_rows() -> None:
 
 
 def test_the_records_of_a_sweep_are_rows() -> None:
-    table = mcexact.to_pandas(mcexact.sweep([mcexact.Draw(seed) for seed in range(3)]))
+    table = mcexact.to_pandas(
+        mcexact.sweep([mcexact.constructions.Draw(seed) for seed in range(3)])
+    )
     assert table["n"].tolist() == [4, 4, 4]
     assert table["fixed_spectrum.stabilizable"].dtype == bool
     assert table["error"].isna().all()
 
 
-def test_the_times_of_a_trajectory_are_rows_with_exact_numbers() -> None:
+def test_times_of_a_trajectory_are_floats_and_rows_with_exact_numbers() -> None:
     plant = mcexact.MultiChannelSystem([[2]], [[[1]]], [[[1]]], time="discrete")
-    controller = mcexact.local_controllers(plant, [[["-3/2"]]])
+    controller = mcexact.designs.local_controllers(plant, [[["-3/2"]]])
     table = mcexact.to_pandas(mcexact.simulate(plant, controller, horizon=2))
     assert table["x[1]"].tolist() == [1, Fraction(1, 2), Fraction(1, 4)]
+    assert table["t"].dtype == float and table["t"].tolist() == [0, 1, 2]
 
 
 @pytest.mark.parametrize("wrong", [PLANT, [PLANT], "records.jsonl", 3])

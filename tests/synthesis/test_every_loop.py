@@ -8,8 +8,10 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact import Box, MultiChannelSystem, certify_controller, check, local_controllers
+from mcexact import MultiChannelSystem, certify_controller, check
 from mcexact.analysis.boxes import largest
+from mcexact.boxes import Box
+from mcexact.designs import local_controllers
 from mcexact.errors import UsageError
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.loop import ClosedLoop, closed_loop

@@ -8,14 +8,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from mcexact import (
-    MultiChannelSystem,
-    design_extended,
-    local_controllers,
-    longest_step,
-    sampled_system,
-)
+from mcexact import MultiChannelSystem, design_extended
 from mcexact.answer.check import check
+from mcexact.constructions import sampled_system
+from mcexact.designs import local_controllers, longest_step
 from mcexact.errors import UsageError
 from mcexact.synthesis.optimum.figures import Aims
 

@@ -6,8 +6,9 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact import MultiChannelSystem, certify_controller, check, local_controllers
+from mcexact import MultiChannelSystem, certify_controller, check
 from mcexact.analysis.boxes.loops import digit_radii, rounded_ends
+from mcexact.designs import local_controllers
 from mcexact.synthesis.certify import safe_digits
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])

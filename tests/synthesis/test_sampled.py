@@ -13,22 +13,20 @@ import numpy as np
 import pytest
 
 from mcexact import (
-    Box,
     MultiChannelSystem,
-    box_stability,
-    c2d,
     certify_controller,
     check,
     design_decentralized,
     design_setpoint,
-    local_controllers,
-    sampled_system,
     save_system,
 )
 from mcexact.answer.protocol import encode
+from mcexact.boxes import Box, box_stability
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.kinds import Expectation, check_document
 from mcexact.checker.reading import Limits
+from mcexact.constructions import c2d, sampled_system
+from mcexact.designs import local_controllers
 from mcexact.errors import LimitReached
 from mcexact.exact.matrix import matrix_to_float
 from mcexact.model.controller import Controller, controller_text

@@ -4,7 +4,8 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact import Aims, design_decentralized
+from mcexact import design_decentralized
+from mcexact.designs import Aims
 from mcexact.errors import InputError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import StabilityRegion

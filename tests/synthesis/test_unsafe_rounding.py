@@ -7,8 +7,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from mcexact import MultiChannelSystem, check, local_controllers
+from mcexact import MultiChannelSystem, check
 from mcexact.analysis.boxes.loops import with_gains
+from mcexact.designs import local_controllers
 from mcexact.exact.matrix import Matrix, matrix_to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, Controller, LinearMap

@@ -15,7 +15,6 @@ from mcexact import (
     MultiChannelSystem,
     ParametricSystem,
     check,
-    exceptional_hypersurfaces,
     fixed_spectrum,
     joint_controllability,
     joint_observability,
@@ -23,6 +22,7 @@ from mcexact import (
     transfer_graph,
 )
 from mcexact.errors import InputError
+from mcexact.parameters import exceptional_hypersurfaces
 from mcexact.testing import parametric_systems
 
 VALUES = st.sampled_from([Fraction(v) for v in (0, 1, -1, "1/2", 3, 5)])

@@ -12,6 +12,7 @@ from hypothesis.strategies import SearchStrategy
 import mcexact
 from mcexact import testing
 from mcexact.testing import Drawn
+from tests.public import PUBLIC
 
 ONCE = settings(
     max_examples=60,
@@ -22,7 +23,7 @@ ONCE = settings(
     report_multiple_bugs=False,
     suppress_health_check=list(HealthCheck),
 )
-NAMES = {"Drawn": Drawn, **{name: getattr(mcexact, name) for name in mcexact.__all__}}
+NAMES = {"Drawn": Drawn, **PUBLIC}
 
 
 def reported(strategy: SearchStrategy[Any], fails: Any) -> tuple[str, Any]:

@@ -527,7 +527,7 @@ def box_fixed_modes(
 
     Examples
     --------
-    >>> from mcexact import Box
+    >>> from mcexact.boxes import Box
     >>> plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[1, 0]]])
     >>> box_fixed_modes(Box.relative(plant, "1/100").system).bound is None
     True
@@ -619,7 +619,7 @@ def box_stabilizability(
 
     Examples
     --------
-    >>> from mcexact import Box
+    >>> from mcexact.boxes import Box
     >>> plant = MultiChannelSystem([[1, 0], [0, -2]], [[[1], [0]]], [[[1, 0]]])
     >>> box_stabilizability(Box.relative(plant, "1/100").system).bound
     Fraction(0, 1)
@@ -901,7 +901,7 @@ def box_controllability(
 
     Examples
     --------
-    >>> from mcexact import Box
+    >>> from mcexact.boxes import Box
     >>> plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[1, 0]]])
     >>> box_controllability(Box.relative(plant, "1/10").system).channels
     ('1',)
@@ -969,7 +969,7 @@ def box_observability(
 
     Examples
     --------
-    >>> from mcexact import Box
+    >>> from mcexact.boxes import Box
     >>> plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[1, 0]]])
     >>> box_observability(Box.relative(plant, "1/10").system).subject
     ({'construction': 'dual'},)
@@ -1023,7 +1023,7 @@ def box_setpoints(
 
     Examples
     --------
-    >>> from mcexact import Box
+    >>> from mcexact.boxes import Box
     >>> ports = [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]]
     >>> plant = MultiChannelSystem([[1, 0], [1, -2]], *ports)
     >>> proof = box_setpoints(Box.relative(plant, "1/20").system)

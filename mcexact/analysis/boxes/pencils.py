@@ -682,7 +682,7 @@ def radii_of(system: MultiChannelSystem) -> Radii:
 
     Examples
     --------
-    >>> from mcexact import dual
+    >>> from mcexact.constructions import dual
     >>> from mcexact.derived.constructions import feedback
     >>> plant = MultiChannelSystem([[1]], [[[2, 3]]], [[[4]]])
     >>> box = Box.relative(plant, "1/2").system

@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mcexact import (
-    Box,
     MultiChannelSystem,
     check,
     gallery,
@@ -18,6 +17,7 @@ from mcexact import (
     testing,
 )
 from mcexact.analysis.boxes.members import box_controllability, box_observability
+from mcexact.boxes import Box
 from mcexact.errors import LimitReached
 
 

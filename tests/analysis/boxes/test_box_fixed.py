@@ -10,10 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mcexact import Box, MultiChannelSystem, check, dual, fixed_spectrum, gallery, testing
+from mcexact import MultiChannelSystem, check, fixed_spectrum, gallery, testing
 from mcexact.analysis.boxes.members import box_fixed_modes, box_stabilizability
 from mcexact.analysis.boxes.pencils import radii_of
 from mcexact.answer.boxes import BoxFixedModes
+from mcexact.boxes import Box
+from mcexact.constructions import dual
 from mcexact.derived.constructions import (
     augmented_outputs,
     error_system,

@@ -9,19 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mcexact import (
-    AgentProgram,
-    Box,
-    Controller,
-    LinearMap,
-    Matrix,
-    MultiChannelSystem,
-    certify_controller,
-    check,
-    local_controllers,
-    testing,
-)
+from mcexact import Controller, Matrix, MultiChannelSystem, certify_controller, check, testing
 from mcexact.analysis.boxes.loops import box_stability, gain_radii
+from mcexact.boxes import Box
+from mcexact.designs import AgentProgram, LinearMap, local_controllers
 from mcexact.errors import LimitReached
 from mcexact.exact.linear_algebra import solve
 from mcexact.model.loop import LoopPencil, closed_loop

@@ -8,18 +8,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from mcexact import (
-    Box,
-    MultiChannelSystem,
-    box_controllability,
-    box_fixed_modes,
-    check,
-    fixed_spectrum,
-)
+from mcexact import MultiChannelSystem, check, fixed_spectrum
 from mcexact.analysis.boxes import cover as disc_lists_module
 from mcexact.analysis.boxes import members
 from mcexact.analysis.boxes.cover import GainBox, Outside, disc_lists
 from mcexact.analysis.boxes.pencils import FloatBox, Members
+from mcexact.boxes import Box, box_controllability, box_fixed_modes
 from mcexact.errors import LimitReached
 from mcexact.model.gallery import load
 

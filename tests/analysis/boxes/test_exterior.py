@@ -8,10 +8,11 @@ from fractions import Fraction
 import numpy as np
 from hypothesis import given, settings
 
-from mcexact import Box, MultiChannelSystem, testing
+from mcexact import MultiChannelSystem, testing
 from mcexact.analysis.boxes.cover import Cover, Outside, exterior
 from mcexact.analysis.boxes.pencils import FloatBox, Members, Point
 from mcexact.answer.evidence import RootDisc
+from mcexact.boxes import Box
 
 
 @given(testing.systems(min_states=1, max_states=4))

@@ -9,18 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mcexact import (
-    Box,
-    MultiChannelSystem,
-    certify_controller,
-    check,
-    largest_loop_uncertainty,
-    local_controllers,
-    sampled_system,
-    save_system,
-)
+from mcexact import MultiChannelSystem, certify_controller, check, save_system
 from mcexact.analysis.boxes.samples import failing_samples
+from mcexact.boxes import Box, largest_loop_uncertainty
+from mcexact.constructions import sampled_system
 from mcexact.derived.sampling import resampled
+from mcexact.designs import local_controllers
 from mcexact.exact.matrix import matrix_to_float
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import controller_text

@@ -7,18 +7,17 @@ from typing import Any
 
 import pytest
 
-from mcexact import (
+from mcexact import MultiChannelSystem, analyze
+from mcexact.boxes import (
     Box,
-    MultiChannelSystem,
-    analyze,
     box_controllability,
     box_fixed_modes,
     box_observability,
     box_stability,
     box_stabilizability,
     largest_uncertainty,
-    local_controllers,
 )
+from mcexact.designs import local_controllers
 from mcexact.errors import InputError, LimitReached
 
 ASKED: list[Callable[[MultiChannelSystem], Any]] = [

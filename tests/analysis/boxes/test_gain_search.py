@@ -7,9 +7,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from mcexact import Box, MultiChannelSystem
+from mcexact import MultiChannelSystem
 from mcexact.analysis.boxes.members import best_gains, exact_gains
 from mcexact.analysis.boxes.pencils import FloatBox, Members, gain_pencil
+from mcexact.boxes import Box
 
 PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
 

@@ -12,20 +12,19 @@ import scipy.optimize  # noqa: F401
 from hypothesis import given, settings
 
 from mcexact import (
-    Box,
     MultiChannelSystem,
     check,
-    dual,
     fixed_spectrum,
     gallery,
     joint_controllability,
-    largest_uncertainty,
     testing,
 )
 from mcexact.analysis.boxes.failure import failing_plant, rational_point, severed_plants, tried_sets
 from mcexact.analysis.boxes.largest import Proofs, failing_member, largest_factor
 from mcexact.analysis.boxes.pencils import one_thread
 from mcexact.answer.boxes import BoxFixedModes
+from mcexact.boxes import Box, largest_uncertainty
+from mcexact.constructions import dual
 from mcexact.errors import UsageError
 
 EFFORT = 0.5

@@ -6,14 +6,9 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact import (
-    Box,
-    MultiChannelSystem,
-    certify_controller,
-    check,
-    largest_loop_uncertainty,
-    local_controllers,
-)
+from mcexact import MultiChannelSystem, certify_controller, check
+from mcexact.boxes import Box, largest_loop_uncertainty
+from mcexact.designs import local_controllers
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
 GAIN = local_controllers(PLANT, [[[-3]]])

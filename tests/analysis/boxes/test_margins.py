@@ -10,19 +10,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mcexact import (
-    Box,
-    MultiChannelSystem,
-    box_disk_margin,
-    check,
-    disk_margin,
-    load_certificate,
-    local_controllers,
-    save_certificate,
-)
+from mcexact import MultiChannelSystem, check, load_certificate, save_certificate
 from mcexact.answer.boxes import BoxStability
 from mcexact.answer.protocol import encode
+from mcexact.boxes import Box, box_disk_margin
+from mcexact.designs import local_controllers
 from mcexact.errors import InputError, LimitReached
+from mcexact.performance import disk_margin
 from tests.checker.handmade import Document, changed, checked, without
 from tests.checker.tables import rejects
 from tests.oracle.certificates.judge import FALSE, TRUE, judge

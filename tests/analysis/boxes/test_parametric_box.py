@@ -13,10 +13,6 @@ from hypothesis import strategies as st
 from mcexact import (
     MultiChannelSystem,
     ParametricSystem,
-    box_controllability,
-    box_fixed_modes,
-    box_observability,
-    box_stabilizability,
     check,
     fixed_spectrum,
     joint_controllability,
@@ -25,6 +21,12 @@ from mcexact import (
 )
 from mcexact.analysis.boxes.cells import members_of_cell, proofs, whole_cell
 from mcexact.analysis.boxes.pencils import Members
+from mcexact.boxes import (
+    box_controllability,
+    box_fixed_modes,
+    box_observability,
+    box_stabilizability,
+)
 from mcexact.checker.cells import box_of_cell as checked_box
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.errors import LimitReached, UsageError

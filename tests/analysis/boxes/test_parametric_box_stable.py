@@ -11,23 +11,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mcexact import (
-    Box,
     Controller,
     MultiChannelSystem,
     NeighborGraph,
     ParametricSystem,
-    box_stability,
     certify_controller,
     check,
-    largest_loop_ranges,
     load_certificate,
-    local_controllers,
     save_certificate,
 )
 from mcexact.analysis.boxes.cells import members_of_cell, whole_cell
 from mcexact.analysis.boxes.largest import LargestRanges
 from mcexact.analysis.boxes.loops import LoopSearch
 from mcexact.answer.boxes import ParametricBoxStability
+from mcexact.boxes import Box, box_stability, largest_loop_ranges
+from mcexact.designs import local_controllers
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, LinearMap

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact import MultiChannelSystem, error_gains
+from mcexact import MultiChannelSystem
 from mcexact.answer.protocol import encode
 from mcexact.answer.structure import StuckWitness
 from mcexact.checker.kinds import check_document
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import minimal_polynomial
 from mcexact.exact.matrix import Matrix, block
+from mcexact.questions import error_gains
 
 PLANT = MultiChannelSystem(
     [[1, 0, 0], [0, 1, 0], [0, 1, 1]],

@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from mcexact import MultiChannelSystem, completeness, single_channel_gains
+from mcexact import MultiChannelSystem, completeness
 from mcexact.analysis.single_channel import Want
 from mcexact.answer.protocol import encode
 from mcexact.answer.structure import GainsWitness, UnreachedWitness
@@ -15,6 +15,7 @@ from mcexact.derived.constructions import dual
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import minimal_polynomial
 from mcexact.exact.matrix import Matrix
+from mcexact.questions import single_channel_gains
 from tests.oracle import enumeration, structure
 from tests.oracle.draws import exact, sparse_system
 

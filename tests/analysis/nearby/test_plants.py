@@ -238,7 +238,7 @@ def test_the_dual_of_a_plant_nearby_is_near_the_dual_plant() -> None:
     require_near(turned, near)
 
 
-@pytest.mark.filterwarnings("ignore::mcexact.RoundingWarning")
+@pytest.mark.filterwarnings("ignore::mcexact.errors.RoundingWarning")
 def test_discrete_time_has_the_unit_disc_for_the_half_plane() -> None:
     # Shares that are handed on: their sum stays, but for rounding errors.
     A = [[0.7, 0.1, 0.2], [0.1, 0.6, 0.3], [0.2, 0.3, 0.5]]

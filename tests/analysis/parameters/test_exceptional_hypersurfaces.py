@@ -12,15 +12,14 @@ import pytest
 from mcexact import (
     ParametricSystem,
     check,
-    exceptional_hypersurfaces,
     fixed_spectrum,
-    load_parametric_system,
     observability_indices,
     setpoint_solvability,
 )
 from mcexact.errors import UsageError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_functions import RationalFunction
+from mcexact.parameters import exceptional_hypersurfaces, load_parametric_system
 from tests.assurance.campaigns import hypersurfaces
 
 

@@ -13,13 +13,13 @@ from mcexact import (
     NeighborGraph,
     ParametricSystem,
     check,
-    extended_system,
     fixed_spectrum,
     joint_controllability,
     joint_observability,
     load_certificate,
     save_certificate,
 )
+from mcexact.constructions import extended_system
 from mcexact.errors import InputError, UsageError
 from mcexact.model.system_file import read_parametric_system
 from tests.answer.test_golden import PORTS, with_a_parameter

@@ -10,16 +10,10 @@ from typing import Any
 import pytest
 from sympy import symbols
 
-from mcexact import (
-    ParametricFixedSpectrum,
-    ParametricSystem,
-    check,
-    fixed_spectrum,
-    load_certificate,
-    save_certificate,
-)
+from mcexact import ParametricSystem, check, fixed_spectrum, load_certificate, save_certificate
 from mcexact.answer.protocol import encode
 from mcexact.errors import InputError, UsageError
+from mcexact.parameters import ParametricFixedSpectrum
 from tests.answer.test_golden import PORTS, tanks, with_a_parameter
 from tests.assurance.campaigns.parametric import examined
 from tests.oracle.parametric_draws import drawn_parametric

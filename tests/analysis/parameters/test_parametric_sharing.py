@@ -8,13 +8,10 @@ from typing import Any
 
 import pytest
 
-from mcexact import (
-    NeighborGraph,
-    check,
-    minimal_shared_dimensions,
-    shared_dimensions_for_every_value,
-)
+from mcexact import NeighborGraph, check
 from mcexact.errors import InputError
+from mcexact.parameters import shared_dimensions_for_every_value
+from mcexact.sharing import minimal_shared_dimensions
 from tests.answer.test_golden import PORTS, with_a_parameter
 from tests.oracle.parametric_draws import drawn_parametric
 

@@ -11,7 +11,6 @@ from typing import Any
 import pytest
 
 from mcexact import (
-    ParametricRank,
     ParametricSystem,
     check,
     completeness,
@@ -26,6 +25,7 @@ from mcexact import (
     transfer_graph,
 )
 from mcexact.errors import InputError, UsageError
+from mcexact.parameters import ParametricRank
 from tests.answer.test_golden import PORTS, tanks, with_a_parameter
 from tests.oracle.parametric_draws import drawn_parametric
 from tests.oracle.parametric_ranks import rank_disagreements

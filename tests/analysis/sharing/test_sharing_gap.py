@@ -93,8 +93,8 @@ def test_the_extremal_plant_exceeds_the_least_by_the_whole_factor(
     gap = sharing_gap(graph)
     factor = gap.relays if share == "outputs+states" else gap.boundary
     plant = extremal_plant(gap, share, dimension=dimension, eigenvalue="1/2", time=time)
-    bound = mcexact.shared_dimension_bound(plant, share=share)
-    common = mcexact.common_dimension(plant, share=share)
+    bound = mcexact.sharing.shared_dimension_bound(plant, share=share)
+    common = mcexact.sharing.common_dimension(plant, share=share)
     assert (bound.deficiency, common.dimension) == (factor * dimension, dimension)
     base = augmented(plain(plant), graph.neighbors) if share == "outputs+states" else plain(plant)
     assert max(deficiencies(base).values()) == factor * dimension

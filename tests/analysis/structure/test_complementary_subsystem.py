@@ -8,15 +8,17 @@ from itertools import pairwise
 import pytest
 from hypothesis import given
 
-from mcexact import MultiChannelSystem, complementary_subsystem, completeness, dual
+from mcexact import MultiChannelSystem, completeness
 from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
+from mcexact.constructions import dual
 from mcexact.derived.drawn.systems import Drawn
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial, companions, invariant_form, rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.model import gallery
+from mcexact.questions import complementary_subsystem
 from mcexact.testing import systems_with_remnant
 from tests.oracle import enumeration
 from tests.oracle.draws import exact, sparse_system

@@ -7,11 +7,12 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact import MultiChannelSystem, controllability_indices, exceptional_gains
+from mcexact import MultiChannelSystem, controllability_indices
 from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, Impossible, InputError
 from mcexact.exact.matrix import Matrix
+from mcexact.questions import exceptional_gains
 
 
 def index_of(A: Matrix, B: Matrix) -> int | None:

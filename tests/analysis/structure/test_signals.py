@@ -8,18 +8,12 @@ from typing import Any
 
 import pytest
 
-from mcexact import (
-    MultiChannelSystem,
-    ParametricSystem,
-    check,
-    load_parametric_system,
-    setpoint_solvability,
-    signal_solvability,
-)
+from mcexact import MultiChannelSystem, ParametricSystem, check, setpoint_solvability
 from mcexact.answer.parameters import ParametricRank
 from mcexact.answer.several_parameters import RankHypersurfaces
 from mcexact.errors import InputError
 from mcexact.exact.polynomial import Polynomial
+from mcexact.parameters import load_parametric_system, signal_solvability
 
 CHAIN = [[0, 1, 0], [0, 0, 1], [-1, -3, -3]]
 OSCILLATION = Polynomial.of(4, 0, 1)

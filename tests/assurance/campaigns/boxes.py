@@ -21,16 +21,9 @@ from flint import fmpq, fmpq_poly
 from sympy import QQ, Poly
 from sympy.polys.matrices import DomainMatrix
 
-from mcexact import (
-    Box,
-    Matrix,
-    MultiChannelSystem,
-    box_controllability,
-    box_fixed_modes,
-    box_stability,
-    check,
-    local_controllers,
-)
+from mcexact import Matrix, MultiChannelSystem, check
+from mcexact.boxes import Box, box_controllability, box_fixed_modes, box_stability
+from mcexact.designs import local_controllers
 from mcexact.errors import LimitReached
 from tests.assurance.campaigns.resumed import main
 from tests.oracle import enumeration

@@ -75,8 +75,8 @@ def of_a_graph(number: int) -> Examined:
             continue
         for time in ("continuous", "discrete"):
             plant = extremal_plant(gap, share, dimension=1, eigenvalue="1/2", time=time)
-            bound = mcexact.shared_dimension_bound(plant, share=share)
-            common = mcexact.common_dimension(plant, share=share)
+            bound = mcexact.sharing.shared_dimension_bound(plant, share=share)
+            common = mcexact.sharing.common_dimension(plant, share=share)
             wrong += invalid(bound, common)
             if (bound.deficiency, common.dimension) != (factor, 1):
                 wrong.append(f"{share}, {time}: {bound.deficiency} and {common.dimension}")
@@ -137,13 +137,13 @@ def of_a_plant(number: int) -> Examined:
     wrong, seen = [], Counter[str](plants=1)
     for share, factor in zip(SHARES, factors, strict=True):
         needed = demands(plain(plant), plant.neighbors.neighbors, outputs=share != "states")
-        common = mcexact.common_dimension(plant, share=share).dimension
+        common = mcexact.sharing.common_dimension(plant, share=share).dimension
         if common != gaps.least_common_dimension(needed) and (common or needed):
             wrong.append(f"{share}: the least is {common}")
         if not common:
             seen[f"{share}: nothing to share, or in vain"] += 1
             continue
-        bound = mcexact.shared_dimension_bound(plant, share=share).deficiency
+        bound = mcexact.sharing.shared_dimension_bound(plant, share=share).deficiency
         if bound != max(d for _, d in needed) or bound > factor * common:
             wrong.append(f"{share}: {bound} against {common}, the factor is {factor}")
         seen[f"{share}: ratio {Fraction(bound, common)}"] += 1
@@ -156,9 +156,9 @@ def of_one_factor(number: int) -> Examined:
     rng = random.Random(number)
     plant, share = drawn_plant(rng, one=True), rng.choice(SHARES)
     costs = [Fraction(rng.randint(1, 3)) for _ in plant.names]
-    least = mcexact.minimal_shared_dimensions(plant, share=share, costs=costs)
+    least = mcexact.sharing.minimal_shared_dimensions(plant, share=share, costs=costs)
     with mock.patch.object(sharing, "_by_nested_sets", lambda *_: None):
-        other = mcexact.minimal_shared_dimensions(plant, share=share, costs=costs)
+        other = mcexact.sharing.minimal_shared_dimensions(plant, share=share, costs=costs)
     wrong = invalid(least, other)
     if (least.cost, least.dimensions) != (other.cost, other.dimensions):
         wrong.append(f"{least.cost} by nested sets, {other.cost} by a tree")

@@ -15,9 +15,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from mcexact import ParametricSystem, check, exceptional_hypersurfaces
+from mcexact import ParametricSystem, check
 from mcexact.answer.protocol import document
 from mcexact.exact.rational_functions import RationalFunction
+from mcexact.parameters import exceptional_hypersurfaces
 from tests.assurance.campaigns.resumed import Examined, main
 from tests.oracle.parametric import _polynomial, fixed_radical, values
 from tests.oracle.parametric_ranks import rank_of

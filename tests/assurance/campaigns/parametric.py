@@ -21,7 +21,6 @@ from mcexact import (
     ParametricSystem,
     check,
     controllability_indices,
-    extended_system,
     fixed_spectrum,
     joint_controllability,
     joint_observability,
@@ -30,6 +29,7 @@ from mcexact import (
     transfer_graph,
 )
 from mcexact.analysis.parameters.hypersurfaces import parametric_completeness
+from mcexact.constructions import extended_system
 from mcexact.derived.constructions import Share
 from mcexact.errors import InputError
 from tests.assurance.campaigns.resumed import Examined, main

@@ -46,13 +46,13 @@ def examined(number: int) -> Examined:
     plant, graphs, window = drawn(number)
     names = plant.names
     slow = slow_system(plant, window, [NeighborGraph(names, graph) for graph in graphs])
-    bound = mcexact.shared_dimension_bound(slow, share="states")
+    bound = mcexact.sharing.shared_dimension_bound(slow, share="states")
     seen = Counter[str](
         systems=1,
         shared=int(bound.deficiency > 0),
         with_no_graph_connected=int(not any(map(strongly_connected, graphs))),
     )
-    held = mcexact.held_system(slow, [bound.deficiency] * plant.m)
+    held = mcexact.constructions.held_system(slow, [bound.deficiency] * plant.m)
     spectrum = mcexact.fixed_spectrum(held)
     wrong = [] if spectrum.empty else ["a mode of the held system is fixed"]
     wrong += [v.line() for v in map(mcexact.check, (bound, spectrum)) if v.verdict != "VALID"]

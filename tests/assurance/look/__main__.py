@@ -11,9 +11,10 @@ import contextlib
 import sys
 from pathlib import Path
 
-from mcexact import AgentProgram, Controller, load_system, save_controller, save_system
+from mcexact import Controller, load_system, save_controller, save_system
 from mcexact.cli import main as mcexact
 from mcexact.derived.drawn.systems import Draw, drawn_system
+from mcexact.designs import AgentProgram
 from mcexact.model import gallery
 from tests.assurance.look.browser import Browser, NoBrowser, closed_panels, open_page
 

@@ -47,16 +47,16 @@ def _some(rng: random.Random, names: Any) -> list[str]:
 
 
 def _pencil(rng: random.Random, system: MultiChannelSystem) -> Found:
-    chi = mcexact.open_loop_spectrum(system).polynomial
+    chi = mcexact.questions.open_loop_spectrum(system).polynomial
     factors = [p for p, _ in chi.factors()] if hasattr(chi, "factors") else [chi]
     p = rng.choice([*factors, Polynomial.from_coefficients([rng.randint(-1, 1), 1])])
-    return mcexact.pencil_rank(system, _some(rng, system.names), p)
+    return mcexact.questions.pencil_rank(system, _some(rng, system.names), p)
 
 
 def _single(rng: random.Random, system: MultiChannelSystem) -> Found:
     want: Any = rng.choice(["both", "controllable", "observable"])
     channel = rng.choice([None, *system.names])
-    return mcexact.single_channel_gains(
+    return mcexact.questions.single_channel_gains(
         system, channel, want=want, cyclic=want == "both" and system.m > 0 and rng.random() < 0.3
     )
 
@@ -66,7 +66,7 @@ def _exceptional(rng: random.Random, system: MultiChannelSystem) -> Found:
     if n > 6:
         raise ValueError("too large for determinants of polynomial matrices")
     M = [[rng.randint(-1, 1) for _ in range(n)] for _ in range(n)]
-    found = mcexact.exceptional_gains(M, system.A, system.input_matrix())
+    found = mcexact.questions.exceptional_gains(M, system.A, system.input_matrix())
     return found.index_set if rng.random() < 0.5 else found.controllability_set
 
 
@@ -84,12 +84,12 @@ def _stability(rng: random.Random, system: MultiChannelSystem) -> Found:
     if system.time == "continuous" and rng.random() < 0.5:
         ratios, moduli = (None, "1/2", "1/10", "9/10", "3/5"), (None, 1, 3, 10, "100")
         region = region.limited(damping=rng.choice(ratios), largest_modulus=rng.choice(moduli))
-    return mcexact.certify_stability(system, region, method=method)
+    return mcexact.questions.certify_stability(system, region, method=method)
 
 
 def _dimensions(rng: random.Random, system: MultiChannelSystem) -> Found:
     m = system.m
-    return mcexact.minimal_shared_dimensions(
+    return mcexact.sharing.minimal_shared_dimensions(
         system,
         None,
         rng.choice(["outputs+states", "states"]),
@@ -118,7 +118,7 @@ def _links(rng: random.Random, system: MultiChannelSystem) -> Found:
 
 def _common(rng: random.Random, system: MultiChannelSystem) -> Found:
     share: Any = rng.choice(["outputs+states", "states"])
-    return mcexact.common_dimension(system, None, share)
+    return mcexact.sharing.common_dimension(system, None, share)
 
 
 def _joint(rng: random.Random, system: MultiChannelSystem) -> Found:
@@ -147,10 +147,10 @@ def _as_large(
 
 DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = {
     "assignability": lambda rng, s: mcexact.assignability(s),
-    "closed_loop_spectrum": lambda rng, s: mcexact.open_loop_spectrum(s),
+    "closed_loop_spectrum": lambda rng, s: mcexact.questions.open_loop_spectrum(s),
     "common_dimension": _common,
     "communication": _links,
-    "complementary_subsystem": lambda rng, s: mcexact.complementary_subsystem(
+    "complementary_subsystem": lambda rng, s: mcexact.questions.complementary_subsystem(
         s, s.names[: rng.randint(1, s.m - 1)] if s.m > 1 else s.names
     ),
     "completeness": lambda rng, s: mcexact.completeness(s),
@@ -161,11 +161,13 @@ DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = 
     "deficiency": _as_large(lambda rng, s: deficiency(s)),
     "exceptional_gains": _exceptional,
     "fixed_spectrum": _as_large(lambda rng, s: mcexact.fixed_spectrum(s)),
-    "neighbor_graph": lambda rng, s: mcexact.neighbor_graph(s),
+    "neighbor_graph": lambda rng, s: mcexact.sharing.neighbor_graph(s),
     "pencil_rank": _pencil,
     "setpoint": lambda rng, s: mcexact.setpoint_solvability(s),
     "shared_dimensions": _dimensions,
-    "sharing_gap": lambda rng, s: mcexact.sharing_gap(s, node_limit=rng.choice((1, 3, 10**4))),
+    "sharing_gap": lambda rng, s: mcexact.sharing.sharing_gap(
+        s, node_limit=rng.choice((1, 3, 10**4))
+    ),
     "single_channel_gains": _single,
     "stability": _stability,
     "transfer_graph": _as_large(lambda rng, s: mcexact.transfer_graph(s)),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag, solve_continuous_lyapunov, solve_discrete_lyapunov
 
-from mcexact import Aims, design_decentralized
+from mcexact import design_decentralized
 from mcexact.analysis.performance import (
     bound_of,
     computed_bound,
@@ -16,6 +16,7 @@ from mcexact.analysis.performance import (
     default_weights,
     response_of,
 )
+from mcexact.designs import Aims
 from mcexact.exact.matrix import Matrix, matrix_to_float, to_float
 from mcexact.exact.roots import is_discrete
 from mcexact.model.loop import closed_loop

@@ -312,7 +312,7 @@ def slack_cut(rng: random.Random, document: Document) -> Forged:
         "neighbors": {"1": ["2"], "2": []},
     }
     text = json.dumps({"format": "mcexact-system/1", **plant})
-    found = mcexact.minimal_shared_dimensions(read_system(text), None, "states")
+    found = mcexact.sharing.minimal_shared_dimensions(read_system(text), None, "states")
     made: Document = copied(protocol.document(found))
     system, claim, witness = subject_of(made), made["claim"], made["witness"]
     cuts = witness["cuts"]

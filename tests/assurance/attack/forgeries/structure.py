@@ -595,7 +595,7 @@ def improper_subset(rng: random.Random, document: Document) -> Forged:
         channel["B"] = [[] for _ in range(n)]
         channel["C"] = {"shape": [0, n], "entries": []} if n else []
     text = json.dumps({"format": "mcexact-system/1", **plant})
-    made = protocol.document(mcexact.complementary_subsystem(read_system(text), inside))
+    made = protocol.document(mcexact.questions.complementary_subsystem(read_system(text), inside))
     plant["channels"] = [c for c in plant["channels"] if c["name"] not in names]
     plant.pop("neighbors", None)
     plant.pop("delays", None)
