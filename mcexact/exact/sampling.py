@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import lru_cache
 
 from mcexact.errors import LimitReached
 from mcexact.exact.matrix import Matrix, from_cells
@@ -65,6 +66,12 @@ def held_exponential(M: Matrix, D: Matrix, step: Fraction, decimals: int) -> tup
     >>> center[0, 0], radii[0, 0]  # exp(-1) = 0.367879…
     (Fraction(46, 125), Fraction(121, 1000000))
     """
+    return _held(M, D, step, decimals)
+
+
+@lru_cache(maxsize=8)
+def _held(M: Matrix, D: Matrix, step: Fraction, decimals: int) -> tuple[Matrix, Matrix]:
+    """As `held_exponential`; searches in boxes sample the same plant again and again."""
     n, m = M.shape
     first = range(n)
     w, nu = _weights(_moduli(M.take(cols=first) * step))

@@ -51,6 +51,8 @@ _HALF = Fraction(1, 2)
 """The part of a proved box in which disk margins are proved; at its end little is left of them."""
 _LEFT, _FEWEST = 800, 10
 """The parts of the border that are tried for disk margins, and the fewest for one side."""
+MOST_SECONDS = 5.0
+"""About how long the checker may take for the disk margins of one side."""
 _LITTLE, _SCARCE = 300, 150
 """With fewer parts of the border than these, only the boxes that likely have a proof are tried."""
 _LATE = "the time limit ended the search of a proof"
@@ -337,7 +339,7 @@ def margins_within(
         late = deadline is not None and time.monotonic() >= deadline
         if most < _FEWEST or late:
             continue
-        proof = margin_in_box(loop, at, most=most, deadline=deadline)
+        proof = margin_in_box(loop, at, most=most, deadline=deadline, seconds=MOST_SECONDS)
         if proof is not None:
             found[at] = proof
     return found
@@ -414,15 +416,17 @@ def _searched_at_samples(loop: ClosedLoop, region: StabilityRegion, work: _Work)
     own = plant.uncertainty is not None
     with one_thread():
         failing = _failing_at_samples(loop if own else _with_part(loop, Fraction(1)), whole)
+        boxes: list[tuple[Fraction | None, StabilityRegion]]
         if own:
-            boxes = [(loop, StabilityRegion(whole.time, region.bound)), (loop, whole)]
+            boxes = [(None, StabilityRegion(whole.time, region.bound)), (None, whole)]
         else:
             unit = _with_part(loop, _SMALL)
             largest = min((each for each, _ in StabilitySearch(unit, whole).margins()), default=0.0)
             parts = work.boxes(float(_SMALL) * largest)
-            boxes = [(_with_part(loop, part), whole) for part in (*parts, Fraction(0))]
+            boxes = [(part, whole) for part in (*parts, Fraction(0))]
         tried = [(*each, gains) for gains in (SIX_DIGITS, None) for each in boxes]
-        for about, wanted, gains in tried:
+        for size, wanted, gains in tried:
+            about = loop if size is None else _with_part(loop, size)
             proof = work.proof(about, wanted, gains)
             if proof is not None:
                 part = Box(about.plant.plant).part or Fraction(0)

@@ -264,7 +264,7 @@ class StabilitySearch:
         if far is None and not self.region.discrete:
             return None
         frames = Frames()
-        segment, last = _arc(self.region.edge), Fraction(2)
+        segment, last = arc(self.region.edge), Fraction(2)
         if far is not None:
             segment, last = _interval(self.region.edge), far[0]
 
@@ -278,7 +278,7 @@ class StabilitySearch:
             proposed = self.pencil.proposal(near, to_float(rho), factor)
             return None if proposed is None else frames.added(proposed, c, rho)
 
-        segments = _segments(test, last, self.most, self._late)
+        segments = cut(test, last, self.most, self.late)
         if segments is None:
             return None
         ends = [b for _, b, _ in segments]
@@ -291,7 +291,8 @@ class StabilitySearch:
             tuple(InverseFrame(V.evidence(), w) for V, w in frames.evidence),
         )
 
-    def _late(self) -> bool:
+    def late(self) -> bool:
+        """Whether the deadline has passed."""
         return self.deadline is not None and time.monotonic() >= self.deadline
 
     def _about(self, factor: Fraction) -> MultiChannelSystem:
@@ -307,7 +308,7 @@ def _scaled(radii: Controller, factor: Fraction) -> Controller:
     return radii if factor == 1 else gain_radii(radii, factor)
 
 
-def _segments(
+def cut(
     test: Callable[[Fraction, Fraction], int | None],
     last: Fraction,
     most: int,
@@ -341,7 +342,7 @@ def _interval(rate: Fraction) -> Callable[[Fraction, Fraction], tuple[Point, Fra
     return lambda a, b: ((-rate, (a + b) / 2), (b - a) / 2)
 
 
-def _arc(radius: Fraction) -> Callable[[Fraction, Fraction], tuple[Point, Fraction]]:
+def arc(radius: Fraction) -> Callable[[Fraction, Fraction], tuple[Point, Fraction]]:
     """The disc whose diameter is the chord between two points of the upper half circle."""
 
     def point(a: Fraction) -> Point:

@@ -18,11 +18,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import floor, inf
+from operator import mul
 from typing import Any, Literal
 
 import numpy as np
 
-from mcexact.analysis.boxes.loops import StabilitySearch
+from mcexact.analysis.boxes.loops import StabilitySearch, arc, cut
 from mcexact.analysis.boxes.pencils import (
     Complex,
     ComplexRows,
@@ -30,14 +31,17 @@ from mcexact.analysis.boxes.pencils import (
     Pencil,
     Point,
     RegularDiscs,
+    column,
     dyadic,
+    entries,
     one_thread,
     weights,
     whole_weights,
+    within,
 )
 from mcexact.answer.boxes import BoxStability, SingleDisk
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, to_float
 from mcexact.exact.rational import as_fraction
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import Controller
@@ -50,23 +54,107 @@ Side = Literal["inputs", "outputs"]
 
 @dataclass(frozen=True, eq=False)
 class PortDiscs:
-    """The tests of a disc for all ports, by one V and the weights of each port."""
+    """The tests of a disc for all ports, by one V and the weights of each port.
+
+    With e the unit vector of the signal k and V_k = Ve, the pencil of the port k, whose two signals
+    stand behind all others, has by the inverse that `extended` makes of V
+
+            ⎡ K'  0  K_k − V_k(1 + z) ⎤
+        K = ⎢ 0   0          0        ⎥,   z = e'(Z_0)e,
+            ⎣ e'K'  0  e'(K_k − V_k(1 + z)) ⎦
+
+    where K' is K = I + VZ_0 of the loop with the column V_k(1 + z) in place of K_k.  L is that of
+    the loop, with a row of zeros and with its row k once more.  So the moduli |K − λL| of the loop
+    are computed once for all ports.
+
+    Attributes
+    ----------
+    V : ComplexRows
+        N × N, of the loop.
+    pencil : PortPencil
+    w : tuple of tuple of int
+        The N + 2 weights of each port.
+    """
 
     V: ComplexRows
-    tests: tuple[RegularDiscs, ...]
+    pencil: PortPencil
+    w: tuple[tuple[int, ...], ...]
 
-    @property
-    def w(self) -> tuple[tuple[int, ...], ...]:
-        """The weights of each port."""
-        return tuple(each.w for each in self.tests)
+    @cached_property
+    def loop(self) -> RegularDiscs:
+        """The test of the loop alone, of which K and L are used."""
+        N = self.V.re.nrows
+        return self.pencil.tested(self.V, (1,) * N, Fraction(1))
+
+    @cached_property
+    def sums(self) -> tuple[tuple[list[Fraction], list[Fraction]], ...]:
+        """For each port what does not depend on λ, and what is multiplied by the radius.
+
+        Both have N + 2 entries, one for each row.
+        """
+        pencil, N, alpha = self.pencil, self.V.re.nrows, self.pencil.alpha
+        size, half = self.V.moduli(), Fraction(1, 2)
+        Z0, D, K = pencil.Z0, pencil.D, self.loop.K
+        result = []
+        for k, w in zip(pencil.ports, self.w, strict=True):
+            before, after = w[k], w[N + 1]
+            read = column((*w[:k], after, *w[k + 1 : N]))
+            spread = [*entries(D @ read)]
+            spread[k] += Fraction(D[k, k]) * (before - after)
+            step = entries(size @ column((*w[: pencil.n], *[0] * (N - pencil.n))))
+            known = entries(size @ Matrix.from_rows([[x] for x in spread]))
+            V_k, K_k = self.V.take(range(N), range(k, k + 1)), K.take(range(N), range(k, k + 1))
+            own = V_k.scaled(1 + Fraction(Z0[k, k]))
+            rest = ComplexRows(K_k.re - own.re, K_k.im - own.im)
+            unit = Matrix.from_entries((N, 1), [(k, 0, half)])
+            added = ComplexRows(V_k.re - unit, V_k.im)
+            moved = [
+                before * x + after * y + alpha * before * v
+                for x, y, v in zip(*map(_moduli, (own, rest, added)), strict=True)
+            ]
+            fixed = [x + y for x, y in zip(known, moved, strict=True)]
+            last = fixed[k] + alpha * before * (Fraction(size[k, k]) - _moduli(added)[k])
+            result.append(([*fixed, alpha * before, last], [*step, Fraction(0), step[k]]))
+        return tuple(result)
+
+    @cached_property
+    def _floats(self) -> Any:
+        w = [np.array([float(x) for x in own]) for own in self.w]
+        sums = [
+            np.array([[to_float(x / y) for x, y in zip(part, own, strict=True)] for part in both])
+            for both, own in zip(self.sums, self.w, strict=True)
+        ]
+        return w, sums, self.loop.near
 
     def seem(self, c: complex, rho: float) -> bool:
         """Whether a disc passes all tests in floating point, which proves nothing."""
-        return all(each.seem(c, rho) for each in self.tests)
+        weighed, sums, (K, L) = self._floats
+        moduli, N = np.abs(K - c * L), len(K)
+        for k, w, (fixed, step) in zip(self.pencil.ports, weighed, sums, strict=True):
+            inside = moduli @ np.where(np.arange(N) == k, 0.0, w[:N])
+            rows = np.concatenate([inside, [0.0, inside[k]]]) / w
+            if not np.all(rows + fixed + rho * step < 0.9999):
+                return False
+        return True
 
     def hold(self, c: Point, rho: Fraction) -> bool:
-        """Whether a disc passes all tests, done in integers."""
-        return all(each.hold(c, rho) for each in self.tests)
+        """Whether a disc passes all tests, done in integers and with a small margin."""
+        rows, scale = self.loop.moduli(c)
+        for k, w, (fixed, step) in zip(self.pencil.ports, self.w, self.sums, strict=True):
+            seen = [*w[:k], 0, *w[k + 1 : len(rows)]]
+            inside = [Fraction(sum(map(mul, row, seen)), scale) for row in rows]
+            inside += [Fraction(0), inside[k]]
+            if not all(
+                within(x + y + rho * z, weight)
+                for x, y, z, weight in zip(inside, fixed, step, w, strict=True)
+            ):
+                return False
+        return True
+
+
+def _moduli(M: ComplexRows) -> list[Fraction]:
+    """Upper limits of the moduli of the entries of a column."""
+    return list(entries(M.moduli()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,12 +242,18 @@ class PortPencil(Pencil):
             unit = np.minimum(unit, room[:, None] / (len(w) * spent[:N])[None, :])
             heavy.append(whole_weights(w * part.scale))
         ratios = self.scale[:, None] / self.scale[None, :]
-        exact = dyadic(V * ratios, unit * ratios)
-        tests = [
-            part.tested(_extended(exact, k), w, Fraction(1))
-            for k, part, w in zip(self.ports, self.parts, heavy, strict=True)
-        ]
-        return PortDiscs(exact, tuple(tests))
+        return PortDiscs(dyadic(V * ratios, unit * ratios), self, tuple(heavy))
+
+    def seems(self, c: complex, rho: float) -> bool:
+        """Whether there seem to be weights of all ports for a disc, in floating point."""
+        V = self.inverse(c)
+        return V is not None and all(
+            weights(np.abs(wide) @ D + rho * np.abs(wide) @ np.diag(E)) is not None
+            for wide, (_, D, E) in (
+                (extended(V, k), part.balanced)
+                for k, part in zip(self.ports, self.parts, strict=True)
+            )
+        )
 
 
 def extended(V: Complex, k: int) -> Complex:
@@ -173,23 +267,11 @@ def extended(V: Complex, k: int) -> Complex:
     return wide
 
 
-def _extended(V: ComplexRows, k: int) -> ComplexRows:
-    """The same in exact numbers."""
-    d, N = 2 * V.denominator, V.re.nrows
-    parts = []
-    for real, rows in zip((True, False), V.integers(d), strict=True):
-        wide = [[*row, row[k], row[k]] for row in rows] + [[0] * (N + 2)]
-        wide.append(list(wide[k]))
-        if real:
-            wide[k][N] -= d // 2
-            wide[k][N + 1] -= d
-            wide[N][N] = d
-        parts.append(Matrix.from_integers(wide, d, N + 2))
-    return ComplexRows(*parts)
-
-
 class MarginSearch(StabilitySearch):
     """The search for a proof that every loop of a box keeps a disk margin."""
+
+    seconds = inf
+    """How long the checker may take."""
 
     def with_disk(self, at: Side, alpha: Fraction) -> None:
         """Multiply the inputs, or the outputs, by numbers of the disk of a margin."""
@@ -202,6 +284,35 @@ class MarginSearch(StabilitySearch):
             base.Z0, base.D, base.n, base.scale, base.generators, ports=ports, alpha=alpha
         )
         self.disk = SingleDisk(at, alpha)
+
+    def is_short(self) -> bool:
+        """Whether a proof seems to be there, in floating point, and to be short enough.
+
+        Only in discrete time it is looked at; elsewhere the answer is yes.
+        """
+        pencil = self.pencil
+        if not self.region.discrete or not isinstance(pencil, PortPencil):
+            return True
+        segment = arc(self.region.edge)
+
+        def test(a: Fraction, b: Fraction) -> int | None:
+            c, rho = segment(a, b)
+            near = complex(to_float(c[0]), to_float(c[1]))
+            return 0 if pencil.seems(near, to_float(rho)) else None
+
+        segments = cut(test, Fraction(2), _TRIED * self.most, self.late)
+        if segments is None or len(segments) > self.most:
+            return False
+        tests = len(segments) * len(pencil.ports)
+        return tests * len(pencil.scale) ** 2 * _SECONDS <= self.seconds
+
+    def proved(self) -> BoxStability | None:
+        """The proof, where `is_short`: failures on the way cost little."""
+        most, self.most = self.most, _TRIED * self.most
+        try:
+            return self.border(Fraction(1))
+        finally:
+            self.most = most
 
     def largest(self) -> float:
         """About the largest margin of which a proof can be found.
@@ -219,6 +330,10 @@ SIDES: tuple[Side, ...] = ("inputs", "outputs")
 PARTS = (0.95, 0.8, 0.5)
 """The parts of what seems to be the largest margin that are tried."""
 _LARGEST = 1.9
+_TRIED = 4
+"""How many parts of the border are tried for each one that a proof may have."""
+_SECONDS = 1.3e-5
+"""The seconds of the checker for the square of the size of a pencil, for each segment and port."""
 _LOOKED_AT, _MATTERS = 20, 0.5
 """The points at which radii are looked at, and the part of the largest gain that matters there."""
 
@@ -229,6 +344,7 @@ def margin_in_box(
     alpha: Fraction | None = None,
     most: int = 4000,
     deadline: float | None = None,
+    seconds: float = inf,
 ) -> BoxStability | None:
     """Search a proof that every loop within the radii of the plant keeps a disk margin.
 
@@ -244,35 +360,32 @@ def margin_in_box(
         The largest number of segments of the border that are tested for one margin.
     deadline : float, optional
         The time of `time.monotonic` after which no further segment is tested.
+    seconds : float
+        About how long the checker may take for the proof.
     """
     region = StabilityRegion(loop.plant.time)
     if not sum((loop.plant.p if at == "inputs" else loop.plant.q)(i) for i in range(loop.plant.m)):
         return None
     with one_thread():
+        search = MarginSearch(loop, region, most=most, deadline=deadline)
+        search.seconds = seconds
         if alpha is not None:
-            return _proof(loop, region, at, alpha, most, deadline)
-        search = MarginSearch(loop, region, most=most)
+            search.with_disk(at, alpha)
+            return search.border(Fraction(1))
         search.with_disk(at, Fraction(0))
         limit = min(search.largest(), _LARGEST)
-        tried = [Fraction(floor(part * limit * 100), 100) for part in PARTS]
-        for size in dict.fromkeys(tried):
-            proof = _proof(loop, region, at, size, most, deadline) if size > 0 else None
-            if proof is not None:
-                return proof
+        sizes = [Fraction(floor(part * limit * 100), 100) for part in PARTS]
+        tried = [size for size in dict.fromkeys(sizes) if size > 0]
+        for k, size in enumerate([*tried[-1:], *tried]):
+            search.with_disk(at, size)
+            if search.is_short():
+                # the smallest one is only looked at first, and proved last
+                proof = search.proved() if k else None
+                if proof is not None:
+                    return proof
+            elif not k:
+                return None
     return None
-
-
-def _proof(
-    loop: ClosedLoop,
-    region: StabilityRegion,
-    at: Side,
-    alpha: Fraction,
-    most: int,
-    deadline: float | None,
-) -> BoxStability | None:
-    search = MarginSearch(loop, region, most=most, deadline=deadline)
-    search.with_disk(at, alpha)
-    return search.border(Fraction(1))
 
 
 def box_disk_margin(

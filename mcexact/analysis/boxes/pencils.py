@@ -103,6 +103,10 @@ class ComplexRows:
     def __add__(self, other: ComplexRows) -> ComplexRows:
         return ComplexRows(self.re + other.re, self.im + other.im)
 
+    def scaled(self, factor: Fraction) -> ComplexRows:
+        """The multiple by a rational number."""
+        return ComplexRows(self.re * factor, self.im * factor)
+
     def take(self, rows: range, cols: range) -> ComplexRows:
         """The submatrix of some rows and columns."""
         return ComplexRows(self.re.take(rows, cols), self.im.take(rows, cols))
@@ -185,21 +189,38 @@ class RegularDiscs:
 
     def hold(self, c: Point, rho: Fraction) -> bool:
         """Whether a disc passes the test, done in integers and with a small margin."""
+        rows, scale = self.moduli(c)
+        return all(
+            within(Fraction(sum(map(mul, row, self.w)), scale) + p + rho * r, w)
+            for row, p, r, w in zip(rows, self.fixed, self.step, self.w, strict=True)
+        )
+
+    def moduli(self, c: Point) -> tuple[list[list[int]], int]:
+        """Upper limits of the moduli of K − cL, integers over a common denominator."""
         own: Any = self
         dc = lcm(c[0].denominator, c[1].denominator)
         a, b = int(c[0] * dc), int(c[1] * dc)
-        scale, one = own._d * dc, _MARGIN - 1
-        weights = self.w
         (K_re, K_im), (L_re, L_im) = own._K, own._L
-        for i, (k, l, x, y) in enumerate(zip(K_re, K_im, L_re, L_im, strict=True)):
-            moduli = (
+        rows = [
+            [
                 modulus_above(p * dc - a * r + b * s, q * dc - a * s - b * r)
                 for p, q, r, s in zip(k, l, x, y, strict=True)
-            )
-            total = Fraction(sum(map(mul, moduli, weights)), scale)
-            if (total + self.fixed[i] + rho * self.step[i]) * _MARGIN >= weights[i] * one:
-                return False
-        return True
+            ]
+            for k, l, x, y in zip(K_re, K_im, L_re, L_im, strict=True)
+        ]
+        return rows, own._d * dc
+
+    @property
+    def near(self) -> tuple[Complex, Complex]:
+        """K and L in floating point, their columns weighed and their rows divided by weights."""
+        own: Any = self
+        pair: tuple[Complex, Complex] = own._near
+        return pair
+
+
+def within(total: Fraction, weight: int) -> bool:
+    """Whether a sum is below a weight, with a small margin."""
+    return total * _MARGIN < weight * (_MARGIN - 1)
 
 
 @dataclass

@@ -11,11 +11,16 @@ import numpy as np
 import pytest
 
 from mcexact import MultiChannelSystem, check, load_certificate, save_certificate
+from mcexact.analysis.boxes.margins import MarginSearch, PortPencil, margin_in_box
+from mcexact.analysis.boxes.pencils import ComplexRows
 from mcexact.answer.boxes import BoxStability
 from mcexact.answer.protocol import encode
 from mcexact.boxes import Box, box_disk_margin
 from mcexact.designs import local_controllers
 from mcexact.errors import InputError, LimitReached
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.loop import closed_loop
 from mcexact.performance import disk_margin
 from tests.checker.handmade import Document, changed, checked, without
 from tests.checker.tables import rejects
@@ -201,3 +206,57 @@ def test_what_is_saved_is_read_back(tmp_path: Path) -> None:
 def test_the_answer_passes_the_check_about_its_plant() -> None:
     box = Box.relative(PLANT, "1/20").system
     assert check(box_disk_margin(box, GAINS, margin="1/4"), box).verdict == "VALID"
+
+
+def extended_exactly(V: ComplexRows, k: int) -> ComplexRows:
+    """The approximate inverse of the pencil of a port, from that of the loop, entry by entry."""
+    N, half = V.re.nrows, Fraction(1, 2)
+    parts = []
+    for M, real in ((V.re, 1), (V.im, 0)):
+        rows = [[*row, row[k], row[k]] for row in M.rows()]
+        rows += [[Fraction(0)] * (N + 2), list(rows[k])]
+        rows[k][N] -= half * real
+        rows[k][N + 1] -= real
+        rows[N][N] = Fraction(real)
+        parts.append(Matrix.from_rows(rows))
+    return ComplexRows(*parts)
+
+
+@pytest.mark.parametrize("at", ["inputs", "outputs"])
+@pytest.mark.parametrize(("plant", "gains"), [(PLANT, GAINS), (SAMPLED, SLOW), (SWINGS, DAMPS)])
+def test_discs_of_all_ports_hold_where_the_pencils_of_the_ports_say_so(
+    plant: MultiChannelSystem, gains: Any, at: Any
+) -> None:
+    box = Box.relative(plant, "1/1000").system
+    search = MarginSearch(closed_loop(box, gains), StabilityRegion(plant.time))
+    search.with_disk(at, Fraction(1, 10))
+    pencil = search.pencil
+    assert isinstance(pencil, PortPencil)
+    c = (Fraction(3, 5), Fraction(4, 5))
+    discs = pencil.proposal(complex(0.6, 0.8), 0.01, Fraction(1))
+    assert discs is not None
+    slow = [
+        part.tested(extended_exactly(discs.V, k), w, Fraction(1))
+        for k, part, w in zip(pencil.ports, pencil.parts, discs.w, strict=True)
+    ]
+    verdicts = set()
+    for rho in (Fraction(x, 200) for x in range(0, 400, 7)):
+        expected = all(each.hold(c, rho) for each in slow)
+        assert discs.hold(c, rho) == expected
+        seems = discs.seem(complex(0.6, 0.8), float(rho))
+        assert seems == all(each.seem(complex(0.6, 0.8), float(rho)) for each in slow)
+        verdicts.add(expected)
+    assert verdicts == {True, False}
+    for (fixed, step), each in zip(discs.sums, slow, strict=True):
+        assert list(step) == list(each.step)
+        assert all(
+            abs(x - y) < Fraction(1, 10**6) * (1 + y)
+            for x, y in zip(fixed, each.fixed, strict=True)
+        )
+
+
+def test_a_proof_that_takes_the_checker_long_is_not_begun() -> None:
+    loop = closed_loop(Box.relative(SAMPLED, "1/20").system, SLOW)
+    assert margin_in_box(loop, "inputs", most=200) is not None
+    assert margin_in_box(loop, "inputs", most=200, seconds=1e-6) is None
+    assert margin_in_box(loop, "inputs", most=2) is None
