@@ -18,7 +18,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -38,14 +38,27 @@ from mcexact.analysis.performance import (
 )
 from mcexact.answer.performance import Symmetric
 from mcexact.answer.saturation import Ellipsoid, SaturationProof, SaturationStability
+from mcexact.derived.sampling import is_sampled, sampled_within
 from mcexact.errors import InputError, LimitReached, UsageError
-from mcexact.exact.matrix import Matrix, block, matrix_from_float, matrix_to_float, to_float, vstack
+from mcexact.exact.matrix import (
+    Matrix,
+    block,
+    hstack,
+    matrix_from_float,
+    matrix_to_float,
+    to_float,
+    vstack,
+)
 from mcexact.exact.roots import is_discrete
+from mcexact.model.box import Box
 from mcexact.model.controller import Controller
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.limits import InputLimits, Range, read_input_limits
 from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.radii import moduli
+from mcexact.model.sizes import TypicalSizes
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.units import inverted, scaled
 
 Floats = npt.NDArray[np.float64]
 
@@ -219,6 +232,12 @@ class Saturated:
     nearer : tuple of Fraction
         The modulus of the nearer limit of each.
     discrete : bool
+    sizes : tuple of Fraction
+        The typical size of each state of the plant.
+    inputs : tuple of Fraction
+        That of each input with limits.
+    missed : Matrix or None
+        Of the samples of a plant, the radii of [M₀, E₀] within which the exact samples are.
     """
 
     M: Matrix
@@ -226,6 +245,9 @@ class Saturated:
     U: Matrix
     nearer: tuple[Fraction, ...]
     discrete: bool
+    sizes: tuple[Fraction, ...]
+    inputs: tuple[Fraction, ...]
+    missed: Matrix | None = None
 
     @classmethod
     def of(cls, loop: ClosedLoop, limits: InputLimits, gains: Sequence[Matrix]) -> Saturated:
@@ -235,7 +257,37 @@ class Saturated:
         E = (disturbed.E + entering(loop, gains)).take(cols=cut)
         U = disturbed.U.take(rows=cut)
         nearer = tuple(min(-low, high) for low, high in _known(pairs))
-        return cls(disturbed.M - E @ U, E, U, nearer, is_discrete(loop.plant.time))
+        plant, known = loop.plant, loop.plant.typical_sizes or TypicalSizes()
+        widths = known.of_inputs([plant.p(i) for i in range(plant.m)])
+        inputs = [x for own in widths for x in own]
+        return cls(
+            disturbed.M - E @ U,
+            E,
+            U,
+            nearer,
+            is_discrete(plant.time),
+            tuple(known.of_states(plant.n)),
+            tuple(inputs[k] for k in cut),
+            _missed(loop, cut),
+        )
+
+    def in_sizes(self) -> Saturated:
+        """The same loop, its states and inputs divided by their sizes."""
+        states = [*self.sizes, *[Fraction(1)] * (self.M.nrows - len(self.sizes))]
+        one, inputs = [Fraction(1)] * len(states), self.inputs
+        if {*states, *inputs} <= {Fraction(1)}:
+            return self
+        back = inverted(states)
+        return replace(
+            self,
+            M=scaled(self.M, back, states),
+            E=scaled(self.E, back, inputs),
+            U=scaled(self.U, inverted(inputs), states),
+            nearer=tuple(x / size for x, size in zip(self.nearer, inputs, strict=True)),
+            sizes=tuple(one[: len(self.sizes)]),
+            inputs=tuple(Fraction(1) for _ in inputs),
+            missed=None,
+        )
 
     def response(self, a: Fraction) -> PortResponse:
         """The response from g to v for φ = (1 + a)/2 v + (1 − a)/2 g, and the sector [a, 1]."""
@@ -256,8 +308,10 @@ class Saturated:
         """The position of the widest of `_SECTORS` that seems to be covered, or their number."""
         return bisect_left(_SECTORS, True, key=lambda a: self.norm(a) < 1)
 
-    def falls(self, P: Matrix, scaling: Sequence[Fraction], a: Fraction) -> bool:
-        """Whether zᵀPz is positive and falls for all φ between av and v."""
+    def falls(
+        self, P: Matrix, scaling: Sequence[Fraction], a: Fraction, *, exact: bool = False
+    ) -> bool:
+        """Whether zᵀPz is positive and falls for all φ between av and v; ``exact`` of samples."""
         M, E, U = self.M, self.E, self.U
         corner = diagonal_matrix(scaling)
         if self.discrete:
@@ -266,7 +320,36 @@ class Saturated:
         across = -(right + U.T @ diagonal_matrix([t * (1 + a) / 2 for t in scaling]))
         products = U.T @ (diagonal_matrix([t * a for t in scaling]) @ U)
         top = lyapunov_difference(P, M, self.discrete) + products
-        return is_positive(block([[top, across], [across.T, corner]])) and is_positive(P)
+        fall = block([[top, across], [across.T, corner]])
+        if exact and self.missed is not None:
+            R = self.missed
+            size = R.T @ moduli(P @ hstack([M, E]))
+            size = size + size.T + R.T @ (moduli(P) @ R)
+            sums = [Fraction(sum(row), size.denominator) for row in size.numerators]
+            fall = fall - diagonal_matrix(sums)
+        return is_positive(fall) and is_positive(P)
+
+    def holds_exactly(self, P: Matrix, scaling: Sequence[Fraction], a: Fraction) -> bool | None:
+        """True if the form falls at the exact samples, too; None if that is not proved."""
+        return True if self.missed is not None and self.falls(P, scaling, a, exact=True) else None
+
+
+def _missed(loop: ClosedLoop, cut: Sequence[int]) -> Matrix | None:
+    """The radii of [M₀, E₀] of exact samples, N × (N + cut); None for a plant without samples."""
+    plant = loop.plant
+    if not is_sampled(plant):
+        return None
+    (how,) = plant.subject
+    certain = Box.relative(plant.plant, 0).radii
+    radii = sampled_within(
+        plant.plant, certain, Fraction(how["step"]), how["late"], how["decimals"]
+    )
+    B, N, n = hstack([*radii.B], nrows=plant.n), loop.dimension, plant.n
+    free = [k for k in range(B.ncols) if k not in cut]
+    own = hstack([radii.A, Matrix.zeros(n, N - n)])
+    own = own + B.take(cols=free) @ moduli(loop.disturbed.U.take(rows=free))
+    above = hstack([own, B.take(cols=list(cut))])
+    return vstack([above, Matrix.zeros(N - n, above.ncols)])
 
 
 def _known(pairs: Sequence[Range | None]) -> Iterator[Range]:
@@ -302,7 +385,10 @@ def saturation_of(
     found = _circle(saturated)
     if found is not None:
         proof = SaturationProof(found[0], (Fraction(0),) * len(found[0]), P=found[1])
-        return SaturationStability(loop.system, limits, tuple(gains), region=None, proof=proof)
+        exact = saturated.holds_exactly(found[1].matrix(), found[0], Fraction(0))
+        return SaturationStability(
+            loop.system, limits, tuple(gains), region=None, exact=exact, proof=proof
+        )
     return _regional(loop, limits, gains, saturated, _ellipsoids(saturated, loop.plant.n))
 
 
@@ -322,14 +408,22 @@ def _regional(
         region = _region(saturated, loop.plant.n, a, weights, form)
         if region is not None:
             proof = SaturationProof(region[0], (a,) * len(region[0]))
+            exact = saturated.holds_exactly(region[1].P.matrix(), region[0], a)
             return SaturationStability(
-                loop.system, limits, tuple(gains), region=region[1], proof=proof
+                loop.system, limits, tuple(gains), region=region[1], exact=exact, proof=proof
             )
     return None
 
 
 def _ellipsoids(saturated: Saturated, n: int, first: int | None = None) -> list[_Candidate]:
-    """Some forms for each sector, those first whose largest balls of the plant are largest."""
+    """Some forms for each sector, those first whose largest balls of the plant are largest.
+
+    They are looked for where states and inputs are divided by their sizes, so that they do not
+    depend on units; the forms and their scalings are returned for the units of the file.
+    """
+    sizes = np.array([to_float(x) for x in saturated.sizes] + [1.0] * (saturated.M.nrows - n))
+    inputs = [x**2 for x in saturated.inputs]
+    saturated = saturated.in_sizes()
     if first is None:
         first = saturated.first_sector() if all(saturated.nearer) else len(_SECTORS)
     found = list[_Candidate]()
@@ -340,13 +434,14 @@ def _ellipsoids(saturated: Saturated, n: int, first: int | None = None) -> list[
         if norm >= 1:
             continue
         weights = tuple(Fraction(float(t)) / ((1 - a) / 2) ** 2 for t in theta)
+        file_weights = tuple(t / x for t, x in zip(weights, inputs, strict=True))
         own = list[_Candidate]()
         with suppress(np.linalg.LinAlgError):
             for P in response.forms(ports, theta, Fraction(1), _EXTRA):
                 factor, largest = _factor(saturated, P, a), np.linalg.eigvalsh(P[:n, :n])
                 size = factor * float(largest[-1]) if n else factor
                 if 0 < size < np.inf:
-                    own.append((size, a, weights, P))
+                    own.append((size, a, file_weights, P / np.outer(sizes, sizes)))
         found += sorted(own, key=lambda each: each[0])[:_MOST_FORMS]
     return sorted(found, key=lambda each: each[0])
 
@@ -394,22 +489,26 @@ def _inside(
 ) -> tuple[tuple[Fraction, ...], Ellipsoid] | None:
     """A multiple of an ellipsoid that is proved with as few bits as suffice."""
     weights = tuple(t * Fraction(factor) for t in scaling)
-    own = np.linalg.eigvalsh(P[:n, :n] * factor)
+    sizes = saturated.sizes
+    units = np.array([to_float(x) for x in sizes])
+    own = np.linalg.eigvalsh(P[:n, :n] * factor * np.outer(units, units))
+    told = None if all(x == 1 for x in sizes) else sizes
     radius = decimal_below(Fraction(float(1 / np.sqrt(own[-1]) / _ROOM)) if n else Fraction(1), 3)
     for bits in BITS:
-        scaled = rounded_form(P * factor, bits)
-        if scaled is None:
+        rounded = rounded_form(P * factor, bits)
+        if rounded is None:
             return None
-        exact = scaled.matrix()
+        exact = rounded.matrix()
         # The cheaper conditions first: rounding breaks each of them at too few bits.
         inside = is_positive(
-            Matrix.identity(n) * (1 / radius**2) - exact.take(rows=range(n), cols=range(n))
+            diagonal_matrix([1 / (radius * x) ** 2 for x in sizes])
+            - exact.take(rows=range(n), cols=range(n))
         ) and all(
             is_positive(exact - saturated.U.take(rows=[k]).T @ saturated.U.take(rows=[k]) * scale)
             for k, scale in enumerate((a / each) ** 2 for each in saturated.nearer)
         )
         if inside and saturated.falls(exact, weights, a):
-            return weights, Ellipsoid(scaled, radius)
+            return weights, Ellipsoid(rounded, radius, sizes=told)
     return None
 
 

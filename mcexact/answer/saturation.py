@@ -16,6 +16,7 @@ from mcexact.answer.performance import Symmetric
 from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
 from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template
+from mcexact.derived.sampling import is_sampled
 from mcexact.exact.matrix import Matrix
 
 
@@ -29,10 +30,13 @@ class Ellipsoid(Part):
     radius : Fraction
         Every state of the system that is controlled, of this norm or a smaller one, is in it, where
         all else is 0.
+    sizes : tuple of Fraction or None
+        What each state is divided by for this norm; None for 1.
     """
 
     P: Symmetric
     radius: Fraction
+    sizes: tuple[Fraction, ...] | None = field(default=None, kw_only=True, metadata=LEFT_OUT)
 
 
 @dataclass(frozen=True)
@@ -69,32 +73,37 @@ class SaturationStability(Answer):
         Without one, any two solutions with the same set-points and disturbances approach each other
         exponentially.  With one, this holds for the solutions without set-points and disturbances
         that start in it: they tend to 0 exponentially, and stay in it.
+    exact : bool or None
+        True if all of this holds as well for the plant sampled without rounding.
     proof : SaturationProof
     """
 
     limits: tuple[tuple[tuple[Fraction, Fraction] | None, ...], ...] = claim()
     back_calculation: tuple[Matrix, ...] = claim()
     region: Ellipsoid | None = claim(optional=True)
+    exact: bool | None = claim(optional=True)
     proof: SaturationProof = witness(whole=True)
 
 
 ALWAYS = Template(
     "saturation-global",
     "stable with each input cut off at its limits ({limits:input limits}){gains:windup}: any two "
-    "solutions with the same set-points and disturbances approach each other exponentially",
+    "solutions with the same set-points and disturbances approach each other exponentially"
+    "{samples:rounded samples}",
     label="inputs at their limits",
 )
 REGION = Template(
     "saturation-region",
     "stable with each input cut off at its limits ({limits:input limits}){gains:windup}, from "
-    "every state of the controlled system of norm at most {radius:digits_below} where all else is "
-    "at rest",
+    "every state of the controlled system of norm at most {radius:digits_below}{sizes:in sizes} "
+    "where all else is at rest{samples:rounded samples}",
     label="inputs at their limits",
 )
 FIRST = Template("first-saturation", "stable at every saturation of the inputs")
 FIRST_REGION = Template(
     "first-saturation-region",
-    "stable with saturated inputs from states of norm at most {radius:digits_below}",
+    "stable with saturated inputs from states of norm at most {radius:digits_below}"
+    "{sizes:in sizes}",
 )
 
 RULES = Rulebook()
@@ -105,7 +114,7 @@ Said = Iterator[Sentence]
 def _first(saturation: Claim, context: Context) -> Said:
     """Whether the loop is stable with inputs cut off, and from where."""
     if saturation.has("region"):
-        yield FIRST_REGION(radius=saturation.region.radius)
+        yield FIRST_REGION(radius=saturation.region.radius, sizes=_sizes(saturation))
     else:
         _ = saturation.limits
         yield FIRST()
@@ -117,8 +126,22 @@ def _saturation(saturation: Claim, context: Context) -> Said:
     known: dict[str, Any] = {
         "limits": tuple(zip(context.names, saturation.limits, strict=True)),
         "gains": any(not L.is_zero() for L in saturation.back_calculation),
+        "samples": _samples(saturation, context),
     }
     if saturation.has("region"):
-        yield REGION(**known, radius=saturation.region.radius)
+        yield REGION(**known, radius=saturation.region.radius, sizes=_sizes(saturation))
     else:
         yield ALWAYS(**known)
+
+
+def _sizes(saturation: Claim) -> tuple[Fraction, ...] | None:
+    """What each state is divided by; None where these are all 1."""
+    region = saturation.region
+    return tuple(Fraction(x) for x in region.sizes) if region.has("sizes") else None
+
+
+def _samples(saturation: Claim, context: Context) -> str | None:
+    """Of a sampled plant, whether this is known of the exact samples."""
+    if not is_sampled(context.system):
+        return None
+    return "exact" if saturation.has("exact") and saturation.exact else "rounded"

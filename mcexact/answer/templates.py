@@ -413,6 +413,12 @@ def _limits(by_channel: Sequence[tuple[str, Sequence[Any]]]) -> str:
     return ", ".join(cut(texts, 6))
 
 
+_SAMPLES = {
+    None: "",
+    "exact": "; also for the samples without rounding",
+    "rounded": "; proved for the samples rounded to decimals, and not for the exact ones",
+}
+
 FORMS: dict[str, Write] = {
     "int": str,
     "int or open": lambda value: "open" if value is None else str(value),
@@ -515,6 +521,8 @@ FORMS: dict[str, Write] = {
     "proper": lambda only: " whose inputs do not depend on the outputs at once" if only else "",
     "sectors": _sectors,
     "input limits": _limits,
+    "in sizes": lambda some: ", each state divided by its size," if some else "",
+    "rounded samples": lambda which: _SAMPLES[which],
     "windup": lambda some: " and with the anti-windup gains of the controller" if some else "",
     "step": approximated,
     "late": lambda steps: f" and applied {count(steps, 'step')} late" if steps else "",

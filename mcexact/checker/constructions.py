@@ -457,7 +457,8 @@ def sampled(system: System, step: dict[str, Json], place: str) -> System:
     """
     certain = [Matrix.zeros(system.n, B_i.ncols) for B_i in system.B]
     D = replace(system, A=Matrix.zeros(system.n, system.n), B=certain)
-    return sampled_within(system, D, step, place)[0]
+    center, missed = sampled_within(system, D, step, place)
+    return replace(center, missed=missed)
 
 
 def sampled_within(

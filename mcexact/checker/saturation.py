@@ -10,6 +10,11 @@ L with the rows of the agents' states.  sat(v) lies between 0 and v, and between
 a|v| is at most the nearer limit.  So the circle criterion of the kind ``sector`` applies, with the
 sectors [a, 1]: with a = 0 everywhere, also to the difference of two solutions, and with a > 0 in an
 ellipsoid {z'Pz ≤ 1} on which |v| is small enough.
+
+The exact samples of a plant have other A and B, within radii of the rounded ones.  With |ΔG| ≤ R
+for G = [M₀, E₀] the fall of z'Pz is another one by a form T with |T| ≤ R'|PG| + |PG|'R + R'|P|R.
+So it stays positive where it is larger than the diagonal matrix of the sums of the rows of this
+bound.
 """
 
 from collections.abc import Sequence
@@ -17,7 +22,7 @@ from fractions import Fraction
 from functools import reduce
 
 from . import budget
-from .arithmetic import Matrix, diagonal, stack
+from .arithmetic import Matrix, absolute, beside, diagonal, stack
 from .constructions import Loop
 from .performance import (
     bordered,
@@ -38,10 +43,11 @@ def check_saturation(claim: Json, witness: Json, system: System) -> None:
     """The circle criterion for the sectors [a, 1] of saturation, everywhere or in a region.
 
     Theorems ``saturation.global_continuous``, ``saturation.global_discrete``,
-    ``saturation.region_continuous``, ``saturation.region_discrete``.
+    ``saturation.region_continuous``, ``saturation.region_discrete``.  Open for exact samples: see
+    ``proofs/OPEN.md``.
     """
-    listed, gains, region = fields(
-        claim, "claim", "limits", "back_calculation", optional=("region",)
+    listed, gains, region, exact = fields(
+        claim, "claim", "limits", "back_calculation", optional=("region", "exact")
     )
     theta, ends, form = fields(witness, "witness", "scaling", "sectors", optional=("P",))
     plant, loop = loop_of(system)
@@ -62,7 +68,32 @@ def check_saturation(claim: Json, witness: Json, system: System) -> None:
         P = check_region(region, U, (ranges, lower), plant.n)
     require_positive(P, "witness.P", "not shown to be positive definite")
     decrease = circle(P, (apart, E, U), scaling, lower, system.time)
+    if exact is not None:
+        require(exact is True, "exact", "claim.exact", "expected true, or no such key")
+        decrease = decrease - diagonal_of(spread(P, (apart, E, loop.U), cut, plant))
     require_positive(decrease, "witness.P", "the form is not shown to decrease")
+
+
+def spread(
+    P: Matrix, signals: tuple[Matrix, Matrix, Matrix], cut: list[int], plant: System
+) -> list[Fraction]:
+    """By how much the fall can be smaller at the exact samples, in each square of (z, φ).
+
+    An input without limits is v itself, row k of U, and stands in M₀.
+    """
+    message = "only samples of a plant, in no other construction, are rounded"
+    require(plant.missed is not None, "exact", "claim.exact", message)
+    M, E, U = signals
+    N, n, width = M.nrows, plant.n, E.ncols
+    A, B = plant.missed.A, beside(plant.missed.B, n)
+    free = [k for k in range(B.ncols) if k not in cut]
+    own = beside([A, Matrix.zeros(n, N - n)], n) + B.take(cols=free) @ absolute(U.at(free))
+    above = beside([own, B.take(cols=cut)], n)
+    R = stack([above, Matrix.zeros(N - n, N + width)], N + width)
+    size = R.T @ absolute(P @ beside([M, E], N))
+    size = size + size.T + R.T @ (absolute(P) @ R)
+    budget.spend(budget.fractions(size.nrows * size.ncols, size.limbs))
+    return [Fraction(sum(row), size.denominator) for row in size.rows]
 
 
 def ranges_of(value: Json, plant: System) -> Ranges:
@@ -92,8 +123,14 @@ def check_region(
 
     Theorem ``saturation.ellipsoid_stays``.
     """
-    form, size = fields(region, "claim.region", "P", "radius")
+    form, size, own_sizes = fields(region, "claim.region", "P", "radius", optional=("sizes",))
     place, radius = "claim.region.radius", rational(size, "claim.region.radius")
+    sizes = [Fraction(1)] * n
+    if own_sizes is not None:
+        listed = items(own_sizes, "claim.region.sizes", n)
+        sizes = [rational(x, "claim.region.sizes") for x in listed]
+        positive = all(x > 0 for x in sizes)
+        require(positive, "region", "claim.region.sizes", "expected sizes above 0")
     P = symmetric(form, "claim.region.P", U.ncols)
     ranges, lower = limits
     pairs = [each for each in ranges if each is not None]
@@ -106,7 +143,9 @@ def check_region(
         v = U.at([k])
         require_positive(P - (v.T @ v).times((a / nearer) ** 2), "claim.region.P", message)
     require(radius > 0, "region", place, "expected a number above 0")
-    own = Matrix.unit_rows(n, 0, n).times(1 / radius**2) - P.take(range(n), range(n))
+    budget.spend(budget.fractions(4 * n, 2 * budget.limbs_of([radius, *sizes])))
+    ball = diagonal_of([1 / (radius * x) ** 2 for x in sizes])
+    own = ball - P.take(range(n), range(n))
     require_positive(own, place, "not all of these states of the plant are in the region")
     return P
 
@@ -156,19 +195,25 @@ def saturation_statement(claim: Json, system: System) -> str:
         "to its next states, in continuous time to their derivatives, v being the inputs that it "
         f"computes and w these cut off; limits of each agent in turn: {limits}; L in turn: {gains}"
     )
+    exact = "; all of this holds as well for the plant sampled without rounding"
+    exact = exact if "exact" in claim else ""
     if "region" not in claim:
         return (
             "any two solutions with the same set-points and disturbances approach each other "
-            f"exponentially, {cut}"
+            f"exponentially, {cut}{exact}"
         )
     region = claim["region"]
+    divided = ""
+    if "sizes" in region:
+        listed = ", ".join(map(str, region["sizes"]))
+        divided = f", each of its entries divided by one of ({listed}) in turn"
     e, s = region["P"]["exponents"], region["P"]["entries"]
     return (
         "every solution without set-points and disturbances that starts where z'Pz <= 1 stays "
         f"there and tends to 0 exponentially, z the state of the loop, {cut}; P_ij = s_ij "
         f"2^(e_i + e_j) with e = {e} and the lower triangle s = {s}, row by row; z'Pz <= 1 holds "
         "for every state of the system that is controlled, of norm at most "
-        f"{region['radius']}, where all else is 0"
+        f"{region['radius']}{divided}, where all else is 0{exact}"
     )
 
 

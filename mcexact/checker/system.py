@@ -340,6 +340,7 @@ class System:
     ``controller`` is the digest of the controller, and ``ports`` say whose the states are and which
     channels it closes, and ``loop`` is what the loop was made from (`constructions.Loop`).
     ``uncertainty`` are the radii of all entries in canonical form; None means that all are certain.
+    ``missed`` are, for a sampled plant alone, A and B within which its exact samples are.
     """
 
     time: str
@@ -355,6 +356,7 @@ class System:
     ports: str = ""
     uncertainty: Json = None
     loop: Any = field(default=None, compare=False)
+    missed: Any = field(default=None, compare=False)
     D: Matrix | None = None
 
     @property

@@ -13,11 +13,14 @@ import pytest
 from mcexact import Controller, Matrix, MultiChannelSystem
 from mcexact.analysis.saturation import Saturated, entering, gains_for, gains_none, saturation_of
 from mcexact.answer.check import check
-from mcexact.answer.saturation import SaturationStability
+from mcexact.answer.saturation import RULES, SaturationStability
+from mcexact.answer.sentence import Context
+from mcexact.derived.sampling import sampled_system
 from mcexact.designs import AgentProgram, LinearMap, local_controllers
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import matrix_to_float
 from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.sizes import TypicalSizes
 from mcexact.performance import saturation_stability, with_anti_windup
 from tests.oracle.drawn.performance import drawn_loop
 
@@ -195,3 +198,64 @@ def test_a_region_is_far_larger_than_the_ball_in_which_nothing_is_cut_off() -> N
     for _ in range(100):
         peak, power = max(peak, float(np.linalg.norm(K @ power))), M @ power
     assert found.region is not None and found.region.radius * Fraction(peak) > 3
+
+
+def swing(unit: Fraction) -> MultiChannelSystem:
+    """A rod that falls; angle and velocity are in another unit, and so are their sizes."""
+    return MultiChannelSystem(
+        [[0, 1], [2, 0]],
+        [[[0], [unit]]],
+        [[[1 / unit, 0], [0, 1 / unit]]],
+        typical_sizes=TypicalSizes(states=[unit / 10, unit / 2]),
+    )
+
+
+@pytest.mark.parametrize("sampling", [None, (Fraction(1, 20), 1)])
+def test_a_region_in_sizes_does_not_change_with_the_unit(
+    sampling: tuple[Fraction, int] | None,
+) -> None:
+    regions = list[Fraction]()
+    # samples are rounded to decimals in the units of the file
+    finest = Fraction(1, 10**9) if sampling is None else Fraction(1)
+    for unit in (Fraction(1), Fraction(1000), Fraction("3.6"), finest):
+        plant = swing(unit)
+        loop = plant if sampling is None else sampled_system(plant, *sampling)
+        found = saturation_stability(
+            loop, local_controllers(loop, [[[-5, -3]]]), limits={"1": [[-1, 1]]}
+        )
+        assert found.region is not None and found.region.sizes is not None
+        assert found.region.sizes[:2] == (unit / 10, unit / 2)
+        assert check(found).verdict == "VALID"
+        regions.append(found.region.radius)
+    assert len({*regions}) == 1
+
+
+def test_without_sizes_a_region_names_none() -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    found = saturation_stability(plant, local_controllers(plant, [[[-3]]]), limits={"1": [[-1, 1]]})
+    assert found.region is not None and found.region.sizes is None and found.exact is None
+
+
+def test_what_is_proved_of_samples_is_proved_of_exact_ones_unless_decimals_are_missing() -> None:
+    plant, gain = MultiChannelSystem([[1]], [[[1]]], [[[1]]]), [[[-2]]]
+    fine, rough = (sampled_system(plant, "1/2", decimals=k) for k in (12, 1))
+    limits = {"1": [[-1, 1]]}
+    found = saturation_stability(fine, local_controllers(fine, gain), limits=limits)
+    assert found.exact and check(found).verdict == "VALID"
+    assert "sampled without rounding" in check(found).statement
+    assert "also for the samples without rounding" in said_of(found, fine)
+    least = saturation_stability(rough, local_controllers(rough, gain), limits=limits)
+    assert least.exact is None and check(least).verdict == "VALID"
+    assert "and not for the exact ones" in said_of(least, rough)
+    # the exact plant, which starts in the region, with 100 digits of e^(1/2)
+    assert found.region is not None
+    A = float(np.exp(0.5))
+    x = float(found.region.radius) * 0.999
+    for _ in range(200):
+        x = A * x + (A - 1) * float(np.clip(-2 * x, -1, 1))
+    assert abs(x) < 1e-6
+
+
+def said_of(found: SaturationStability, plant: MultiChannelSystem) -> str:
+    """The sentences about an answer."""
+    return "\n".join(map(str, RULES.sentences({"saturation": found}, Context(plant))))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.checker.handmade import Document, certificate, matrix, plant
+from tests.checker.handmade import Document, certificate, changed, matrix, plant
 from tests.checker.performance_plants import form, static
 
 # x(t+1) = x/2 + u, u = -x cut off: M₀ = 1/2, E₀ = 1, U = -1; [3/4, 1/2; ·, 1] for P = 1, Θ = 2.
@@ -98,11 +98,49 @@ ONE_OF_TWO = certificate(
     {"scaling": [2], "sectors": [0], "P": form([1], [0, 1])},
     gains("-1", "-1"),
 )
+# Of the size 1/2: the radius of NEAR is 2/3 of it.
+SIZED = changed(
+    NEAR,
+    ("claim.region.radius", "2/3"),
+    ("claim.region.sizes", ["1/2"]),
+)
+# x' = -x + u and x' = x + u, whose samples are not rational: u = -x and u = -2x cut off.
+FALLING = plant([[-1]], ([[1]], [[1]]))
+
+
+def held(system: Document, decimals: int, *gains: int | str) -> list[Document]:
+    """The subject of a loop of samples with constant gains."""
+    loop = changed(static(system, *gains), ("controller.time", "discrete"))
+    return [{"construction": "sampled", "step": "1/2", "late": 0, "decimals": decimals}, loop]
+
+
+EXACT = certificate(
+    "saturation",
+    FALLING,
+    {"limits": [[[-1, 1]]], "back_calculation": [matrix()], "exact": True},
+    {"scaling": ["4/5"], "sectors": [0], "P": form([1])},
+    *held(FALLING, 6, "-1"),
+)
+EXACT_NEAR = certificate(
+    "saturation",
+    RISING,
+    {
+        "limits": [[[-1, 5]]],
+        "back_calculation": [matrix()],
+        "region": {"P": form([4]), "radius": "1/4"},
+        "exact": True,
+    },
+    {"scaling": [4], "sectors": ["3/4"]},
+    *held(RISING, 6, "-2"),
+)
 ALL = {
     "an input cut off in discrete time": CUT,
     "a region in discrete time": NEAR,
     "an integral with anti-windup": INTEGRAL,
     "a region in continuous time": RISEN,
     "one of two inputs has limits": ONE_OF_TWO,
+    "a region in sizes": SIZED,
+    "exact samples": EXACT,
+    "a region at exact samples": EXACT_NEAR,
 }
 """Every one of them is VALID, and says something true."""

@@ -15,12 +15,17 @@ from tests.checker.saturation_plants import (
     ALL,
     CUT,
     DOUBLED,
+    EXACT,
+    EXACT_NEAR,
+    FALLING,
     INTEGRAL,
     NEAR,
     ONE_OF_TWO,
     RISEN,
+    SIZED,
     UNMOVED,
     gains,
+    held,
     integral,
 )
 from tests.checker.tables import accepts, rejects
@@ -34,6 +39,8 @@ ACCEPTED = [
     )),
     ("wider limits", changed(NEAR, ("claim.limits", [[[-2, 2]]]))),
     ("a smaller ball", changed(NEAR, ("claim.region.radius", "1/4"))),
+    ("sizes of 1", changed(NEAR, ("claim.region.sizes", [1]))),
+    ("samples of few decimals", changed(EXACT, ("subject", held(FALLING, 2, "-1")))),
 ]  # fmt: skip
 
 P, L = "witness.P", "claim.back_calculation"
@@ -79,6 +86,20 @@ REJECTED: list[tuple[Any, ...]] = [
     ("a ball beyond the region", NEAR, ("claim.region.radius", "1/2"), "INVALID"),
     ("a ball of a negative radius", NEAR, ("claim.region.radius", "-1/3"), "INVALID"),
     ("a ball of the radius 0", NEAR, ("claim.region.radius", 0), "INVALID"),
+    ("a ball beyond the region in sizes", SIZED, ("claim.region.radius", 1), "INVALID"),
+    ("a ball in larger sizes", SIZED, ("claim.region.sizes", [1]), "INVALID"),
+    ("a size of 0", SIZED, ("claim.region.sizes", [0]), "INVALID"),
+    ("a negative size", SIZED, ("claim.region.sizes", ["-1/2"]), "INVALID"),
+    ("a size too many", SIZED, ("claim.region.sizes", ["1/2", 1]), "MALFORMED"),
+    ("no sizes", SIZED, ("claim.region.sizes", []), "MALFORMED"),
+    ("exact samples of a plant that is not sampled", CUT, ("claim.exact", True), "INVALID"),
+    ("samples that are not exact", EXACT, ("claim.exact", False), "INVALID"),
+    ("samples without decimals", EXACT, (
+        ("subject", held(FALLING, 0, "-1")), ("witness.scaling", [8])
+    ), "INVALID"),
+    ("samples of one decimal in a region", EXACT_NEAR, (
+        "subject.0.decimals", 1
+    ), "INVALID"),
     ("two forms", NEAR, (P, form([4])), "INVALID"),
     ("a wider sector in continuous time", RISEN, ("witness.sectors", ["1/4"]), "INVALID"),
     ("a weaker loop in continuous time", RISEN, (

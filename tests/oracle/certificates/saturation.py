@@ -19,6 +19,8 @@ from .roots import inside
 from .systems import System
 
 Pair = tuple[fmpq, fmpq] | None
+FINE = 60
+"""The decimals of samples that count as exact."""
 
 
 def read_limits(value: Any, plant: System) -> list[Pair]:
@@ -64,7 +66,16 @@ def symmetric(value: Any, n: int) -> fmpq_mat:
 def saturation(claim: Any, document: Mapping[str, Any], system: System) -> bool:
     """The circle criterion of the witness, for the loop with its anti-windup gains."""
     loop = disturbed(document)
-    found = record(claim, "limits", "back_calculation", optional=("region",))
+    found = record(claim, "limits", "back_calculation", optional=("region", "exact"))
+    if "exact" in found:
+        # more digits than any condition needs, in place of none that are missing
+        demand(found["exact"] is True, "expected true")
+        sampling, *rest = document["subject"]
+        demand(sampling["construction"] == "sampled" and len(rest) == 1, "expected samples")
+        fine = {**document, "subject": [{**sampling, "decimals": FINE}, *rest]}
+        rounded = {key: part for key, part in found.items() if key != "exact"}
+        both = (document, fine)
+        return all(saturation(rounded, each, system) for each in both)
     proof = record(document["witness"], "scaling", "sectors", optional=("P",))
     pairs = read_limits(found["limits"], loop.plant)
     cut = [k for k, pair in enumerate(pairs) if pair is not None]
@@ -85,13 +96,15 @@ def saturation(claim: Any, document: Mapping[str, Any], system: System) -> bool:
         none = fmpq_mat(len(cut), len(cut))
         return is_below((M, E * half, U), none, weights, fmpq(1), system.time)
     demand("P" not in proof, "expected no other form")
-    region = record(found["region"], "P", "radius")
+    region = record(found["region"], "P", "radius", optional=("sizes",))
     P, radius = symmetric(region["P"], N), rational(region["radius"])
     demand(radius > 0, "expected a radius above 0")
     known = [pair for pair in pairs if pair is not None]
     held = _holds(P, U, known, ends)
     own = selection(N, range(loop.plant.n))
-    inner = diagonal([1 / radius**2] * loop.plant.n) - own * P * own.transpose()
+    sizes = [rational(x) for x in listed(region.get("sizes", [1] * loop.plant.n), loop.plant.n)]
+    demand(all(x > 0 for x in sizes), "expected sizes above 0")
+    inner = diagonal([1 / (radius * x) ** 2 for x in sizes]) - own * P * own.transpose()
     if not held or not is_definite(inner) or not is_definite(P):
         return False
     return is_definite(fall((loop.M - E * U, E, U), P, theta, ends, system.time))

@@ -248,17 +248,21 @@ def _saturation(claim: Any, system: System) -> str:
         "to its next states, in continuous time to their derivatives, v being the inputs that it "
         f"computes and w these cut off; limits of each agent in turn: {limits}; L in turn: {gains}"
     )
+    exact = "; all of this holds as well for the plant sampled without rounding"
+    exact = exact if "exact" in claim else ""
     if "region" not in claim:
         same = "any two solutions with the same set-points and disturbances approach each other"
-        return f"{same} exponentially, {cut}"
+        return f"{same} exponentially, {cut}{exact}"
+    sizes = ", ".join(number(rational(x)) for x in claim["region"].get("sizes", []))
+    divided = f", each of its entries divided by one of ({sizes}) in turn" if sizes else ""
     P, radius = claim["region"]["P"], number(rational(claim["region"]["radius"]))
     return (
         "every solution without set-points and disturbances that starts where z'Pz <= 1 stays "
         f"there and tends to 0 exponentially, z the state of the loop, {cut}; P_ij = s_ij "
         f"2^(e_i + e_j) with e = {P['exponents']} and the lower triangle s = {P['entries']}, row "
         f"by row; z'Pz <= 1 holds for every state of the system that is controlled, of norm at "
-        f"most {radius}, where all "
-        "else is 0"
+        f"most {radius}{divided}, where all "
+        f"else is 0{exact}"
     )
 
 

@@ -80,16 +80,21 @@ def _from_a_region(said: Said, case: Case) -> bool:
         return False
     if said.values["gains"]:
         return inside(loop.M.charpoly(), case.plant.time, None)
-    return all(_returns(loop, ends, float(int(radius.p) / int(radius.q)), rng) for _ in range(8))
+    sizes = [number(x) for x in said.values["sizes"] or [1] * case.plant.n]
+    if len(sizes) != case.plant.n or not all(x > 0 for x in sizes):
+        return False
+    ball = np.array([float(int(x.p) / int(x.q)) for x in (radius * size for size in sizes)])
+    return all(_returns(loop, ends, ball, rng) for _ in range(8))
 
 
-def _returns(loop: Disturbed, ends: Ends, radius: float, rng: random.Random) -> bool:
+def _returns(loop: Disturbed, ends: Ends, radius: np.ndarray[Any, Any], rng: random.Random) -> bool:
     """Whether a solution comes closer to rest than it was, with inputs cut off."""
     M, E, U = (floats(each) for each in (loop.M, loop.E, loop.U))
     low, high = np.array(ends).reshape(-1, 2).T
     n, z = loop.plant.n, np.zeros(len(M))
     z[:n] = [rng.gauss(0, 1) for _ in range(n)]
-    z *= radius * 0.999 / max(float(np.linalg.norm(z)), 1e-300)
+    z *= 0.999 / max(float(np.linalg.norm(z)), 1e-300)
+    z[:n] *= radius
 
     def change(z: np.ndarray[Any, Any]) -> Any:
         v = U @ z
