@@ -844,6 +844,8 @@ _EXTRA = (1e-3, 1e-5, 1e-7)
 """What is added to the weight of the states, as a part, so that the inequality is strict."""
 _SCALINGS = 2.0**6
 """The largest factor by which a scaling departs from 1."""
+_SWEEPS, _BALANCED = 40, 1 + 1e-6
+"""The most sweeps that balance a matrix, and the largest change in the last of them."""
 _FEW_POLES = 80
 """The poles around which gains are looked at densely; around more of them other poles are near."""
 _CONDITION, _AT_ONCE = 1e8, 16
@@ -1236,13 +1238,18 @@ def _largest_gain(samples: Complexes, moduli: Floats, scaling: Floats) -> tuple[
 def _osborne(G: npt.NDArray[np.complex128]) -> Floats:
     """A diagonal that balances the rows and columns of a matrix (Osborne's iteration)."""
     size = np.abs(G) ** 2
-    theta = np.ones(len(G))
-    for _ in range(40):
+    np.fill_diagonal(size, 0.0)
+    columns, theta, inverse = size.T.copy(), np.ones(len(G)), np.ones(len(G))
+    for _ in range(_SWEEPS):
+        largest = 1.0
         for i in range(len(G)):
-            row = float(np.sum(size[i] * theta[i] / theta) - size[i, i])
-            column = float(np.sum(size[:, i] * theta / theta[i]) - size[i, i])
+            row, column = float(size[i] @ inverse), float(columns[i] @ theta)
             if row > 0 and column > 0:
-                theta[i] *= math.sqrt(column / row)
+                before, theta[i] = theta[i], math.sqrt(column / row)
+                inverse[i] = 1 / theta[i]
+                largest = max(largest, theta[i] / before, before / theta[i])
+        if largest < _BALANCED:
+            break
     return theta
 
 

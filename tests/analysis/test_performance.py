@@ -11,6 +11,7 @@ from mcexact.analysis.performance import (
     PortResponse,
     Side,
     _largest_gain,
+    _osborne,
     computed_cost,
     computed_margins,
     cost_of,
@@ -126,6 +127,17 @@ def test_the_largest_norm_is_that_of_all_samples() -> None:
     value, worst = _largest_gain(samples, np.abs(samples), scaling)
     assert value == pytest.approx(max(norms))
     assert np.array_equal(worst, samples[int(np.argmax(norms))])
+
+
+def test_a_matrix_is_balanced_whose_rows_and_columns_differ_by_orders_of_magnitude() -> None:
+    rng = np.random.default_rng(7)
+    d = 10.0 ** rng.uniform(-4, 4, size=6)
+    G = rng.normal(size=(6, 6)) * d[:, None] / d + 0j
+    h = np.sqrt(_osborne(G))
+    size = np.abs(h[:, None] * G / h) ** 2
+    assert size.sum(axis=0) == pytest.approx(size.sum(axis=1), rel=1e-4)
+    apart = _osborne(np.array([[1, 2], [0, 1]], dtype=complex))
+    assert np.array_equal(apart, np.ones(2))
 
 
 def test_without_ports_nothing_is_amplified() -> None:
