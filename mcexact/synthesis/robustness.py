@@ -248,7 +248,7 @@ def every_loop(
     units, work = Units.of(loop.plant), _Work.of(effort, size, part, deadline)
     try:
         if is_sampled(loop.plant):
-            return _searched_at_samples(loop, region, _Work.of(effort, size, part))
+            return _searched_at_samples(loop, region, work)
         if units is None:
             return _searched(loop, region, work)
         found = _searched(loop_in(units, loop), region, work)
@@ -415,7 +415,9 @@ def _searched_at_samples(loop: ClosedLoop, region: StabilityRegion, work: _Work)
     whole, plant = StabilityRegion(loop.plant.time), loop.plant.plant
     own = plant.uncertainty is not None
     with one_thread():
-        failing = _failing_at_samples(loop if own else _with_part(loop, Fraction(1)), whole)
+        failing = None
+        if not work.late:
+            failing = _failing_at_samples(loop if own else _with_part(loop, Fraction(1)), whole)
         boxes: list[tuple[Fraction | None, StabilityRegion]]
         if own:
             boxes = [(None, StabilityRegion(whole.time, region.bound)), (None, whole)]
@@ -431,8 +433,10 @@ def _searched_at_samples(loop: ClosedLoop, region: StabilityRegion, work: _Work)
             if proof is not None:
                 part = Box(about.plant.plant).part or Fraction(0)
                 inside = about if own else _with_part(loop, part * _HALF)
-                margins = margins_within(inside, work.left)
+                margins = margins_within(inside, work.left, work.deadline)
                 return EveryLoop(wanted, proof, gains, failing, margins=margins)
+    if work.late:
+        return EveryLoop(whole, None, None, failing, _LATE)
     box = f"every plant within the radii{_ASK_OWN}" if own else f"the exact samples{_ASK}"
     return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
 

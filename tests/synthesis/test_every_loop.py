@@ -11,6 +11,7 @@ import pytest
 from mcexact import MultiChannelSystem, certify_controller, check
 from mcexact.analysis.boxes import largest
 from mcexact.boxes import Box
+from mcexact.derived.sampling import sampled_system
 from mcexact.designs import local_controllers
 from mcexact.errors import UsageError
 from mcexact.exact.roots import StabilityRegion
@@ -108,6 +109,15 @@ def test_after_its_deadline_a_search_begins_nothing(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(time, "monotonic", lambda: float(next(ticks)))
     short = every_loop(loop(), WHOLE, deadline=3.0)
     assert short.proof is None and short.failing is not None and next(ticks) < 20
+
+
+def test_a_search_about_samples_ends_with_its_deadline_too() -> None:
+    plant = sampled_system(PLANT, "1/10")
+    about = closed_loop(plant, local_controllers(plant, [[[-3]]]))
+    assert every_loop(about, StabilityRegion("discrete")).proof is not None
+    late = every_loop(about, StabilityRegion("discrete"), deadline=time.monotonic())
+    assert late.proof is None and late.failing is None and not late.margins
+    assert late.reason.startswith("the time limit ended")
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
