@@ -404,7 +404,8 @@ no_box = click.option(
     is_flag=True,
     help="Search no part by which all entries of the plant may differ while every loop is stable, "
     "which is otherwise proved, or for the uncertainty of FILE, with the work of --effort or of "
-    "five seconds; loops with more than 160 states, inputs and outputs are left out.",
+    "five seconds, and half as much for disk margins in the box; loops with more than 160 states, "
+    "inputs and outputs are left out.",
 )
 prove_all = click.option(
     "--prove-all",
@@ -447,8 +448,9 @@ def aims(function: F) -> F:
             type=number,
             metavar="SECONDS",
             help="About how long a processor of 2024 may search for each rate that is tried, by "
-            "counted work, and half as long again for margins that were missed; 0 gives the "
-            "controller of the theorem without a search.",
+            "counted work: half of it for a controller of least cost, the rest for margins that "
+            "were missed, more starts, damping and a box. Proofs follow. 0 gives the controller "
+            "of the theorem without a search.",
         ),
         click.option(
             "--digits",

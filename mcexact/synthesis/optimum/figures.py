@@ -751,11 +751,13 @@ class Aims:
     digits : int, optional
         The largest number of significant decimal digits of an entry.
     effort : float, optional
-        About how many seconds a processor of 2024 may search for each rate that is tried, up to
-        three and a half times as many more for margins that were missed, and half as many for what
-        else is asked of the best controller, such as damping or a box.  Work is counted, not timed,
-        so that the result does not depend on the machine's load.  With 0 there is no search, but
-        the controller of the theorem at once.
+        About how many seconds a processor of 2024 may search for each rate that is tried: half of
+        them for a controller of least cost, the others for margins that were missed, for more
+        starts, and for what else is asked of the best controller, such as damping or a box.  Work
+        is counted, not timed, so that the result does not depend on the machine's load; what
+        precedes and follows a search, such as the choice of a rate, is not counted.  By default
+        the search is as long as the plant is large, and what follows adds to it.  With 0 there is
+        no search, but the controller of the theorem at once.
     seeds : int
         The number of drawn starts of each order.
     box : rational or float, optional

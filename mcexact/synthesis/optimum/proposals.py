@@ -155,7 +155,10 @@ _LARGEST_UNKNOWN = 1e3
 _LEAST_EFFORT, _LEAST_ENOUGH = 40_000.0, 1.05
 _FOR_MARGINS, _FURTHER, _AFTERWARDS = 1.5, 1.0, 0.5
 """How much more effort there is for margins that were missed, for more starts where the cost stays
-high, and for what else is asked then."""
+high, and for what else is asked then, unless a user gave the whole of it."""
+_LADDER = 0.5
+"""The part of an effort that a user gave that the ladder may use, and the part of the rest for
+larger margins and for more starts; what is left at last is for a damping ratio and a box."""
 _EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE_SHARE = 60_000.0, 40, 5.0, 130, 0.25
 
 
@@ -234,9 +237,9 @@ def target_of(
 def _effort(
     seconds: float | None, states: int, central: Figures | None, target: Target, *, least: bool
 ) -> Effort:
-    """Convert the effort from seconds to units; by default it grows with the number of states."""
+    """The effort of a ladder: a part of some seconds; by default it grows with the states."""
     if seconds is not None:
-        return Effort(seconds * PER_SECOND)
+        return Effort(seconds * PER_SECOND).part(_LADDER)
     grown = max(min((states / _GROWS) ** 2, _MOST_TIMES), (states / _GROWS_WITH_CUBE) ** 3)
     units = (_LEAST_EFFORT if least else _EFFORT) * (1 + grown)
     if least:
@@ -383,6 +386,8 @@ def _ladder(
         enough = np.inf if figures is None else _ENOUGH * figures.cost
     effort = _effort(aims.effort, plant.n, figures, target, least=not asked)
     effort.deadline = request.deadline
+    if effort.whole is not None:
+        effort.whole.deadline = request.deadline
     return Ladder(
         family.of_order,
         lambda: family.theorem(request),
@@ -410,11 +415,11 @@ def _completed(
     """Look for the margins where they are missed, and for damping and a box."""
     if result.candidates and not result.keeps_margins:
         ladder.tell("larger margins")
-        found = with_margins(_more(ladder, _FOR_MARGINS), result.candidates)
+        found = with_margins(_more(ladder, _FOR_MARGINS, _LADDER), result.candidates)
         candidates = tuple(ranked(ladder, [*found, *result.candidates]))
         result = replace(result, candidates=candidates)
     if request.brisk is not None and result.candidates:
-        more = drawn_further(_more(ladder, _FURTHER), result.candidates)
+        more = drawn_further(_more(ladder, _FURTHER, _LADDER), result.candidates)
         result = replace(result, candidates=tuple(ranked(ladder, [*more, *result.candidates])))
         if not result.keeps_margins:
             ladder, result = _eased(ladder, result)
@@ -427,7 +432,7 @@ def _completed(
 
 def _eased(ladder: Ladder, result: _Result) -> tuple[Ladder, _Result]:
     """Take a part of a rate that nobody asked for, where this gives the margins."""
-    ladder = _more(ladder, _FURTHER)
+    ladder = _more(ladder, _FURTHER, _LADDER)
     found = eased(ladder, result.candidates)
     if found is None:
         return ladder, result
@@ -447,10 +452,15 @@ def _too_slow(chosen: StabilityRegion, region: StabilityRegion, limits: Limits) 
     )
 
 
-def _more(ladder: Ladder, times: float = _AFTERWARDS) -> Ladder:
-    """The ladder with effort for what follows a search."""
-    more = Effort(times * ladder.effort.limit, deadline=ladder.effort.deadline)
-    return replace(ladder, effort=more)
+def _more(ladder: Ladder, times: float = _AFTERWARDS, part: float = 1.0) -> Ladder:
+    """The ladder with effort for what follows a search.
+
+    Of an effort that a user gave it is a part of what is left; by default ``times`` the ladder's.
+    """
+    before = ladder.effort
+    if before.whole is not None:
+        return replace(ladder, effort=before.whole.part(part))
+    return replace(ladder, effort=Effort(times * before.limit, deadline=before.deadline))
 
 
 def _improved(ladder: Ladder, request: Request, aims: Aims, result: _Result) -> _Result:

@@ -9,8 +9,10 @@ from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached
+from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.gate import Request
 from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import decentralized_network, sharing_network
@@ -31,7 +33,7 @@ from mcexact.synthesis.optimum.figures import (
     Peaks,
     figures_of,
 )
-from mcexact.synthesis.optimum.problem import Effort, FeedbackProblem, Weights
+from mcexact.synthesis.optimum.problem import PER_SECOND, Effort, FeedbackProblem, Weights
 from mcexact.synthesis.optimum.proposals import (
     Family,
     optimum,
@@ -128,6 +130,23 @@ def test_static_gains_come_first_and_the_theorem_last():
     steps = [each for each in told if each.startswith(("static", "order", "from"))]
     assert steps[0] == "static gains" and steps[1].startswith("order 1 per agent")
     assert "from the theorem's controller" not in told
+
+
+@pytest.mark.parametrize("disk", [0.4, 1.9])
+def test_an_effort_that_was_given_is_that_of_all_that_is_searched(monkeypatch, disk):
+    counted = list[float]()
+
+    def add(effort: Effort, cost: float) -> None:
+        effort.spent += cost
+        if effort.whole is None:
+            counted.append(cost)
+        else:
+            effort.whole._add(cost)
+
+    monkeypatch.setattr(Effort, "_add", add)
+    # With margins that no loop has, all that can follow a search follows.
+    design_decentralized(gallery.load("compleib-dis2"), aims=Aims(effort=1, disk=disk))
+    assert 0.3 < sum(counted) / PER_SECOND < 1.1
 
 
 def test_the_region_is_not_left_by_polishing():
