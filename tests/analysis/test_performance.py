@@ -132,11 +132,11 @@ def test_the_largest_norm_is_that_of_all_samples() -> None:
 def test_a_matrix_is_balanced_whose_rows_and_columns_differ_by_orders_of_magnitude() -> None:
     rng = np.random.default_rng(7)
     d = 10.0 ** rng.uniform(-4, 4, size=6)
-    G = rng.normal(size=(6, 6)) * d[:, None] / d + 0j
+    G = (rng.normal(size=(6, 6)) * d[:, None] / d).astype(np.complex128)
     h = np.sqrt(_osborne(G))
     size = np.abs(h[:, None] * G / h) ** 2
     assert size.sum(axis=0) == pytest.approx(size.sum(axis=1), rel=1e-4)
-    apart = _osborne(np.array([[1, 2], [0, 1]], dtype=complex))
+    apart = _osborne(np.array([[1, 2], [0, 1]], dtype=np.complex128))
     assert np.array_equal(apart, np.ones(2))
 
 
