@@ -47,6 +47,8 @@ AFFORDABLE = 1.15
 _CERTIFIED_PART = 0.9
 """Of what seems to be the largest box, the part that is likely proved."""
 _FASTER, _NARROW, _WALK = 1.5, 1.05, 6
+_NEARLY_WIDEST = 0.9
+"""The part of the largest box that is enough, where none is as large as was asked."""
 _MOST_SIGNALS = 120
 _SMALL = Fraction(1, 1000)
 """A part of the entries of a plant for which the radii of its samples are about in proportion."""
@@ -315,6 +317,8 @@ def with_larger_box(
     -------
     Improved
         The first loop that seems to have the box, or ``best`` where none has, or only dearer ones.
+        Where the cost may grow without limit, and no loop seems to have the box, it is the cheapest
+        of those that nearly have the largest one that was found.
     """
     own = best.problem.network.plant.plant.uncertainty is not None
     aimed, whole = (Fraction(1), "the radii") if own else (part or BOX, "each entry")
@@ -324,24 +328,36 @@ def with_larger_box(
         return Improved(best, ("no box was sought: the loop is large, or its plant a derived one",))
     if seen is None or seen >= aimed:
         return Improved(best)
-    told = f"the loop stays stable for plants within about {percent(_short(seen))} of {whole}"
     cheapest: Candidate | None = None
+    known = [(seen, best)]
     for loops in (_faster_loops, _loops_of_members):
         for other in loops(ladder, best, aimed):
             if _loses_margins(ladder, best, other) or other.figures.cost > 4 * most * cost:
                 break
-            if (box_part(other) or 0.0) >= aimed:
+            known.append((box_part(other) or 0.0, other))
+            if known[-1][0] >= aimed:
                 if other.figures.cost <= most * cost:
                     return Improved(other)
                 if cheapest is None or other.figures.cost < cheapest.figures.cost:
                     cheapest = other
                 break
+    taken = best
     if cheapest is None:
-        note = f"{told}: no loop for {percent(aimed)} was found (computed)"
+        end = f"no loop for {percent(aimed)} was found (computed)"
+        if not isfinite(most):
+            seen, taken = _widest(known)
     else:
-        dearer = _dearer(cheapest.figures, best.figures)
-        note = f"{told}: {percent(aimed)} would cost {dearer} more (computed)"
-    return Improved(best, (note,))
+        end = (
+            f"{percent(aimed)} would cost {_dearer(cheapest.figures, best.figures)} more (computed)"
+        )
+    told = f"the loop stays stable for plants within about {percent(_short(seen))} of {whole}"
+    return Improved(taken, (f"{told}: {end}",))
+
+
+def _widest(known: Sequence[tuple[float, Candidate]]) -> tuple[float, Candidate]:
+    """The cheapest of the loops with nearly the largest box."""
+    enough = _NEARLY_WIDEST * max(part for part, _ in known)
+    return min((each for each in known if each[0] >= enough), key=lambda each: each[1].figures.cost)
 
 
 def _faster_loops(ladder: Ladder, best: Candidate, aimed: Fraction) -> Iterator[Candidate]:

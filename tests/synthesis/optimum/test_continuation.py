@@ -183,6 +183,20 @@ def test_faster_loops_have_a_larger_box_and_the_box_is_reached_if_it_may_cost() 
     assert "computed" in dear.notes[0]
 
 
+def test_of_a_box_that_is_not_reached_as_much_is_taken_as_was_found() -> None:
+    ladder, slow = found(SPRING, [[0.0, -0.02]])
+    small = box_part(slow)
+    asked = with_larger_box(ladder, slow, Fraction(9, 10), np.inf)
+    reached = box_part(asked.candidate)
+    assert small is not None and reached is not None and 3 * small < reached < 0.9
+    (note,) = asked.notes
+    assert f"within about {100 * reached:.2g} % of each entry: no loop for 90 %" in note
+    assert asked.candidate.peaks.keep(MARGINS) or not slow.peaks.keep(MARGINS)
+    # Where nobody asked, the cheapest loop stays.
+    unasked = with_larger_box(ladder, slow, Fraction(9, 10))
+    assert unasked.candidate is slow or not unasked.notes
+
+
 def test_costs_at_corners_of_a_box_make_it_larger_where_faster_loops_may_not(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
