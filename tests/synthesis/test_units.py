@@ -62,7 +62,7 @@ PLANTS = [
     "compleib-dis5",
     *(
         pytest.param(name, marks=pytest.mark.slow)
-        for name in ("quadruple-tank-pplus", "compleib-dis2")
+        for name in ("quadruple-tank-pplus", "compleib-dis2", "compleib-dis3", "compleib-psm")
     ),
 ]
 
