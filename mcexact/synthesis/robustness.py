@@ -283,8 +283,22 @@ def _in_file_units(
     margins = dict[str, BoxStability]()
     if proof is not None and found.margins:
         about = _for_margins(replace(loop, plant=proof.about.plant), loop)
-        margins = margins_within(about, deadline=deadline)
+        margins = _same_margins(about, found.margins, deadline)
     return replace(found, proof=proof, failing=failing, margins=margins)
+
+
+def _same_margins(
+    loop: ClosedLoop, known: Mapping[str, BoxStability], deadline: float | None
+) -> dict[str, BoxStability]:
+    """The same disk margins as were proved in other units, where they are proved again."""
+    margins = dict[str, BoxStability]()
+    for at in SIDES:
+        disk = known[at].disk if at in known else None
+        if disk is not None:
+            proof = margin_in_box(loop, at, disk.margin, _MOST_SEGMENTS, deadline)
+            if proof is not None:
+                margins[at] = proof
+    return margins
 
 
 def _for_margins(about: ClosedLoop, loop: ClosedLoop) -> ClosedLoop:

@@ -272,7 +272,7 @@ def test_a_rate_that_nobody_asked_for_gives_way_to_the_margins() -> None:
 def test_a_search_says_which_rate_gave_way_to_the_margins() -> None:
     request = Request.of(DOUBLE, rate=8, arithmetic="float")
     asked = replace(request, brisk=request.region)
-    result = optimum(Family(decentralized_network(DOUBLE)), asked, Aims(effort=1, disk=0.9))
+    result = optimum(Family(decentralized_network(DOUBLE)), asked, Aims(effort=2, disk=0.9))
     assert result.peaks.keep(Limits(0.9, 0.3)) and result.asked is None
     assert result.region is not None and result.region.edge < 8
     note = result.notes[0]
