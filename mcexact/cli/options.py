@@ -404,8 +404,7 @@ no_box = click.option(
     is_flag=True,
     help="Search no part by which all entries of the plant may differ while every loop is stable, "
     "which is otherwise proved, or for the uncertainty of FILE, with the work of --effort or of "
-    "five seconds, and half as much for disk margins in the box; loops with more than 160 states, "
-    "inputs and outputs are left out.",
+    "five seconds; loops with more than 160 states, inputs and outputs are left out.",
 )
 prove_all = click.option(
     "--prove-all",
