@@ -19,7 +19,7 @@ import click
 from click.core import ParameterSource
 
 from mcexact.errors import InputError
-from mcexact.exact.rational import parse_rational
+from mcexact.exact.rational import as_part, parse_rational
 from mcexact.export import MOST_BITS
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -47,16 +47,10 @@ def part(text: str) -> Fraction:
     >>> part("0.1%"), part("1/50"), part("200%")
     (Fraction(1, 1000), Fraction(1, 50), Fraction(2, 1))
     """
-    ratio = rational(text.removesuffix("%").rstrip())
-    if ratio > 1 and not text.endswith("%"):
-        raise click.BadParameter(
-            f"found '{text}', more than the whole: write {text}% for {text} percent"
-        )
-    if ratio < 0:
-        raise click.BadParameter(
-            f"expected a part from 0 on, such as 0.1% or 1/1000, found '{text}'"
-        )
-    return ratio / 100 if text.endswith("%") else ratio
+    try:
+        return as_part(text)
+    except InputError as error:
+        raise click.BadParameter(error.message) from None
 
 
 def count(text: str) -> int:

@@ -157,6 +157,52 @@ def _shown(text: str) -> str:
     return repr(text) if len(text) <= 40 else f"{text[:37]!r}..."
 
 
+def as_part(value: Entry, *, where: str | None = None) -> Fraction:
+    """Convert a part of something, such as "10%", "0.1" or "1/10", to a rational number.
+
+    Python, files and the command line all read parts so.  Only a percentage may be above 100 %.
+
+    Parameters
+    ----------
+    value : int, Fraction, Decimal, str or sympy Rational
+    where : str, optional
+        The place to name in an error.
+
+    Raises
+    ------
+    FloatRefused
+        If the part is a float.
+    InputError
+        If it is not rational or negative, or a number above 1.
+
+    Examples
+    --------
+    >>> as_part("0.1%"), as_part("1/50"), as_part("200%")
+    (Fraction(1, 1000), Fraction(1, 50), Fraction(2, 1))
+    >>> as_part(10)
+    Traceback (most recent call last):
+    ...
+    mcexact.errors.InputError: found 10, more than the whole: write "10%" for 10 percent
+    """
+    if is_inexact(value):
+        raise FloatRefused(
+            f'a float is not exact: write a part such as "10%", "0.1" or "1/10", found {value!r}',
+            where=where,
+        )
+    percent = isinstance(value, str) and value.endswith("%")
+    bare: Any = value.removesuffix("%").rstrip() if isinstance(value, str) else value
+    ratio = as_fraction(bare, where=where)
+    if ratio < 0:
+        raise InputError(
+            f"expected a part from 0 on, such as 0.1% or 1/1000, found {value}", where=where
+        )
+    if ratio > 1 and not percent:
+        raise InputError(
+            f'found {value}, more than the whole: write "{value}%" for {value} percent', where=where
+        )
+    return ratio / 100 if percent else ratio
+
+
 def as_fraction(entry: Entry, *, where: str | None = None) -> Fraction:
     """Convert an entry to a rational number; floats and Booleans are refused.
 

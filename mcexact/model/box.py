@@ -86,8 +86,8 @@ class Box(Shown):
         Parameters
         ----------
         system : MultiChannelSystem
-        radius : rational
-            Such as "1/1000" for 0.1 %.
+        radius : rational or str
+            A part, such as "0.1%" or "1/1000".
         """
         return cls(system, Radii.relative(system.A, system.B, system.C, radius))
 

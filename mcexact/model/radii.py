@@ -16,7 +16,7 @@ from typing import Any
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix, from_cells, is_sparse_array, rows_of
-from mcexact.exact.rational import Limits, as_fraction, written
+from mcexact.exact.rational import Limits, as_fraction, as_part, written
 from mcexact.model.entries import as_table, read_matrix, read_number, require_shape
 from mcexact.model.text import expect_object, expect_string, kind_of, quoted
 from mcexact.shown import Shown
@@ -75,9 +75,8 @@ class Radii(Shown):
         InputError
             If the part is negative or not rational.
         """
-        part = as_fraction(radius, where="relative")
-        _require_nonnegative(part, "relative")
-        return cls(moduli(A) * part, [moduli(M) * part for M in B], [moduli(M) * part for M in C])
+        part = as_part(radius, where="relative")
+        return cls(moduli(A), [moduli(M) for M in B], [moduli(M) for M in C]) * part
 
     def __mul__(self, factor: int | Fraction) -> Radii:
         """All radii times a number that is at least 0."""
@@ -270,9 +269,8 @@ def _radii(
             f"expected one of 'relative', 'digits' and 'absolute', found {len(form)}", where=where
         )
     if "relative" in form:
-        part = read_number(form["relative"], f"{where}.relative", limits)
-        with InputError.inside(where):
-            return Radii.relative(A, B, C, part)
+        part = _read_part(form["relative"], f"{where}.relative", limits)
+        return Radii(moduli(A), [moduli(M) for M in B], [moduli(M) for M in C]) * part
     if "digits" in form:
         if expect_string(form["digits"], f"{where}.digits") != AS_TYPED:
             raise InputError(f'expected "{AS_TYPED}"', where=f"{where}.digits")
@@ -300,6 +298,17 @@ def _radii(
 
     D_A = read(parts["A"], f"{place}.A", A) if "A" in parts else Matrix.zeros(*A.shape)
     return Radii(D_A, ports("B", B), ports("C", C))
+
+
+def _read_part(value: Any, where: str, limits: Limits) -> Fraction:
+    """Read a part of every entry; percentages are told how to write it."""
+    if isinstance(value, str) and value.endswith("%"):
+        raise InputError(
+            f'a file gives a part as a number such as 0.1 or "1/10", found "{value}"', where=where
+        )
+    part = read_number(value, where, limits)
+    _require_nonnegative(part, where)
+    return part
 
 
 def _nonnegative(M: Matrix, where: str) -> Matrix:

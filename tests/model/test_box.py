@@ -128,7 +128,8 @@ def test_what_is_written_is_read_back(drawn: testing.Drawn, part: Fraction) -> N
 REFUSED: dict[str, str] = {
     '{}': "uncertainty: expected one of 'relative', 'digits' and 'absolute', found 0",
     '{"relative": 1, "digits": "as typed"}': "uncertainty: .* found 2",
-    '{"relative": -1}': "uncertainty: relative: expected a radius that is at least 0, found -1",
+    '{"relative": -1}': "uncertainty.relative: expected a radius that is at least 0, found -1",
+    '{"relative": "10%"}': 'a file gives a part as a number such as 0.1 or "1/10", found "10%"',
     '{"relative": true}': "uncertainty.relative: expected a number, found true",
     '{"relative": "x"}': "uncertainty.relative: expected an integer, a decimal",
     '{"relativ": 1}': r"uncertainty: unknown key 'relativ' \(did you mean 'relative'",
@@ -220,7 +221,7 @@ def test_boxes_that_make_no_sense_are_refused() -> None:
         Radii([[0]], [[[0]]], [])
     with pytest.raises(FloatRefused, match=r"B\[0\]\[0\]\[0\]: a float is not exact"):
         Radii([[0]], [[[0.5]]], [[[0]]])
-    with pytest.raises(InputError, match="relative: expected a radius that is at least 0"):
+    with pytest.raises(InputError, match="relative: expected a part from 0 on"):
         Box.relative(plant, -1)
 
 
@@ -243,3 +244,13 @@ def test_radii_with_more_digits_than_numbers_may_have_are_refused() -> None:
     assert read_system(text, limits=Limits(digits=12)).uncertainty is not None
     with pytest.raises(InputError, match=r"the radius of A\[0\]\[0\] has more than 11 digits"):
         read_system(text, limits=Limits(digits=11))
+
+
+def test_a_part_is_written_alike_in_python_and_on_the_command_line() -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    written = [Box.relative(plant, each).radii for each in ("10%", "10 %", "0.1", "1/10")]
+    assert all(each == written[0] for each in written)
+    with pytest.raises(FloatRefused, match='write a part such as "10%"'):
+        Box.relative(plant, 0.1)
+    with pytest.raises(InputError, match='write "10%" for 10 percent'):
+        Box.relative(plant, 10)

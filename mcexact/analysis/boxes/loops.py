@@ -38,6 +38,7 @@ from mcexact.analysis.boxes.pencils import (
     modulus_above,
     perron,
     require_float_range,
+    require_radii,
     whole_weights,
 )
 from mcexact.analysis.stability import certify_stability
@@ -452,6 +453,8 @@ def box_stability(
     ------
     InputError
         If a radius of a gain is negative.
+    UsageError
+        If every entry of the plant and every gain is certain.
     LimitReached
         If no proof was found, which proves nothing; if the loop is unstable at some values of
         parameters, the message names them.
@@ -475,8 +478,8 @@ def box_stability(
         ...
     mcexact.errors.LimitReached: not every eigenvalue has Re λ < -2 at k = 1/2
     """
-    if not isinstance(system, ParametricSystem):
-        InputError.require(system, MultiChannelSystem, "system")
+    if gains is None:
+        require_radii(system)
     region = StabilityRegion.of(system.time, rate, radius)
     most = _MOST_SEGMENTS_OF_CELL if isinstance(system, ParametricSystem) else _MOST_SEGMENTS
     return LoopSearch(system, controller, graph, region, gains, most).proof(system)

@@ -60,6 +60,7 @@ from mcexact.analysis.boxes.pencils import (
     gain_pencil,
     perron,
     radii_of,
+    require_radii,
     weights,
     whole_weights,
 )
@@ -514,6 +515,8 @@ def box_fixed_modes(
 
     Raises
     ------
+    UsageError
+        If every entry of the plant is certain.
     LimitReached
         If no proof was found, which proves nothing.
 
@@ -538,8 +541,7 @@ def box_fixed_modes(
     """
     spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
     ranged = isinstance(system, ParametricSystem)
-    if not ranged:
-        InputError.require(system, MultiChannelSystem, "system")
+    require_radii(system)
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
     if spectrum is not None and not ranged:
         _require_nominal(spectrum, limit)
@@ -609,6 +611,8 @@ def box_stabilizability(
 
     Raises
     ------
+    UsageError
+        If every entry of the plant is certain.
     LimitReached
         If no proof was found, which proves nothing.
 
@@ -627,7 +631,7 @@ def box_stabilizability(
     spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
     if isinstance(system, ParametricSystem):
         return box_fixed_modes(system, bound=StabilityRegion(system.time).edge)
-    InputError.require(system, MultiChannelSystem, "system")
+    require_radii(system)
     edge = StabilityRegion(system.time).edge
     whole = BoxFixedModes.known(nothing_fixed, system, "nothing_fixed")
     if whole is not None and whole.bound is None and radii_of(whole.about) == radii_of(system):
@@ -892,6 +896,8 @@ def box_controllability(
 
     Raises
     ------
+    UsageError
+        If every entry of the plant is certain.
     LimitReached
         If no proof was found, which proves nothing.
 
@@ -910,8 +916,7 @@ def box_controllability(
         ...
     mcexact.errors.LimitReached: no proof was found that every plant in the box is controllable
     """
-    if not isinstance(system, ParametricSystem):
-        InputError.require(system, MultiChannelSystem, "system")
+    require_radii(system)
     chosen = tuple(range(system.m)) if channels is None else tuple(system.indices(channels))
     named = system.named(chosen)
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
@@ -964,6 +969,8 @@ def box_observability(
 
     Raises
     ------
+    UsageError
+        If every entry of the plant is certain.
     LimitReached
         If no proof was found, which proves nothing.
 
@@ -1012,6 +1019,8 @@ def box_setpoints(
 
     Raises
     ------
+    UsageError
+        If every entry of the plant is certain.
     LimitReached
         If no proof was found, which proves nothing.
 
@@ -1037,7 +1046,7 @@ own holds all outputs at any constant set-points
     mcexact.errors.LimitReached: no proof was found that no plant in the box has a fixed mode \
 outside of the region
     """
-    InputError.require(system, MultiChannelSystem, "system")
+    require_radii(system)
     known = SetpointSolvability.known(solvability, system, "solvability")
     if known is not None and not known.solvable:
         raise LimitReached("some set-points of the plant itself have no equilibrium")

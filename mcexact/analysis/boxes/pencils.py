@@ -41,9 +41,10 @@ from mcexact.answer.check import constructed
 from mcexact.answer.evidence import ComplexMatrix
 from mcexact.derived.modulo import MODULO
 from mcexact.derived.sampling import sampled_within
-from mcexact.errors import LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.matrix import Matrix, hstack, matrix_to_float, to_float, vstack
 from mcexact.model.box import Box
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.radii import Radii, moduli
 from mcexact.model.system import MultiChannelSystem
 
@@ -676,6 +677,26 @@ def _sizes(M: Matrix) -> Iterator[int]:
 
 
 # The radii of the entries of a plant, or of a system that constructions made from it.
+
+
+def require_radii(system: MultiChannelSystem | ParametricSystem) -> None:
+    """Raise an error if every entry of a plant is certain, and none of its samples rounded.
+
+    Raises
+    ------
+    UsageError
+        If there is no box to decide about.
+    """
+    if isinstance(system, ParametricSystem):
+        return
+    InputError.require(system, MultiChannelSystem, "system")
+    sampled = any(each["construction"] == "sampled" for each in system.subject)
+    if system.plant.uncertainty is None and not sampled:
+        raise UsageError(
+            "every entry of the plant is certain, so there is no box: give it radii, such as "
+            'Box.relative(plant, "1%").system',
+            where="system",
+        )
 
 
 def radii_of(system: MultiChannelSystem) -> Radii:

@@ -13,7 +13,7 @@ from mcexact import Controller, Matrix, MultiChannelSystem, certify_controller, 
 from mcexact.analysis.boxes.loops import box_stability, gain_radii
 from mcexact.boxes import Box
 from mcexact.designs import AgentProgram, LinearMap, local_controllers
-from mcexact.errors import LimitReached
+from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.linear_algebra import solve
 from mcexact.model.loop import LoopPencil, closed_loop
 
@@ -39,7 +39,9 @@ def test_members_and_rounded_gains_stay_in_the_region(gains: str | None) -> None
 
 def test_a_nominal_loop_that_is_not_stable_has_no_box() -> None:
     with pytest.raises(LimitReached, match=r"every loop in the box has Re λ < -5$"):
-        box_stability(PLANT, GAINS, rate=5)
+        box_stability(Box.relative(PLANT, "1/1000").system, GAINS, rate=5)
+    with pytest.raises(UsageError, match="there is no box"):
+        box_stability(PLANT, GAINS)
 
 
 def test_a_member_that_is_not_stable_prevents_a_proof() -> None:
