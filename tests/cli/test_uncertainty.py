@@ -173,7 +173,7 @@ def test_the_largest_radii_do_not_hide_that_the_loop_fails_within_those_of_the_f
     file = str(tmp_path / "uncertain.json")
     search = ("certify", file, gains, "--largest-uncertainty", "--effort", "1")
     for radius, told in (
-        ("3", "Do not install: fails within the radii"),
+        ("300%", "Do not install: fails within the radii"),
         ("0.001", "Worth installing"),
     ):
         save_system(Box.relative(PLANT, radius).system, file)

@@ -478,6 +478,7 @@ def box_stability(
         ...
     mcexact.errors.LimitReached: not every eigenvalue has Re λ < -2 at k = 1/2
     """
+    InputError.require(controller, Controller, "controller")
     if gains is None:
         require_radii(system)
     region = StabilityRegion.of(system.time, rate, radius)
