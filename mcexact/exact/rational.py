@@ -160,7 +160,7 @@ def _shown(text: str) -> str:
 def as_part(value: Entry, *, where: str | None = None) -> Fraction:
     """Convert a part of something, such as "10%", "0.1" or "1/10", to a rational number.
 
-    Python, files and the command line all read parts so.  Only a percentage may be above 100 %.
+    Python and the command line read parts so.
 
     Parameters
     ----------
@@ -173,13 +173,13 @@ def as_part(value: Entry, *, where: str | None = None) -> Fraction:
     FloatRefused
         If the part is a float.
     InputError
-        If it is not rational or negative, or a number above 1.
+        If it is not rational or negative, or a text above 1 that is no percentage.
 
     Examples
     --------
     >>> as_part("0.1%"), as_part("1/50"), as_part("200%")
     (Fraction(1, 1000), Fraction(1, 50), Fraction(2, 1))
-    >>> as_part(10)
+    >>> as_part("10")
     Traceback (most recent call last):
     ...
     mcexact.errors.InputError: found 10, more than the whole: write "10%" for 10 percent
@@ -190,13 +190,15 @@ def as_part(value: Entry, *, where: str | None = None) -> Fraction:
             where=where,
         )
     percent = isinstance(value, str) and value.endswith("%")
-    bare: Any = value.removesuffix("%").rstrip() if isinstance(value, str) else value
-    ratio = as_fraction(bare, where=where)
+    if isinstance(value, str):
+        ratio = parse_rational(value.removesuffix("%").rstrip(), where=where)
+    else:
+        ratio = as_fraction(value, where=where)
     if ratio < 0:
         raise InputError(
             f"expected a part from 0 on, such as 0.1% or 1/1000, found {value}", where=where
         )
-    if ratio > 1 and not percent:
+    if isinstance(value, str) and ratio > 1 and not percent:
         raise InputError(
             f'found {value}, more than the whole: write "{value}%" for {value} percent', where=where
         )

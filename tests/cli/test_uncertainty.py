@@ -369,7 +369,7 @@ def test_a_part_is_a_number_or_a_percentage() -> None:
         with pytest.raises(BadParameter):
             part(text)
     # A person who writes 5 means 5 %, and would read of plants within 500 %.
-    with pytest.raises(BadParameter, match="write 5% for 5 percent"):
+    with pytest.raises(BadParameter, match='write "5%" for 5 percent'):
         part("5")
     assert part("500%") == 5
 

@@ -114,7 +114,8 @@ SAID: dict[str, str] = {
     "NeighborGraph(['a'], [3])": "neighbors[0]: expected a list of positions, found 3",
     "NeighborGraph(['a'], [[]], [1])": "delays[0]: expected a list of the two positions and the",
     "NeighborGraph(['a'], [[]], [(1, 2)])": "delays[0]: expected (i, j, d), found (1, 2)",
-    "mcexact.sharing.neighbor_graph(PLANT, [1])": "neighbors: expected a NeighborGraph, found list",
+    "mcexact.sharing.neighbor_graph(PLANT, [1])": "neighbors: expected a NeighborGraph, "
+    "a networkx.DiGraph or a mapping of names, found list",
 }
 
 

@@ -253,4 +253,4 @@ def test_a_part_is_written_alike_in_python_and_on_the_command_line() -> None:
     with pytest.raises(FloatRefused, match='write a part such as "10%"'):
         Box.relative(plant, 0.1)
     with pytest.raises(InputError, match='write "10%" for 10 percent'):
-        Box.relative(plant, 10)
+        Box.relative(plant, "10")
