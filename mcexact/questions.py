@@ -13,12 +13,14 @@ An answer has its claims as attributes, ``explain()`` for a reader, and is what
 
 from mcexact.analysis.analyze import Analysis
 from mcexact.analysis.controllability import ExceptionalGains, exceptional_gains
+from mcexact.analysis.failures import failures
 from mcexact.analysis.fixed_modes import pencil_rank
 from mcexact.analysis.single_channel import ErrorGains, error_gains, single_channel_gains
 from mcexact.analysis.stability import certify_stability, open_loop_spectrum
 from mcexact.analysis.structure import complementary_subsystem
 from mcexact.answer.check import Verdict
 from mcexact.answer.evidence import RateInterval, RootDisc
+from mcexact.answer.failures import Failure, Failures
 from mcexact.answer.loops import ClosedLoopSpectrum, StabilityVerdict
 from mcexact.answer.modes import Assignability, Completeness, FixedFactor, FixedSpectrum, PencilRank
 from mcexact.answer.protocol import Answer
@@ -47,6 +49,8 @@ __all__ = [
     "ErrorGains",
     "ExceptionalGains",
     "ExceptionalSet",
+    "Failure",
+    "Failures",
     "FixedFactor",
     "FixedSpectrum",
     "JointControllability",
@@ -64,6 +68,7 @@ __all__ = [
     "complementary_subsystem",
     "error_gains",
     "exceptional_gains",
+    "failures",
     "open_loop_spectrum",
     "pencil_rank",
     "single_channel_gains",

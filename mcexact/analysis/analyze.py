@@ -198,6 +198,7 @@ class Analysis(ShownByAccount):
             "subset": subset,
             "channel": channel,
             "channels": None if channel is None else [channel],
+            "information": information,
         }
         named = () if subset is None else several(subset, "subset")
         plant.indices([*named, *([] if channel is None else [channel])])

@@ -83,10 +83,10 @@ class Question:
         channels of each strong component of its transfer graph merged.  "lifted" and "held" are the
         plant with sub-states shared over links with delays, "held" with sub-states that are shared
         alone, and held for the delays.
-    needs : {"", "neighbors", "uncertainty", "subset", "channel", "channels"}
+    needs : {"", "neighbors", "uncertainty", "subset", "channel", "channels", "information"}
         What the question needs: a neighbor graph, radii of entries or ranges of parameters, a set
-        of channels or a channel.  The last three values name an argument of the function;
-        ``channels`` is a list of one channel.
+        of channels, a channel, or what agents feed back, which is always known.  The last four
+        values name an argument of the function; ``channels`` is a list of one channel.
     by_default : bool
         Whether it is asked by default; NP-hard and slow questions are not.
     option : str
@@ -247,6 +247,17 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             about="quotient",
             by_default=False,
             most=_MOST_OF_QUOTIENT,
+            kind="fixed_spectrum",
+        ),
+        "failures": Question(
+            "failures:failures",
+            "which modes are fixed after each single failure of an agent, an actuator or a sensor, "
+            "and with --information outputs of a link",
+            about="plant",
+            needs="information",
+            by_default=False,
+            option="failures",
+            reuses=_SPECTRUM,
             kind="fixed_spectrum",
         ),
         "completeness": Question(

@@ -29,7 +29,7 @@ from mcexact.exact.matrix import reading_in_words
 from mcexact.model.box import radii_in_words
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.text import canonical, write_text
+from mcexact.model.text import canonical, plain, write_text
 from mcexact.shown import Shown, grid
 
 if TYPE_CHECKING:
@@ -320,6 +320,12 @@ class Account(Shown):
         answer = self.answers[name]
         if not self.for_all_values:
             view: dict[str, Any] = answer.to_dict()
+            first = plain(answer.about.subject[:1])
+            if [step["construction"] for step in first] == ["failed"]:
+                failed = {part: lost for part, lost in first[0].items() if lost}
+                view = {
+                    "failed": {p: lost for p, lost in failed.items() if p != "construction"}
+                } | view
             return view | {"certificate": f"{name}.json"}
         own = re.compile(rf"{name}(_\d+)?")
         view = {} if isinstance(answer, tuple) else answer.to_dict()

@@ -35,6 +35,7 @@ from mcexact.derived.constructions import (
     dual,
     error_system,
     extended_system,
+    failed,
     feedback,
     full_output,
     held_system,
@@ -523,6 +524,9 @@ _CONSTRUCTIONS: Mapping[
         system, [(system.index(j), system.index(i)) for j, i in data["added"]]
     ),
     "extended": lambda system, data: extended_system(system, data["dimensions"], data["share"]),
+    "failed": lambda system, data: failed(
+        system, **{what: data[what] for what in ("agents", "actuators", "sensors", "links")}
+    ),
     "lifted": lambda system, data: lifted_system(system, data["dimensions"], data["share"]),
     "held": lambda system, data: held_system(system, data["dimensions"]),
     "input_filters": lambda system, _: input_filters(system),

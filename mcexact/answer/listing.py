@@ -9,6 +9,7 @@ from types import ModuleType
 from mcexact.answer import (
     analysis,
     boxes,
+    failures,
     loops,
     modulo,
     nearby,
@@ -33,7 +34,7 @@ REFUSALS = loops.REFUSAL_RULES
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
         Rulebook([*ANALYSIS, *(rule for kind in OWN for rule in own_rules(kind))]),
-        (nearby, modulo, time_varying, analysis, boxes, sharing, sharing_gap),
+        (nearby, modulo, time_varying, failures, analysis, boxes, sharing, sharing_gap),
     ),
     "analyze, with parameters": (PARAMETERS, (parameters,)),
     "allocate": (ALLOCATION, (sharing, sharing_gap)),

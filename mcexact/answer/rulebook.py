@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mcexact.answer import analysis, modulo, nearby, sharing, sharing_gap, time_varying
+from mcexact.answer import analysis, failures, modulo, nearby, sharing, sharing_gap, time_varying
 from mcexact.answer.sentence import Context, Rulebook
 
 if TYPE_CHECKING:
@@ -27,10 +27,12 @@ ANALYSIS = Rulebook(
         *modulo.PART_RULES,
         *analysis.ANALYSIS_RULES,
         *time_varying.ANSWER_RULES,
+        *failures.ANSWER_RULES,
         *modulo.OPTION_RULES,
         *analysis.MODE_RULES,
         *modulo.JOINT_RULES,
         *time_varying.TABLE_RULES,
+        *failures.TABLE_RULES,
         *nearby.WHY_RULES,
         *sharing.SHARING_RULES,
         *sharing_gap.GAP_RULES,

@@ -329,6 +329,52 @@ def _arrows(edges: Sequence[tuple[str, str]]) -> str:
     return ", ".join(cut(arrows, 40)) or "none"
 
 
+def failures_in_words(failures: Iterable[tuple[str, str, Any]]) -> str:
+    """Name failed agents, actuators, sensors and links.
+
+    Examples
+    --------
+    >>> failures_in_words([("agents", "2", None), ("sensors", "2", 1), ("links", "1", "2")])
+    'agent 2, its sensor 1 or link 1 -> 2'
+    """
+    listed = [*failures]
+    whole = [agent for part, agent, _ in listed if part == "agents"]
+
+    def place(failure: tuple[str, str, Any]) -> tuple[bool, int]:
+        part, agent, _ = failure
+        return (part == "links", whole.index(agent) if agent in whole else len(whole))
+
+    words = []
+    for part, agent, which in sorted(listed, key=place):
+        name = name_text(agent)
+        if part == "agents":
+            words.append(f"agent {name}")
+        elif part == "links":
+            words.append(f"link {name} -> {name_text(which)}")
+        elif agent in whole:
+            words.append(f"its {part.removesuffix('s')} {which}")
+        else:
+            words.append(f"{part.removesuffix('s')} {which} of agent {name}")
+    *first, last = cut(words, 12)
+    return " or ".join(filter(None, [", ".join(first), last]))
+
+
+def several_modes(factors: Sequence[Polynomial]) -> str:
+    """Name the roots of several polynomials as modes, rational ones first.
+
+    Examples
+    --------
+    >>> several_modes([Polynomial.of("-1/2", 1), Polynomial.of(1, 0, 1), Polynomial.of(0, 1)])
+    'the modes 1/2 and 0, the 2 roots of x^2 + 1'
+    >>> several_modes([Polynomial.of(0, 1)])
+    'the mode 0'
+    """
+    linear = [modes(p) for p in factors if p.degree == 1]
+    numbers = listed(cut([each.removeprefix("the mode ") for each in linear], 6))
+    named = [f"the mode{'s' * (len(linear) > 1)} {numbers}"] if linear else []
+    return ", ".join([*named, *cut([modes(p) for p in factors if p.degree > 1], 4)])
+
+
 def _capital(text: str) -> str:
     return text[0].upper() + text[1:]
 
@@ -523,6 +569,9 @@ FORMS: dict[str, Write] = {
     "input limits": _limits,
     "in sizes": lambda some: ", each state divided by its size," if some else "",
     "rounded samples": lambda which: _SAMPLES[which],
+    "several modes": several_modes,
+    "failures": failures_in_words,
+    "parts": choice(own="agent, actuator or sensor", outputs="agent, actuator, sensor or link"),
     "windup": lambda some: " and with the anti-windup gains of the controller" if some else "",
     "step": approximated,
     "late": lambda steps: f" and applied {count(steps, 'step')} late" if steps else "",

@@ -314,7 +314,9 @@ class Evidence:
         plant = known if isinstance(known, FunctionSystem) else at_values(known)
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
-        if not own and sampled_again(steps, self.base):
+        if fails_first(steps, self.base):
+            path = tuple(step["construction"] for step in [steps[0], *steps[len(self.base) + 1 :]])
+        elif not own and sampled_again(steps, self.base):
             path = (ANOTHER_STEP, *(step["construction"] for step in steps[1:]))
         statement = f"For {system.words}: {found.words}"
         return Premise(name, document, plant, system, plant, statement, path, nearby=nearby)
@@ -365,6 +367,12 @@ class Evidence:
         short = words.replace(self.own()[0].plant.words, "the plant").removeprefix("For ")
         short = WITH_DIGEST.sub("", short.removeprefix("the plant: "))
         return "" if NUMBER.fullmatch(short) else cut(short, MOST_QUOTED)
+
+
+def fails_first(steps: list[Json], base: list[Json]) -> bool:
+    """Whether a subject is made as the system of the manifest, of the plant after failures."""
+    failed = [step["construction"] for step in steps[:1]] == ["failed"]
+    return failed and same(steps[1 : len(base) + 1], base)
 
 
 def is_uncertain(plant: System | FunctionSystem) -> bool:

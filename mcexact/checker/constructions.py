@@ -505,7 +505,7 @@ def _registered(system: System, M: Matrix, late: int, one: int) -> System:
     )
 
 
-# Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``modulo`` and others.
+# Constructions ``dual``, ``failed``, ``feedback``, ``merged``, ``modulo`` and others.
 
 MODULO = ("part", "annihilator", "pivots", "polynomial")
 
@@ -627,6 +627,89 @@ def restricted(system: System, step: dict[str, Json], place: str) -> System:
     return suffixed(system, words, names=known, B=B, C=C, D=D, neighbors=None, delays={})
 
 
+FAILURES = ("agents", "actuators", "sensors", "links")
+Ports = set[tuple[int, int]]
+"""Agents, each with the position of one of its inputs or outputs from 0 on."""
+
+
+def failed(system: System, step: dict[str, Json], place: str) -> System:
+    """Zeros in the columns of B_i, the rows of C_i, and those of D, and no links, of what failed.
+
+    Theorems ``failures.failed_loop``, ``failures.fixed_after_failure``,
+    ``failures.fixed_after_more``.
+    """
+    listed = dict(zip(FAILURES, fields(step, place, *FAILURES), strict=True))
+    require(any(listed.values()), "subject", place, "expected a failure")
+    gone = {*names(listed["agents"], place, system.names)}
+    p, q = [M.ncols for M in system.B], [M.nrows for M in system.C]
+    idle = _ports(system, listed["actuators"], place, p) | _all_of(gone, p)
+    blind = _ports(system, listed["sensors"], place, q) | _all_of(gone, q)
+    left = [_left(i, p_i, idle) for i, p_i in enumerate(p)]
+    seen = [_left(i, q_i, blind) for i, q_i in enumerate(q)]
+    D = system.D
+    if D is not None:
+        none = Matrix.zeros(0, 0)
+        D = reduce(diagonal, seen, none) @ D @ reduce(diagonal, left, none)
+    words = f"after the failures {canonical_json({k: v for k, v in listed.items() if v})}"
+    made = suffixed(
+        system,
+        words,
+        B=[B_i @ P_i for B_i, P_i in zip(system.B, left, strict=True)],
+        C=[Q_i @ C_i for Q_i, C_i in zip(seen, system.C, strict=True)],
+        D=D,
+    )
+    return _without_links(made, listed["links"], gone, place)
+
+
+def _ports(system: System, value: Json, place: str, sizes: list[int]) -> Ports:
+    """Pairs of an agent and the number of an input or output of it, from 1 on, in their order."""
+    read = []
+    for pair in items(value, place):
+        name, number = items(pair, place, 2)
+        i, k = system.place_of(name, place), integer(number, place, 1)
+        if k > sizes[i]:
+            malformed(place, f"expected a number up to {sizes[i]}, found {k}")
+        read.append((i, k - 1))
+    if read != sorted(set(read)):
+        malformed(place, "expected inputs and outputs in their order, none of them twice")
+    return {*read}
+
+
+def _all_of(gone: set[int], sizes: list[int]) -> Ports:
+    """All inputs or outputs of the agents that failed."""
+    return {(i, k) for i in gone for k in range(sizes[i])}
+
+
+def _left(i: int, size: int, lost: Ports) -> Matrix:
+    """The diagonal matrix of what works at channel i: 1, and 0 for what failed."""
+    spend(table(size, size))
+    return Matrix(
+        [[int(j == k and (i, k) not in lost) for j in range(size)] for k in range(size)], size
+    )
+
+
+def _without_links(system: System, value: Json, gone: set[int], place: str) -> System:
+    """The neighbor graph without links that failed, and without all those of some agents."""
+    lost = []
+    for link in items(value, place):
+        j, i = (system.place_of(end, place) for end in items(link, place, 2))
+        there = i != j and system.neighbors is not None and j in system.neighbors[i]
+        require(there, "subject", place, "there is no such link")
+        lost.append((j, i))
+    if lost != sorted(set(lost)):
+        malformed(place, "expected links in their order, none of them twice")
+    if system.neighbors is None:
+        return system
+    spend(40 * sum(map(len, system.neighbors)))
+
+    def works(j: int, i: int) -> bool:
+        return j == i or not ((j, i) in lost or j in gone or i in gone)
+
+    sets = [[j for j in N_i if works(j, i)] for i, N_i in enumerate(system.neighbors)]
+    delays = {(i, j): d for (i, j), d in system.delays.items() if works(j, i)}
+    return replace(system, neighbors=sets, delays=delays)
+
+
 def input_filters(system: System, step: dict[str, Json], place: str) -> System:
     """State (x, u), u' = v or u(t+1) = v, and agent i measures C_i x + D_i u and u_i; no D.
 
@@ -745,10 +828,10 @@ LINE = "line"
 """The construction that only plants with parameters have, and before all others."""
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
 LAST = (regulated, restricted, sampled, servo, slow)
-MORE = (held, input_filters, integrators, lifted, merged, modulo)
+MORE = (failed, held, input_filters, integrators, lifted, merged, modulo)
 CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, *MORE, *LAST)}
 _OTHERS = closed_loop, dual, input_filters
-CARRYING = arcs, augmented_outputs, merged, modulo, regulated, restricted, *_OTHERS
+CARRYING = arcs, augmented_outputs, failed, merged, modulo, regulated, restricted, *_OTHERS
 CARRIED = {rule.__name__ for rule in CARRYING}
 """The constructions that apply to systems with feedthrough."""
 

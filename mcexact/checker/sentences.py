@@ -24,7 +24,8 @@ from functools import partial
 from typing import Any
 
 from .arithmetic import exponent
-from .constructions import SHARED, read_subject
+from .budget import spend
+from .constructions import FAILURES, SHARED, read_subject
 from .evidence import require_coprime
 from .kinds import same
 from .modes import no_fixed_mode
@@ -40,6 +41,8 @@ Path = tuple[str, ...]
 SYSTEM: tuple[Path, ...] = ((), ("augmented_outputs",))
 """What agents receive: their own outputs, or also those of their neighbors."""
 DUAL = tuple((*path, "dual") for path in SYSTEM)
+FAILED = tuple(("failed", *path) for path in SYSTEM)
+"""The system as it is made of the plant after failures."""
 PLANT, HEARD = SYSTEM[:1], SYSTEM[1:]
 ANOTHER_STEP = "another step"
 """Where a path begins of the plant sampled as for the manifest, but with another step."""
@@ -132,7 +135,7 @@ class Role:
         All premises with such a role must have the same information structure.
         """
         ways = self.paths
-        if ways in (SYSTEM, DUAL):
+        if ways in (SYSTEM, DUAL, FAILED):
             ways = ways[heard : heard + 1]
         right = premise.kind in self.kinds and premise.path in ways
         return right and premise.nearby == self.nearby
@@ -503,6 +506,129 @@ quotient(
     "some causal decentralized control stabilizes it",
     TIME_VARYING,
 )
+
+
+# Single failures: what is fixed after them, and after which no control stabilizes the plant.
+
+AFTER = Role(FIXED.kinds, FAILED, many=True, apart=True)
+MORE = "failures.fixed_after_more"
+STILL = f"{MORE}; {WANG_DAVISON}"
+Failure = tuple[str, Any]
+"""Which part failed: "agents", "actuators", "sensors" or "links", and the one of them."""
+
+
+def failure(after: Premise) -> Failure:
+    """The only failure of a subject."""
+    step = after.document["subject"][0]
+    each = [(what, one) for what in FAILURES for one in step[what]]
+    after.expect(len(each) == 1, "more than one failure")
+    return each[0]
+
+
+def every_failure(after: Premise) -> list[Failure]:
+    """All single failures of the plant, those of links if outputs are sent over them."""
+    plant, heard = after.plant, (after.path or ())[1:] == HEARD[0]
+    ports = {"actuators": [B.ncols for B in plant.B], "sensors": [C.nrows for C in plant.C]}
+    listed: list[Failure] = [("agents", name) for name in plant.names]
+    for what, sizes in ports.items():
+        sized = zip(plant.names, sizes, strict=True)
+        listed += [(what, [name, k + 1]) for name, size in sized for k in range(size)]
+    for i, N_i in enumerate(plant.neighbors or []) if heard else ():
+        listed += [("links", [plant.names[j], plant.names[i]]) for j in N_i if j != i]
+    spend(1000 * len(listed))
+    return listed
+
+
+def failed_in(one: Failure, whole: Failure) -> bool:
+    """Whether all that fails in the first failure fails in the other one as well.
+
+    An agent that fails has no actuators, sensors and links any more.
+    """
+    part, which = one
+    ends = which if part == "links" else which[:1]
+    return one == whole or (part != "agents" and whole[0] == "agents" and whole[1] in ends)
+
+
+def require_all_others(after: list[Premise], fine: Holds) -> list[Failure]:
+    """The failures after which something is not fine; stop unless it is fine after all others."""
+    known = [(failure(each), bool(fine(each))) for each in after]
+    bad = [one for one, good in known if not good]
+    good = [one for one, good in known if good]
+    spend(200 * len(known) * len(known))
+    for one in every_failure(after[0]):
+        proved = one in bad or any(failed_in(one, whole) for whole in good)
+        after[0].expect(proved, f"nothing is known of the failure {json.dumps(one)}")
+    return bad
+
+
+def failures(listed: list[Failure]) -> str:
+    """Failures as a statement lists them."""
+    return ", ".join(f"{what} {json.dumps(one)}" for what, one in listed)
+
+
+def stabilizable(premise: Premise) -> bool:
+    """Whether every fixed mode is stable."""
+    return bool(premise["stabilizable"])
+
+
+LTI = "linear time-invariant decentralized control"
+
+
+@rule("failures-unstable-row", AFTER, theorem=FIXED_DYNAMIC)
+def _unstable(after: list[Premise]) -> str:
+    """Single failures after which a mode is fixed that is not stable."""
+    bad = [failure(each) for each in after if not stabilizable(each)]
+    after[0].expect(bool(bad), "every fixed mode is stable")
+    return f"{of_failures(after)}: not stabilizable by {LTI} after the failure of {failures(bad)}"
+
+
+@rule("failures-unstable", AFTER, theorem=f"{FIXED_DYNAMIC}; {STILL}")
+def _so_many(after: list[Premise]) -> str:
+    """The same, and after all other single failures each fixed mode is stable."""
+    bad, number = require_all_others(after, stabilizable), len(every_failure(after[0]))
+    after[0].expect(bool(bad), "every fixed mode is stable")
+    many = f"{len(bad)} of {number} single failures"
+    return f"{of_failures(after)}: not stabilizable by {LTI} after {many}: {failures(bad)}"
+
+
+@rule("failures-stabilizable", AFTER, theorem=STILL)
+def _stable(after: list[Premise]) -> str:
+    """After all single failures each fixed mode is stable."""
+    after[0].expect(not require_all_others(after, stabilizable), "a mode is not stable")
+    number = len(every_failure(after[0]))
+    return f"{of_failures(after)}: stabilizable by {LTI} after each of {number} single failures"
+
+
+def of_failures(after: list[Premise]) -> str:
+    """The system that failures of its plant are about, in words."""
+    heard = ", each agent measuring what it receives of its neighbors too"
+    return f"For {after[0].meant.words}{heard * ((after[0].path or ())[1:] == HEARD[0])}"
+
+
+MEASURE = {"continuous": "the best rate", "discrete": "the largest modulus"}
+
+
+@rule("failures-fixed", FIXED, AFTER, theorem="failures.fixed_after_failure")
+def _fixed_after(before: Premise, after: list[Premise]) -> str:
+    """What is fixed after some failures, which is more than without them."""
+    texts, known = [], before["polynomial"]
+    for each in after:
+        each.expect(len(each["polynomial"]) > len(known), "no further mode is fixed")
+        modes = polynomial_text(each["polynomial"])
+        rate = each["best_rate"]
+        measured = f"{MEASURE[each.system.time]} from {rate['lower']} to {rate['upper']}"
+        texts.append(f"of {modes} after the failure of {failures([failure(each)])}, {measured}")
+    if len(known) > 1:
+        texts.append(f"of {polynomial_text(known)} without a failure")
+    return f"{of_failures(after)}: fixed are the roots {', '.join(texts)}"
+
+
+@rule("failures-fixed-none failures-fixed-others", FIXED, AFTER, theorem=MORE)
+def _none_after(before: Premise, after: list[Premise]) -> str:
+    """No further mode is fixed after all single failures but some."""
+    bad = require_all_others(after, lambda each: same(each["polynomial"], before["polynomial"]))
+    besides = f", but for {failures(bad)}" if bad else ""
+    return f"{of_failures(after)}: every single failure{besides} leaves no further mode fixed"
 
 
 # How the spectrum can be assigned.

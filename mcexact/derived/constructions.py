@@ -8,6 +8,7 @@ docstrings.
 - `dual`: controllability becomes observability.
 - `feedback`, `full_output`: static gains u_i = F_i y_i, and one channel that measures the state.
 - `merged`, `restricted`: channels united, and channels left out.
+- `failed`: agents, actuators, sensors and links that do nothing any more.
 - `add_links`, `augmented_outputs`: more communication, and neighbors' outputs as measurements.
 - `extended_system`: agents also share sub-states (Paper, equation (25)).
 - `lifted_system`: the same with delays, in discrete time; every message under way is a state.
@@ -360,6 +361,148 @@ def restricted(system: MultiChannelSystem, channels: Sequence[str]) -> MultiChan
         D=system.feedthrough_matrix(chosen, chosen),
         names=names,
     )
+
+
+# The plant after failures.
+
+
+def failed(
+    system: MultiChannelSystem,
+    *,
+    agents: Iterable[str] = (),
+    actuators: Iterable[tuple[str, int]] = (),
+    sensors: Iterable[tuple[str, int]] = (),
+    links: Iterable[tuple[str, str]] = (),
+) -> MultiChannelSystem:
+    """Let parts fail: actuators do nothing, sensors show nothing, links carry nothing.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        With feedthrough or without, with a neighbor graph or without.
+    agents : iterable of str
+        Agents without all their actuators, sensors and links.
+    actuators, sensors : iterable of (str, int)
+        An agent, and which of its inputs or outputs, counted from 1.
+    links : iterable of (str, str)
+        Agents j and i: i receives no message from j.
+
+    Returns
+    -------
+    MultiChannelSystem
+        The same channels, with zeros in the columns of B_i and the rows of C_i that belong to what
+        failed, and in those of D; the neighbor graph has these links no more.
+
+    Raises
+    ------
+    UsageError
+        If nothing fails, or there is no such agent, input, output or link.
+
+    Notes
+    -----
+    With diagonal matrices P_i and Q_i of ones, and zeros for what failed, the result has B_i P_i
+    and Q_i C_i, and A + Σ B_i P_i F_i Q_i C_i is also a loop of the plant.  So every fixed mode of
+    the plant is one of the result, and every mode that is fixed after some failures is fixed after
+    more of them (``failures.fixed_after_more``).
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[0]], [[[1, 2]], [[3]]], [[[4]], [[5]]], neighbors={"2": ["1"]})
+    >>> broken = failed(plant, actuators=[("1", 2)], sensors=[("2", 1)], links=[("1", "2")])
+    >>> broken.B(0).numerators, broken.C(1).numerators, broken.neighbors.edges()
+    (((1, 0),), ((0,),), ())
+    >>> failed(plant, agents=["2"]).B(1).numerators
+    ((0,),)
+    >>> failed(plant, actuators=[("2", 2)])
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.UsageError: actuators: expected actuators of '2' from 1 to 1, found 2
+    """
+    any_system(system)
+    lost = _Failures.of(system, agents, actuators, sensors, links)
+    P = [lost.remaining("actuators", i, system.p(i)) for i in range(system.m)]
+    Q = [lost.remaining("sensors", i, system.q(i)) for i in range(system.m)]
+    return system.derived(
+        system.A,
+        [system.B(i) @ P_i for i, P_i in enumerate(P)],
+        [Q_i @ system.C(i) for i, Q_i in enumerate(Q)],
+        {"construction": "failed", **lost.named(system.names)},
+        D=block_diagonal(Q) @ system.feedthrough_matrix() @ block_diagonal(P),
+        neighbors=lost.graph(system.neighbors),
+    )
+
+
+@dataclass(frozen=True)
+class _Failures:
+    """What failed, by positions: agents, ports as (agent, number from 1), links as (j, i)."""
+
+    agents: tuple[int, ...]
+    ports: Mapping[str, tuple[tuple[int, int], ...]]
+    links: tuple[tuple[int, int], ...]
+
+    @classmethod
+    def of(
+        cls,
+        system: MultiChannelSystem,
+        agents: Iterable[str],
+        actuators: Iterable[tuple[str, int]],
+        sensors: Iterable[tuple[str, int]],
+        links: Iterable[tuple[str, str]],
+    ) -> _Failures:
+        """Read failures by names."""
+        sizes = {"actuators": system.p, "sensors": system.q}
+        listed = {
+            "actuators": several(actuators, "actuators"),
+            "sensors": several(sensors, "sensors"),
+        }
+        ports = {}
+        for what, size in sizes.items():
+            known = [(system.index(name), k) for name, k in listed[what]]
+            for i, k in known:
+                if isinstance(k, bool) or not isinstance(k, int) or not 1 <= k <= size(i):
+                    raise UsageError(
+                        f"expected {what} of {quoted(system.names[i])} from 1 to {size(i)}, "
+                        f"found {k!r}",
+                        where=what,
+                    )
+            ports[what] = tuple(sorted({*known}))
+        edges = () if system.neighbors is None else system.neighbors.edges()
+        pairs = [(system.index(j), system.index(i)) for j, i in several(links, "links")]
+        for j, i in pairs:
+            if (j, i) not in edges:
+                ends = f"{quoted(system.names[j])} to {quoted(system.names[i])}"
+                raise UsageError(f"there is no link from {ends}", where="links")
+        made = cls(system.indices(several(agents, "agents")), ports, tuple(sorted({*pairs})))
+        if not (made.agents or any(ports.values()) or made.links):
+            raise UsageError("expected at least one failure, found none")
+        return made
+
+    def named(self, names: Sequence[str]) -> dict[str, Any]:
+        """The failures as a certificate has them."""
+        return {
+            "agents": [names[i] for i in self.agents],
+            **{what: [[names[i], k] for i, k in listed] for what, listed in self.ports.items()},
+            "links": [[names[j], names[i]] for j, i in self.links],
+        }
+
+    def remaining(self, what: str, i: int, size: int) -> Matrix:
+        """The diagonal matrix of ones, and zeros for what failed of an agent."""
+        gone = {k - 1 for agent, k in self.ports[what] if agent == i}
+        kept = [i not in self.agents and k not in gone for k in range(size)]
+        rows = [[int(k == j and kept[k]) for j in range(size)] for k in range(size)]
+        return Matrix.from_integers(rows, ncols=size)
+
+    def graph(self, graph: NeighborGraph | None) -> NeighborGraph | None:
+        """The neighbor graph without the links that failed."""
+        if graph is None:
+            return None
+
+        def works(j: int, i: int) -> bool:
+            return (j, i) not in self.links and not {j, i} & {*self.agents}
+
+        sets = [[j for j in N_i if j == i or works(j, i)] for i, N_i in enumerate(graph.neighbors)]
+        delays = [(i, j, d) for i, j, d in graph.delays if works(j, i)]
+        return NeighborGraph(graph.names, sets, delays)
 
 
 # A plant with further communication links.

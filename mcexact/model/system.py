@@ -561,6 +561,7 @@ _GRAPH_IN_USE = frozenset(
         "dual",
         "error",
         "extended",
+        "failed",
         "held",
         "lifted",
         "merged",

@@ -12,7 +12,9 @@ from mcexact.model.system import MultiChannelSystem
 
 def asked(plant: MultiChannelSystem, **question: Any) -> Analysis:
     """As the command asks, with ``minimal=True`` and so on."""
-    options = [name for name in ("minimal", "links", "delayed") if question.pop(name, False)]
+    options = [
+        name for name in ("minimal", "links", "delayed", "failures") if question.pop(name, False)
+    ]
     options += ["every-channel"] * question.pop("every_channel", False)
     return analyze(plant, also=asked_by(*options), **question)
 

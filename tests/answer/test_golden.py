@@ -179,6 +179,17 @@ def of_feedthrough() -> Iterator[tuple[str, Any]]:
         yield f"sign {sign}", mcexact.joint_observability(plant)
 
 
+def of_failures() -> Iterator[tuple[str, Any]]:
+    """Two plants after single failures, and with messages also after those of links."""
+    for number, each in enumerate(mcexact.questions.failures(gallery.load("compleib-ac1")), 1):
+        yield f"failure {number}", each
+    plant = MultiChannelSystem(
+        [[1]], [[[0]], [[1]]], [[[1]], [[0]]], neighbors={"1": ["2"], "2": ["1"]}
+    )
+    for number, each in enumerate(mcexact.questions.failures(plant, "outputs"), 1):
+        yield f"failure {number} with messages", each
+
+
 def of_a_parameter() -> Iterator[tuple[str, Any]]:
     """The paper's example with one of its entries free, and the valves of four tanks."""
     for i in range(3):
@@ -335,6 +346,8 @@ def digests(asked: Iterable[tuple[str, MultiChannelSystem]]) -> dict[str, dict[s
         add_answer(answer, ("plants", f"at the samples: {name}"), ("questions", "at the samples"))
     for name, answer in of_parts():
         add_answer(answer, ("plants", f"modulo: {name}"), ("questions", "modulo a part"))
+    for name, answer in of_failures():
+        add_answer(answer, ("plants", f"after a failure: {name}"), ("questions", "after a failure"))
     for name, answer in of_feedthrough():
         add_answer(answer, ("plants", f"feedthrough: {name}"), ("questions", "feedthrough"))
     for name, answer in of_regions():

@@ -48,6 +48,7 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "the plant": lambda: PLANT,
     "augmented_outputs": lambda: mcexact.constructions.augmented_outputs(PLANT),
     "dual": lambda: mcexact.constructions.dual(PLANT),
+    "failed": lambda: mcexact.constructions.failed(PLANT, sensors=[("b", 1)], links=[("a", "b")]),
     "feedback": lambda: feedback(PLANT, GAINS),
     "full_output": lambda: full_output(PLANT, 1),
     "arcs": lambda: add_links(ONE_WAY, [(1, 0)]),

@@ -88,7 +88,11 @@ def told(*decisions: Callable[[], Any]) -> Found:
 
 def analyses(system: MultiChannelSystem, gains: bool = True) -> Found:
     """Everything that can be asked of a plant, of each channel, and of several sets."""
-    asked = [name for name in asked_by("links", "every-channel") if gains or "gains" not in name]
+    asked = [
+        name
+        for name in asked_by("links", "every-channel", "failures")
+        if gains or "gains" not in name
+    ]
     if system.neighbors is not None:
         asked += asked_by("minimal")
         if system.time == "discrete":

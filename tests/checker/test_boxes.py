@@ -27,6 +27,7 @@ STEPS: dict[str, Any] = {
     "feedback": {"gains": [matrix([-3], denominator=2), matrix([5])]},
     "full_output": {"channel": "2"},
     "held": {"dimensions": [1, 1]},
+    "failed": {"agents": [], "actuators": [["1", 1]], "sensors": [["2", 1]], "links": []},
     "input_filters": {},
     "integrators": {},
     "lifted": {"share": "outputs+states", "dimensions": [1, 1]},

@@ -91,7 +91,7 @@ def test_no_rule_ends_with_a_bug_beside_certificates_about_parameters(
 def answers(system: MultiChannelSystem) -> dict[str, Document]:
     """The certificates of everything that can be asked, of each channel."""
     found: dict[str, Document] = {}
-    asked = asked_by("links", "every-channel")
+    asked = asked_by("links", "every-channel", "failures")
     if system.neighbors is not None:
         asked += asked_by("minimal")
         if system.time == "discrete":
@@ -142,6 +142,7 @@ OPPOSITE = [
     ("decentralized-none", "fixed-besides"),
     ("quotient-fixed-none", "quotient-fixed"),
     ("time-varying-stabilizes", "no-causal-control"),
+    ("failures-stabilizable", "failures-unstable"),
 ]
 ELSEWHERE = (
     "feedthrough",

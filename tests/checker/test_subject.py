@@ -20,6 +20,7 @@ from mcexact.derived.constructions import (
     dual,
     error_system,
     extended_system,
+    failed,
     feedback,
     full_output,
     held_system,
@@ -42,6 +43,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import plain
 from tests import effort
 from tests.checker.handmade import FREE, changed, checked
+from tests.derived.test_failed import drawn_failures
 
 ENTRIES = (0, 0, 1, -1, 2, Fraction(1, 2), Fraction(-2, 3))
 
@@ -147,6 +149,7 @@ BUILDS: dict[str, list[Build]] = {
         lambda rng, s: extended_system(s, sizes(rng, s)),
         lambda rng, s: extended_system(s, sizes(rng, s), share="states"),
     ],
+    "failed": [lambda rng, s: failed(s, **drawn_failures(rng, s))],
     "feedback": [lambda rng, s: feedback(s, [drawn(rng, s.p(i), s.q(i)) for i in range(s.m)])],
     "full_output": [lambda rng, s: full_output(s, rng.randrange(s.m))],
     "held": [lambda rng, s: held_system(s, sizes(rng, s))],

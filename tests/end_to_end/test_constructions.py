@@ -18,6 +18,7 @@ from mcexact.derived.constructions import (
     dual,
     error_system,
     extended_system,
+    failed,
     feedback,
     full_output,
     held_system,
@@ -32,6 +33,7 @@ from mcexact.derived.sampling import sampled_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.loop import closed_loop
 from mcexact.model.text import text_of
+from tests.derived.test_failed import drawn_failures
 from tests.model.test_controller import drawn_controller
 
 SHARES: tuple[Share, ...] = ("outputs+states", "states")
@@ -83,6 +85,7 @@ def test_checker_and_package_build_the_same_subjects(drawn, seed):
     rebuilt(held_system(slow_system(system, max(2 * system.n, 1)), sizes))
     rebuilt(setpoint_system(system))
     rebuilt(input_filters(system))
+    rebuilt(augmented_outputs(failed(more, **drawn_failures(rng, more))))
     rebuilt(restricted(dual(system), rng.sample(system.names, rng.randint(1, m))))
     rebuilt(dual(merged(system, [system.names[k::2] for k in range(min(m, 2))])))
     rebuilt(error_system(system, gains(rng, system, [system.n] * m)))

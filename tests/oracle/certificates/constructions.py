@@ -294,6 +294,68 @@ def restricted(system: System, given: Mapping[str, Any]) -> System:
     return replace(system, names=names, B=B, C=C, D=D).plain()
 
 
+def failed(system: System, given: Mapping[str, Any]) -> System:
+    """Zeros for what failed, in B_i, C_i and D, and a graph without the links that failed."""
+    demand(any(given[part] for part in given if part != "construction"), "expected a failure")
+    gone = positions(given["agents"], system.names)
+    lost = {}
+    for part, sizes in (
+        ("actuators", [B.ncols() for B in system.B]),
+        ("sensors", [C.nrows() for C in system.C]),
+    ):
+        pairs = [(place(i, system.names), integer(k, 1)) for i, k in map(_two, listed(given[part]))]
+        demand(all(k <= sizes[i] for i, k in pairs), "expected inputs and outputs that exist")
+        demand(pairs == sorted(set(pairs)), "expected inputs and outputs in their order")
+        lost[part] = {
+            (i, k)
+            for i in range(system.m)
+            for k in range(sizes[i])
+            if i in gone or (i, k + 1) in pairs
+        }
+    cut = [
+        (place(j, system.names), place(i, system.names))
+        for j, i in map(_two, listed(given["links"]))
+    ]
+    graph = system.neighborhoods
+    demand(all(graph is not None and i != j and j in graph[i] for j, i in cut), "expected links")
+    demand(cut == sorted(set(cut)), "expected links in their order")
+
+    def without(M: fmpq_mat, rows: set[int], columns: set[int]) -> fmpq_mat:
+        cells = ((r, c) for r in range(M.nrows()) for c in range(M.ncols()))
+        entries = [0 if r in rows or c in columns else M[r, c] for r, c in cells]
+        return fmpq_mat(M.nrows(), M.ncols(), entries)
+
+    def flat(part: str, blocks: Sequence[int]) -> set[int]:
+        return {sum(blocks[:i]) + k for i, k in lost[part]}
+
+    def own(part: str, i: int) -> set[int]:
+        return {k for j, k in lost[part] if j == i}
+
+    B = tuple(without(B_i, set(), own("actuators", i)) for i, B_i in enumerate(system.B))
+    C = tuple(without(C_i, own("sensors", i), set()) for i, C_i in enumerate(system.C))
+    D = system.D
+    if D is not None:
+        rows = flat("sensors", [M.nrows() for M in system.C])
+        D = without(D, rows, flat("actuators", [M.ncols() for M in system.B]))
+    made = replace(system, B=B, C=C, D=D)
+    if graph is None:
+        return made
+    works = {
+        (j, i)
+        for i, N in enumerate(graph)
+        for j in N
+        if j == i or not ((j, i) in cut or j in gone or i in gone)
+    }
+    kept = tuple(tuple(j for j in N if (j, i) in works) for i, N in enumerate(graph))
+    delays = {(i, j): d for (i, j), d in system.delays.items() if (j, i) in works}
+    return replace(made, neighborhoods=kept, delays=delays)
+
+
+def _two(pair: Any) -> tuple[Any, Any]:
+    first, second = listed(pair, 2)
+    return first, second
+
+
 def input_filters(system: System, _: Mapping[str, Any]) -> System:
     """State (x, u), with Ã, B̃_i and C̃_i of the table."""
     n, p = system.n, system.inputs().ncols()
@@ -355,8 +417,8 @@ def slow(system: System, given: Mapping[str, Any]) -> System:
 
 
 DIRECT = (
-    "arcs", "augmented_outputs", "closed_loop", "dual", "input_filters", "merged", "modulo",
-    "regulated", "restricted",
+    "arcs", "augmented_outputs", "closed_loop", "dual", "failed", "input_filters", "merged",
+    "modulo", "regulated", "restricted",
 )  # fmt: skip
 """The constructions of systems with feedthrough."""
 Build = Callable[[System, Mapping[str, Any]], System]
@@ -378,6 +440,7 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "modulo": (("part", "annihilator", "pivots", "polynomial"), modulo),
     "regulated": (("gains",), regulated),
     "restricted": (("channels",), restricted),
+    "failed": (("agents", "actuators", "sensors", "links"), failed),
     "sampled": (("step", "late", "decimals"), sampled),
     "servo": (("gains",), servo),
     "closed_loop": (("controller",), lambda system, g: closed_loop(system, g["controller"])),

@@ -204,6 +204,9 @@ def _words(step: Mapping[str, Any], system: System) -> str:
         p = polynomial_text(step["polynomial"])
         part = f"an {step['part']} part with the characteristic polynomial {p}"
         return f"modulo {part} and W with {which}"
+    if kind == "failed":
+        parts = {part: lost for part, lost in step.items() if lost and part != "construction"}
+        return f"after the failures {json_text(parts)}"
     if kind == "restricted":
         return f"with the channels {channels(step['channels'])} alone"
     if kind == "line":

@@ -16,8 +16,8 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "slow", "input_filters", "integrators", "error", "merged", "modulo", "regulated", "restricted",
-    "sampled", "servo", "closed_loop", "line",
+    "slow", "failed", "input_filters", "integrators", "error", "merged", "modulo", "regulated",
+    "restricted", "sampled", "servo", "closed_loop", "line",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "slow", "error")
 LARGEST = 12
@@ -76,11 +76,26 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
         step["parts"] = parts
     elif name == "modulo":
         return drawn_part(rng, system)
+    elif name == "failed":
+        return drawn_failures(rng, system)
     elif name == "restricted":
         step["channels"] = [s for s in system.names if rng.random() < 0.6] or [*system.names[:1]]
     elif name == "closed_loop":
         step["controller"] = drawn_controller(rng, system)
     return step
+
+
+def drawn_failures(rng: random.Random, system: System) -> Document | None:
+    """Some failures, at least one."""
+    ports = {"actuators": [B.ncols() for B in system.B], "sensors": [C.nrows() for C in system.C]}
+    known: Document = {"agents": [*system.names]}
+    for part, sizes in ports.items():
+        pairs = zip(system.names, sizes, strict=True)
+        known[part] = [[name, k + 1] for name, size in pairs for k in range(size)]
+    edges = [(j, i) for i, N in enumerate(system.neighborhoods or []) for j in N if j != i]
+    known["links"] = [[system.names[j], system.names[i]] for j, i in sorted(edges)]
+    lost = {part: [one for one in each if rng.random() < 0.3] for part, each in known.items()}
+    return {"construction": "failed", **lost} if any(lost.values()) else None
 
 
 def drawn_part(rng: random.Random, system: System) -> Document | None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from tests.oracle.sentences import (
     designs,
+    failures,
     members,
     modulo,
     nearby,
@@ -60,7 +61,7 @@ def verdict(sentence: Said, case: Case) -> bool | None:
 
 
 __all__ = [
-    "JUDGES", "UNJUDGED", "Case", "Facts", "Region", "Said", "UnjudgedError", "designs", "members",
-    "modulo", "nearby", "parameters", "performance", "plant_of", "said", "saturation", "sharing",
-    "time_varying", "verdict",
+    "JUDGES", "UNJUDGED", "Case", "Facts", "Region", "Said", "UnjudgedError", "designs", "failures",
+    "members", "modulo", "nearby", "parameters", "performance", "plant_of", "said", "saturation",
+    "sharing", "time_varying", "verdict",
 ]  # fmt: skip

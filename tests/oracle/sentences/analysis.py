@@ -184,8 +184,12 @@ def _not_stabilizable(said: Said, case: Case) -> bool:
 @judge("slowest")
 def _slowest(said: Said, case: Case) -> bool:
     """The slowest fixed mode lies in the enclosure, and the text says how it behaves."""
+    return slowest_of(facts_of(said, case), said, case)
+
+
+def slowest_of(facts: Facts, said: Said, case: Case) -> bool:
+    """Whether the slowest fixed mode of a system is as it is said."""
     time, low, high, is_stable = said.values["slowest"]
-    facts = facts_of(said, case)
     if not facts.fixed or time != case.plant.time or is_stable != stable(facts):
         return False
     roots = [z for p in facts.fixed for z in roots_of(p)]

@@ -1,0 +1,218 @@
+"""The construction ``failed``, and what is said of single failures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact import MultiChannelSystem, fixed_spectrum
+from mcexact.analysis.failures import failures
+from mcexact.answer.protocol import document
+from mcexact.derived.constructions import augmented_outputs, failed
+from mcexact.derived.feedthrough import input_filters
+from tests.checker.handmade import Document, checked
+from tests.checker.manifests import manifest, said, sentence, write
+from tests.checker.tables import accepts, rejects
+
+DOUBLE = MultiChannelSystem(
+    [[1]], [[[1]], [[1]]], [[[1]], [[1], [2]]], names=["a", "b"], neighbors={"b": ["a"]}
+)
+"""An unstable state that two agents move and measure; b receives messages of a."""
+
+
+def after(plant: MultiChannelSystem = DOUBLE, heard: bool = False, **lost: Any) -> Document:
+    """The fixed modes after failures."""
+    made = failed(plant, **lost)
+    return document(fixed_spectrum(augmented_outputs(made) if heard else made))
+
+
+NOTHING: Document = {
+    "construction": "failed",
+    "agents": [],
+    "actuators": [],
+    "sensors": [],
+    "links": [],
+}
+ONE = after(agents=["a"])
+SENSORS = after(sensors=[("a", 1), ("b", 1), ("b", 2)])
+IDLE = after(actuators=[("a", 1), ("b", 1)])
+BOTH = after(agents=["a", "b"])
+LINK = after(heard=True, actuators=[("a", 1)], sensors=[("b", 1), ("b", 2)], links=[("a", "b")])
+"""b alone acts and a alone measures: the mode is fixed once the link between them fails."""
+DIRECT = document(
+    fixed_spectrum(
+        input_filters(
+            failed(
+                MultiChannelSystem([[1]], [[[1, 0]]], [[[0]]], D=[[1, 1]], names=["a"]),
+                actuators=[("a", 1)],
+            )
+        )
+    )
+)
+
+ACCEPTED = [
+    ("nothing is fixed without the agent a", ONE),
+    ("the mode is fixed where nobody measures", SENSORS),
+    ("the mode is fixed where nobody acts", IDLE),
+    ("the mode is fixed without agents", BOTH),
+    ("the mode is fixed without the link", LINK),
+    ("a plant with feedthrough fails before its inputs become states", DIRECT),
+    ("an agent that has failed, and its actuator", after(agents=["a"], actuators=[("a", 1)])),
+    ("a link of an agent that has failed", after(agents=["a"], links=[("a", "b")])),
+]
+STEP = "subject.0"
+REJECTED = [
+    ("nothing fails", SENSORS, (STEP, NOTHING), "INVALID"),
+    ("the other agent still measures", SENSORS, (f"{STEP}.sensors", [["a", 1]]), "INVALID"),
+    (
+        "another sensor of it still measures",
+        SENSORS,
+        (f"{STEP}.sensors", [["a", 1], ["b", 2]]),
+        "INVALID",
+    ),
+    ("the other agent still acts", IDLE, (f"{STEP}.actuators", [["b", 1]]), "INVALID"),
+    ("only one agent has failed", BOTH, (f"{STEP}.agents", ["b"]), "INVALID"),
+    ("the link works", LINK, (f"{STEP}.links", []), "INVALID"),
+    ("a link the other way", LINK, (f"{STEP}.links", [["b", "a"]]), "INVALID"),
+    ("a link of an agent to itself", LINK, (f"{STEP}.links", [["a", "a"]]), "INVALID"),
+    ("a link of a plant without a graph", DIRECT, (f"{STEP}.links", [["a", "a"]]), "INVALID"),
+    ("sensors in another order", SENSORS, (f"{STEP}.sensors", [["b", 1], ["a", 1]]), "MALFORMED"),
+    ("a sensor twice", SENSORS, (f"{STEP}.sensors", [["a", 1], ["a", 1]]), "MALFORMED"),
+    ("a sensor that does not exist", SENSORS, (f"{STEP}.sensors", [["a", 2]]), "MALFORMED"),
+    ("a sensor 0", SENSORS, (f"{STEP}.sensors", [["a", 0]]), "MALFORMED"),
+    ("a truth value for a sensor", SENSORS, (f"{STEP}.sensors", [["a", True]]), "MALFORMED"),
+    ("a sensor without a number", SENSORS, (f"{STEP}.sensors", [["a"]]), "MALFORMED"),
+    ("a sensor of nobody", SENSORS, (f"{STEP}.sensors", [["c", 1]]), "MALFORMED"),
+    ("an agent that does not exist", BOTH, (f"{STEP}.agents", ["c"]), "MALFORMED"),
+    ("an agent twice", BOTH, (f"{STEP}.agents", ["a", "a"]), "MALFORMED"),
+    ("agents in another order", BOTH, (f"{STEP}.agents", ["b", "a"]), "MALFORMED"),
+    ("a link twice", LINK, (f"{STEP}.links", [["a", "b"], ["a", "b"]]), "MALFORMED"),
+    ("a link with one end", LINK, (f"{STEP}.links", [["a"]]), "MALFORMED"),
+    ("no list of links", LINK, (f"{STEP}.links", {}), "MALFORMED"),
+    (
+        "a part that is not known",
+        BOTH,
+        (STEP, {**NOTHING, "agents": ["a"], "pumps": []}),
+        "MALFORMED",
+    ),
+    (
+        "a part that is left out",
+        BOTH,
+        (STEP, {"construction": "failed", "agents": ["a"]}),
+        "MALFORMED",
+    ),
+]
+
+test_a_true_claim_after_failures_is_accepted = accepts(ACCEPTED)
+test_anything_else_is_rejected = rejects(REJECTED)
+
+
+def test_a_statement_names_what_failed() -> None:
+    words = 'after the failures {"agents":["a"],"links":[["a","b"]]}'
+    assert words in checked(after(agents=["a"], links=[("a", "b")])).statement
+
+
+# Sentences: what follows from certificates about single failures, and what does not.
+
+PARTED = MultiChannelSystem(
+    [[1, 0], [0, -2]],
+    [[[1], [0]], [[1], [1]]],
+    [[[1, 0]], [[0, 1]]],
+    names=["a", "b"],
+    neighbors={"a": ["b"], "b": ["a"]},
+)
+"""a moves and measures the mode 1, which b moves too; b alone moves and measures -2."""
+
+
+def evidence_of(plant: MultiChannelSystem, information: str = "own") -> dict[str, Document]:
+    """The plant's fixed modes, and those after single failures."""
+    whole = augmented_outputs(plant) if information == "outputs" else plant
+    several = failures(plant, information)
+    found = {f"failures_{k}": document(each) for k, each in enumerate(several, 1)}
+    return {"fixed_spectrum": document(fixed_spectrum(whole)), **found}
+
+
+OWN, HEARD = evidence_of(PARTED), evidence_of(PARTED, "outputs")
+SPARED = evidence_of(DOUBLE)
+AFTER = [name for name in OWN if name != "fixed_spectrum"]
+
+
+def verdict(folder: Path, key: str, evidence: dict[str, Document], cited: list[str]) -> str:
+    listed = [sentence(key, *cited, evidence=evidence)]
+    [found] = said(write(folder, evidence, manifest(evidence, listed)))
+    return found.verdict
+
+
+def fatal(evidence: dict[str, Document]) -> list[str]:
+    """The certificates about failures after which the plant cannot be stabilized."""
+    return [name for name, each in evidence.items() if not each["claim"]["stabilizable"]]
+
+
+def test_the_plants_are_as_they_are_meant() -> None:
+    assert len(OWN) == 7 and len(HEARD) == 9
+    assert all(name.startswith("failures") for name in fatal(OWN))
+    assert [OWN[name]["subject"][0]["agents"] for name in fatal(OWN)] == [["a"], [], []]
+    assert not fatal(SPARED) and len(SPARED) == 3
+
+
+@pytest.mark.parametrize(
+    ("key", "evidence", "cited", "expected"),
+    [
+        ("failures-unstable-row", OWN, AFTER, "IMPLIED"),
+        ("failures-unstable-row", OWN, fatal(OWN), "IMPLIED"),
+        ("failures-unstable-row", OWN, [n for n in AFTER if n not in fatal(OWN)], "INVALID"),
+        ("failures-unstable-row", SPARED, [*SPARED][1:], "INVALID"),
+        ("failures-unstable-row", OWN, ["fixed_spectrum"], "INVALID"),
+        ("failures-unstable", OWN, AFTER, "IMPLIED"),
+        # without b only -2 is fixed, so that nothing more has to be known of its parts
+        ("failures-unstable", OWN, AFTER[:-1], "IMPLIED"),
+        ("failures-unstable", OWN, [n for n in AFTER if n != "failures_3"], "INVALID"),
+        ("failures-unstable", OWN, fatal(OWN), "INVALID"),
+        ("failures-unstable", SPARED, [*SPARED][1:], "INVALID"),
+        ("failures-stabilizable", OWN, AFTER, "INVALID"),
+        ("failures-stabilizable", SPARED, [*SPARED][1:], "IMPLIED"),
+        ("failures-stabilizable", SPARED, ["failures_1"], "INVALID"),
+        ("failures-unstable", HEARD, [*HEARD][1:], "IMPLIED"),
+        ("failures-unstable", HEARD, [*HEARD][2:], "INVALID"),
+        ("failures-fixed", OWN, ["fixed_spectrum", *fatal(OWN)], "IMPLIED"),
+        ("failures-fixed", OWN, fatal(OWN), "INVALID"),
+        ("failures-fixed", SPARED, [*SPARED], "INVALID"),
+        ("failures-fixed-none", SPARED, [*SPARED], "IMPLIED"),
+        ("failures-fixed-none", SPARED, ["fixed_spectrum", "failures_2"], "INVALID"),
+        ("failures-fixed-others", OWN, [*OWN], "IMPLIED"),
+        ("failures-fixed-others", OWN, [*OWN][:-1], "INVALID"),
+    ],
+)  # fmt: skip
+def test_what_follows_from_single_failures(
+    tmp_path: Path, key: str, evidence: dict[str, Document], cited: list[str], expected: str
+) -> None:
+    assert verdict(tmp_path, key, evidence, cited) == expected
+
+
+def test_of_two_failures_at_once_nothing_is_said(tmp_path: Path) -> None:
+    evidence = {"fixed_spectrum": SPARED["fixed_spectrum"], "failures_1": BOTH}
+    for key in ("failures-unstable-row", "failures-fixed"):
+        assert verdict(tmp_path, key, evidence, [*evidence]) == "INVALID"
+
+
+def test_failures_with_messages_prove_nothing_without_them(tmp_path: Path) -> None:
+    mixed = {**OWN, **{name: HEARD[name] for name in AFTER}}
+    assert verdict(tmp_path, "failures-fixed-others", mixed, [*mixed]) == "INVALID"
+
+
+def test_a_plant_with_feedthrough_fails_before_its_inputs_become_states(tmp_path: Path) -> None:
+    plant = MultiChannelSystem([[1]], [[[1]], [[1]]], [[[1]], [[1]]], D=[[1, 0], [0, 1]])
+    filtered = input_filters(plant)
+    several = failures(filtered)
+    assert all(
+        [s["construction"] for s in each.about.subject] == ["failed", "input_filters"]
+        for each in several
+    )
+    evidence = {f"failures_{k}": document(each) for k, each in enumerate(several, 1)}
+    listed = [sentence("failures-stabilizable", *evidence, evidence=evidence)]
+    document_ = manifest(evidence, listed)
+    document_["subject"] = [{"construction": "input_filters"}]
+    [found] = said(write(tmp_path, evidence, document_))
+    assert found.verdict == "IMPLIED", found.line()
