@@ -14,6 +14,7 @@ from mcexact.analysis.analyze import analyze
 from mcexact.analysis.boxes.margins import box_disk_margin
 from mcexact.analysis.boxes.members import box_fixed_modes, box_setpoints
 from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.failures import failures
 from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum
 from mcexact.analysis.questions import asked_by
 from mcexact.analysis.sharing import (
@@ -469,6 +470,8 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     yield from tracking()
     within = gallery.load("movable-by-periodic-gains")
     yield "within", list(told(lambda: fixed_spectrum(within), lambda: assignability(within)))
+    portless = MultiChannelSystem([[1]], [Matrix.zeros(1, 0)], [Matrix.zeros(0, 1)])
+    yield "portless", [document(each) for each in failures(portless)]
     yield "boxes", OF_ONE_PLANT
     yield "setpoints_in_boxes", list(held_in_boxes())
     yield "margins_in_boxes", list(margins_in_boxes())
