@@ -136,6 +136,13 @@ def evidence_of(plant: MultiChannelSystem, information: str = "own") -> dict[str
 
 OWN, HEARD = evidence_of(PARTED), evidence_of(PARTED, "outputs")
 SPARED = evidence_of(DOUBLE)
+LINKED = evidence_of(
+    MultiChannelSystem(
+        [[1]], [[[0]], [[1]]], [[[1]], [[0]]], names=["a", "b"], neighbors={"a": ["b"], "b": ["a"]}
+    ),
+    "outputs",
+)
+"""a alone measures and b alone acts, so that of two links the one from a to b matters."""
 AFTER = [name for name in OWN if name != "fixed_spectrum"]
 
 
@@ -172,6 +179,10 @@ def test_the_plants_are_as_they_are_meant() -> None:
         ("failures-unstable", OWN, fatal(OWN), "INVALID"),
         ("failures-unstable", SPARED, [*SPARED][1:], "INVALID"),
         ("failures-stabilizable", OWN, AFTER, "INVALID"),
+        ("failures-unstable", LINKED, [*LINKED][1:], "IMPLIED"),
+        ("failures-unstable", LINKED, [*LINKED][1:-1], "INVALID"),
+        ("failures-fixed-others", LINKED, [*LINKED], "IMPLIED"),
+        ("failures-fixed-others", LINKED, [*LINKED][:-1], "INVALID"),
         ("failures-stabilizable", SPARED, [*SPARED][1:], "IMPLIED"),
         ("failures-stabilizable", SPARED, ["failures_1"], "INVALID"),
         ("failures-unstable", HEARD, [*HEARD][1:], "IMPLIED"),
@@ -216,3 +227,16 @@ def test_a_plant_with_feedthrough_fails_before_its_inputs_become_states(tmp_path
     document_["subject"] = [{"construction": "input_filters"}]
     [found] = said(write(tmp_path, evidence, document_))
     assert found.verdict == "IMPLIED", found.line()
+
+
+def test_failures_of_a_system_that_is_made_in_another_way_prove_nothing(tmp_path: Path) -> None:
+    several = failures(input_filters(DOUBLE))
+    evidence = {f"failures_{k}": document(each) for k, each in enumerate(several, 1)}
+    for base, expected in (("input_filters", "IMPLIED"), ("integrators", "INVALID")):
+        listed = manifest(
+            evidence, [sentence("failures-stabilizable", *evidence, evidence=evidence)]
+        )
+        listed["subject"] = [{"construction": base}]
+        (tmp_path / base).mkdir()
+        [found] = said(write(tmp_path / base, evidence, listed))
+        assert found.verdict == expected, base
