@@ -68,7 +68,7 @@ _SHOWING = 0.2
 """The part of the rest of the time that is left for showing the result."""
 _STEPPING = 5.0
 """The seconds after which no longer step of a sampled plant is tried."""
-_HOLDING = 3.0
+_HOLDING = 20.0
 """The seconds after which no other step of a controller in continuous time is tried."""
 _NOTHING_ELSE = (
     "the time limit ended the proofs of the cost and of the margins, whose figures are computed, "

@@ -51,7 +51,7 @@ ROUND = tuple(map(Fraction, ("1", "5/4", "3/2", "2", "5/2", "3", "4", "5", "6", 
 """The steps of a controller in continuous time, times powers of ten."""
 _DECADES = 3
 """Steps are tried in so many decades below the inverse of the fastest eigenvalue, and one above."""
-_MOST_SIGNALS, _MOST_TRIED, _MOST_PROVED = 80, 14, 3
+_MOST_SIGNALS, _MOST_TRIED, _MOST_PROVED = 70, 14, 3
 """Loops with more states, inputs and outputs are left out; so many steps are tried at most, and of
 so many a proof."""
 STANDARD_MARGIN = Fraction(2, 5)
@@ -158,7 +158,7 @@ def longest_step(
     -----
     Bisection on a short list of steps, up to eight times that of the plant, with computed margins.
     In continuous time the list has ten steps in each decade.  Not sought are steps for derived
-    systems, for agents that share states, for loops with more than 80 states, inputs and outputs
+    systems, for agents that share states, for loops with more than 70 states, inputs and outputs
     (unless ``prove_all``), and for loops that have not the margin in continuous time.
     A proof is about A and B rounded to the decimals of the sampled plant, as that of each margin.
 
