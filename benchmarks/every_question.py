@@ -30,7 +30,8 @@ from mcexact import (
 )
 from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.drawn.systems import Draw, drawn_system
+from mcexact.derived.drawn.primary_form import SeededChoices
+from mcexact.derived.drawn.systems import Draw, drawn_system, system_with_fixed_mode
 from mcexact.errors import LimitReached
 from mcexact.exact.matrix import Matrix, block, vstack
 from mcexact.model.files import save_system
@@ -131,6 +132,25 @@ def planted_rows(n: int) -> Iterator[Row]:
     runs = 3 if n <= 100 else 1
     name, plant = f"planted, n={n}, m={m}", partial(planted_plant, n, m)
     yield from _rows(name, plant, _RATIO, runs, None, first)
+
+
+HIDDEN = (100, 200, 300)
+
+
+def hidden_plant(n: int, m: int) -> MultiChannelSystem:
+    """A plant with a decentralized fixed mode that a change of basis hides."""
+    return system_with_fixed_mode(SeededChoices(3), n, m).system
+
+
+def hidden_rows() -> Iterator[Row]:
+    """The fixed spectrum of such plants."""
+    for n in HIDDEN:
+        m = n // 10
+        make = partial(hidden_plant, n, m)
+        found, written, checked, verdict, size = _measured(make, fixed_spectrum, 1)
+        detail = f"found {found:.3f} s, written {written:.3f} s, {size / 1000:.0f} kB, {verdict}"
+        name = f"hidden decentralized fixed mode, n={n}, m={m}, fixed spectrum, checked"
+        yield Row(name, checked, "<= 10 s", verdict == "VALID" and checked <= 10, detail, "s")
 
 
 def _rows(

@@ -21,9 +21,11 @@ set s and one mode.  All answers are exact.
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 from typing import TYPE_CHECKING, Any, cast, overload
 
 from mcexact.analysis.blocks import (
@@ -94,7 +96,13 @@ from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.krylov import controllable_subspace, stays_sparse
 from mcexact.exact.linear_algebra import PolynomialMatrix, inflate, nullspace_at
 from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, vstack
-from mcexact.exact.modular import polynomial_residues, primes, random_matrix, residues
+from mcexact.exact.modular import (
+    ModularPolynomial,
+    polynomial_residues,
+    primes,
+    random_matrix,
+    residues,
+)
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.rational import as_fraction
 from mcexact.exact.roots import StabilityRegion, Time
@@ -115,6 +123,8 @@ _WHOLE = 100
 # From here on the exponents in χ_A are left open where blocks prove all else: no check of them is
 # known that takes less than some n⁴ operations.
 _EXPONENTS = 60
+# How often the checker squares A for a bound of its eigenvalues.
+_SQUARES = 3
 
 
 @overload
@@ -206,6 +216,8 @@ def fixed_spectrum(
     )
     if by_blocks is not None:
         return _answer(system, factors, rate, by_blocks)
+    if system.n > _EXPONENTS:
+        return _answer(system, factors, rate, _beyond_bound(system, factors, subspaces, rng))
     proof = TwoPolynomials(
         gains=lifted_gains(decision.modular, decision.gains),
         modulus=decision.modular.modulus,
@@ -305,7 +317,7 @@ def _factor(
 ) -> FixedFactor:
     T, deficiency = set(obstruction.subspace.channels_T), obstruction.subspace.deficiency
     p, at_most = obstruction.polynomial, deficiency
-    open_exponent = by_blocks and system.n > _EXPONENTS
+    open_exponent = system.n > _EXPONENTS
     if not by_blocks:
         at_most = polynomial_residues(p, decision.closed.modulus).multiplicity_in(decision.closed)
     return FixedFactor(
@@ -338,6 +350,90 @@ def _completion(decision: Decision, rng: random.Random) -> Completion:
                 break
         else:
             return Completion(lifted(B0), lifted(C0))
+
+
+def _beyond_bound(
+    system: MultiChannelSystem,
+    factors: Sequence[FixedFactor],
+    subspaces: tuple[Subspace, ...],
+    rng: random.Random,
+) -> TwoPolynomials:
+    """Two polynomials modulo ℓ beyond a bound, so that nobody needs χ_A over Q.
+
+    ℓ is a product of primes of a machine word: what is coprime modulo each of them is coprime
+    modulo ℓ.
+    """
+    bits = _bound(system, factors).bit_length()
+    count = -(-bits // 60)
+    size = max(31, -(-bits // count) + 1)
+    rho = max((system.n - factor.rank for factor in factors), default=0)
+    while True:
+        gains = [_drawn(p, q, rng) for p, q in system.sizes]
+        B0, C0 = _drawn(system.n, rho, rng), _drawn(rho, system.n, rng)
+        chosen = list(islice(residue_systems(system, rng, size), count))
+        moduli = {modular.modulus for modular in chosen}
+        if len(moduli) == count and all(
+            _moves_the_rest(modular, gains, B0, C0, factors) for modular in chosen
+        ):
+            completion = Completion(B0, C0) if factors else None
+            return TwoPolynomials(tuple(gains), math.prod(moduli), subspaces, completion)
+
+
+def _drawn(nrows: int, ncols: int, rng: random.Random) -> Matrix:
+    """Integers of 20 bits: the exponents in χ_{A_F} are nearly always the least ones."""
+    rows = [[rng.getrandbits(20) for _ in range(ncols)] for _ in range(nrows)]
+    return Matrix.from_integers(rows, ncols=ncols)
+
+
+def _bound(system: MultiChannelSystem, factors: Sequence[FixedFactor]) -> int:
+    """What ℓ has to exceed: Σ_j |D^(k−j) h_j| ρ^j for h = Π p^(e−d) of degree k, d = n − rank.
+
+    ρ^8 is at least the norm of (D·A)^8, which is much less than that of D·A to the power 8.
+    """
+    n, D = system.n, system.A.denominator
+    more = [(each.polynomial, each.multiplicity_at_most - n + each.rank) for each in factors]
+    h = product(p**times for p, times in more)
+    power = system.A * D
+    for _ in range(_SQUARES):
+        power = power @ power
+    sums = [[sum(map(abs, row)) for row in M.numerators] for M in (power, power.T)]
+    rho = min(max(each, default=0) for each in sums)
+    for _ in range(_SQUARES):
+        rho = rho and math.isqrt(rho - 1) + 1
+    return sum(
+        math.ceil(abs(c) * D ** (h.degree - j) * rho**j) for j, c in enumerate(h.coefficients)
+    )
+
+
+def _moves_the_rest(
+    modular: ModularSystem,
+    gains: Sequence[Matrix],
+    B0: Matrix,
+    C0: Matrix,
+    factors: Sequence[FixedFactor],
+) -> bool:
+    """Whether, modulo ℓ, gains leave the factors as often as claimed, and nothing else of χ_A.
+
+    B_0 C_0, cut to the deficiency of a factor, has to move all of its roots.
+    """
+    ell, n = modular.modulus, modular.system.n
+    reduced = tuple(tuple(tuple(x % ell for x in row) for row in F.numerators) for F in gains)
+    closed = closed_loop(modular, reduced)
+    rest = closed.characteristic_polynomial()
+    b, c = residues(B0, ell), residues(C0, ell)
+    completed: dict[int, ModularPolynomial] = {}
+    for factor in factors:
+        p, d = polynomial_residues(factor.polynomial, ell), n - factor.rank
+        if p.multiplicity_in(rest) != factor.multiplicity_at_most:
+            return False
+        for _ in range(factor.multiplicity_at_most):
+            rest = rest // p
+        if d not in completed:
+            loop = closed + b.take(cols=range(d)) @ c.take(rows=range(d))
+            completed[d] = loop.characteristic_polynomial()
+        if completed[d].gcd(p).degree > 0:
+            return False
+    return rest.gcd(modular.A.characteristic_polynomial()).degree == 0
 
 
 # Completeness.

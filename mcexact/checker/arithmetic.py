@@ -764,59 +764,73 @@ def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
     """The characteristic polynomial of an integer matrix modulo ℓ.
 
     A L = L H with L unit lower triangular (up to a common permutation of rows and columns) and H
-    upper Hessenberg, column by column: one reduction modulo ℓ for each inner product.
+    upper Hessenberg, column by column.  Columns are long integers, with a slot for each entry that
+    holds the sum of all products: a multiple of a column is one product.
 
     Theorem ``hessenberg.characteristic_polynomial_modulo``.
     """
-    n, longest, a = len(A), max(map(budget.limbs, A), default=1), budget.limbs([ell])
-    spend(budget.products(n**3, longest, a) + budget.products(n**3 // 2, a, a))
-    spend(budget.reductions(2 * n * n, a) + budget.inversions(n, a) + budget.table(3 * n, n, a))
-    A = [list(row) for row in A]
-    L: Rows = [[int(i == 0)] for i in range(n)]
-    H: Rows = []
-    below: list[int] = []
+    n, a = len(A), budget.limbs([ell])
+    size = _slot(2 * n + 1, ell)
+    long = n * size * 8 // budget.LIMB + 1
+    spend(budget.products(2 * n * n, long, a) + 20 * n * n + n * n * (8 + size))
+    spend(budget.reductions(3 * n * n, a) + budget.inversions(n, a))
+    bits, mask = 8 * size, (1 << 8 * size) - 1
+    columns = [_packed([row[j] % ell for row in A], size) for j in range(n)]
+    current, H = [int(i == 0) for i in range(n)], list[list[int]]()
+    lower, below = list[int](), list[int]()  # column i of L from row i + 1 on
     for j in range(n):
-        column = [row[j] for row in L]
-        w = [sum(map(mul, row, column)) for row in A]
-        h: list[int] = []
-        for i in range(j + 1):
-            h.append((w[i] - sum(map(mul, L[i], h))) % ell)
-        rest = [(w[i] - sum(map(mul, L[i], h))) % ell for i in range(j + 1, n)]
+        lower.append(_packed(current[j + 1 :], size))
+        total, h = sum(map(mul, current[j:], columns[j:])), list[int]()
+        for column in lower:
+            h.append((total & mask) % ell)
+            total >>= bits
+            if h[-1]:
+                total += (ell - h[-1]) * column
         H.append(h)
         if j + 1 == n:
             break
+        rest = _unpacked(total, n - j - 1, size, ell)
         k = next((k for k, entry in enumerate(rest) if entry), 0)
         below.append(rest[k])
-        if rest[k]:
-            for items in (A, L, *A):
-                items[j + 1], items[j + 1 + k] = items[j + 1 + k], items[j + 1]  # type: ignore[index]
+        if k:
             rest[0], rest[k] = rest[k], rest[0]
-            f = inverse(rest[0], ell)
-            rest = [f * entry % ell for entry in rest]
-        for i in range(n):
-            L[i].append(0 if i <= j else rest[i - j - 1])
-        L[j + 1][j + 1] = 1
+            columns[j + 1], columns[j + 1 + k] = columns[j + 1 + k], columns[j + 1]
+            spend(n * long // 4)
+            columns = [_exchanged(column, (j + 1) * bits, k * bits, mask) for column in columns]
+            lower = [_exchanged(x, (j - i) * bits, k * bits, mask) for i, x in enumerate(lower)]
+        f = inverse(rest[0], ell) if rest[0] else 0
+        current = [0] * (j + 1) + [1] + [f * entry % ell for entry in rest[1:]]
     return _hessenberg_polynomial(H, below, ell)
+
+
+def _exchanged(column: int, start: int, distance: int, mask: int) -> int:
+    """A column in which two entries have changed places."""
+    change = (column >> start + distance & mask) - (column >> start & mask)
+    return column + (change << start) - (change << start + distance)
 
 
 def _hessenberg_polynomial(H: Rows, below: list[int], ell: int) -> Polynomial:
     """det(xI − H) modulo ℓ for H upper Hessenberg: column k holds H[k], then ``below[k]``.
 
-    p_{k+1} = (x − h_kk) p_k − Σ_{i<k} h_ik (below_i … below_{k−1}) p_i, coefficient by coefficient.
+    p_{k+1} = (x − h_kk) p_k − Σ_{i<k} h_ik (below_i … below_{k−1}) p_i, each polynomial as one long
+    integer.
+
     Theorem ``hessenberg.hessenberg_polynomial``.
     """
-    coefficients: Rows = [[1]]  # coefficients[c][k] is the coefficient of x^c in p_k
+    size, last = _slot(2 * len(H) + 1, ell), [1]
+    polynomials = [1]
     for k, weights in enumerate(H):
         chain = 1
         for i in reversed(range(k)):
             chain = chain * below[i] % ell
             weights[i] = weights[i] * chain % ell
-        carried = 0
-        coefficients.append([0] * (k + 1))
-        for column in coefficients:
-            shifted, carried = carried, column[k]
-            column.append((shifted - sum(map(mul, weights, column))) % ell)
-    return [column[-1] for column in coefficients]
+        total = polynomials[k] << 8 * size
+        for weight, p in zip(weights, polynomials, strict=True):
+            if weight:
+                total += (ell - weight) * p
+        last = _unpacked(total, k + 2, size, ell)
+        polynomials.append(_packed(last, size))
+    return last
 
 
 def characteristic_polynomial(A: Matrix, ell: int = 0) -> Polynomial:

@@ -5,7 +5,8 @@
   some states on which nothing acts that they drive (`Losses`).
 - No more is fixed, by two characteristic polynomials (`TwoPolynomials`): what is left of
   det(xI − A) after the named factors is coprime modulo ℓ to det(xI − A_F), so that the gains F
-  move all of it.
+  move all of it.  Or ℓ is so large that modes other than roots of the factors are not roots of
+  the factors modulo ℓ either; then no polynomial over Q is needed.
 - No more is fixed, block by block (`Blocks`): the states are split so that no closed loop leads
   from a block to a later one.  For each block a Krylov sequence of one channel, two polynomials,
   or the number of its states bounds the degree of what divides det(xI − A_F) for all F.  The sum
@@ -19,6 +20,7 @@
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate, chain, zip_longest
 from operator import add, itemgetter, mul
@@ -920,6 +922,10 @@ def _left(proof: Json, place: str, block: System) -> int:
     return 0
 
 
+SQUARES = 3
+"""How often a matrix is squared to bound its eigenvalues by the norm of its power."""
+
+
 class TwoPolynomials:
     """Proof that gains move every root of det(xI − A) besides those of the named factors."""
 
@@ -945,6 +951,39 @@ class TwoPolynomials:
         what = "det(xI - A) without the factors named and det(xI - A_F)"
         require_coprime(rest, self.chi_F, self.ell, what)
 
+    def require_bounded(self, losses: list[Loss]) -> None:
+        """Stop unless a large ℓ proves that nothing is fixed but roots of the factors.
+
+        Modulo ℓ, Π p^e is all that det(xI − A_F) and det(xI − A) have in common; Π p^d, d the loss
+        of rank, divides both for every F.  What is left of the former is h, of degree k.  With D a
+        denominator of A and ρ^8 at least the largest sum of a row, or of a column, of |(D·A)^8|,
+        the D^(k−j)·h_j are integers, and ℓ is above Σ_j |D^(k−j)·h_j|·ρ^j.
+
+        Theorem ``large_modulus.large_modulus``.
+        """
+        h, rest = [Fraction(1)], self.chi_F
+        for p, d in losses:
+            modular = arithmetic.poly_modulo(p, self.ell)
+            times, rest = arithmetic.exponent(modular, rest, self.ell)
+            for _ in counted(range(d, times)):
+                h = arithmetic.poly_product(h, p)
+        what = "det(xI - A) and what is left of det(xI - A_F)"
+        require_coprime(characteristic_polynomial(self.A, self.ell), rest, self.ell, what)
+        D, k, power = self.A.denominator, len(h) - 1, Matrix(self.A.rows, self.A.ncols)
+        for _ in range(SQUARES):
+            power = power @ power
+        power = arithmetic.absolute(power)
+        rho = min(max(map(sum, M.rows), default=0) for M in (power, power.T))
+        for _ in range(SQUARES):
+            rho = rho and math.isqrt(rho - 1) + 1
+        longest = budget.limbs([D, rho]) * (k + 1) + budget.limbs_of(h)
+        spend(budget.fractions(3 * k + 3, longest))
+        scaled = [Fraction(D ** (k - j) * c) for j, c in enumerate(h)]
+        whole = all(c.denominator == 1 for c in scaled)
+        require(whole, "modulus", "witness.modulus", "a factor is not integral beside A")
+        least = sum(abs(c) * rho**j for j, c in enumerate(scaled))
+        require(least < self.ell, "modulus", "witness.modulus", "expected a larger one")
+
     def require_ranks(self, completion: Json, losses: list[Loss]) -> None:
         """Stop unless A_F + B_0 C_0, with d columns and rows, has no root of a p that loses d.
 
@@ -954,7 +993,10 @@ class TwoPolynomials:
         rho, n = max(loss for _, loss in losses), self.A.nrows
         B0 = reading.matrix(left, "witness.completion.B0", n, rho)
         C0 = reading.matrix(right, "witness.completion.C0", rho, n)
+        completed = dict[int, Polynomial]()
         for p, d in losses:
-            completed = self.A_F + B0.take(cols=range(d)) @ C0.take(range(d))
-            chi = characteristic_polynomial(completed, self.ell)
-            require_coprime(p, chi, self.ell, "a factor, and det(xI - A_F - B0 C0),")
+            if d not in completed:
+                loop = self.A_F + B0.take(cols=range(d)) @ C0.take(range(d))
+                completed[d] = characteristic_polynomial(loop, self.ell)
+            what = "a factor, and det(xI - A_F - B0 C0),"
+            require_coprime(p, completed[d], self.ell, what)

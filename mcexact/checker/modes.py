@@ -158,6 +158,7 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
     reading.items(spaces, "witness.subspaces", len(reading.items(entries, "claim.factors")))
     n, product, losses = system.n, [1], evidence.Losses(system)
     psi: Polynomial = []
+    unsaid: list[Loss] = []
     modes: list[tuple[Polynomial, int, bool, list[Disc]]] = []
     for k, entry in enumerate(entries):
         place, space = f"claim.factors[{k}]", f"witness.subspaces[{k}]"
@@ -169,12 +170,14 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
         require(s == evidence.complement(system, T), "claim", place, "T is not the complement of s")
         evidence.require_coprime(product, p, proof.ell, "two factors")
         product = arithmetic.poly_product(product, p)
-        if times is not None or isinstance(proof, TwoPolynomials):
+        if times is not None:
             a, psi = arithmetic.exponent(p, psi or characteristic_polynomial(system.A))
             same = reading.integer(times, place, 1) == a
             require(same, "claim", place, f"the multiplicity in A is {a}")
         e = proof.multiplicity(p, n - r)
         require(at_most == e, "claim", place, f"the multiplicity is at most {e}")
+        if times is None:
+            unsaid.append((p, n - r))
         stable = in_stability_region(p, system.time)
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
         discs = root_discs(roots, f"{place}.roots", p)
@@ -182,6 +185,10 @@ def check_fixed_spectrum(claim: Json, witness: Json, system: System) -> None:
     lost = [(p, loss) for p, loss, *_ in modes]
     if isinstance(proof, Blocks):
         proof.require_no_more(lost)
+    elif unsaid:
+        same = len(unsaid) == len(modes)
+        require(same, "claim", "claim.factors", "expected multiplicities in A, or none")
+        proof.require_bounded(unsaid)
     else:
         proof.require_moved(psi)
     stabilizable = all(stable for _, _, stable, _ in modes)

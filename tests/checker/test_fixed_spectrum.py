@@ -43,13 +43,13 @@ MODULAR_TRAP = certificate(
         "best_rate": {"lower": "-1", "upper": "-1"},
     },
     {
-        "gains": [matrix([1])],
+        "gains": [matrix([2])],
         "modulus": 7,
         "subspaces": [
             {
                 "channels_T": ["1"],
                 "U": layers([[1, 0], [0, 0], [0, 1]]),
-                "V": layers([[-1, 1]]),
+                "V": layers([[0, 1]]),
                 "pivots": [0, 2],
             }
         ],
@@ -168,6 +168,53 @@ UNEVEN = certificate(
     },
 )
 
+UNSAID = [(f"claim.factors.{k}.multiplicity_in_A", None) for k in (0, 1)]
+# (x − 1)² in every loop, while a pencil loses rank 1: h = x − 1.  A^8 has rows of sum 9, and 2^8 is
+# the least power of order 8 above: 1·1 + 1·2 = 3 is the bound.
+TWICE = certificate(
+    "fixed_spectrum",
+    plant([[1, 1], [0, 1]], ([[0], [0]], [[1, 0]])),
+    {
+        "polynomial": [-1, 1],
+        "factors": [
+            {
+                "polynomial": [-1, 1],
+                "multiplicity_in_A": None,
+                "multiplicity_at_most": 2,
+                "channels": [],
+                "rank": 1,
+                "stable": False,
+                "roots": [{"re": "1", "im": "0", "radius": "0"}],
+            }
+        ],
+        "stabilizable": False,
+        "best_rate": {"lower": "-1", "upper": "-1"},
+    },
+    {
+        "gains": [matrix([1])],
+        "modulus": 4,
+        "subspaces": [
+            {
+                "channels_T": ["1"],
+                "U": layers([[1], [0]]),
+                "V": layers([[0]]),
+                "pivots": [0],
+            }
+        ],
+        "completion": {"B0": matrix([0], [1]), "C0": matrix([1, 0])},
+    },
+)
+# The same with 1/2 in place of 1: D = 2, and (D·A)^8 has rows of sum 17.
+HALF_TWICE = changed(
+    TWICE,
+    ("system.A", [["1/2", 1], [0, "1/2"]]),
+    ("claim.polynomial", ["-1/2", 1]),
+    (f"{FACTOR}.polynomial", ["-1/2", 1]),
+    (f"{FACTOR}.roots.0.re", "0.5"),
+    ("claim.best_rate", {"lower": "-0.5", "upper": "-0.5"}),
+    ("witness.modulus", 5),
+)
+
 TEN = changed(
     FIXED,
     ("witness.modulus", 10),
@@ -187,6 +234,10 @@ ACCEPTED = [
     ("no states at all", NO_STATES),
     ("discrete time asks for moduli", DISCRETE),
     ("two factors, one of them stable", TWO_FACTORS),
+    ("nothing said of A", changed(FIXED, (f"{FACTOR}.multiplicity_in_A", None))),
+    ("nothing said of A, with two factors", changed(TWO_FACTORS, *UNSAID)),
+    ("a modulus above the bound", TWICE),
+    ("a modulus above the bound of an integer multiple of A", HALF_TWICE),
     ("two roots as one factor, of which one stays twice", UNEVEN),
     (
         "columns beyond those that are needed",
@@ -217,7 +268,6 @@ REJECTED = [
     ("the product 1", ("claim.polynomial", [1]), "INVALID"),
     ("a repeated root", (f"{FACTOR}.polynomial", [1, -2, 1]), "INVALID"),
     # multiplicities
-    ("nothing said of A", (f"{FACTOR}.multiplicity_in_A", None), "MALFORMED"),
     ("a multiplicity in A too low", (f"{FACTOR}.multiplicity_in_A", 2), "INVALID"),
     ("a multiplicity in A too high", (f"{FACTOR}.multiplicity_in_A", 4), "INVALID"),
     ("a multiplicity of 0", (f"{FACTOR}.multiplicity_at_most", 0), "MALFORMED"),
@@ -346,6 +396,34 @@ def test_a_change_of_one_place_is_rejected(
 def test_a_forgery_is_rejected(reason: str, document: Document) -> None:
     verdict = checked(document)
     assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+
+
+UNPROVED = [
+    ("two modes that agree modulo 7, below the bound", changed(MODULAR_TRAP, UNSAID[0]), "modulus"),
+    ("a modulus at the bound", changed(TWICE, ("witness.modulus", 3)), "modulus"),
+    ("one at the bound, beside fractions", changed(HALF_TWICE, ("witness.modulus", 3)), "modulus"),
+    ("exponents of one factor alone", changed(TWO_FACTORS, UNSAID[0]), "claim"),
+    (
+        "a factor left out, and nothing said of A",
+        changed(
+            TWO_FACTORS,
+            ("claim.factors", ONE_FACTOR),
+            UNSAID[0],
+            ("witness.subspaces", ONE_SPACE),
+            ("claim.polynomial", [-1, 1]),
+        ),
+        "common_factor",
+    ),
+    ("an exponent below", changed(TWICE, (f"{FACTOR}.multiplicity_at_most", 1)), "claim"),
+]
+
+
+@pytest.mark.parametrize(("reason", "document", "code"), UNPROVED)
+def test_without_exponents_in_A_the_modulus_is_beyond_a_bound(
+    reason: str, document: Document, code: str
+) -> None:
+    verdict = checked(document)
+    assert (verdict.verdict, verdict.code) == ("INVALID", code), verdict.line()
 
 
 def test_a_reducible_polynomial_may_be_one_factor() -> None:

@@ -19,6 +19,9 @@ HARMLESS: dict[str, str] = {
         "true counts as 1 and false as 0, and whatever else is no integer raises an error"
     ),
     "kinds.py: require_statement: saturation.agrees(claim, self.saturation)": USERS,
+    "evidence.py: require_bounded: whole": (
+        "a factor that is proved to be fixed divides det(xI - A), and is integral where A is"
+    ),
     "saturation.py: check_saturation: form is None": UNREAD,
     "saturation.py: check_region: nearer > 0": RAISES,
     "saturation.py: check_region: radius > 0": (

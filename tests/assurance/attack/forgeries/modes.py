@@ -259,6 +259,20 @@ def by_two_polynomials(rng: random.Random, document: Document) -> Forged:
     return factor_details(rng, document) if rng.random() < 0.5 else factor_dropped(rng, document)
 
 
+def exponents_unsaid(rng: random.Random, document: Document) -> Forged:
+    """Two polynomials that say nothing of A, with ℓ below or above the bound, or a false claim."""
+    if "blocks" in document["witness"]:
+        made = by_two_polynomials(rng, document)
+    else:
+        made = document if rng.random() < 0.4 else factor_dropped(rng, document)
+    if made is None:
+        return None
+    for factor in made["claim"]["factors"]:
+        factor["multiplicity_in_A"] = None
+    made["witness"]["modulus"] = rng.choice((2, 3, 5, 7, 11, PRIME))
+    return made
+
+
 def _restated(rng: random.Random, document: Document) -> None:
     """The rest of the claim, as it follows from its factors."""
     claim, witness, n = document["claim"], document["witness"], subject_of(document).n
@@ -390,7 +404,7 @@ COMPLETENESS = (
 DEFICIENCY = (other_deficiency,)
 SPECTRUM = (
     *(factor_dropped, factor_twice, factor_added, factor_details, factor_details),
-    *(by_two_polynomials, by_two_polynomials),
+    *(by_two_polynomials, by_two_polynomials, exponents_unsaid, exponents_unsaid),
     factors_joined,
     *sequences.SPECTRUM,
 )
