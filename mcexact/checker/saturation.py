@@ -43,8 +43,8 @@ def check_saturation(claim: Json, witness: Json, system: System) -> None:
     """The circle criterion for the sectors [a, 1] of saturation, everywhere or in a region.
 
     Theorems ``saturation.global_continuous``, ``saturation.global_discrete``,
-    ``saturation.region_continuous``, ``saturation.region_discrete``.  Open for exact samples: see
-    ``proofs/OPEN.md``.
+    ``saturation.region_continuous``, ``saturation.region_discrete``.  Exact
+    samples are not machine-checked.  Open: see ``proofs/OPEN.md``.
     """
     listed, gains, region, exact = fields(
         claim, "claim", "limits", "back_calculation", optional=("region", "exact")
