@@ -591,7 +591,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
     time : {"continuous", "discrete"}
     names : sequence of str, optional
         The channels, by default "1" … "m".
-    neighbors : NeighborGraph or mapping of names, optional
+    neighbors : NeighborGraph, networkx.DiGraph or mapping of names, optional
         The directed graph of who receives whose messages, with its delays.
     D : matrix, Σ q_i × Σ p_i, optional
         The feedthrough: y_i = C_i x + Σ D_ij u_j, with a row for each output and a column for each
@@ -687,7 +687,7 @@ class MultiChannelSystem(ByChannel[Matrix]):
         D: Any = None,
         time: str = "continuous",
         names: Sequence[str] | None = None,
-        neighbors: NeighborGraph | Mapping[str, Iterable[str]] | None = None,
+        neighbors: Any = None,
         sample_time: Any = None,
         uncertainty: Radii | None = None,
         regulated: Mapping[str, Any] | None = None,
@@ -1024,8 +1024,12 @@ class MultiChannelSystem(ByChannel[Matrix]):
             return self
         return self._sampled or self.plant
 
-    def with_neighbors(self, graph: NeighborGraph | Mapping[str, Iterable[str]]) -> Self:
+    def with_neighbors(self, graph: Any) -> Self:
         """Return the same system with another neighbor graph, which its plant gets as well.
+
+        Parameters
+        ----------
+        graph : NeighborGraph, networkx.DiGraph, or mapping of str to iterable of str
 
         Raises
         ------
