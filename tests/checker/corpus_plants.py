@@ -62,9 +62,11 @@ from tests.checker.box_plants import (
     AGAIN,
     AT_ITS_STEP,
     AT_SAMPLES,
+    BY_TUSTIN,
     HELD_ALONE,
     HELD_AROUND,
     HELD_LOOP,
+    LAGGING,
     OF_ONE_PLANT,
     PROMPT,
     WEAKER,
@@ -475,6 +477,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     yield "boxes", OF_ONE_PLANT
     yield "setpoints_in_boxes", list(held_in_boxes())
     yield "margins_in_boxes", list(margins_in_boxes())
+    yield "held_at_samples", [LAGGING, *BY_TUSTIN]
     yield "uneven", [UNEVEN, *analyses(uneven())]
     of_loops: dict[str, list[Document]] = {}
     for _, listed in [*design.IMPLIED, *design.DENIED]:
