@@ -772,7 +772,9 @@ def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
     n, a = len(A), budget.limbs([ell])
     size = _slot(2 * n + 1, ell)
     long = n * size * 8 // budget.LIMB + 1
-    spend(budget.products(2 * n * n, long, a) + 20 * n * n + n * n * (8 + size))
+    spend(
+        budget.products(2 * n * n, long, a) + budget.table(3 * n, n, a) + 20 * n * n + n * n * size
+    )
     spend(budget.reductions(3 * n * n, a) + budget.inversions(n, a))
     bits, mask = 8 * size, (1 << 8 * size) - 1
     columns = [_packed([row[j] % ell for row in A], size) for j in range(n)]

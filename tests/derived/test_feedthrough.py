@@ -351,6 +351,7 @@ CARRIED = {
         closed_loop(s, mcexact.designs.local_controllers(s, [[[1]], [[1]]])).system
     ),
     "dual": mcexact.constructions.dual,
+    "failed": lambda s: mcexact.constructions.failed(s, sensors=[("1", 1)]),
     "input_filters": input_filters,
     "merged": lambda s: mcexact.constructions.merged(s, [["1"], ["2"]]),
     "modulo": lambda s: without_part(s, "uncontrollable", [[1, -1]]),
@@ -383,7 +384,8 @@ TAKEN = {
         "transfer_graph",
         "without_part",
     ),
-    *("augmented_outputs", "dual", "input_filters", "merged", "regulated_outputs", "restricted"),
+    *("augmented_outputs", "dual", "failed", "failures", "input_filters", "merged"),
+    *("regulated_outputs", "restricted"),
 }
 """The public functions of systems with feedthrough."""
 

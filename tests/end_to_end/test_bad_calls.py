@@ -152,7 +152,7 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
     "D308 a graph of another library": (
         lambda: system([[1]], neighbors=networkx.DiGraph()),
         InputError,
-        ("neighbors", "from_networkx"),
+        ("channels as nodes", "'1'"),
     ),
     "D309 a system that is not in the gallery": (
         lambda: gallery.load("hiden-triple-mode"),

@@ -478,6 +478,8 @@ def box_stability(
         ...
     mcexact.errors.LimitReached: not every eigenvalue has Re λ < -2 at k = 1/2
     """
+    if not isinstance(system, ParametricSystem):
+        InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, Controller, "controller")
     if gains is None:
         require_radii(system)

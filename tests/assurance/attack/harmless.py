@@ -19,7 +19,7 @@ HARMLESS: dict[str, str] = {
         "true counts as 1 and false as 0, and whatever else is no integer raises an error"
     ),
     "kinds.py: require_statement: saturation.agrees(claim, self.saturation)": USERS,
-    "evidence.py: require_bounded: whole": (
+    "evidence.py: require_bounded: all((c.denominator == 1 for c in scaled))": (
         "a factor that is proved to be fixed divides det(xI - A), and is integral where A is"
     ),
     "saturation.py: check_saturation: form is None": UNREAD,
