@@ -1,8 +1,8 @@
 (* x' = x + u_1 + u_2, y_1 = y_2 = x: either agent moves the mode 1, and it is fixed once both have failed. *)
-From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel failures.
+From mathcomp Require Import all_ssreflect all_algebra all_field.
+From mcexact Require Import multichannel failures arithmetic fixed_spectrum large_modulus.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
-Import GRing.Theory.
+Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
 
 Notation ones := (fun _ : 'I_2 => 1%N).
@@ -29,4 +29,28 @@ move=> /(_ (fun=> - one)) /eigenvalueP [v h nz]; case/negP: nz.
 move: h; rewrite /closed_loop big_ord_recl big_ord1 /=.
 rewrite /without eqxx /= mulr0n raddf0 mulmx0 !mul0mx add0r mulmx1 !mul1mx mulmx1 subrr mulmx0 scale1r.
 by move=> <-.
+Qed.
+
+(* Modulo 7 a system without states has no fixed mode: the bound of `large_modulus` is the empty case. *)
+Definition seven : modulus := @Modulus 7 isT.
+Definition stateless : multichannel (Zloc seven) 0 ones ones := Multichannel 0 (fun=> 0) (fun=> 0).
+Lemma without_states (K : fieldType) (hK : {rmorphism rat -> K}) lambda :
+  fixed (map_system hK (map_system (@Zloc_rat seven) stateless)) lambda -> False.
+Proof.
+have empty (R : comRingType) (A : 'M[R]_0) : char_poly A = 1 by rewrite /char_poly det_mx00.
+move=> fx.
+have : root (map_poly (into hK) (1 * 1 : {poly Zloc seven})) lambda.
+  apply: (@large_modulus seven 0 _ _ _ stateless (fun=> 0) 1 1 1 1 0 _ _ _ _ _ 1 0 0 0 1) fx.
+  - exact: monic1.
+  - exact: monic1.
+  - by rewrite empty !mulr1.
+  - by move=> G; rewrite empty rmorph1 dvd1p.
+  - by rewrite mul0r addr0 mulr1.
+  - by [].
+  - by case.
+  - by rewrite !size_poly1.
+  - by move=> i; rewrite size_poly1 ltnS leqn0 => /eqP->; rewrite !coefC /= expr0 mul1r rmorph1.
+  - by left; case.
+  - by rewrite size_poly1 big_ord_recl big_ord0 coefC /= normr1 expr0 mulr1 addr0.
+by rewrite mulr1 rmorph1 (negPf (root1 _)).
 Qed.
