@@ -83,7 +83,9 @@ def failures(
         return augmented_outputs(made) if heard else made
 
     whole = augmented_outputs(system) if heard else system
-    known = fixed_spectrum(whole) if spectrum is None else spectrum
+    known = FixedSpectrum.known(spectrum, whole, "spectrum")
+    if known is None:
+        known = fixed_spectrum(whole)
     alone = [fixed_spectrum(after(agents=[name])) for name in plant.names]
     pairs = zip(plant.names, alone, strict=True)
     names = {name for name, each in pairs if each.polynomial != known.polynomial}

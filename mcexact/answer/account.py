@@ -322,10 +322,8 @@ class Account(Shown):
             view: dict[str, Any] = answer.to_dict()
             first = plain(answer.about.subject[:1])
             if [step["construction"] for step in first] == ["failed"]:
-                failed = {part: lost for part, lost in first[0].items() if lost}
-                view = {
-                    "failed": {p: lost for p, lost in failed.items() if p != "construction"}
-                } | view
+                lost = {k: v for k, v in first[0].items() if v and k != "construction"}
+                view = {"failed": lost} | view
             return view | {"certificate": f"{name}.json"}
         own = re.compile(rf"{name}(_\d+)?")
         view = {} if isinstance(answer, tuple) else answer.to_dict()

@@ -4,9 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mcexact import MultiChannelSystem, NeighborGraph, ParametricSystem, joint_controllability
-from mcexact.testing import assert_valid, systems
-
-assert systems
+from mcexact.testing import assert_valid
 
 
 @settings(max_examples=20)
