@@ -846,6 +846,9 @@ _SCALINGS = 2.0**6
 """The largest factor by which a scaling departs from 1."""
 _SWEEPS, _BALANCED = 40, 1 + 1e-6
 """The most sweeps that balance a matrix, and the largest change in the last of them."""
+_NO_GAIN = 1e-15
+"""The part of an entry of the diagonal, both squared, below which the rest of its row or column
+counts as 0: to balance what rounding errors leave there, scalings would grow without end."""
 _FEW_POLES = 80
 """The poles around which gains are looked at densely; around more of them other poles are near."""
 _CONDITION, _AT_ONCE = 1e8, 16
@@ -1238,13 +1241,14 @@ def _largest_gain(samples: Complexes, moduli: Floats, scaling: Floats) -> tuple[
 def _osborne(G: npt.NDArray[np.complex128]) -> Floats:
     """A diagonal that balances the rows and columns of a matrix (Osborne's iteration)."""
     size = np.abs(G) ** 2
+    nothing = _NO_GAIN * size.diagonal()
     np.fill_diagonal(size, 0.0)
     columns, theta, inverse = size.T.copy(), np.ones(len(G)), np.ones(len(G))
     for _ in range(_SWEEPS):
         largest = 1.0
         for i in range(len(G)):
             row, column = float(size[i] @ inverse), float(columns[i] @ theta)
-            if row > 0 and column > 0:
+            if row * theta[i] > nothing[i] and column * inverse[i] > nothing[i]:
                 before, theta[i] = theta[i], math.sqrt(column / row)
                 inverse[i] = 1 / theta[i]
                 largest = max(largest, theta[i] / before, before / theta[i])

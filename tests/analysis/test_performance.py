@@ -138,6 +138,8 @@ def test_a_matrix_is_balanced_whose_rows_and_columns_differ_by_orders_of_magnitu
     assert size.sum(axis=0) == pytest.approx(size.sum(axis=1), rel=1e-4)
     apart = _osborne(np.array([[1, 2], [0, 1]], dtype=np.complex128))
     assert np.array_equal(apart, np.ones(2))
+    rounded = _osborne(np.array([[1, 2], [1e-17, 1]], dtype=np.complex128))
+    assert np.array_equal(rounded, np.ones(2))
 
 
 def test_without_ports_nothing_is_amplified() -> None:
