@@ -125,6 +125,8 @@ _AS_LONG = 3
 """To say why modes are fixed takes about as many times as long as to decide which are."""
 _MOST_STATES_NEARBY = 300
 """Plants nearby are searched for at most so many states by default: of more that takes seconds."""
+_LINKED_CHANNELS, _LINKED_STATES = 8, 60
+"""The fewest links are asked for by default up to so many channels and states."""
 _MOST_STATES_READ = 100
 """Readers of floats warn of plants with at most so many states: they are to be quick."""
 _MOST_STATES = 60
@@ -663,6 +665,8 @@ class Analysis(ShownByAccount):
                 self._asked.add("linked_fixed_spectrum")
             elif self._has_decentralized_modes(outcomes):
                 self._asked.add("quotient_fixed_spectrum")
+                if self._few_links_are_found_soon():
+                    self._asked.add("minimal_communication")
             if self._has_joint_modes(outcomes):
                 self._asked.add("minimal_fixed_spectrum")
         self._decide(sorted(self.asked, key=lambda name: bool(self.questions[name].ports)))
@@ -696,6 +700,13 @@ class Analysis(ShownByAccount):
         known: Any = spectrum
         own, m = self.information == "own", self.system.m
         return own and any(0 < len(factor.channels) < m for factor in known.factors)
+
+    def _few_links_are_found_soon(self) -> bool:
+        """Whether the plant is so small that the fewest links are asked for without the option."""
+        plant = self.plant
+        if "minimal_communication" not in self.questions or plant.neighbors or plant.subject:
+            return False
+        return plant.m <= _LINKED_CHANNELS and plant.n <= _LINKED_STATES
 
     def _links_may_move_modes(self, spectrum: Any) -> bool:
         """Whether modes are fixed without the links of the plant, if this was decided."""
@@ -866,7 +877,8 @@ class Analysis(ShownByAccount):
         """Draw the graphs of the plant, or what is fixed for which values of its parameters.
 
         Without parameters these are the neighbor graph and the transfer graph, with what makes a
-        mode fixed in orange; with one the modes against it, with two hypersurfaces.
+        mode fixed in orange (`mcexact.plot.fixed_mode` draws the mode between its channels); with
+        one the modes against it, with two hypersurfaces.
 
         Parameters
         ----------

@@ -786,6 +786,7 @@ ALONE = {
 # Pictures of a page.
 
 PICTURE = Template("picture-graphs", "Graphs", claims=False)
+PICTURE_MODE = Template("picture-fixed-mode", "Fixed mode", claims=False)
 PICTURE_OUTPUTS = Template("picture-graphs-outputs", "Graphs (agents share outputs)", claims=False)
 PICTURE_NEIGHBORS = Template("picture-neighbor-graph", "neighbor graph: {arcs:arrows}")
 PICTURE_TRANSFER = Template(
@@ -956,6 +957,12 @@ def _page_heading(context: Context) -> Said:
     heard = "outputs" if context.delays == "none" else "instant"
     information = heard if context.information == "outputs" else "own"
     yield PAGE_HEADING(n=context.n, m=context.m, time=context.time, information=information)
+
+
+@detail_rule("mode.title", PICTURE_MODE, premises=("fixed_spectrum",))
+def _mode_picture(fixed_spectrum: Claim, context: Context) -> Said:
+    if not empty(fixed_spectrum):
+        yield PICTURE_MODE()
 
 
 @detail_rule("graphs.title", PICTURE, PICTURE_OUTPUTS)

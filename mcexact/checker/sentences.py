@@ -308,7 +308,8 @@ def _heading(known: list[Premise]) -> str:
     return f"For {described(plant)}: {ports}"
 
 
-remark("subsystem channel picture-graphs picture-graphs-outputs picture-dimensions certify-loop")
+remark("subsystem channel picture-fixed-mode picture-graphs picture-graphs-outputs")
+remark("picture-dimensions certify-loop")
 remark("design-measured")
 remark("table-links-limit least-outputs-states-limit least-states-limit")
 remark("controllability-indices-left-out observability-indices-left-out")

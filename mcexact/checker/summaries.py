@@ -73,10 +73,13 @@ def closed_loop_spectrum(claim: Json, system: System) -> str:
 
 def communication(claim: Json, system: System) -> str:
     """Which links suffice."""
-    goal = f"sharing {claim['share']} over links leaves {no_fixed_mode(claim['bound'], system)}"
+    left = f"leaves {no_fixed_mode(claim['bound'], system)}"
     if not claim["feasible"]:
-        return f"with none of the candidate links {goal}"
-    return f"{goal} with {edge_set(claim['added'])}, the cheapest candidates, at {claim['cost']}"
+        return f"sharing {claim['share']} over none of the candidate links {left}"
+    links = edge_set(claim["added"])
+    return (
+        f"sharing {claim['share']} along {links} {left}; no cheaper links do (cost {claim['cost']})"
+    )
 
 
 def complementary_subsystem(claim: Json, system: System) -> str:

@@ -57,6 +57,7 @@ if TYPE_CHECKING:
 
 _LINES_OF_WORDS, _WITH_LINKS = 5, 8
 """The most lines of sentences before the tables, and where sentences are about links as well."""
+_ABOUT_LINKS = {"linked_fixed_spectrum", "minimal_communication"}
 _LINES_NEARBY = 4
 """How many more lines there are where a sentence about a plant nearby leads."""
 _LINES_FAILURES = 3
@@ -134,7 +135,7 @@ def analyzed(
     near = None if analysis.nearby_left_out else analysis.nearby
     suspected = () if near is None else suspicions(near)
     suspected += () if analysis.why_fixed_left_out else computed_reasons(analysis.why_fixed)
-    lines = _WITH_LINKS if "linked_fixed_spectrum" in account.answers else _LINES_OF_WORDS
+    lines = _WITH_LINKS if _ABOUT_LINKS & account.answers.keys() else _LINES_OF_WORDS
     lines += _LINES_FAILURES * ("failures_1" in account.answers)
     lines += _LINES_NEARBY * (near is not None and bool(near.leading))
     page = None

@@ -12,6 +12,7 @@ numbers and objects with the named attributes, and needs the extra ``plot``.
 """
 
 from mcexact.plot.eigenvalues import eigenvalues as eigenvalues
+from mcexact.plot.graphs import fixed_mode as fixed_mode
 from mcexact.plot.graphs import gains as gains
 from mcexact.plot.graphs import graph as graph
 from mcexact.plot.graphs import structure as structure

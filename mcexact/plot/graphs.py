@@ -2,7 +2,8 @@
 
 `graph` draws up to 16 channels as circles with arrows; more channels, or crowded arrows, become a
 matrix with a cell for each edge.  `structure` draws the neighbor graph and the transfer graph
-beside each other.  `gains` draws every entry of a controller's programs as a colored cell.
+beside each other, and `fixed_mode` a mode between the channels that control it and those that
+observe it.  `gains` draws every entry of a controller's programs as a colored cell.
 """
 
 from __future__ import annotations
@@ -12,11 +13,13 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from mcexact.errors import UsageError
-from mcexact.exact.matrix import to_float
+from mcexact.exact.linear_algebra import nullspace
+from mcexact.exact.matrix import Matrix, to_float
 from mcexact.plot.canvas import (
     GRAY,
     ON_DARK,
     ON_LIGHT,
+    RED,
     cut,
     empty_figure,
     one_axis,
@@ -82,7 +85,8 @@ def graph(
     axis = one_axis(ax, *graph_size(len(names)))
     if title:
         axis.set_title(title, fontsize="medium")
-    crowded = len(names) > _INSIDE and len(edges) > _CROWDED * len(names)
+    between = [edge for edge in edges if edge[0] != edge[1]]
+    crowded = len(names) > _INSIDE and len(between) > _CROWDED * len(names)
     draw = _draw_matrix if len(names) > LARGEST or crowded else _draw_circle
     draw(axis, names, edges, set(marked), set(senders), set(added))
     return axis.figure
@@ -130,7 +134,7 @@ def graph_size(channels: int) -> tuple[float, float]:
 
 
 def names_and_edges(source: Any) -> tuple[list[str], list[Edge]]:
-    """Return the names of a graph, and its edges between different names.
+    """Return the names of a graph, and its edges, loops among them.
 
     Raises
     ------
@@ -151,7 +155,7 @@ def names_and_edges(source: Any) -> tuple[list[str], list[Edge]]:
             "expected a graph, a system with neighbors, or names and edges; found "
             f"{type(source).__name__}"
         )
-    return list(names), [(start, end) for start, end in edges if start != end]
+    return list(names), [(start, end) for start, end in edges]
 
 
 def _draw_circle(
@@ -163,7 +167,7 @@ def _draw_circle(
     added: set[Edge],
 ) -> None:
     """Draw channels on a circle, with bent edges so that both directions are visible."""
-    from matplotlib.patches import Circle, FancyArrowPatch
+    from matplotlib.patches import Circle
 
     axis.set_aspect("equal")
     axis.set_axis_off()
@@ -195,21 +199,58 @@ def _draw_circle(
             axis.text(x, y, cut(name, 12), ha=side, va=above, fontsize="small", parse_math=False)
     for start, end in edges:
         color = SENDERS if start in senders and end in marked else _EDGE
-        axis.add_patch(
-            FancyArrowPatch(
-                place[start],
-                place[end],
-                patchA=circle[start],
-                patchB=circle[end],
-                shrinkA=1,
-                shrinkB=1,
-                connectionstyle="arc3,rad=0.14",
-                arrowstyle="-|>",
-                mutation_scale=14 if m <= _INSIDE else 9,
-                color=ADDED if (start, end) in added else color,
-                linewidth=(1.2 if m <= _INSIDE else 0.8) + ((start, end) in added),
-            )
+        if start == end:
+            _draw_loop(axis, place[start], size, turn[names.index(start)])
+            continue
+        if (start, end) in added:
+            color = ADDED
+        _draw_arrow(axis, circle[start], circle[end], color, bend=0.14, large=m <= _INSIDE)
+
+
+def _draw_arrow(
+    axis: Any, start: Any, end: Any, color: str, *, bend: float = 0.0, large: bool = True
+) -> None:
+    """Draw an arrow from one circle to another; the blue ones are thicker."""
+    from matplotlib.patches import FancyArrowPatch
+
+    axis.add_patch(
+        FancyArrowPatch(
+            start.center,
+            end.center,
+            patchA=start,
+            patchB=end,
+            shrinkA=1,
+            shrinkB=1,
+            connectionstyle=f"arc3,rad={bend}",
+            arrowstyle="-|>",
+            mutation_scale=14 if large else 9,
+            color=color,
+            linewidth=(1.2 if large else 0.8) + (color == ADDED),
         )
+    )
+
+
+def _draw_loop(axis: Any, at: tuple[float, float], size: float, outward: float) -> None:
+    """Draw an arrow from a circle to itself, on the side away from the others."""
+    from matplotlib.patches import FancyArrowPatch
+
+    ends = [
+        (at[0] + size * math.cos(outward + side), at[1] + size * math.sin(outward + side))
+        for side in (0.6, -0.6)
+    ]
+    large = size > 0.1
+    axis.add_patch(
+        FancyArrowPatch(
+            *ends,
+            shrinkA=0,
+            shrinkB=0,
+            connectionstyle="arc3,rad=-1.5",
+            arrowstyle="-|>",
+            mutation_scale=10 if large else 6,
+            color=_EDGE,
+            linewidth=1.2 if large else 0.8,
+        )
+    )
 
 
 def _draw_matrix(
@@ -222,7 +263,7 @@ def _draw_matrix(
 ) -> None:
     """Draw a matrix with a column for the start and a row for the end of each edge.
 
-    The marked channels come first, then the senders; the diagonal is gray.
+    The marked channels come first, then the senders; the diagonal is gray, darker for a loop.
     """
     from matplotlib.colors import to_rgb
 
@@ -234,6 +275,9 @@ def _draw_matrix(
     for k in range(len(names)):
         cells[k][k] = to_rgb("#d8d8d8")
     for start, end in edges:
+        if start == end:
+            cells[place[end]][place[start]] = to_rgb("#a8a8a8")
+            continue
         color = _EDGE
         if end in marked:
             color = MARKED if start in marked else SENDERS if start in senders else color
@@ -256,7 +300,151 @@ def _draw_matrix(
     for spine in axis.spines.values():
         spine.set_color(GRAY)
     axis.set_xlabel(f"from each of {len(names)} channels", fontsize="small")
-    axis.set_ylabel(f"to each: {len(edges)} edges", fontsize="small")
+    between = sum(start != end for start, end in edges)
+    axis.set_ylabel(f"to each: {between} edges", fontsize="small")
+
+
+# A fixed mode between the channels that act on it and those that see it.
+
+_MOST_STATES = 100
+"""The largest number of states for which single channels are told apart beside a fixed mode."""
+_WORDS = 1.15
+"""How high the words above both columns stand."""
+
+
+def fixed_mode(
+    found: Any, ax: Any = None, *, links: Collection[Edge] = (), title: str | None = None
+) -> Any:
+    """Draw a fixed mode between channels that do not observe it and others that do not control it.
+
+    Parameters
+    ----------
+    found : FixedSpectrum
+        With a fixed mode, of which the first is drawn.
+    ax : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+    links : collection of (str, str)
+        Links that would help, in blue, such as `minimal_communication` finds.
+    title : str, optional
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    UsageError
+        If no mode is fixed.
+
+    Notes
+    -----
+    On the left stands the set s, whose channels do not observe the mode, on the right are the
+    others, which do not control it.  An arrow leads from each channel of s whose inputs act on the
+    mode, and one to each other channel whose outputs show it; both are computed from the null
+    spaces of p(A) and its transpose over the rationals, p the polynomial of the mode.  Of more than
+    16 channels or 100 states each side is drawn as one circle.
+
+    Examples
+    --------
+    >>> import mcexact
+    >>> found = mcexact.fixed_spectrum(mcexact.gallery("hidden-triple-mode"))
+    >>> figure = fixed_mode(found, links=[("u2", "u1")])
+    >>> [text.get_text() for text in figure.axes[0].texts]
+    ['u1', 'do not observe it', 'u2', 'do not control it', '1']
+    """
+    from matplotlib.patches import Circle
+
+    if not found.factors:
+        raise UsageError("no mode is fixed, so there is none to draw", where="found")
+    factor, system = found.factors[0], found.about
+    axis = one_axis(ax, 4.4, 3.4)
+    axis.set_aspect("equal")
+    axis.set_axis_off()
+    axis.set_xlim(-1.8, 1.8)
+    axis.set_ylim(-1.2, 1.4)
+    if title:
+        axis.set_title(title, fontsize="medium")
+    left = [name for name in system.names if name in factor.channels]
+    right = [name for name in system.names if name not in factor.channels]
+    if system.m > LARGEST or system.n > _MOST_STATES:
+        left, right = _as_one(left), _as_one(right)
+        acting, showing = set(left), set(right)
+        links = [(right[0], left[0])] if links else []
+    else:
+        acting, showing = _acting_and_showing(system, factor.polynomial)
+    circle = _draw_column(axis, left, -1.0, "do not observe it", MARKED)
+    circle |= _draw_column(axis, right, 1.0, "do not control it", PLAIN)
+    mode = Circle((0, 0), 0.32, facecolor=RED, edgecolor="#333333", zorder=3)
+    axis.add_patch(mode)
+    axis.text(0, 0, _roots(factor), ha="center", va="center", color=ON_DARK, zorder=4)
+    for name in left:
+        if name in acting:
+            _draw_arrow(axis, circle[name], mode, _EDGE)
+    for name in right:
+        if name in showing:
+            _draw_arrow(axis, mode, circle[name], _EDGE)
+    for start, end in links:
+        below = circle[start].center[1] + circle[end].center[1] <= 0
+        rightward = circle[start].center[0] < circle[end].center[0]
+        bend = 0.5 if rightward == below else -0.5
+        _draw_arrow(axis, circle[start], circle[end], ADDED, bend=bend)
+    return axis.figure
+
+
+def _as_one(names: Sequence[str]) -> list[str]:
+    """One name for all channels of a side, which is empty if the side is."""
+    return [f"{len(names)} channels"] if len(names) > 1 else list(names)
+
+
+def _draw_column(
+    axis: Any, names: Sequence[str], across: float, words: str, color: str
+) -> dict[str, Any]:
+    """Draw channels below each other under a few words; return their circles."""
+    from matplotlib.patches import Circle
+
+    size = 0.2 if len(names) <= 4 else 0.09
+    spread = min(0.9, len(names) / 3) * 2 / max(len(names) - 1, 1)
+    circle = {}
+    for k, name in enumerate(names):
+        up = ((len(names) - 1) / 2 - k) * spread
+        circle[name] = Circle((across, up), size, facecolor=color, edgecolor="#333333", zorder=3)
+        axis.add_patch(circle[name])
+        if size > 0.1 and len(name) <= 6:
+            ink = "black" if color == PLAIN else ON_DARK
+            axis.text(
+                across, up, name, ha="center", va="center", color=ink, zorder=4, parse_math=False
+            )
+        else:
+            outside = across * (1.06 + size)
+            side = "left" if across > 0 else "right"
+            text = cut(name, 12)
+            axis.text(outside, up, text, ha=side, va="center", fontsize="small", parse_math=False)
+    if names:
+        axis.text(across, _WORDS, words, ha="center", fontsize="small")
+    return circle
+
+
+def _acting_and_showing(system: Any, p: Any) -> tuple[set[str], set[str]]:
+    """The channels whose inputs act on the modes p, and those whose outputs show them."""
+    at_A = Matrix.zeros(system.n, system.n)
+    for coefficient in reversed(p.coefficients):
+        at_A = at_A @ system.A + coefficient * Matrix.identity(system.n)
+    seen, moved = nullspace(at_A), nullspace(at_A.T).T
+    channels = list(zip(system.names, system.B, system.C, strict=True))
+    acting = {name for name, B, _ in channels if not (moved @ B).is_zero()}
+    return acting, {name for name, _, C in channels if not (C @ seen).is_zero()}
+
+
+def _roots(factor: Any) -> str:
+    """The roots of a factor in three digits, of a conjugate pair one line, at most three lines."""
+    lines = []
+    for disc in factor.roots:
+        re, im = to_float(disc.re), to_float(disc.im)
+        if im == 0:
+            lines.append(f"{re:.3g}")
+        elif im > 0:
+            lines.append(f"{re:.3g} ± {im:.3g}i" if re else f"± {im:.3g}i")
+    return "\n".join(lines[:3] + ["…"] * (len(lines) > 3))
 
 
 # The gains of a controller as a colored matrix.

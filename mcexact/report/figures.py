@@ -15,7 +15,7 @@ from mcexact.exact.rational import digits_outward
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import PANEL, empty_figure, one_axis
 from mcexact.plot.eigenvalues import eigenvalues
-from mcexact.plot.graphs import MARKED, gains, graph, graph_size, structure
+from mcexact.plot.graphs import MARKED, fixed_mode, gains, graph, graph_size, structure
 from mcexact.plot.responses import decay, has_bounds, rate_text, real_responses, responses
 from mcexact.report.html import Picture
 from mcexact.simulation.envelope import Envelope, SimulatedLoop
@@ -328,7 +328,26 @@ def _draw_bars(
     axis.margins(y=0.35)
 
 
-# Pictures of the neighbor graph and the transfer graph, and of links to add.
+# Pictures of a fixed mode, of the neighbor graph and the transfer graph, and of links to add.
+
+_REMOVE = "links", "links-beside-graph"
+
+
+def mode_picture(account: Account) -> Picture:
+    """Draw the first fixed mode between the channels that lack it, and the links that would help.
+
+    Parameters
+    ----------
+    account : Account
+        An account with a fixed mode.
+    """
+    sentences, answers = account.sentences, account.answers
+    links = [each for each in sentences.at("answer") if each.template.key in _REMOVE]
+    added = answers["minimal_communication"].added if links else ()
+    words = sentences.at("answer.mode")[:1] + links
+    figure = fixed_mode(answers["fixed_spectrum"], links=added)
+    return Picture(figure, "".join(sentences.at("mode.title")), " ".join(words))
+
 
 _NEIGHBORS, _TRANSFER = "picture-neighbor-graph", "picture-transfer-graph"
 

@@ -22,6 +22,7 @@ from mcexact.report.figures import (
     gains_pictures,
     graph_pictures,
     links_picture,
+    mode_picture,
 )
 from mcexact.report.html import AnswerPage, Picture, shown_plant
 from mcexact.report.text import Table, answer, parameter_tables, tables
@@ -61,6 +62,9 @@ def account_page(account: Account) -> AnswerPage:
 def _pictures(account: Account) -> list[Picture]:
     """Return pictures of the graphs, and of shared dimensions if these were asked about."""
     drawn = []
+    known = account.answers.get("fixed_spectrum")
+    if known is not None and known.factors and not account.given.system.parameters:
+        drawn.append(mode_picture(account))
     if {"fixed_spectrum", "transfer_graph"} <= account.answers.keys():
         drawn += graph_pictures(account)
     if set(LEAST.values()) & account.answers.keys():

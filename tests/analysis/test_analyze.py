@@ -136,7 +136,8 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
 ) -> None:
     found = analyze(PAPER)
     told = found.to_dict()["questions"]
-    usual = [name for name in found.asked if name != "quotient_fixed_spectrum"]
+    for_fixed_modes = {"quotient_fixed_spectrum", "minimal_communication"}
+    usual = [name for name in found.asked if name not in for_fixed_modes]
     assert usual == list(found.by_default)
     assert [each["question"] for each in told] == list(found.asked)
     assert all(each["outcome"] == "decided" and each["seconds"] >= 0 for each in told)
@@ -368,7 +369,7 @@ def canal(neighbors: dict[str, list[str]] | None) -> MultiChannelSystem:
 @pytest.mark.parametrize(
     ("neighbors", "rules"),
     [
-        (None, ["not-stabilizable", "no-causal-control"]),
+        (None, ["not-stabilizable", "links", "no-causal-control"]),
         ({"gate": [], "farm": []}, ["not-stabilizable", "no-causal-control"]),
         ({"gate": ["farm"]}, ["nothing-fixed", "not-stabilizable"]),
         ({"farm": ["gate"]}, ["not-stabilizable", "not-stabilizable"]),

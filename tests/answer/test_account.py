@@ -33,7 +33,8 @@ def test_every_answer_stands_under_its_name_and_names_its_certificate() -> None:
     assert view["format"] == "mcexact-analysis/1"
     assert view["system"].items() >= {"n": 3, "m": 3, "time": "continuous"}.items()
     plain = {name for name, question in QUESTIONS.items() if question.by_default}
-    plain = {name for name in plain if not QUESTIONS[name].needs} | {"quotient_fixed_spectrum"}
+    plain = {name for name in plain if not QUESTIONS[name].needs}
+    plain |= {"quotient_fixed_spectrum", "minimal_communication"}
     assert plain == view.keys() & QUESTIONS.keys()
     for name in plain:
         assert view[name]["certificate"] == f"{name}.json"

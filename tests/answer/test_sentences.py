@@ -112,6 +112,8 @@ def of_figures(texts: list[str]) -> Iterator[str]:
         if text.startswith(("Graphs", "Shared states")):
             title, _, told = text.removesuffix(".").partition(". ")
             yield from (title, *told.split("; "))
+        elif text.startswith("Fixed mode. "):
+            yield from re.split(r"(?<=Fixed mode)\. |(?<=\.) (?=Sending )", text)
         else:
             yield text
 
@@ -162,7 +164,7 @@ def require_all_forms(account: Account, view: dict[str, Any]) -> None:
     said = account.sentences
     require_known(texts_of_plain(plain(tables(said), width=10**6)), known)
     require_known(answer(said), known)
-    words = " ".join(in_lines(said, 5).split()).removesuffix(
+    words = " ".join(in_lines(said, 8).split()).removesuffix(
         " Further fixed modes are listed below."
     )
     assert words in " ".join(answer(said))

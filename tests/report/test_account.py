@@ -290,8 +290,7 @@ def test_modes_that_no_channel_controls_or_observes_are_told_apart() -> None:
 
 def test_links_come_with_the_certificate_that_they_suffice_and_that_fewer_do_not() -> None:
     plant = gallery.load("liu2020-unimodular")
-    assert not any("Sending" in told for told in said(plant))
-    account = account_of(plant, links=True)
+    account = account_of(plant)
     told = "Sending outputs along 3 → 2 leaves no mode fixed, and no fewer links do."
     assert told in answer(account.sentences)
     assert "minimal_communication.json" in account.certificates
@@ -314,12 +313,12 @@ def test_no_sentence_is_cut(most: int) -> None:
 
 
 @pytest.mark.parametrize("name", gallery.names())
-def test_the_answer_fits_a_terminal_and_five_lines_of_words_come_first(name: str) -> None:
+def test_the_answer_fits_a_terminal_and_eight_lines_of_words_come_first(name: str) -> None:
     sentences = account_of(gallery.load(name)).sentences
-    words = in_lines(sentences, 5).splitlines()
+    words = in_lines(sentences, 8).splitlines()
     table = plain(tables(sentences, most_modes=6)).splitlines()
     shown = [*words, "", *table, "", "10 certificates re-checked"]
-    assert 1 <= len(words) <= 5
+    assert 1 <= len(words) <= 8
     # where all channels together miss a mode, five lines more tell it from the other fixed modes
-    most = 37 if any(line.startswith("  joint fixed modes") for line in table) else 32
+    most = 40 if any(line.startswith("  joint fixed modes") for line in table) else 35
     assert len(shown) <= most and max(map(len, shown)) <= 80

@@ -38,6 +38,7 @@ UNJUDGED = {
     "modulo-option-unobservable": _OPTION,
     "modulo-option-uncontrollable": _OPTION,
     "modulo-option-both": _OPTION,
+    "picture-fixed-mode": _TITLE,
     "picture-graphs": _TITLE,
     "picture-graphs-outputs": _TITLE,
     "picture-dimensions": _TITLE,
