@@ -39,6 +39,7 @@ from mcexact.derived.variants import (
     parameter_grid,
     sensor_variants,
 )
+from mcexact.model.periodic import periodic_loop
 from mcexact.model.system import from_stacked
 
 __all__ = [
@@ -62,6 +63,7 @@ __all__ = [
     "modulo",
     "neighbor_graph_variants",
     "parameter_grid",
+    "periodic_loop",
     "plant_controller",
     "regulated_outputs",
     "restricted",

@@ -61,6 +61,7 @@ from mcexact.model import controller, system_file
 from mcexact.model import system as system_forms
 from mcexact.model.loop import closed_loop
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.periodic import periodic_loop, phases_of
 from mcexact.model.system import MultiChannelSystem, any_system
 from mcexact.model.text import canonical, read_bytes
 from mcexact.processes import Child
@@ -501,6 +502,13 @@ def _closed_loop(system: MultiChannelSystem, construction: Mapping[str, Any]) ->
     return closed_loop(system, controller.read_controller(text, _roomy(text))).system
 
 
+def _periodic_loop(
+    system: MultiChannelSystem, construction: Mapping[str, Any]
+) -> MultiChannelSystem:
+    phases = construction["phases"]
+    return periodic_loop(system, phases_of(phases, limits=_roomy(canonical(phases))))
+
+
 def _roomy(text: str) -> rational_Limits:
     """Limits for a text that was accepted already, which it cannot exceed."""
     digits = max(rational_Limits.digits, len(text) + rational_Limits.exponent)
@@ -548,6 +556,7 @@ _CONSTRUCTIONS: Mapping[
     "slow": lambda system, data: slow_system(system, data["window"]),
     "error": lambda system, data: error_system(system, _gains(data, [system.n] * system.m)),
     "closed_loop": _closed_loop,
+    "periodic_loop": _periodic_loop,
 }
 
 

@@ -41,6 +41,7 @@ TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "allocate --links": (LINKS, (sharing,)),
     "design, certify": (Rulebook([*DESIGN, *VERDICT]), (loops, performance, saturation)),
     "design, if there is none": (REFUSALS, (loops,)),
+    "design, certify, periodic": (time_varying.PERIODIC_RULES, (time_varying,)),
 }
 """The rules of each topic, and the modules that define their templates."""
 FILE = Path(__file__).with_name("SENTENCES.md")

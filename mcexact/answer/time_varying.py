@@ -4,7 +4,8 @@ Linear time-invariant decentralized control leaves the fixed modes where they ar
 control that varies in time leaves only the *quotient* fixed modes: those of the plant with the
 channels of each strong component of its transfer graph merged into one.  `ANSWER_RULES` say whether
 any causal decentralized control stabilizes a plant which linear time-invariant control does not,
-and `TABLE_RULES` list the quotient fixed modes.
+and `TABLE_RULES` list the quotient fixed modes.  `PERIODIC_RULES` are about the loop of a periodic
+decentralized controller over one period, whose eigenvalues a certificate locates.
 """
 
 from __future__ import annotations
@@ -33,7 +34,34 @@ _LABEL = "quotient fixed modes"
 NONE = Template("quotient-fixed-none", "none", label=_LABEL)
 QUOTIENT = Template("quotient-fixed", "{p:modes}", _NECESSARY, _LABEL)
 
-ANSWER_RULES, TABLE_RULES = Rulebook(), Rulebook()
+_ANY_STEP = "periodic.any_step"
+PERIODIC = Template(
+    "periodic-stabilizes",
+    "The decentralized controller of period {period:int} stabilizes the plant.",
+    _ANY_STEP,
+)
+PERIODIC_NOT = Template(
+    "periodic-unstable",
+    "The decentralized controller of period {period:int} does not stabilize the plant.",
+    _ANY_STEP,
+)
+PERIODIC_RADIUS = Template(
+    "periodic-radius",
+    "over {steps:count step} the state tends to 0 faster than ({radius:number})^{steps:int}",
+    _ANY_STEP,
+    "decay of the loop",
+)
+PERIODIC_SLOW = Template(
+    "periodic-slow",
+    "over {steps:count step} the state does not tend to 0 faster than "
+    "({radius:number})^{steps:int}",
+    _ANY_STEP,
+    "decay of the loop",
+)
+PERIODIC_STATES = Template("periodic-states", "{n:int}", label="states of the loop")
+PERIODIC_ORDER = Template("periodic-order", "{order:int}", label="states of all agents together")
+
+ANSWER_RULES, TABLE_RULES, PERIODIC_RULES = Rulebook(), Rulebook(), Rulebook()
 
 
 def _of_the_system(quotient: Certified, graph: Claim, context: Context) -> bool:
@@ -77,3 +105,34 @@ def _quotient(transfer_graph: Claim, quotient_fixed_spectrum: Certified, context
     if _of_the_system(quotient_fixed_spectrum, transfer_graph, context):
         p = quotient_fixed_spectrum.polynomial
         yield QUOTIENT(p=p) if p.degree else NONE()
+
+
+# The loop of a periodic decentralized controller, which is decided over one period.
+
+
+@PERIODIC_RULES.rule("answer", PERIODIC, PERIODIC_NOT, premises=("periodic_loop",))
+def _periodic(periodic_loop: Claim, context: Context) -> Said:
+    """Whether the loop tends to 0, from every start in every step of the period."""
+    if periodic_loop.stable:
+        yield PERIODIC(period=context.period)
+    elif periodic_loop.bound is None:
+        yield PERIODIC_NOT(period=context.period)
+
+
+@PERIODIC_RULES.rule("table", PERIODIC_RADIUS, PERIODIC_SLOW, premises=("periodic_loop",))
+def _decay(periodic_loop: Claim, context: Context) -> Said:
+    """The radius of one step, whose power is the certified radius of the period."""
+    radius, N = context.region.bound, context.period
+    if radius is not None and periodic_loop.bound == radius**N:
+        template = PERIODIC_RADIUS if periodic_loop.stable else PERIODIC_SLOW
+        yield template(steps=N, radius=radius)
+
+
+@PERIODIC_RULES.rule("table", PERIODIC_STATES)
+def _states(context: Context) -> Said:
+    yield PERIODIC_STATES(n=context.states)
+
+
+@PERIODIC_RULES.rule("table", PERIODIC_ORDER)
+def _order(context: Context) -> Said:
+    yield PERIODIC_ORDER(order=context.order)

@@ -66,7 +66,17 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     Open: see ``proofs/OPEN.md``.
     """
     (value,) = fields(step, place, "controller")
-    controller, m = read_controller(value, place, system), system.m
+    controller = read_controller(value, place, system)
+    A, made = looped(system, controller, place)
+    words, text = "the closed loop with the controller", canonical_json(controller)
+    return _loop(system, A, made, words, text, one=True)
+
+
+def looped(system: System, controller: Json, place: str) -> tuple[Matrix, "Loop"]:
+    """The matrix of the loop with a controller, and what it was made from.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     agents = controller["agents"]
     fits = controller["time"] == system.time and [a["name"] for a in agents] == system.names
     require(fits, "subject", place, "expected a controller for these agents and this time")
@@ -79,13 +89,56 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     if system.D is not None:
         inputs = _at_once(system, programs, reads, inputs, place)
     A = stack(rows_of_states(system, programs, order, reads, inputs), x.ncols)
-    blocks, text = tuple(width for _, width in order[: 2 * m + 1]), canonical_json(controller)
-    words = f"the closed loop with the controller with {with_digest(text)}"
+    return A, Loop(system, programs, order, agents)
+
+
+def _loop(system: System, A: Matrix, made: "Loop", words: str, text: str, one: bool) -> System:
+    """A loop as a system without channels; ``text`` is the JSON of what identifies its controller.
+
+    What is known of loops from one step to the next is kept of ``one`` such loop alone.
+    """
     alone = System(system.time, [], A, [], [], words=system.words)
+    blocks = tuple(width for _, width in made.order[: 2 * system.m + 1])
     own = f"{system.n} of the controlled system and {A.nrows - system.n} added by the controller"
     ports = f"{own} of the channels {channel_set(system.names)}"
-    made = Loop(system, programs, order, agents)
-    return prefixed(words, alone, blocks, ports, made, controller=digest_of(text))
+    kept = (blocks, ports, made) if one else ((), ports, None)
+    return prefixed(f"{words} with {with_digest(text)}", alone, *kept, controller=digest_of(text))
+
+
+def periodic_loop(system: System, step: dict[str, Json], place: str) -> System:
+    """State (x, z_1, z_2, …): the product of the matrices of all phases, the last one left.
+
+    Theorems ``periodic.periods``, ``periodic.any_step``.
+    """
+    (listed,) = fields(step, place, "phases")
+    require(system.time == "discrete", "subject", place, "expected discrete time")
+    phases = [
+        read_controller(phase, f"{place}.phases[{t}]", system)
+        for t, phase in enumerate(items(listed, place))
+    ]
+    if not phases:
+        malformed(place, "expected at least one phase")
+    sizes = [agent["private"] for agent in phases[0]["agents"]]
+    A, made = looped(system, phases[0], f"{place}.phases[0]")
+    for t, phase in enumerate(phases):
+        where = f"{place}.phases[{t}]"
+        same_sizes = [agent["private"] for agent in phase["agents"]] == sizes
+        require(same_sizes, "subject", where, "expected as many states as in the first phase")
+        for agent in phase["agents"]:
+            own = _uses_its_own_output(agent)
+            require(own, "subject", where, "an agent uses more than its own output and state")
+        if t:
+            A = looped(system, phase, where)[0] @ A
+    words = f"the loop over {counted(len(phases), 'step')} with the periodic controller"
+    return _loop(system, A, made, words, canonical_json({"phases": phases}), one=False)
+
+
+def _uses_its_own_output(agent: Json) -> bool:
+    """Whether a program has no shared states and no set-points, and uses y_i and z_i alone."""
+    maps = [agent.get(label, {}) for label in MAPS]
+    others = {name for used in maps for name in used.get("outputs", {})} - {agent["name"]}
+    wanted = any("reference" in used for used in maps)
+    return not (agent["shared"] or others or wanted or "hold" in agent)
 
 
 def _at_once(
@@ -828,7 +881,7 @@ LINE = "line"
 """The construction that only plants with parameters have, and before all others."""
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
 LAST = (regulated, restricted, sampled, servo, slow)
-MORE = (failed, held, input_filters, integrators, lifted, merged, modulo)
+MORE = (failed, held, input_filters, integrators, lifted, merged, modulo, periodic_loop)
 CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, *MORE, *LAST)}
 _OTHERS = closed_loop, dual, input_filters
 CARRYING = arcs, augmented_outputs, failed, merged, modulo, regulated, restricted, *_OTHERS

@@ -307,6 +307,7 @@ def require_covered(
 # Boxes of plants, and constructions applied to them.
 
 LOOP, PART, SAMPLED = "closed_loop", "modulo", "sampled"
+LOOPS = LOOP, "periodic_loop"
 NONE = System("", [], Matrix.zeros(0, 0), [], [])
 
 
@@ -361,7 +362,7 @@ def box_of(steps: Json, plant: System, kind: str) -> Box:
     looped = kind == "box_stable" and [step["construction"] for step in steps[-1:]] == [LOOP]
     computed = steps[:-1] if looped else steps
     for k, step in enumerate(computed):
-        if step["construction"] == LOOP:
+        if step["construction"] in LOOPS:
             message = "a closed loop is the last construction, for the kind box_stable alone"
             incomplete("construction", f"subject[{k}]", message)
         if step["construction"] == PART:

@@ -40,7 +40,7 @@ from .budget import NOT_ABOUT as NOT_ABOUT
 from .budget import Verdict as Verdict
 from .cells import subject_of
 from .constructions import read_subject
-from .discs import LOOP, SAMPLED, at_values
+from .discs import LOOPS, SAMPLED, at_values
 from .parametric_system import FunctionSystem, digest_of_values, plant_of, plant_of_file
 from .reading import (
     Json,
@@ -236,8 +236,8 @@ class Expectation:
             if expected is None and not self.statement:
                 # the digest that the controller names has the step
                 expected = sampling_of(steps) if self.made_for else []
-            if expected is not None and made_by(expected)[-1:] != [LOOP]:
-                expected = [*expected, *(step for step in steps[-1:] if made_by([step]) == [LOOP])]
+            if expected is not None and not looped(expected):
+                expected = [*expected, *(step for step in steps[-1:] if looped([step]))]
         if expected is not None:
             names = ", ".join(made_by(steps)) or "none"
             message = f"another subject than asked for; its constructions are: {names}"
@@ -256,6 +256,11 @@ class Expectation:
         right = self.claim is None or same(claim, self.claim)
         message = f"another claim, which differs in {difference(claim, self.claim)}"
         require_asked(right, "expected", "claim", f"{message} and states: {statement}")
+
+
+def looped(steps: Json) -> bool:
+    """Whether the last construction is a loop."""
+    return any(name in LOOPS for name in made_by(steps)[-1:])
 
 
 def difference(claim: Json, asked: Json) -> str:

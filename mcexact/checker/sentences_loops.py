@@ -243,6 +243,54 @@ def integrated(system: System, i: int, agent: Json) -> list[list[Fraction]]:
     return found
 
 
+# The loop of a periodic decentralized controller over one period.
+
+PERIODIC = Role(("stability",), (("periodic_loop",),))
+ANY_STEP = "periodic.any_step"
+
+
+def periodic(key: str, holds: Holds, what: str) -> None:
+    """Enter a rule about the loop of a periodic controller, in words with its number of steps."""
+
+    @rule(key, PERIODIC, theorem=ANY_STEP)
+    def _say(loop: Premise) -> str:
+        loop.expect(bool(holds(loop)), "the claim is different")
+        steps = counted(len(loop.document["subject"][-1]["phases"]), "step")
+        return f"{loop.statement}; {what.format(steps)}"
+
+
+periodic(
+    "periodic-stabilizes",
+    lambda c: c["stable"],
+    "of the steps of the loop the matrices repeat after {}, so that from every start in every step "
+    "its state tends to 0",
+)
+periodic(
+    "periodic-unstable",
+    lambda c: not c["stable"] and c["bound"] is None,
+    "of the steps of the loop the matrices repeat after {}, so that from some start its state does "
+    "not tend to 0",
+)
+periodic(
+    "periodic-radius",
+    lambda c: c["stable"] and c["bound"] is not None,
+    "that is the modulus over {}",
+)
+periodic(
+    "periodic-slow",
+    lambda c: not c["stable"] and c["bound"] is not None,
+    "that is the modulus over {}",
+)
+
+
+@rule("periodic-states periodic-order", PERIODIC)
+def _periodic_sizes(loop: Premise) -> str:
+    """The numbers of states of the loop, and of the controller."""
+    own = loop.system.n - read_subject(loop.document["subject"][:-1], loop.plant).n
+    states = counted(loop.system.n, "state")
+    return f"{loop.about}: the loop has {states}, and the controller {counted(own, 'state')}"
+
+
 # A plant nearby whose loop fails.
 
 FAILS = Role(("stability",), CLOSED, nearby=True)

@@ -712,6 +712,7 @@ def described(system: Described) -> str:
 MAPS = ("shared_update", "private_update", "input")
 USED = ("outputs", "shared", "private", "reference")
 FORMAT = "mcexact-controller/1"
+PERIODIC_FORMAT = "mcexact-periodic-controller/1"
 
 
 def read_controller(
@@ -791,6 +792,8 @@ def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str, Saturat
     """The digest of the controller in a file, that of its plant or "", and its saturation."""
     with limited(current(limits.work), len(data)):
         document = parse_file(data, limits)
+        if isinstance(document, dict) and document.get("format") == PERIODIC_FORMAT:
+            return _read_periodic_file(document, limits)
         keys = ("format", "system", "time", "agents")
         version, plant, *parts = fields(document, "controller", *keys)
         if version != FORMAT:
@@ -799,3 +802,14 @@ def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str, Saturat
         controller = read_controller(loop, "controller", limits=limits)
         saturation = _read_saturation(parts[1], "controller", limits)
         return digest_of(canonical_json(controller)), string(plant, "system"), saturation
+
+
+def _read_periodic_file(document: Json, limits: Limits) -> tuple[str, str, Saturation]:
+    """The same of the file of a periodic controller, whose phases are controllers of one plant."""
+    _, plant, time, listed = fields(document, "controller", "format", "system", "time", "phases")
+    phases = []
+    for t, phase in enumerate(items(listed, "controller")):
+        (agents,) = fields(phase, f"phases[{t}]", "agents")
+        own = {"time": time, "agents": agents}
+        phases.append(read_controller(own, f"phases[{t}]", limits=limits))
+    return digest_of(canonical_json({"phases": phases})), string(plant, "system"), ()

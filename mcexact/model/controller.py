@@ -495,6 +495,7 @@ def _agent_json(agent: AgentProgram, names: list[str]) -> dict[str, Any]:
 # Controller files: one program for each agent, read strictly, written completely or not at all.
 
 FORMAT = "mcexact-controller/1"
+PERIODIC_FORMAT = "mcexact-periodic-controller/1"
 _OTHERS = (
     "a controller file is JSON, .mat or .npz; in Python, local_controllers makes a controller of "
     "matrices, or of systems of python-control"
@@ -549,7 +550,14 @@ def read_controller(
     if isinstance(text, bytes) and is_of_arrays(text):
         return controller_of(_parts(text, limits), limits, rounding)
     require_start(text, _OTHERS)
-    document = expect_format(parse(text, limits), FORMAT)
+    document = parse(text, limits)
+    if isinstance(document, dict) and document.get("format") == PERIODIC_FORMAT:
+        raise InputError(
+            "this controller is periodic: only certify, simulate and check take such controllers, "
+            "without options that need one loop for all steps",
+            where="format",
+        )
+    expect_format(document, FORMAT)
     expect_object(document, None, ("format", "time", "system", "agents"))
     require_time(document["time"])
     expect_string(document["system"], "system", "the digest of a system, a string")
@@ -669,8 +677,12 @@ def controller_document(controller: Controller) -> dict[str, Any]:
 
 def controller_text(controller: Controller) -> str:
     """The text of a controller file: decimals where they are exact and short, a row on one line."""
-    document = _readable(controller_document(controller))
-    text = json.dumps(document, indent=1, ensure_ascii=True)
+    return document_text(controller_document(controller))
+
+
+def document_text(document: dict[str, Any]) -> str:
+    """The text of the object of a controller file."""
+    text = json.dumps(_readable(document), indent=1, ensure_ascii=True)
     return _LIST_OF_NUMBERS.sub(lambda match: f"[{' '.join(match[0][1:-1].split())}]", text) + "\n"
 
 
@@ -821,11 +833,24 @@ def is_controller(data: bytes, limits: Limits = DEFAULT_LIMITS) -> bool:
     with suppress(InputError):
         if is_of_arrays(data):
             return "format" in _parts(data, limits).texts
-        if FORMAT.encode() not in data and b"\\" not in data:  # letters can be written as \u006d
-            return False
-        document = parse(data, limits)
-        return isinstance(document, dict) and document.get("format") == FORMAT
+        return _format_of(data, limits) in (FORMAT, PERIODIC_FORMAT)
     return False
+
+
+def is_periodic(data: bytes, limits: Limits = DEFAULT_LIMITS) -> bool:
+    """Whether a file is one of a periodic controller, whatever else is wrong with it."""
+    with suppress(InputError):
+        return not is_of_arrays(data) and _format_of(data, limits) == PERIODIC_FORMAT
+    return False
+
+
+def _format_of(data: bytes, limits: Limits) -> Any:
+    """The format that a file of a controller names; None if it names none of them."""
+    named = any(name.encode() in data for name in (FORMAT, PERIODIC_FORMAT))
+    if not named and b"\\" not in data:  # letters can be written as \u006d
+        return None
+    document = parse(data, limits)
+    return document.get("format") if isinstance(document, dict) else None
 
 
 def controller_of(

@@ -190,6 +190,19 @@ def of_failures() -> Iterator[tuple[str, Any]]:
         yield f"failure {number} with messages", each
 
 
+def of_periods() -> Iterator[tuple[str, Any]]:
+    """The gallery's plant over a period of two steps, with static gains."""
+    plant = gallery.load("movable-by-periodic-gains")
+    gains = [
+        mcexact.designs.local_controllers(plant, g) for g in ([[[0]], [["1/4"]]], [[[1]], [[0]]])
+    ]
+    controller = mcexact.designs.PeriodicController(tuple(gains))
+    for radius in (None, "9/10", "1/2"):
+        yield f"radius {radius}", mcexact.designs.certify_periodic(plant, controller, radius=radius)
+    loop = mcexact.constructions.periodic_loop(plant, controller)
+    yield "spectrum of a period", open_loop_spectrum(loop)
+
+
 def of_a_parameter() -> Iterator[tuple[str, Any]]:
     """The paper's example with one of its entries free, and the valves of four tanks."""
     for i in range(3):
@@ -348,6 +361,8 @@ def digests(asked: Iterable[tuple[str, MultiChannelSystem]]) -> dict[str, dict[s
         add_answer(answer, ("plants", f"modulo: {name}"), ("questions", "modulo a part"))
     for name, answer in of_failures():
         add_answer(answer, ("plants", f"after a failure: {name}"), ("questions", "after a failure"))
+    for name, answer in of_periods():
+        add_answer(answer, ("plants", f"over a period: {name}"), ("questions", "over a period"))
     for name, answer in of_feedthrough():
         add_answer(answer, ("plants", f"feedthrough: {name}"), ("questions", "feedthrough"))
     for name, answer in of_regions():

@@ -244,6 +244,13 @@ def test_judges_deny_what_was_made_false() -> None:
     assert met - denied == set()
 
 
+def test_what_is_false_of_a_loop_over_a_period_is_denied() -> None:
+    numbers = (6, 16, 26, 36, 76)
+    met = {sentence.rule for number in numbers for sentence, _ in drawn(number)}
+    assert {rule for rule in JUDGES if rule.startswith("periodic-")} <= met
+    assert met == set().union(*(caught(number, met) for number in numbers))
+
+
 def test_what_is_regulated_tends_to_its_set_points_and_nothing_else_does() -> None:
     plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0], [0, 1]]])
     made = design_setpoint(plant, regulate={"1": [1]}, rate="1/4", aims=Aims(effort=1))

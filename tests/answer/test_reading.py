@@ -17,6 +17,8 @@ from mcexact.derived.constructions import (
     servo_system,
 )
 from mcexact.derived.modulo import without_part
+from mcexact.designs import PeriodicController, certify_periodic, local_controllers
+from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
@@ -91,6 +93,16 @@ def test_the_system_of_an_answer_is_made_again(name: str, tmp_path: Path) -> Non
         assert read == found
         assert read.about == system
         assert read.to_dict() == found.to_dict()
+
+
+def test_a_loop_over_a_period_is_made_again(tmp_path: Path) -> None:
+    plant = gallery.load("movable-by-periodic-gains")
+    gains = [local_controllers(plant, each) for each in ([[[0]], [["1/4"]]], [[[1]], [[0]]])]
+    found = certify_periodic(plant, PeriodicController(tuple(gains)), radius="9/10")
+    mcexact.save_certificate(found, tmp_path / "loop.json")
+    read = mcexact.load_certificate(tmp_path / "loop.json")
+    assert read == found
+    assert read.about == found.about
 
 
 def test_a_closed_loop_is_made_again(tmp_path: Path) -> None:

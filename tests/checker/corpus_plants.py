@@ -53,6 +53,7 @@ from tests.checker import (
     test_feedthrough,
     test_modulo,
     test_nearby,
+    test_periodic,
     test_sentences_design,
     test_sentences_performance,
     test_setpoint,
@@ -472,6 +473,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     yield from tracking()
     within = gallery.load("movable-by-periodic-gains")
     yield "within", list(told(lambda: fixed_spectrum(within), lambda: assignability(within)))
+    yield "periodic", [*test_periodic.SAID]
     portless = MultiChannelSystem([[1]], [Matrix.zeros(1, 0)], [Matrix.zeros(0, 1)])
     yield "portless", [document(each) for each in failures(portless)]
     yield "boxes", OF_ONE_PLANT

@@ -153,9 +153,10 @@ ELSEWHERE = (
     "performance-",
     "first-",
     "parametric-",
+    "periodic-",
 )
 """How the rules begin that other files hold against certificates: of designs, of performance, of
-parameters, of plants nearby, of plants without a part."""
+parameters, of plants nearby, of plants without a part, of loops over a period."""
 ALWAYS = {
     *("picture-transfer-graph", "complete"),
     *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),

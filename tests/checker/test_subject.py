@@ -39,6 +39,7 @@ from mcexact.exact.matrix import Matrix, block
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
+from mcexact.model.periodic import PeriodicController, periodic_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import plain
 from tests import effort
@@ -130,12 +131,30 @@ def controller(rng: random.Random, system: MultiChannelSystem) -> Controller:
     return Controller(system.time, "", tuple(agents))
 
 
+def periodic(rng: random.Random, system: MultiChannelSystem) -> PeriodicController:
+    """A controller of period 1, 2 or 3, each agent of which uses its own output and state."""
+    private = sizes(rng, system)
+
+    def drawn_agent(i: int) -> AgentProgram:
+        maps = [
+            LinearMap({i: drawn(rng, nrows, system.q(i))}, {}, drawn(rng, nrows, private[i]))
+            for nrows in (private[i], system.p(i))
+        ]
+        update, control = (each.without_zeros() for each in maps)
+        return AgentProgram(system.names[i], 0, private[i], LinearMap(), update, control)
+
+    agents = range(system.m)
+    phases = (tuple(map(drawn_agent, agents)) for _ in range(rng.randint(1, 3)))
+    return PeriodicController(tuple(Controller("discrete", "", phase) for phase in phases))
+
+
 def selection(rng: random.Random, s: MultiChannelSystem) -> list[Matrix]:
     """Combinations of the outputs of each channel, perhaps none."""
     return [drawn(rng, rng.randint(0, 2), s.q(i)) for i in range(s.m)]
 
 
-TIMES = dict.fromkeys(("held", "lifted", "slow"), "discrete") | {"sampled": "continuous"}
+DISCRETE = "held", "lifted", "periodic_loop", "slow"
+TIMES = dict.fromkeys(DISCRETE, "discrete") | {"sampled": "continuous"}
 """The constructions of plants in one time domain alone."""
 Build = Callable[[random.Random, MultiChannelSystem], MultiChannelSystem]
 
@@ -166,6 +185,7 @@ BUILDS: dict[str, list[Build]] = {
         lambda rng, s: sampled_system(s, Fraction(1, 2), decimals=rng.choice((0, 1, 30))),
     ],
     "merged": [lambda rng, s: merged(s, drawn_parts(rng, s))],
+    "periodic_loop": [lambda rng, s: periodic_loop(s, periodic(rng, s))],
     "modulo": [without_drawn_part],
     "slow": [lambda rng, s: slow_system(s, max(2 * s.n, 1) + rng.randint(0, 2))],
     "restricted": [lambda rng, s: restricted(s, rng.sample(s.names, rng.randint(1, s.m)))],

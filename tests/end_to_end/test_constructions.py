@@ -32,7 +32,9 @@ from mcexact.derived.feedthrough import input_filters
 from mcexact.derived.sampling import sampled_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.loop import closed_loop
+from mcexact.model.periodic import periodic_loop
 from mcexact.model.text import text_of
+from tests.checker.test_subject import periodic
 from tests.derived.test_failed import drawn_failures
 from tests.model.test_controller import drawn_controller
 
@@ -115,3 +117,8 @@ def test_checker_and_package_close_the_same_loop(drawn, seed, holding):
         random.Random(seed), drawn.system, references=True, holding=holding
     )
     rebuilt(closed_loop(drawn.system, controller).system)
+
+
+@given(plants, st.integers(0, 10**6))
+def test_checker_and_package_multiply_the_same_phases(drawn, seed):
+    rebuilt(periodic_loop(drawn.system, periodic(random.Random(seed), drawn.system)))

@@ -60,6 +60,9 @@ def _matrix(M: Any) -> Any:
 
 def _step(document: Mapping[str, Any], k: int) -> Any:
     step = document["subject"][k]
+    if step["construction"] == "periodic_loop":
+        system = subject_of(document, k)
+        return ["periodic_loop", *(_agents(system, phase) for phase in step["phases"])]
     if step["construction"] != "closed_loop":
         return _plain(step, "")
     return ["closed_loop", _agents(subject_of(document, k), step["controller"])]

@@ -14,6 +14,7 @@ import random
 import sys
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -42,18 +43,21 @@ from mcexact.model.box import Box
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
 from mcexact.model.parametric import ParametricSystem
+from mcexact.model.periodic import PeriodicController
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.performance import performance_of
+from mcexact.synthesis.periodic import account_of_period, certify_periodic, design_periodic
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.assurance.campaigns.resumed import main
 from tests.oracle.certificates.reading import Unspecified
 from tests.oracle.draws import exact, sparse_system
 from tests.oracle.enumeration import PlainSystem
 from tests.oracle.parametric_draws import drawn_parametric
+from tests.oracle.periodic import planted
 from tests.oracle.sentences import JUDGES, Case, Said, plant_of, said, verdict
 from tests.oracle.sentences.cases import plain
 from tests.oracle.sentences.designs import document_of
@@ -495,8 +499,28 @@ def loop(rng: random.Random) -> Iterator[Judged]:
         yield from _cases(rows_of(account.sentences), case)
 
 
+def periodic(rng: random.Random) -> Iterator[Judged]:
+    """What is said of a loop with gains of a period, drawn or designed."""
+    plant, _ = planted(rng.randrange(1000))
+    controller = None
+    if rng.random() < 0.5:
+        with suppress(LimitReached):
+            controller = design_periodic(plant, longest=2).controller
+    if controller is None:
+        drawn_gains = [[[[rng.randint(-2, 2)]] for _ in range(plant.m)] for _ in range(2)]
+        controller = PeriodicController(tuple(local_controllers(plant, g) for g in drawn_gains))
+    radius = rng.choice([None, Fraction(9, 10), Fraction(1, 2)])
+    region = StabilityRegion("discrete", radius)
+    account = account_of_period(
+        certify_periodic(plant, controller, radius=radius), controller, region
+    )
+    phases = json.loads(json.dumps(controller.document(), default=str))
+    case = Case(plant_of(plant), {}, {"phases": [document_of(phase) for phase in phases]})
+    yield from _cases(rows_of(account.sentences), case)
+
+
 KINDS: tuple[Callable[[random.Random], Iterator[Judged]], ...] = (
-    analysis, design, analysis, parameter, design, allocation, design, parameter, box, loop,
+    analysis, design, analysis, parameter, design, allocation, periodic, parameter, box, loop,
 )  # fmt: skip
 
 

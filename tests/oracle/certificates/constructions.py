@@ -20,6 +20,7 @@ from .reading import (
     place,
     polynomial,
     positions,
+    rational,
     record,
     text,
 )
@@ -416,6 +417,39 @@ def slow(system: System, given: Mapping[str, Any]) -> System:
     return replace(system, A=powers[Q], B=B, C=C, delays=late)
 
 
+def periodic_loop(system: System, given: Mapping[str, Any]) -> System:
+    """No channels; the matrices of the loops of all phases multiplied, the first one right."""
+    demand(system.time == "discrete", "expected discrete time")
+    phases = listed(given["phases"])
+    demand(bool(phases), "expected a phase")
+    product, sizes = None, set()
+    for phase in phases:
+        loop = closed_loop(system, phase)
+        for agent in phase["agents"]:
+            _demand_own(agent)
+        sizes.add(tuple(agent["private"] for agent in phase["agents"]))
+        product = loop.A if product is None else loop.A * product
+    demand(len(sizes) == 1, "expected as many states in every phase")
+    return replace(loop, A=product)
+
+
+def _demand_own(agent: Mapping[str, Any]) -> None:
+    """An agent uses y_i and z_i alone."""
+    demand(agent["shared"] == 0, "expected no shared states")
+    demand(not any(agent.get("hold", {}).values()), "expected nothing held")
+    for label in ("shared_update", "private_update", "input"):
+        for name, table in agent[label].get("outputs", {}).items():
+            demand(name == agent["name"] or _is_zero(table), "expected the own output alone")
+        demand(_is_zero(agent[label].get("reference", [])), "expected no set-points")
+
+
+def _is_zero(table: Any) -> bool:
+    """Whether a matrix of a controller has no entry that is not 0."""
+    if isinstance(table, Mapping):
+        return not table["entries"]
+    return all(rational(entry) == 0 for row in table for entry in row)
+
+
 DIRECT = (
     "arcs", "augmented_outputs", "closed_loop", "dual", "failed", "input_filters", "merged",
     "modulo", "regulated", "restricted",
@@ -444,4 +478,5 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "sampled": (("step", "late", "decimals"), sampled),
     "servo": (("gains",), servo),
     "closed_loop": (("controller",), lambda system, g: closed_loop(system, g["controller"])),
+    "periodic_loop": (("phases",), periodic_loop),
 }

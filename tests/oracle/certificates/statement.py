@@ -153,7 +153,7 @@ def _sizes(document: Mapping[str, Any], system: System) -> str:
     states = "1 state" if system.n == 1 else f"{system.n} states"
     ports = f"channels {channels(system.names)}" if system.m else "no channels"
     steps = document["subject"]
-    if steps and steps[-1]["construction"] == "closed_loop":
+    if steps and steps[-1]["construction"] in ("closed_loop", "periodic_loop"):
         inner = subject_of(document, len(steps) - 1)
         ports = (
             f"{inner.n} of the controlled system and {system.n - inner.n} added by the controller "
@@ -219,6 +219,11 @@ def _words(step: Mapping[str, Any], system: System) -> str:
     if kind == "closed_loop":
         shown = digested(_controller(step["controller"], system))
         return f"the closed loop with the controller with {shown} of: "
+    if kind == "periodic_loop":
+        phases = [_controller(phase, system) for phase in step["phases"]]
+        steps = f"{len(phases)} step{'s' * (len(phases) != 1)}"
+        shown = digested({"phases": phases})
+        return f"the loop over {steps} with the periodic controller with {shown} of: "
     if kind == "sampled":
         late = step["late"]
         delay = f" and {late} step{'s' * (late != 1)} late" if late else ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 from typing import Any
 
 from flint import fmpq_mat, fmpz_mat
@@ -17,7 +18,7 @@ from .plants import VALUES, Document, entries, number
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
     "slow", "failed", "input_filters", "integrators", "error", "merged", "modulo", "regulated",
-    "restricted", "sampled", "servo", "closed_loop", "line",
+    "restricted", "sampled", "servo", "closed_loop", "periodic_loop", "line",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "slow", "error")
 LARGEST = 12
@@ -34,7 +35,7 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
     """One construction, or None if it does not apply."""
     if system.neighborhoods is None and name in NEEDS_GRAPH:
         return None
-    if system.time == "continuous" and name in ("lifted", "held", "slow"):
+    if system.time == "continuous" and name in ("lifted", "held", "periodic_loop", "slow"):
         return None
     if system.time == "discrete" and name == "sampled":
         return None
@@ -82,6 +83,9 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
         step["channels"] = [s for s in system.names if rng.random() < 0.6] or [*system.names[:1]]
     elif name == "closed_loop":
         step["controller"] = drawn_controller(rng, system)
+    elif name == "periodic_loop":
+        private = [rng.choice((0, 0, 1, 2)) for _ in range(m)]
+        step["phases"] = [drawn_phase(rng, system, private) for _ in range(rng.choice((1, 2, 3)))]
     return step
 
 
@@ -151,6 +155,19 @@ def drawn_controller(rng: random.Random, system: System) -> Document:
         if system.time == "discrete" and rng.random() < 0.3:
             followers = [j for j in range(system.m) if i in _senders(system, j)]
             agent["hold"] = {system.names[j]: rng.choice((1, 2)) for j in followers[:1]}
+        agents.append(agent)
+    return {"time": system.time, "agents": agents}
+
+
+def drawn_phase(rng: random.Random, system: System, private: list[int]) -> Document:
+    """A program for each agent that uses its own output and state, perhaps with zeros besides."""
+    alone, agents = replace(system, neighborhoods=None), []
+    none = [0] * system.m
+    for i, (name, size) in enumerate(zip(system.names, private, strict=True)):
+        agent: Document = {"name": name, "shared": 0, "private": size, "shared_update": {}}
+        for label, nrows in (("private_update", size), ("input", system.B[i].ncols())):
+            agent[label] = _drawn_map(rng, alone, none, i, size, nrows)
+            agent[label].pop("reference", None)
         agents.append(agent)
     return {"time": system.time, "agents": agents}
 

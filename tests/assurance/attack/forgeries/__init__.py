@@ -89,6 +89,10 @@ def forged(rng: random.Random, document: Document) -> Document:
         made = subjects.other_line(rng, document)
         if made is not None:
             return made
+    if rng.random() < 0.5:
+        made = subjects.other_phases(rng, document)
+        if made is not None:
+            return made
     if rng.random() < 0.3:
         made = subjects.other_part(rng, document)
         if made is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import random
 
 from flint import fmpq, fmpq_mat
@@ -32,8 +33,34 @@ def other_time(rng: random.Random, document: Document) -> Document:
     time = {"continuous": "discrete", "discrete": "continuous"}[document["system"]["time"]]
     document["system"]["time"] = time
     for step in document["subject"]:
-        if "controller" in step:
-            step["controller"]["time"] = time
+        for controller in (step.get("controller"), *step.get("phases", ())):
+            if controller is not None:
+                controller["time"] = time
+    return document
+
+
+def other_phases(rng: random.Random, document: Document) -> Document | None:
+    """A phase missing, twice, in another place or with programs of another agent's signals."""
+    step = next((s for s in document["subject"] if "phases" in s), None)
+    if step is None:
+        return None
+    phases, what = step["phases"], rng.randrange(6)
+    k = rng.randrange(len(phases))
+    if what == 0:
+        del phases[k]
+    elif what == 1:
+        phases.insert(rng.randrange(len(phases) + 1), copy.deepcopy(phases[k]))
+    elif what == 2:
+        rng.shuffle(phases)
+    elif what == 3:
+        step["phases"] = phases * 2
+    elif what == 4:
+        program = rng.choice(phases[k]["agents"])
+        other = rng.choice(phases[k]["agents"])
+        table = {"shape": [1, 1], "entries": [[0, 0, 1]]}
+        program["input"].setdefault("outputs", {})[other["name"]] = table
+    else:
+        rng.choice(phases[k]["agents"])[rng.choice(("shared", "private"))] += 1
     return document
 
 
