@@ -40,6 +40,9 @@ myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "fieldlist", "
 myst_heading_anchors = 3
 myst_substitutions = {"version": release}
 
+# Some names, such as LimitReached, are at the top and in a module as well.
+suppress_warnings = ["ref.python"]
+
 autosummary_generate = True
 autosummary_imported_members = True
 autodoc_typehints = "none"
@@ -103,6 +106,23 @@ def plain_bars(
             drawn = indent
 
 
+def with_return_type(
+    app: Sphinx,
+    what: str,
+    name: str,
+    obj: object,
+    options: object,
+    signature: str | None,
+    returned: str | None,
+) -> tuple[str, str] | None:
+    """Show the type that a function returns; the types of its parameters stand below."""
+    annotation = getattr(obj, "__annotations__", {}).get("return")
+    if signature is None or not isinstance(annotation, str) or annotation == "Any":
+        return None
+    return signature, annotation
+
+
 def setup(app: Sphinx) -> None:
-    """Let docstrings pass through before numpydoc reads them."""
+    """Let docstrings pass through before numpydoc reads them, and show types of results."""
     app.connect("autodoc-process-docstring", plain_bars, priority=400)
+    app.connect("autodoc-process-signature", with_return_type)
