@@ -14,11 +14,15 @@ from typing import Any
 import click
 
 import mcexact
-from mcexact.answer.templates import count
+from mcexact.analysis.nearby.equalities import why_fixed
+from mcexact.answer.modes import FixedFactor
+from mcexact.answer.templates import count, modes
 from mcexact.cli import command_line
+from mcexact.constructions import merged
 from mcexact.crosschecks.gallery import exhibits, shown
 from mcexact.model import gallery
 from mcexact.model.gallery import published
+from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.notebook import table
 
 ROOT = Path(__file__).parents[1]
@@ -117,6 +121,7 @@ def gallery_page() -> str:
         source = plant.source or known.get("source") or ""
         size = f"{count(plant.n, 'state')}, {count(plant.m, 'channel')}, {plant.time} time"
         lines += [f"`{name}`", f": {size}. {_fixed(known)}", "", f"  {source}", ""]
+    lines += [*classified(), ""]
     lines += [
         "## With parameters",
         "",
@@ -131,6 +136,59 @@ def gallery_page() -> str:
             lines += [f"`{each.name}`", f": {size}. {each.shows[:1].upper()}{each.shows[1:]}.", ""]
             lines += [f"  {each.source}", ""]
     return "\n".join(lines)
+
+
+def classified() -> list[str]:
+    """A table of all fixed modes of the gallery: why each is fixed, and what would move it."""
+    lines = [
+        "## Why their modes are fixed, and what would move them",
+        "",
+        "A mode is *joint* if all channels together do not control it, or not observe it, and",
+        "*decentralized* if it stays fixed in a minimal realization. Equalities between entries",
+        "fix a mode if other numbers at the same places are proved to leave fewer fixed; that the",
+        "zeros alone fix it is computed with drawn numbers. The last two columns are decided: whether",
+        "[control that varies in time](../how-to/time-varying-control.md) moves the mode, and the",
+        "fewest links along which sending outputs leaves no mode of the plant fixed.",
+        "",
+        "| plant | modes | stable | missed by | fixed by | time-varying control | links |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for name in gallery.names():
+        rows = fixed_modes_of(gallery.load(name))
+        lines += [f"| `{name}` | {' | '.join(row)} |" for row in rows]
+    return lines
+
+
+def fixed_modes_of(plant: MultiChannelSystem) -> list[tuple[str, ...]]:
+    """A row for each irreducible factor of the fixed polynomial, as `classified` heads it."""
+    spectrum = mcexact.fixed_spectrum(plant)
+    if spectrum.empty:
+        return []
+    freed = why_fixed(plant, spectrum).freed
+    components = mcexact.transfer_graph(plant).components
+    quotient = mcexact.fixed_spectrum(merged(plant, components)).polynomial
+    left = mcexact.fixed_spectrum(mcexact.minimal_realization(plant).system).polynomial
+    lost = [
+        mcexact.joint_controllability(plant).uncontrollable_polynomial,
+        mcexact.joint_observability(plant).uncontrollable_polynomial,
+    ]
+    added = mcexact.minimal_communication(plant).added
+    links = "none help" if added is None else ", ".join(f"{a} → {b}" for a, b in added)
+
+    def row(factor: FixedFactor) -> tuple[str, ...]:
+        p = factor.polynomial
+        joint = any(p.divides(each) for each in lost)
+        kinds = ["joint"] * joint + ["decentralized"] * p.divides(left)
+        return (
+            modes(p, 12) if p.degree < 3 else f"{p.degree} modes",
+            "yes" if factor.stable else "no",
+            " and ".join(kinds),
+            "equalities (proved)" if p in freed else "zeros (computed)",
+            "does not move it" if p.divides(quotient) else "moves it",
+            links or "those it has",
+        )
+
+    return [row(factor) for factor in spectrum.factors]
 
 
 def _fixed(known: dict[str, Any]) -> str:
