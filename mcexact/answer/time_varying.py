@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator
 
 from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template
+from mcexact.exact.roots import is_discrete
 
 Said = Iterator[Sentence]
 
@@ -30,6 +31,11 @@ NO_CAUSAL = Template(
     "No other causal {control:causal} can stabilize it.",
     _NECESSARY,
 )
+OPTION = Template(
+    "time-varying-option",
+    "`mcexact design decentralized --periodic` designs such control.",
+    claims=False,
+)
 _LABEL = "quotient fixed modes"
 NONE = Template("quotient-fixed-none", "none", label=_LABEL)
 QUOTIENT = Template("quotient-fixed", "{p:modes}", _NECESSARY, _LABEL)
@@ -45,6 +51,7 @@ PERIODIC_NOT = Template(
     "The decentralized controller of period {period:int} does not stabilize the plant.",
     _ANY_STEP,
 )
+PERIODIC_LOOP = Template("periodic-loop", "closed loop over a period", claims=False)
 PERIODIC_RADIUS = Template(
     "periodic-radius",
     "over {steps:count step} the state tends to 0 faster than ({radius:number})^{steps:int}",
@@ -79,6 +86,7 @@ def _sets(parts: Iterable[Iterable[str]]) -> set[frozenset[str]]:
 @ANSWER_RULES.rule(
     "answer",
     TIME_VARYING,
+    OPTION,
     NO_CAUSAL,
     premises=("fixed_spectrum", "transfer_graph", "quotient_fixed_spectrum"),
 )
@@ -96,6 +104,9 @@ def _stabilized(
     by = "alone" if linked else "own"
     if quotient.stabilizable:
         yield TIME_VARYING(control=by)
+        system = context.system
+        if is_discrete(system.time) and system.D is None and not system.subject:
+            yield OPTION()
     else:
         yield NO_CAUSAL(control=by)
 
@@ -119,6 +130,13 @@ def _periodic(periodic_loop: Claim, context: Context) -> Said:
         yield PERIODIC_NOT(period=context.period)
 
 
+@PERIODIC_RULES.rule("title", PERIODIC_LOOP, premises=("periodic_loop",))
+def _title(periodic_loop: Claim, context: Context) -> Said:
+    """The title of a verdict."""
+    _ = periodic_loop.stable
+    yield PERIODIC_LOOP()
+
+
 @PERIODIC_RULES.rule("table", PERIODIC_RADIUS, PERIODIC_SLOW, premises=("periodic_loop",))
 def _decay(periodic_loop: Claim, context: Context) -> Said:
     """The radius of one step, whose power is the certified radius of the period."""
@@ -128,11 +146,15 @@ def _decay(periodic_loop: Claim, context: Context) -> Said:
         yield template(steps=N, radius=radius)
 
 
-@PERIODIC_RULES.rule("table", PERIODIC_STATES)
-def _states(context: Context) -> Said:
+@PERIODIC_RULES.rule("table", PERIODIC_STATES, premises=("periodic_loop",))
+def _states(periodic_loop: Claim, context: Context) -> Said:
+    """The size of the loop that the verdict is about."""
+    _ = periodic_loop.stable
     yield PERIODIC_STATES(n=context.states)
 
 
-@PERIODIC_RULES.rule("table", PERIODIC_ORDER)
-def _order(context: Context) -> Said:
+@PERIODIC_RULES.rule("table", PERIODIC_ORDER, premises=("periodic_loop",))
+def _order(periodic_loop: Claim, context: Context) -> Said:
+    """How much of it the controller adds."""
+    _ = periodic_loop.stable
     yield PERIODIC_ORDER(order=context.order)

@@ -310,7 +310,7 @@ def _heading(known: list[Premise]) -> str:
 
 remark("subsystem channel picture-fixed-mode picture-graphs picture-graphs-outputs")
 remark("picture-dimensions certify-loop")
-remark("design-measured")
+remark("design-measured periodic-loop time-varying-option")
 remark("table-links-limit least-outputs-states-limit least-states-limit")
 remark("controllability-indices-left-out observability-indices-left-out")
 

@@ -17,6 +17,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 import click
+from click.core import ParameterSource
 
 from mcexact.cli import options, parts
 from mcexact.cli.commands import Commands, GroupedCommand, Listed
@@ -314,7 +315,21 @@ def spectrum_examples(*keys: str, parts: bool = False) -> str:
     "of coefficients or of roots and pairs, or a mapping from one agent of each strong component "
     "of the transfer graph to such a list."
 )
-def design_decentralized_command(file: str, **values: Any) -> None:
+@click.option(
+    "--periodic",
+    is_flag=True,
+    help="In discrete time, design a controller whose gains repeat after some steps, which moves "
+    "fixed modes that no time-invariant one moves. It has a radius, and no figures.",
+)
+@click.option(
+    "--longest-period",
+    type=click.IntRange(min=2, max=100),
+    metavar="N",
+    help="With --periodic, the longest period that is tried; 6 by default.",
+)
+def design_decentralized_command(
+    file: str, periodic: bool, longest_period: int | None, **values: Any
+) -> None:
     """Design a decentralized controller for the system in FILE (- for standard input).
 
     Agent i computes u_i from y_i alone. Without --rate or --radius, a search minimizes the cost
@@ -324,7 +339,31 @@ def design_decentralized_command(file: str, **values: Any) -> None:
     of this form moves the fixed modes, which remain if they are fast enough; if one is too slow,
     the status is 1 and a certificate proves that no such controller exists.
     """
-    answer("decentralized", file, values, {})
+    if not periodic:
+        if longest_period is not None:
+            raise click.UsageError("--longest-period is for --periodic: add it")
+        answer("decentralized", file, values, {})
+        return
+    context = click.get_current_context()
+    typed = ParameterSource.COMMANDLINE
+    others = [
+        option.opts[0]
+        for option in context.command.params
+        if option.name in _NOT_PERIODIC and context.get_parameter_source(option.name) is typed
+    ]
+    if others:
+        raise click.UsageError(
+            f"--periodic takes no {', '.join(others)}: costs, margins and peaks of loops with "
+            "periodic controllers are not known"
+        )
+    answer("decentralized", file, values, {"longest": longest_period})
+
+
+_NOT_PERIODIC = {
+    *("rate", "spectrum", "arithmetic", "agent", "weights", "sizes", "limited"),
+    *("prove_all", "html", *options.AIMS),
+}
+"""The options of a search, and those about figures, which a periodic controller does not have."""
 
 
 @click.command(

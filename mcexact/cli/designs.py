@@ -18,13 +18,14 @@ from math import log10
 from typing import Any
 
 from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.structure import transfer_graph
 from mcexact.answer.account import Account
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.protocol import Answer, is_about_dual
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.structure import JointControllability, SetpointSolvability
 from mcexact.answer.templates import Sentence
-from mcexact.cli import parts
+from mcexact.cli import parts, periodic
 from mcexact.cli.files import system_in
 from mcexact.cli.loops import (
     assessed,
@@ -38,7 +39,7 @@ from mcexact.cli.loops import (
 from mcexact.cli.options import AIMS
 from mcexact.cli.results import DESIGNED, Evidence, Loop, Refused
 from mcexact.cli.running import Reporting
-from mcexact.derived.constructions import augmented_outputs
+from mcexact.derived.constructions import augmented_outputs, merged
 from mcexact.derived.feedthrough import input_filters, plant_controller
 from mcexact.derived.sampling import is_sampled
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
@@ -58,6 +59,7 @@ from mcexact.synthesis.gate import Warned
 from mcexact.synthesis.longest_step import LongestStep, longest_step
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.performance import NO_TIME, Performance, PerformanceSearch
+from mcexact.synthesis.periodic import MOST_STATES
 from mcexact.synthesis.robustness import EveryLoop
 from mcexact.synthesis.setpoint import design_setpoint, held_together, selected
 from mcexact.synthesis.state_feedback import require_numbers
@@ -163,6 +165,9 @@ def designed(
     sized = with_sizes(system_in(*plant, limits), sizes, limits)
     system = sampled(with_limits(sized, limited), sampling)
     base = parts.without(system, part, limits)
+    if "longest" in wanted:
+        radius, longest = wanted["radius"], wanted["longest"]
+        return periodic.designed(plant, base, radius, longest, system_by_digest, progress)
     system = _inputs_as_states(name, base)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
@@ -379,6 +384,32 @@ def _advice(
         return ""
     if all(len(factor.channels) in (0, system.m) for factor in proof.factors):
         return ""
+    advice = _over_links(file, system, region, sampling, about, held)
+    if _moved_by_periodic_gains(system, region):
+        asked = "" if region.bound is None else f" --{region.word} {written(region.bound)}"
+        command = f"mcexact design decentralized {file}{_options_of(sampling)} --periodic{asked}"
+        advice += f"; `{command}` designs gains that vary periodically, which move the mode"
+    return advice
+
+
+def _moved_by_periodic_gains(system: MultiChannelSystem, region: StabilityRegion) -> bool:
+    """Whether a periodic design has no quotient fixed mode against it, in discrete time."""
+    made = [each["construction"] for each in system.subject]
+    if not is_discrete(system.time) or system.n > MOST_STATES or made not in ([], ["sampled"]):
+        return False
+    parts_ = transfer_graph(system).components
+    return not fixed_spectrum(merged(system, parts_)).outside(region)
+
+
+def _over_links(
+    file: str,
+    system: MultiChannelSystem,
+    region: StabilityRegion,
+    sampling: Mapping[str, Any],
+    about: str,
+    held: str,
+) -> str:
+    """Return the advice about links."""
     links = "links between agents change"
     if system.neighbors is not None and system.neighbors.edges():
         left = fixed_spectrum(augmented_outputs(system)).factors

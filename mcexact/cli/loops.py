@@ -45,7 +45,7 @@ from mcexact.answer.protocol import Answer
 from mcexact.answer.saturation import SaturationStability
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import count
-from mcexact.cli import parts, uncertainty
+from mcexact.cli import parts, periodic, uncertainty
 from mcexact.cli.files import plant_in, system_in
 from mcexact.cli.results import Evidence, Loop, Simulated
 from mcexact.derived.modulo import states_of_rest
@@ -55,7 +55,12 @@ from mcexact.exact.rational import Limits, percent, written
 from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.export.fixed import FixedPoint
 from mcexact.model.box import radii_in_words
-from mcexact.model.controller import Controller, controller_text, read_controller
+from mcexact.model.controller import (
+    Controller,
+    controller_text,
+    is_periodic,
+    read_controller,
+)
 from mcexact.model.limits import InputLimits, limits_in
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.parametric import ParametricSystem
@@ -140,6 +145,14 @@ def certified(
     part = wanted.pop("part")
     with_box, prove_all = not wanted.pop("no_box"), wanted.pop("prove_all")
     typed_plant = plant_in(*plant, limits, at)
+    if is_periodic(program[1], Limits(**limits)) and isinstance(typed_plant, MultiChannelSystem):
+        others = wanted | {"gains": gains, "largest_uncertainty": effort, "limited": limited}
+        others |= {"weights": weights, "sizes": sizes}
+        periodic.require_only(others, ("radius", "rate"))
+        asked = StabilityRegion.of(typed_plant.time, wanted["rate"], wanted["radius"])
+        system = parts.without(sampled(typed_plant, sampling), part, limits)
+        how = with_page, system_by_digest
+        return periodic.certified(system, program, limits, asked.bound, *how)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
     if isinstance(typed_plant, ParametricSystem):
@@ -735,8 +748,11 @@ def simulated(
     InputError
         If a file is malformed, or the controller does not fit the plant.
     """
-    given = system_in(*plant, limits)
-    system = parts.without(given, wanted.pop("part"), limits)
+    given, part = system_in(*plant, limits), wanted.pop("part")
+    if is_periodic(program[1], Limits(**limits)):
+        how = suffix, fractions, system_by_digest
+        return periodic.simulated(given, part, program, limits, wanted, real, *how)
+    system = parts.without(given, part, limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
     initial = wanted["initial"]

@@ -242,6 +242,14 @@ def controller() -> Schema:
     return record(named("mcexact-controller/1") | system | agents(), closed=True)
 
 
+def periodic_controller() -> Schema:
+    """Files of periodic controllers."""
+    system = {"system": TEXT | {"description": "the digest of the plant, or an empty text"}}
+    phase = record({"agents": agents()["agents"]}, closed=True)
+    phases = {"time": {"const": "discrete"}, "phases": rows(phase, minItems=1)}
+    return record(named("mcexact-periodic-controller/1") | system | phases, closed=True)
+
+
 def certificate() -> Schema:
     """A certificate of any kind; claim and witness are those of its kind."""
     head = record(
@@ -433,14 +441,22 @@ def design() -> Schema:
         )
     }  # fmt: skip
     refused = {"possible": {"const": False}, "reason": TEXT}
-    schema = _account(
-        {"design": TEXT},
-        designed | parts | refused | {"every_loop": EVERY_LOOP, "longest_step": LONGEST_STEP},
-    )
+    periodic = {
+        **{key: designed[key] for key in ("order", "region", "first_line")},
+        "period": WHOLE,
+        "periodic_controller": periodic_controller(),
+        "notes": rows(TEXT),
+    }
+    more = {"every_loop": EVERY_LOOP, "longest_step": LONGEST_STEP}
+    schema = _account({"design": TEXT}, designed | parts | refused | periodic | more)
     return schema | {
         "if": {"required": ["possible"]},
         "then": {"required": ["reason"]},
-        "else": {"required": list(designed)},
+        "else": {
+            "if": {"properties": {"design": {"const": "periodic"}}},
+            "then": {"required": list(periodic)},
+            "else": {"required": list(designed)},
+        },
     }
 
 
@@ -473,6 +489,7 @@ def certify() -> Schema:
             "first_line": TEXT,
         },
         {
+            "period": WHOLE,
             "assessment": ASSESSMENT,
             "every_loop": EVERY_LOOP,
             "largest_uncertainty": _LARGEST,
@@ -803,6 +820,10 @@ _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 DOCUMENTS = {
     "system": (system, "system files: the plants that users write"),
     "controller": (controller, "controller files: a program for each agent"),
+    "periodic-controller": (
+        periodic_controller,
+        "files of periodic controllers: a program for each agent in each step of a period",
+    ),
     "certificate": (certificate, "certificates: a claim about a plant with its proof"),
     "manifest": (manifest, "manifests: sentences with the certificates that imply them"),
     "sweep-record": (sweep_record, "the lines of the file that a sweep writes"),

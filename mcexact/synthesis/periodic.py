@@ -57,7 +57,7 @@ _STARTS = 6
 """The starts of the descent for static gains."""
 _MOST_GAINS = 24
 """The most gains, over all phases, for which the descent is tried."""
-_MOST_STATES = 60
+MOST_STATES = 60
 """The most states of a plant for which controllers are searched."""
 _DIGITS = (2, 3, 4, 6, 9, 12, 15)
 _PERIODS = 400
@@ -182,7 +182,7 @@ class PeriodicDesign(ShownByAccount):
             "order": self.order,
             "region": str(self.region),
             "notes": list(self.notes),
-            "controller": self.controller.to_dict(),
+            "periodic_controller": self.controller.to_dict(),
         }
 
     def __repr__(self) -> str:
@@ -209,7 +209,7 @@ def account_of_period(
         "states": verdict.about.n,
     }
     answers: dict[str, Answer] = {"periodic_loop": verdict}
-    context = Context(verdict.about, facts)
+    context = Context(verdict.about.at_samples, facts)
     sentences = PERIODIC_RULES.sentences(answers, context)
     return Account(answers, context, sentences, verdict.about.subject[:-1])
 
@@ -278,8 +278,8 @@ roots of x - 2, also none that varies in time, and they are not fast enough
     graph = transfer_graph(system)
     quotient = fixed_spectrum(merged(system, graph.components))
     _require_movable(quotient, region)
-    if system.n > _MOST_STATES:
-        raise LimitReached(f"periodic controllers are searched for up to {_MOST_STATES} states")
+    if system.n > MOST_STATES:
+        raise LimitReached(f"periodic controllers are searched for up to {MOST_STATES} states")
     components = _components(system, graph)
     for period in range(2, longest + 1):
         tell(f"controllers of period {period}")

@@ -135,7 +135,7 @@ def test_a_loop_is_known_as_the_last_construction_alone() -> None:
     with pytest.raises(Refused) as refused:
         subject_of(CALM, "box_fixed", (step_of("dual"), LOOP))
     assert refused.value.args[:3] == ("INCOMPLETE", "construction", "subject[1]")
-    assert {*STEPS, CLOSED, "modulo"} == {*CONSTRUCTIONS}
+    assert {*STEPS, CLOSED, "modulo", "periodic_loop"} == {*CONSTRUCTIONS}
 
 
 def test_a_part_of_the_nominal_plant_is_none_of_every_plant_in_a_box() -> None:

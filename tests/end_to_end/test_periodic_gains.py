@@ -10,6 +10,7 @@ from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.constructions import closed_by
+from mcexact.designs import PeriodicController, local_controllers, save_periodic_controller
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
@@ -22,6 +23,7 @@ from tests.end_to_end.command_line import run
 NAME = "movable-by-periodic-gains"
 FILE = Path(gallery.__file__).parent / f"{NAME}.json"
 PLANT = gallery.load(NAME)
+CONTINUOUS = "gallery:quadruple-tank-pminus"
 EVEN, ODD = ("0", "121/500"), ("1", "0")
 """F_1 and F_2 at even and at odd t."""
 OVER_TWO_STEPS = Polynomial.of(0, "-363/1000", "-1/4", 1)
@@ -78,3 +80,52 @@ def test_the_refusal_of_a_design_speaks_of_linear_time_invariant_control() -> No
     done = run("design", "decentralized", str(FILE), "--radius", "1")
     assert done.status == 1
     assert "no linear time-invariant decentralized control moves the mode 11/10" in done.stderr
+    assert f"design decentralized {FILE} --periodic --radius 1`" in done.stderr
+
+
+@pytest.mark.slow
+def test_the_commands_design_certify_check_and_run_a_periodic_controller(tmp_path: Path) -> None:
+    gains, proofs = str(tmp_path / "gains.json"), str(tmp_path / "proofs")
+    done = run("design", "decentralized", str(FILE), "--periodic", "-o", gains)
+    assert (done.status, done.stdout.splitlines()[0]) == (
+        0,
+        "The decentralized controller of period 2 stabilizes the plant.",
+    )
+    done = run("certify", str(FILE), gains, "--radius", "9/10", "--certificates", proofs)
+    assert (done.status, "over 2 steps" in done.stdout) == (0, True)
+    assert run("check", "--controller", gains, proofs).status == 0
+    assert run("certify", str(FILE), gains, "--radius", "1/100").status == 1
+    done = run("simulate", str(FILE), gains, "--horizon", "4", "--json")
+    document = json.loads(done.stdout)
+    assert (document["stable"], document["period"], len(document["times"])) == (True, 2, 5)
+    done = run("analyze", gains)
+    assert (done.status, "mcexact-periodic-controller/1" in done.stderr) == (3, True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["certify", "FILE", "GAINS", "--gains", "1%"], "leave out --gains"),
+        (["certify", "FILE", "GAINS", "--html", "page.html"], "leave out --html"),
+        (["simulate", "FILE", "GAINS", "--reference", "1,1"], "leave out --reference"),
+        (["simulate", "FILE", "GAINS", "--code", "interpreted"], "leave out --code"),
+        (["simulate", "FILE", "GAINS", "-o", "run.html"], "as .csv or .png"),
+        (["export", "GAINS", "-o", "code"], "this controller is periodic"),
+        (["convert", "GAINS", "-o", "gains.mat"], "this controller is periodic"),
+        (["design", "decentralized", "FILE", "--periodic", "--rate", "1"], "takes no --rate"),
+        (["design", "decentralized", "FILE", "--longest-period", "3"], "add it"),
+        (["design", "decentralized", CONTINUOUS, "--periodic"], "sample the plant"),
+    ],
+)
+def test_what_a_periodic_controller_does_not_have_is_refused_in_one_message(
+    tmp_path: Path, arguments: list[str], message: str
+) -> None:
+    gains = tmp_path / "gains.json"
+    phases = [local_controllers(PLANT, [[[one]], [[two]]]) for one, two in (EVEN, ODD)]
+    save_periodic_controller(PeriodicController(tuple(phases)), gains)
+    known = {"FILE": str(FILE), "GAINS": str(gains)}
+    done = run(*(known.get(each, each) for each in arguments))
+    of_file = "this controller" in message
+    assert (done.status, len(done.messages)) == (3 if of_file else 2, 1)
+    assert message in done.stderr

@@ -111,6 +111,18 @@ def test_loops_are_as_their_schemas_say(tmp_path: Path) -> None:
     written(folder)
 
 
+@pytest.mark.slow
+def test_periodic_controllers_are_as_their_schemas_say(tmp_path: Path) -> None:
+    plant, gains = "gallery:movable-by-periodic-gains", str(tmp_path / "gains.json")
+    folder = tmp_path / "made"
+    made = asked("design", "design", "decentralized", plant, "--periodic", "-o", gains)
+    assert faults("periodic-controller", json.loads(Path(gains).read_text())) == []
+    assert faults("periodic-controller", made["periodic_controller"]) == []
+    asked("certify", "certify", plant, gains, "--certificates", str(folder))
+    written(folder)
+    asked("simulate", "simulate", plant, gains, "--horizon", "2")
+
+
 def test_a_run_is_as_its_schema_says(tmp_path: Path) -> None:
     plant, controller = small(tmp_path), tmp_path / "c.json"
     save_controller(local_controllers(load_system(plant), [[[-1]], [[-1]]]), controller)

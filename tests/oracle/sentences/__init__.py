@@ -43,6 +43,8 @@ UNJUDGED = {
     "picture-graphs-outputs": _TITLE,
     "picture-dimensions": _TITLE,
     "certify-loop": _TITLE,
+    "periodic-loop": _TITLE,
+    "time-varying-option": _OPTION,
     "design-measured": "it says that figures are not certified, and claims none",
     "allocate-proof": _PROOF,
     "allocate-nested-proof": _PROOF,
