@@ -104,7 +104,7 @@ REJECTED = [
     (
         "an agent that hears another one over a link",
         claimed(None, True, over(EVEN, ODD), system=RING),
-        (f"{SECOND}.input.outputs.1", [[1]]),
+        (f"{SECOND}.input.outputs.1", [["1/1000"]]),
         NOT,
     ),
     (
@@ -124,6 +124,17 @@ REJECTED = [
     ),
     ("a phase in continuous time", GAINS, (f"{PHASES}.1.time", "continuous"), NOT),
     ("a plant in continuous time", GAINS, ("system.time", "continuous"), NOT),
+    (
+        "plant and phases in continuous time",
+        GAINS,
+        (
+            ("system.time", "continuous"),
+            (f"{PHASES}.0.time", "continuous"),
+            (f"{PHASES}.1.time", "continuous"),
+            ("claim.stable", False),
+        ),
+        NOT,
+    ),
     ("agents in another order", GAINS, (f"{PHASES}.0", phase(agent("2"), agent("1"))), NOT),
     ("an agent is missing", GAINS, (f"{PHASES}.0", phase(agent("1"))), NOT),
     ("an unknown agent", GAINS, (f"{FIRST}.name", "3"), NOT),
