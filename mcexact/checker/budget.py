@@ -77,7 +77,7 @@ class Verdict:
         The SHA-256 of the statement of a certificate.
     summary : str
         What it says in one line, without all that its words mean; of a sentence what follows from
-        its premises, empty where that is what one of them states.
+        its premises.
     system_digest : str
         The SHA-256 of the certificate's plant; empty if it could not be read.
     controller_digest : str

@@ -359,14 +359,15 @@ class Evidence:
     def _in_short(self, words: str, premises: Sequence[Premise]) -> str:
         """What follows, in one line: without digests, and with numbers for whole statements.
 
-        It is empty where that is what one of the certificates states.
+        Where that is what one of the certificates states, it is the summary of this.
         """
         numbers = {name: k for k, name in enumerate(self.verdicts, 1)}
         for premise in premises:
             words = words.replace(premise.statement, f"[{numbers[premise.file]}]")
         short = words.replace(self.own()[0].plant.words, "the plant").removeprefix("For ")
         short = WITH_DIGEST.sub("", short.removeprefix("the plant: "))
-        return "" if NUMBER.fullmatch(short) else cut(short, MOST_QUOTED)
+        alone = [each.file for each in premises if short == f"[{numbers[each.file]}]"]
+        return self.verdicts[alone[0]].summary if alone else cut(short, MOST_QUOTED)
 
 
 def fails_first(steps: list[Json], base: list[Json]) -> bool:
@@ -426,8 +427,8 @@ def line_of(result: Found, *, named: bool, statements: bool = False) -> str:
     """A verdict as one line; ``named`` with the name of its file, ``statements`` with all words.
 
     A certificate of a manifest has its number before its name.  The text of a sentence is quoted,
-    in which anything may be written; the numbers of the premises from which it follows stand behind
-    it, and what follows where none of them states just that.
+    in which anything may be written; the numbers of the premises stand behind it, and in words of
+    the checker what follows from them.
     """
     about, verdict = result
     if "text" in about:

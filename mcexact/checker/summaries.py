@@ -10,6 +10,7 @@ from fractions import Fraction
 from .arithmetic import Polynomial
 from .boxes import lie_inside
 from .discs import Box
+from .loops import within as within_region
 from .modes import inside, no_fixed_mode
 from .parametric_system import FunctionSystem, ParametricSystem
 from .reading import Json
@@ -63,7 +64,8 @@ def box_stable(claim: Json, box: Box) -> str:
         port, size = claim["disk"]["at"].removesuffix("s"), claim["disk"]["margin"]
         gains += f", each {port} by itself has a disk margin of {size}"
         claim = {key: value for key, value in claim.items() if key != "disk"}
-    return lie_inside({**claim, "gain_radii": None}, box, f"{RADII}{gains}")
+    words = lie_inside({**claim, "gain_radii": None}, box, f"{RADII}{gains}")
+    return words.replace("eigenvalue of A", "eigenvalue")
 
 
 def closed_loop_spectrum(claim: Json, system: System) -> str:
@@ -201,9 +203,8 @@ def shared_dimensions(claim: Json, system: System) -> str:
     listed = ", ".join(f"{name}: {size}" for name, size in pairs)
     least = claim.get("at_least", claim["cost"])
     within = "" if claim["upper"] == [None] * system.m else " within the bounds"
-    return (
-        f"no cost below {least}{within} leaves {goal}; sharing {{{listed}}} at {claim['cost']} does"
-    )
+    less = f"no cost below {least}{within} does" if Fraction(least) else "nothing costs less"
+    return f"sharing {{{listed}}} leaves {goal}, at the cost {claim['cost']}; {less}"
 
 
 def sharing_gap(claim: Json, system: System) -> str:
@@ -218,6 +219,11 @@ def single_channel_gains(claim: Json, system: System) -> str:
     act = {"controllable": "control", "observable": "observe", "both": "control and observe"}
     which = f"each channel of {channel_set(claim['channels'])} {act[claim['property']]} every mode"
     return f"{'some' if claim['exists'] else 'no'} constant gains let {which}"
+
+
+def stability(claim: Json, system: System) -> str:
+    """Where all eigenvalues lie, or that they do not."""
+    return f"{denied(claim['stable'])}every eigenvalue has {within_region(claim, system)}"
 
 
 def step_peaks(claim: Json, system: System) -> str:
@@ -264,6 +270,7 @@ SUMMARIES: Mapping[str, Callable[..., str]] = {
         shared_dimensions,
         sharing_gap,
         single_channel_gains,
+        stability,
         step_peaks,
         transfer_graph,
     )

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
+import os
 import platform
 import shlex
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
 
 from mcexact import __version__
+from mcexact.checker.command import line_of, status_of
 from mcexact.checker.kinds import Found
 from mcexact.report.html import AnswerPage
 from mcexact.report.text import Table
@@ -14,19 +19,28 @@ from mcexact.report.text import Table
 ARCHIVE = "mcexact-checker.pyz"
 
 
+_ATTESTED = (
+    "I ran the checker as it says above, on the files of the table “What was checked”. It ended "
+    "with the verdicts of this page. I compared each sentence with what follows beside it, and the "
+    "names of plant and controller with the files that I was given."
+)
+"""What the signature says."""
+
+
 def _certificates(found: Sequence[Found], second: Mapping[int, str]) -> Table:
     """Each certificate with its verdict, and what it proves or why it does not."""
-    rows = []
+    rows, note = [], "Whole statements stand under Evidence."
     for k, (about, verdict) in enumerate(found):
         if "text" in about or verdict.verdict == "COUNTED":
             continue
-        by = "both" if second.get(k, "").startswith("CONFIRMED") else "the first"
         said = verdict.summary or f"{verdict.code} {verdict.place}: {verdict.message}"
-        checked = by if verdict.verdict == "VALID" else ""
-        rows.append((about.get("number", ""), about["file"], verdict.verdict, checked, said))
-    note = "The first checker is that of mcexact; the second one, mcexact-verified, is the program "
-    note += "extracted from the proof of its own soundness. Whole statements stand under Evidence."
-    columns = ("number", "certificate", "verdict", "by which checker", "what is proved")
+        twice = second.get(k, "").startswith("CONFIRMED") and verdict.verdict == "VALID"
+        row = (about.get("number", ""), about["file"], verdict.verdict, said)
+        rows.append((*row, "confirmed" if twice else "") if second else row)
+    columns: tuple[str, ...] = ("number", "certificate", "verdict", "what is proved")
+    if second:
+        columns += ("mcexact-verified",)
+        note += " mcexact-verified is the program extracted from the proof of its own soundness."
     return Table("Certificates", columns, tuple(rows), note)
 
 
@@ -42,10 +56,11 @@ def _sentences(found: Sequence[Found]) -> Table:
         for about, verdict in found
         if "text" in about
     )
-    note = "Sentences are quoted from the manifest, in which anything may be written. What is "
-    note += "proved is what the certificates of these numbers state, or the words beside them. "
-    note += "A REMARK claims nothing."
-    columns = ("sentence of the report", "verdict", "certificates", "what follows")
+    note = "The first column is quoted from the manifest, in which anything may be written: the "
+    note += "checker does not read it. The last column is what it proved from the certificates of "
+    note += "these numbers: [3] stands for what the certificate 3 proves. Compare both. A REMARK "
+    note += "claims nothing."
+    columns = ("sentence of the report", "verdict", "certificates", "what follows from them")
     return Table("Sentences of the report", columns, rows, note)
 
 
@@ -77,7 +92,12 @@ def audit_page(
     proved = sum(verdict.verdict == "VALID" for verdict in verdicts)
     implied = sum(verdict.verdict == "IMPLIED" for verdict in verdicts)
     refused = sum(bool(verdict.status) for verdict in verdicts)
-    answer = [f"{proved} certificates are VALID, and {implied} sentences follow from them."]
+    answer = [f"{proved} certificates are VALID."]
+    if implied:
+        answer.append(
+            f"From them follows what stands beside {implied} sentences of the report. The checker "
+            "does not read the sentences themselves: compare both columns."
+        )
     if refused:
         answer.append(f"warning: {refused} certificates or sentences are not proved; see below.")
     plants = dict.fromkeys(each.system_digest for each in verdicts if each.verdict == "VALID")
@@ -85,29 +105,47 @@ def audit_page(
     for words, digests in (("plant", plants), ("controller", loops)):
         if digests and words not in asked:
             answer.append(f"warning: no {words} was given to compare with: compare the digest.")
-    facts = [(f"the {words} asked for", path) for words, path in asked.items()]
-    facts += [("SHA-256 of the plant", digest) for digest in plants]
-    facts += [("SHA-256 of the controller", digest) for digest in loops]
+    facts = []
+    for words, path in asked.items():
+        facts += [(f"the {words} asked for", path), *_bytes_of(path)]
+    for manifest in dict.fromkeys(about["manifest"] for about, _ in found if "manifest" in about):
+        facts += [("the manifest", manifest), *_bytes_of(manifest)]
+    for words, digests in (("plant", plants), ("controller", loops)):
+        for k, digest in enumerate(digests):
+            which = "" if not k else ", another one: nearby, in a box, or at samples"
+            facts.append((f"SHA-256 of the numbers of the {words}{which}", digest))
     facts += [("version", f"mcexact {__version__}, Python {platform.python_version()}")]
+    status = status_of(found)
+    last = line_of(found[-1], named=True) if found else ""
     again = [
         ("with mcexact", shlex.join(["mcexact", "check", *arguments])),
         ("make the checker as one file", f"mcexact check --export {ARCHIVE}"),
         ("with Python alone", shlex.join(["python", "-I", ARCHIVE, *arguments])),
-        (f"SHA-256 of {ARCHIVE}", archive),
+        ("it then ends with", f"status {status}, and the line {last}"),
+        (f"SHA-256 of {ARCHIVE}", f"{archive} (ask whoever you trust for it, not the sender)"),
     ]
     signed = [("name", ""), ("date", ""), ("signature", "")]
+    names = [os.path.basename(path) for path in asked.values()]
+    about_what = f": {' and '.join(names)}" if names else ""
     tables = (
         Table("What was checked", (), tuple(facts)),
         _certificates(found, second),
         _sentences(found),
         Table("How to repeat it", (), tuple(again)),
-        Table("Signed", (), tuple(signed)),
+        Table("Signed", (), tuple(signed), _ATTESTED),
     )
     return AnswerPage(
-        "Audit of certificates",
+        f"Audit of certificates{about_what}",
         "What an independent checker verified, and how anybody can repeat it.",
         good,
         tuple(answer),
         (),
         tuple(table for table in tables if table.rows),
     )
+
+
+def _bytes_of(path: str) -> list[tuple[str, str]]:
+    """The digest of the bytes of a file, as `sha256sum` prints it; nothing of standard input."""
+    with suppress(OSError):
+        return [("its SHA-256, as a file", hashlib.sha256(Path(path).read_bytes()).hexdigest())]
+    return []

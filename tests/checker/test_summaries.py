@@ -84,6 +84,6 @@ def test_what_follows_names_statements_by_their_numbers(tmp_path: Path) -> None:
     write(tmp_path, evidence, manifest(evidence, sentences))
     *_, one, both = manifest_verdicts(str(tmp_path), Expectation(), Limits())
     assert [each.verdict for _, each in (one, both)] == ["IMPLIED"] * 2
-    assert (one[0]["premises"], one[1].summary) == ("2", "")
+    assert one[0]["premises"] == "2" and "at a cost of at most" in one[1].summary
     assert both[0]["premises"] == "2, 1"
     assert both[1].summary == "[2]; [1]: the former is at most 14/3 of the latter"
