@@ -321,6 +321,7 @@ def periodic_loop(system: MultiChannelSystem, controller: PeriodicController) ->
     UsageError, InputError
         If the controller does not fit, or the plant has feedthrough.
     """
+    InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, PeriodicController, "controller")
     controller.require_fits(system)
     return PeriodicLoop(system, controller).system

@@ -96,6 +96,7 @@ def simulate_periodic(
     ['1', '1/4', '1/2', '1/8', '1/4']
     """
     any_system(system)
+    InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, PeriodicController, "controller")
     M = periodic_loop(system, controller).A  # what does not fit is refused here
     numbers = arithmetic_named(arithmetic or "exact", digits)

@@ -114,6 +114,7 @@ def certify_periodic(
     False
     """
     any_system(system)
+    InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, PeriodicController, "controller")
     _require_discrete(system)
     region = StabilityRegion.of(system.time, None, radius)

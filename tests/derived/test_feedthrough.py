@@ -33,10 +33,11 @@ from mcexact.checker import constructions
 from mcexact.checker.constructions import read_subject
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import read_plant
-from mcexact.constructions import input_filters
+from mcexact.constructions import input_filters, periodic_loop
 from mcexact.derived.constructions import add_links, feedback, full_output
 from mcexact.derived.feedthrough import without_feedthrough
 from mcexact.derived.modulo import without_part
+from mcexact.designs import PeriodicController, local_controllers
 from mcexact.model.loop import closed_loop
 from mcexact.model.text import plain
 from tests.public import PUBLIC
@@ -347,9 +348,7 @@ def test_filters_of_a_system_without_feedthrough_change_no_fixed_mode() -> None:
 CARRIED = {
     "arcs": lambda s: add_links(s, [(0, 1)]),
     "augmented_outputs": mcexact.constructions.augmented_outputs,
-    "closed_loop": lambda s: (
-        closed_loop(s, mcexact.designs.local_controllers(s, [[[1]], [[1]]])).system
-    ),
+    "closed_loop": lambda s: closed_loop(s, local_controllers(s, [[[1]], [[1]]])).system,
     "dual": mcexact.constructions.dual,
     "failed": lambda s: mcexact.constructions.failed(s, sensors=[("1", 1)]),
     "input_filters": input_filters,
@@ -366,11 +365,14 @@ REFUSED = {
     "held": lambda s: mcexact.constructions.held_system(s, [1, 0]),
     "integrators": mcexact.constructions.setpoint_system,
     "lifted": lambda s: mcexact.constructions.lifted_system(s, [1, 0]),
+    "periodic_loop": lambda s: periodic_loop(
+        s, PeriodicController((local_controllers(s, [[[1]], [[1]]]),))
+    ),
     "sampled": lambda s: mcexact.constructions.sampled_system(s, Fraction(1, 10)),
     "servo": lambda s: mcexact.constructions.servo_system(s, [[[1]], [[1]]]),
     "slow": lambda s: mcexact.constructions.slow_system(s, 4),
 }
-DISCRETE = {"held", "lifted", "slow"}
+DISCRETE = {"held", "lifted", "periodic_loop", "slow"}
 TAKEN = {
     *("analyze", "assignability", "complementary_subsystem", "completeness", "fixed_spectrum"),
     *("controllability_indices", "joint_controllability", "joint_observability", "modulo"),
