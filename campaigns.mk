@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 
-.PHONY: help agreement absence parameters hypersurfaces members every-question judged-sentences gaps periodic samples limited attack weakened-checker mutants readers damaged-files package-coverage checked-proofs weakened-proofs impossible-proofs verified-agreement paper-mutants bench designs boxes nearby digits costs six-loops rounding sentences schemas ledger records corpus durations matrix schemas-everywhere cluster look
+.PHONY: help agreement absence parameters hypersurfaces members every-question judged-sentences gaps periodic samples limited attack weakened-checker mutants readers damaged-files package-coverage checked-proofs weakened-proofs impossible-proofs verified-agreement paper-mutants bench designs boxes nearby digits costs six-loops rounding sentences schemas ledger records corpus wording durations matrix schemas-everywhere cluster look
 
 # This list.
 help:
@@ -202,6 +202,11 @@ records: $(STAMP)
 # Certificates, and what each rule for sentences makes of them, as tests/checker compares: minutes.
 corpus: $(STAMP)
 	$(BIN)/python -m tests.checker.corpus_sentences
+
+# The words of messages and sentences that tests compare, recorded in tests/wording.txt by running
+# these tests: minutes.  PATHS='tests/cli/test_designs.py' records those of some.
+wording: $(STAMP)
+	$(BIN)/python -m tests.wording $(PATHS)
 
 ## The tests and what they run on
 

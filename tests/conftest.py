@@ -11,6 +11,12 @@ from hypothesis import HealthCheck, settings
 
 from mcexact import processes
 from tests.durations import SLOW_FIXTURES, slow_tests
+from tests.wording import (  # noqa: F401 - hooks
+    pytest_addoption,
+    pytest_runtest_call,
+    pytest_sessionfinish,
+    pytest_sessionstart,
+)
 
 _SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large]
 

@@ -17,6 +17,7 @@ from mcexact.analysis.sharing import minimal_shared_dimensions
 from mcexact.errors import LimitReached
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
+from tests.wording import refusal
 
 TRIANGLE = tuple(CoveringCut(frozenset(pair), 1) for pair in ((0, 1), (1, 2), (0, 2)))
 
@@ -66,7 +67,7 @@ def test_upper_bounds_beyond_floats_bound_nothing():
 def test_prices_too_far_apart_for_floating_point_are_a_limit_not_a_bug():
     plant = gallery.load("liu2020-3ch-no-communication")
     ring = NeighborGraph.ring(plant.names)
-    with pytest.raises(LimitReached, match="differ by a factor of more than 1000000"):
+    with refusal(LimitReached):
         minimal_shared_dimensions(plant, ring, "states", costs=[Fraction(1, 10**12), 1, 10**20])
 
 

@@ -22,6 +22,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.text import plain
 from tests.checker.handmade import FIXED
+from tests.wording import refusal
 
 PLANT = MultiChannelSystem(
     [[1, 0, 0], [0, 1, 0], [0, 1, 1]],
@@ -117,7 +118,7 @@ def test_a_file_that_names_its_plant_by_digest_is_read_with_the_plant(tmp_path: 
     assert load_certificate(file, PLANT) == found
     whole, named = check(found), check(file, PLANT)
     assert named == whole
-    with pytest.raises(InputError, match="INCOMPLETE system system: give the system of digest"):
+    with refusal(InputError):
         load_certificate(file)
     with pytest.raises(InputError, match="NOT ABOUT system system: about another system"):
         load_certificate(file, MultiChannelSystem([[0]], [[[1]]], [[[1]]]))
@@ -139,7 +140,7 @@ def test_only_what_the_checker_accepts_is_read(
     file.write_text(json.dumps(document))
     with pytest.raises(InputError, match=said):
         load_certificate(file)
-    with pytest.raises(InputError, match=r"missing\.json: there is no such file"):
+    with refusal(InputError):
         load_certificate(tmp_path / "missing.json")
 
 

@@ -14,6 +14,7 @@ from tests.checker.box_plants import (
 )
 from tests.checker.handmade import checked, matrix, without
 from tests.checker.tables import accepts, rejects
+from tests.wording import says
 
 KIND = "box_controllable"
 OF_THIS_KIND = [(name, each) for name, each in ALL.items() if each["kind"] == KIND]
@@ -87,7 +88,7 @@ def test_the_statement_says_which_modes_are_controlled() -> None:
     ):
         told = checked(document).statement.partition(" time): for all plants whose entries ")[2]
         assert told.endswith(f", the channels {said}")
-    assert checked(OBSERVABLE).statement.startswith("For the dual of: the plant ")
+    assert says(checked(OBSERVABLE).statement, "dual plant")
 
 
 @pytest.mark.parametrize("part", ["exterior", "frames", "cover"])

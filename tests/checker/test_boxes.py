@@ -17,6 +17,7 @@ from mcexact.checker.reading import Refused
 from tests.checker.box_maker import fractions, subject_of
 from tests.checker.box_plants import CALM, CERTAIN, DAMPED, LOOP, PAIR, uncertain
 from tests.checker.handmade import matrix, plant
+from tests.wording import says
 
 STEPS: dict[str, Any] = {
     "arcs": {"added": [["1", "2"]]},
@@ -164,5 +165,5 @@ def test_a_loop_is_the_last_construction_of_a_claim_about_stability_alone() -> N
 def test_a_plant_without_uncertainty_is_the_one_member() -> None:
     box = subject_of(CERTAIN, "box_fixed", ())
     assert not nonzero(box.radii.A) and not nonzero(box.radii.B[0])
-    assert subject_of(PAIR, "fixed_spectrum", ()).words.endswith(" at its nominal values")
+    assert says(subject_of(PAIR, "fixed_spectrum", ()).words, "nominal values")
     assert fractions(absolute(box.A.times(-2))) == [[2]]

@@ -19,6 +19,7 @@ from mcexact.questions import open_loop_spectrum
 from tests.checker.handmade import Document, changed, checked
 from tests.checker.manifests import manifest, said, sentence, write
 from tests.checker.tables import accepts, rejects
+from tests.wording import says, worded
 
 FILTERS = {"construction": "input_filters"}
 A, B, C = [[-1, -1], [-1, -1]], [[[-1], [-1]], [[1], [0]]], [[[1, 0]], [[1, 1]]]
@@ -78,7 +79,7 @@ test_forgeries_about_feedthrough_are_rejected = rejects(REJECTED)
 def test_the_reason_is_told() -> None:
     verdict = checked(changed(MOVES, ("subject", [])))
     assert (verdict.code, verdict.place) == ("feedthrough", "system")
-    assert verdict.message == "fixed_spectrum is not known for systems with feedthrough"
+    assert worded(verdict.message)
 
 
 def test_only_kinds_whose_claims_do_not_depend_on_it_take_feedthrough() -> None:
@@ -112,7 +113,7 @@ def test_a_loop_has_to_be_well_posed() -> None:
     place = "subject.0.controller.agents.0.input.outputs.1"
     verdict = checked(changed(found, (place, [[1]])))
     assert (verdict.verdict, verdict.code) == ("INVALID", "subject")
-    assert verdict.message == "the loop is not well posed: I - K D is singular"
+    assert worded(verdict.message)
     with pytest.raises(UsageError, match="not well posed"):
         certify_controller(plant, local_controllers(plant, [[[1]]]))
 
@@ -139,7 +140,7 @@ def about(folder: Path, evidence: dict[str, Document], *keys: str, subject: Any 
 def test_the_fixed_modes_are_those_of_the_plant(tmp_path: Path) -> None:
     (found,) = about(tmp_path, {"fixed": STAYS}, "feedthrough")
     assert found.verdict == "IMPLIED"
-    assert f"For the plant {signed(1).digest()}: the modes at which" in found.statement
+    assert says(found.statement, "plant modes") and signed(1).digest() in found.statement
 
 
 def test_of_a_plant_without_filters_nothing_is_said(tmp_path: Path) -> None:

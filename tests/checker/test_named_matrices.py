@@ -11,6 +11,7 @@ from mcexact.checker.bivariate import named_matrix, named_text
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from tests.assurance.attack.forgeries.parametric_traps import plant
+from tests.wording import worded
 
 PLANT = plant(
     [["t", 1], [0, "(1)/(t + 1)"]],
@@ -150,17 +151,8 @@ def test_matrices_have_words() -> None:
     assert said({"name": "setpoint"}) == "[A, B; C, 0] with the matrices A, B and C of all channels"
     sampled = "[A - I, B; C, 0] with the matrices A, B and C of all channels"
     assert said({"name": "setpoint"}, SAMPLED) == sampled
-    assert said({"name": "signal", "polynomial": [4, 0, 1]}) == (
-        "[kron(I, A) - kron(K, I), kron(I, B); kron(I, C), 0] with the matrices A, B and C of all "
-        "channels, the companion matrix K of x^2 + 4 and the Kronecker product kron"
-    )
-    assert said(controllability(["1", "3"], 2)) == (
-        "the matrix of the first 2 of the blocks B, A B, A^2 B, ... with the matrix A and the "
-        'matrix B of the inputs of the channels {"1", "3"}'
-    )
-    assert said({"name": "transfer", "from": "1", "to": "2"}) == (
-        "the column of all entries of the first 2 of C B, C A B, C A^2 B, ... with the matrix A, "
-        'the matrix B of the inputs of channel "1" and the matrix C of the outputs of channel "2"'
-    )
+    assert worded(said({"name": "signal", "polynomial": [4, 0, 1]}))
+    assert worded(said(controllability(["1", "3"], 2)))
+    assert worded(said({"name": "transfer", "from": "1", "to": "2"}))
     with pytest.raises(Refused):
         said({"name": "pencil"})

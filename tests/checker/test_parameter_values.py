@@ -12,6 +12,7 @@ from mcexact.checker.parameters import listed_value, roots_text, values_left_out
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from tests.assurance.attack.forgeries.parametric_traps import plant
+from tests.wording import worded
 
 
 def ranged(low: Any, high: Any) -> ParametricSystem:
@@ -132,7 +133,7 @@ TWO = {"value": [-2, 1], "roots": [disc("2")]}
 
 
 def test_values_have_words() -> None:
-    assert roots_text(TWO, "t") == "the roots of t - 2, one in each of the discs {2 +- 0}"
+    assert worded(roots_text(TWO, "t"))
     start = (
         "for every complex value of the parameter t at which all entries of the plant are defined"
     )

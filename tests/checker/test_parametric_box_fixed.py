@@ -22,6 +22,7 @@ from tests.checker.parameter_plants import (
     fixed,
 )
 from tests.checker.tables import accepts, rejects
+from tests.wording import says
 
 OF_THIS_KIND = [(name, each) for name, each in ALL.items() if each["kind"] == FIXED]
 
@@ -93,7 +94,8 @@ def test_the_statement_names_the_ranges() -> None:
         (QUARTERS, both),
         (ONE_VALUE, "t from 1/2 to 1/2, there is no mode that is fixed under"),
     ):
-        assert f"): for all real values of the parameter {said}" in checked(document).statement
+        statement = checked(document).statement
+        assert says(statement, "ranges") and f" of the parameter {said}" in statement
 
 
 def halved(times: int) -> list[int | None]:

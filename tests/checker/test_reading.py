@@ -16,6 +16,7 @@ from mcexact.checker.kinds import check_document
 from mcexact.checker.reading import Limits
 from tests import effort
 from tests.checker.handmade import FIXED, FREE, PAPER, Document, changed, checked, without
+from tests.wording import refusal, worded
 
 TEXT = json.dumps(FREE)
 
@@ -293,7 +294,7 @@ def test_what_no_reader_can_nest_is_told() -> None:
     data = b"[" * 10**5 + b"]" * 10**5
     found = check_document(data, limits=Limits(depth=10**6, work=10**12))
     assert (found.verdict, found.code) == ("MALFORMED", "form")
-    assert found.message == "nested deeper than any certificate"
+    assert worded(found.message)
 
 
 def test_a_polynomial_has_a_leading_coefficient_of_one() -> None:
@@ -301,12 +302,7 @@ def test_a_polynomial_has_a_leading_coefficient_of_one() -> None:
     for wrong in ([], [2], [1, 0]):
         with pytest.raises(reading.Refused) as refused:
             reading.polynomial(wrong, "here")
-        assert refused.value.args == (
-            "MALFORMED",
-            "form",
-            "here",
-            "expected a monic polynomial of degree at least 0",
-        )
+        assert worded(refused.value.args)
 
 
 def test_a_string_that_is_missing_is_asked_for() -> None:
@@ -352,7 +348,7 @@ def test_standard_input_is_read_or_refused(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"[]")))
     assert reading.read_file("-", Limits()) == b"[]"
     monkeypatch.setattr(sys, "stdin", None)
-    with pytest.raises(reading.Refused, match="standard input is closed"):
+    with refusal(reading.Refused):
         reading.read_file("-", Limits())
 
 

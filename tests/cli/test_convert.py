@@ -16,6 +16,7 @@ from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from tests.cli.calling import call
 from tests.model.formats.hostile import mat
+from tests.wording import says
 
 TANKS = "gallery:quadruple-tank-pminus"
 
@@ -66,7 +67,7 @@ def test_a_plant_is_converted_with_a_warning_where_an_answer_depends_on_rounding
     target = str(tmp_path / "p.json")
     status, out, said = call("convert", str(source), "--rounding", rounding, "-o", target)
     assert (status, out) == (0, "") and load_system(target).n == 3
-    assert ("warning: an answer depends on rounding errors: a plant within " in said) is warned
+    assert says(said, "warning") if warned else "warning" not in said
     # What is typed was not rounded here.
     assert "warning" not in call("convert", target, "-o", str(tmp_path / "q.json"))[2]
 
@@ -75,7 +76,7 @@ def test_an_output_that_cannot_hold_the_numbers_is_not_written(tmp_path: Path) -
     target = tmp_path / "p.mat"
     status, _, said = call("convert", TANKS, "-o", str(target), "--rounding", "decimal")
     assert status == 3 and not target.exists()
-    assert f"{target}: A[0][0]: no float is read as -1/62 with the rounding 'decimal'" in said
+    assert says(said, "rounding decimal") and str(target) in said
     assert call("convert", TANKS, "-o", str(target), "--nearest")[:2] == (0, "")
 
 
@@ -83,14 +84,14 @@ def test_a_folder_of_other_files_is_not_replaced(tmp_path: Path) -> None:
     (tmp_path / "notes").mkdir()
     (tmp_path / "notes" / "a.txt").write_text("keep")
     status, _, said = call("convert", TANKS, "-o", str(tmp_path / "notes"))
-    assert status == 3 and "holds other files and no A.csv" in said
+    assert status == 3 and says(said, "other csv")
     assert (tmp_path / "notes" / "a.txt").read_text() == "keep"
 
 
 @pytest.mark.parametrize("sizes", ["1,x", "-1", "", "1;2"])
 def test_sizes_are_integers(sizes: str) -> None:
     status, _, said = call("convert", TANKS, "--inputs", sizes)
-    assert status == 2 and f"expected integers such as 1,2, found '{sizes}'" in said
+    assert status == 2 and says(said, "expected integers")
 
 
 @pytest.mark.parametrize("file", ["tanks", "tanks.npz", "tanks.yaml"])
@@ -113,7 +114,7 @@ def test_the_checker_reads_json_and_the_gallery(tmp_path: Path) -> None:
     status, _, said = call(
         "check", "--statements", certificate, "--system", str(tmp_path / "p.mat")
     )
-    assert status == 3 and "the checker reads JSON alone: convert the plant by" in said
+    assert status == 3 and says(said, "reads convert")
     assert call("check", "--statements", certificate, "--system", "gallery:x")[0] == 2
 
 

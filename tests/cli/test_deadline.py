@@ -19,6 +19,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
 from tests.cli.calling import call
 from tests.end_to_end.command_line import MCEXACT, interruptible, run
+from tests.wording import says
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
 
@@ -62,7 +63,8 @@ def test_a_pipe_without_a_writer_is_waited_for_until_the_time_limit(
     said = done.stdout if "sweep" in arguments else done.stderr
     # A busy machine can still be at the file before the pipe when the time is over.
     read = [path for path in named if path in (pipe, plant)]
-    assert any(f"the time limit of 0.5 s was reached while reading {path}" in said for path in read)
+    assert says(said, "limit") and "0.5 s" in said
+    assert any(f" while reading {path}" in said for path in read)
 
 
 def test_a_pipe_with_a_writer_is_read(pipe: str) -> None:
@@ -183,4 +185,4 @@ def test_a_limit_keeps_answers_about_parameters_and_names_a_search_that_it_ended
     assert "generic" in told["fixed_spectrum"] and "not decided: " in err
     monkeypatch.setattr("mcexact.analysis.boxes.largest.largest_uncertainty", endless)
     status, _, err = call(*LIMITED, "--largest-uncertainty")
-    assert (status, "nothing has been decided" in err) == (4, True)
+    assert status == 4 and says(err, "undecided")

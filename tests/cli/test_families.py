@@ -11,6 +11,7 @@ from mcexact.boxes import Box
 from mcexact.cli.sweep import values
 from mcexact.model.system_file import read_system
 from tests.cli.calling import call
+from tests.wording import says
 
 PAPER = "gallery:liu2020-3ch-no-communication"
 PARAMETRIC = {
@@ -110,7 +111,7 @@ def test_a_file_that_cannot_be_read_is_told_like_any_other(tmp_path: Path, param
     missing = str(tmp_path / "no.json")
     document = swept(missing, parametric, "--all-sensors", "--draws", "1", status=3)
     first, second, drawn = document["records"]
-    assert "there is no such file" in first["error"]["message"]
+    assert says(first["error"]["message"], "file")
     assert "parameters" in second["error"]["message"] and "answers" in drawn
 
 

@@ -12,6 +12,7 @@ from mcexact.model.files import read_any
 from mcexact.model.gallery import published
 from mcexact.model.system_file import read_system
 from tests.cli.calling import call
+from tests.wording import says
 
 
 def test_the_list_names_every_plant_with_its_source_and_what_it_shows() -> None:
@@ -68,4 +69,4 @@ def test_a_template_is_a_system_file_whose_keys_are_explained(kind: list[str]) -
 
 def test_a_template_is_not_drawn() -> None:
     status, _, said = call("sample", "--template", "--count", "2", "-o", "x")
-    assert status == 2 and "--template prints one file" in said
+    assert status == 2 and says(said, "template prints")

@@ -15,6 +15,7 @@ from mcexact.errors import InternalError, LimitReached, UsageError
 from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
+from tests.wording import refusal
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="there the limit is defined")
 _PLENTY = 500  # MiB
@@ -102,13 +103,13 @@ def ended_by_somebody() -> None:
     ],
 )
 def test_every_way_to_die_of_a_memory_limit_names_the_limit(work: Callable[[], None]) -> None:
-    with pytest.raises(LimitReached, match="memory limit of 500 MiB was exhausted while working"):
+    with refusal(LimitReached, quantity="500 MiB"):
         supervised(work, doing="working", max_memory=_PLENTY, libraries=())
 
 
 @pytest.mark.parametrize("work", [no_room_for_a_process, wrapped, too_large_to_send])
 def test_memory_can_be_exhausted_without_a_limit(work: Callable[[], None]) -> None:
-    with pytest.raises(LimitReached, match="the memory was exhausted while working"):
+    with refusal(LimitReached):
         supervised(work, doing="working")
 
 
@@ -153,5 +154,5 @@ def test_a_platform_that_does_not_limit_memory_is_named(
         monkeypatch.delattr(resource, "RLIMIT_AS")
     else:
         monkeypatch.setattr(running, "_kibibytes", lambda name: 0)
-    with pytest.raises(UsageError, match="does not limit memory: leave out --max-memory"):
+    with refusal(UsageError):
         supervised(os.getpid, doing="working", max_memory=_PLENTY)

@@ -10,6 +10,7 @@ import pytest
 from mcexact import ParametricSystem, analyze
 from tests.cli.calling import call
 from tests.report.schemas import faults
+from tests.wording import says
 
 PLANT = {
     "format": "mcexact-system/1",
@@ -38,15 +39,13 @@ def test_analyze_answers_for_every_value_with_what_is_in_range(file: str, tmp_pa
     page = tmp_path / "page.html"
     status, out, _ = call("analyze", file, "--certificates", str(folder), "--html", str(page))
     assert status == 0
-    assert "For almost every value of t in [0, 1] no mode is fixed." in out
-    assert "A mode is fixed where t = 1/2." in out
+    assert says(out, "almost value")
+    assert says(out, "mode fixed")
     assert "t = 1/2 (in range)" in out and "t = -1/2 (out of range)" in out
-    assert "set-points               every set-point has an equilibrium, unless t = 1/2" in out
-    assert "9 certificates re-checked by the independent checker: VALID" in out
+    assert says(out, "equilibrium unless")
+    assert says(out, "certificates independent")
     text = page.read_text()
-    assert (
-        "For almost every value of t in [0, 1] no mode is fixed." in text and "t in [0, 1]" in text
-    )
+    assert says(text, "almost value 2") and "t in [0, 1]" in text
     for certificate in sorted(folder.iterdir()):
         status, said, _ = call("check", "--statements", str(certificate), "--system", file)
         assert status == 0 and said.startswith(("VALID", "IMPLIED"))
@@ -99,7 +98,7 @@ def test_values_make_the_plant_of_which_all_questions_are_asked(file: str, tmp_p
     several = tmp_path / "two.json"
     several.write_text(json.dumps(TWO))
     status, out, _ = call("analyze", str(several), "--at", "a=2")
-    assert status == 0 and "A mode is fixed where b = 1/2." in out
+    assert status == 0 and says(out, "mode fixed")
 
 
 def test_fixed_modes_at_some_value_fail_an_assertion_that_there_are_none(file: str) -> None:
@@ -151,8 +150,8 @@ def test_questions_that_would_take_long_are_left_out_and_said(tmp_path: Path) ->
     path = tmp_path / "large.json"
     path.write_text(json.dumps(large))
     status, out, _ = call("analyze", str(path))
-    assert status == 0 and "more than 10 states with several parameters" in " ".join(out.split())
-    assert "Decide a question that is left out by --also" in out
+    assert status == 0 and says(" ".join(out.split()), "more several")
+    assert says(out, "decide also")
 
 
 def test_a_plant_without_parameters_takes_no_values() -> None:
@@ -195,4 +194,4 @@ def test_ranges_need_two_ends_to_be_asked_about(tmp_path: Path) -> None:
     path = tmp_path / "plant.json"
     path.write_text(json.dumps(TWO))
     status, _, err = call("analyze", str(path), "--also", "box_fixed_modes")
-    assert status == 2 and "a parameter has no range with two ends" in err
+    assert status == 2 and says(err, "range ends")

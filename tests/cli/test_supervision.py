@@ -17,6 +17,7 @@ from mcexact.cli.running import Known, Reporting, Run, supervised, undecided_err
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached
 from mcexact.processes import may_fork
 from tests.end_to_end.command_line import interruptible
+from tests.wording import refusal, says, worded
 
 
 def deaf(digits: int, begun: int | None = None) -> int:
@@ -73,7 +74,7 @@ def test_compiled_code_that_aborts_is_an_internal_error() -> None:
 
 
 def test_a_time_limit_ends_compiled_code() -> None:
-    with pytest.raises(LimitReached, match=r"time limit of 0\.2 s was reached while dividing"):
+    with refusal(LimitReached, quantity="0.2 s"):
         supervised(deaf, 10**9, doing="dividing", timeout=0.2)
     assert multiprocessing.active_children() == []
 
@@ -89,7 +90,7 @@ def test_what_takes_long_is_said_once(
 
 @pytest.mark.skipif(sys.platform != "linux", reason="there the limit is defined")
 def test_a_memory_limit_is_reached_and_one_that_suffices_is_not() -> None:
-    with pytest.raises(LimitReached, match="memory limit of 50 MiB was exhausted while filling"):
+    with refusal(LimitReached, quantity="50 MiB"):
         supervised(allocate, 200, doing="filling", max_memory=50)
     assert supervised(allocate, 20, doing="filling", max_memory=50) == 20 << 20
 
@@ -129,7 +130,7 @@ def test_a_process_with_threads_is_not_forked(monkeypatch: pytest.MonkeyPatch) -
         assert not may_fork()
         assert supervised(os.getppid, doing="asking") == os.getpid()
         assert supervised(str, 10**5000, doing="writing") == "1" + "0" * 5000
-        with pytest.raises(LimitReached, match=r"time limit of 9 s was reached while dividing"):
+        with refusal(LimitReached, quantity="9 s"):
             supervised(deaf, 10**9, doing="dividing", timeout=9)
 
 
@@ -157,7 +158,7 @@ def test_a_new_interpreter_does_not_run_the_main_script_again() -> None:
             check=True,
         )
         first, second = done.stdout.splitlines()
-        assert (first, done.stderr) == ("begun", "") and second.startswith("own is defined in")
+        assert (first, done.stderr) == ("begun", "") and says(second, "own defined")
 
 
 def half_done(known: Known, *, report: Reporting) -> dict[str, Any]:
@@ -185,7 +186,8 @@ def run_with(**limits: Any) -> Run:
 
 def test_what_was_decided_before_a_time_limit_is_not_lost() -> None:
     result, ended = run_with(timeout=3.0).result_in_parts(half_done, doing="working")
-    assert result == {"parts": {"first": b"1"}, "ended": "the time limit of 3 s was reached"}
+    assert result["parts"] == {"first": b"1"}
+    assert worded(result["ended"]) and "3 s" in result["ended"]
     error = undecided_error(ended, {result["ended"]: ["second"]}, "working")
     assert error is not None and error.exit_status == 4 and "not decided: second" in str(error)
     error = undecided_error(KeyboardInterrupt(), {}, "working")
@@ -197,7 +199,8 @@ def test_what_was_decided_before_a_time_limit_is_not_lost() -> None:
 def test_what_needs_too_much_memory_costs_only_itself() -> None:
     result, ended = run_with(max_memory=100).result_in_parts(hungry, doing="working")
     assert result["parts"] == {"first"}
-    assert result["lost"] == {"second": "the memory limit of 100 MiB was exhausted"}
+    assert [*result["lost"]] == ["second"]
+    assert worded(result["lost"]["second"]) and "100 MiB" in result["lost"]["second"]
     assert isinstance(ended, LimitReached)
 
 

@@ -25,6 +25,7 @@ from mcexact.report.sweep import sweep_tables
 from mcexact.sweeps.questions import QUESTIONS
 from tests.effort import PATIENCE
 from tests.end_to_end.command_line import interruptible, without_notes
+from tests.wording import says
 
 Call = Callable[..., tuple[int, str, str]]
 
@@ -61,7 +62,7 @@ def test_a_folder_is_a_table_with_its_counts(call: Call, folder: Path) -> None:
         line[:9] for line in lines
     ]
     assert ["b.json", "4", "2", "empty", "yes"] in [line[:5] for line in lines]
-    assert "not stabilizable: by no linear time-invariant decentralized controller" in out
+    assert says(out, "stabilizable invariant")
     assert ["with", "fixed", "modes", "1"] in lines and ["complete", "1"] in lines
 
 
@@ -190,7 +191,7 @@ def test_of_a_folder_only_system_files_are_read_and_the_others_are_named(
         assert found["counts"]["systems"] == found["counts"]["decided"] == 2
         assert [(Path(s["name"]).name, s["reason"]) for s in found["skipped"]] == expected
     told = " ".join(call(str(folder))[1].split())
-    assert "skipped, because they are not system files" in told
+    assert says(told, "skipped because")
     assert all(name in told and reason in told for name, reason in expected)
 
 
@@ -219,7 +220,7 @@ def test_a_folder_without_any_system_file_is_bad_input(call: Call, tmp_path: Pat
     (tmp_path / "other.json").write_text("{}", encoding="ascii")
     status, _, err = call(str(tmp_path))
     assert status == 3
-    assert f"{tmp_path}: found no system file" in err
+    assert says(err, "system file") and str(tmp_path) in err
 
 
 def test_variants_of_a_plant_in_floats_are_made_without_a_warning(
@@ -229,7 +230,7 @@ def test_variants_of_a_plant_in_floats_are_made_without_a_warning(
     A, B, C = [[-0.30000000000000004, 0.7], [0.3, -0.7]], [[0.1], [-0.1]], [[1.0, 0.0]]
     np.savez(plant, A=A, B_1=B, C_1=C, rounding="decimal")
     status, out, err = call(plant, "--all-sensors")
-    assert status == 0 and "depends on rounding errors" in out and not err
+    assert status == 0 and says(out, "depends errors") and not err
 
 
 def test_a_system_of_which_the_data_allow_another_answer_is_marked(
@@ -240,7 +241,7 @@ def test_a_system_of_which_the_data_allow_another_answer_is_marked(
     save_system(plant, tmp_path / "rounded.json")
     page = tmp_path / "page.html"
     status, out, _ = call(str(tmp_path / "rounded.json"), "--html", str(page))
-    assert status == 0 and "rounded.json *" in out and "this depends on rounding errors" in out
-    assert "the data allow another answer" in page.read_text("utf-8")
+    assert status == 0 and "rounded.json *" in out and says(out, "depends errors")
+    assert says(page.read_text("utf-8"), "data allow")
     [record] = json.loads(call(str(tmp_path / "rounded.json"), "--json")[1])["records"]
     assert record["nearby"][0]["within"] == "rounding"

@@ -13,6 +13,7 @@ from mcexact.cli.files import require_apart, require_writable
 from mcexact.errors import InputError, LimitReached, NotWritten
 from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
+from tests.wording import refusal, says, worded
 
 WRITING = {
     "analyze --html": ("analyze", "PLANT", "--html", "FILE"),
@@ -141,7 +142,7 @@ def test_a_file_may_go_into_the_folder_that_is_made_for_other_results(tmp_path: 
     made = tmp_path / "evidence" / "deep"
     require_writable(made / "controller.json", made)
     require_writable(tmp_path / "evidence" / "controller.json", made)
-    with pytest.raises(NotWritten, match="No such file or directory"):
+    with refusal(NotWritten):
         require_writable(tmp_path / "elsewhere" / "controller.json", made)
     assert list(tmp_path.iterdir()) == []
 
@@ -181,10 +182,7 @@ def test_every_file_that_cannot_be_written_ends_with_74(
     ended: Ended, tmp_path: Path, arguments: tuple[str, ...]
 ) -> None:
     status, told = ended(arguments, tmp_path)
-    assert (status, told.splitlines()[-1]) == (
-        74,
-        "mcexact: /dev/full: cannot write: No space left on device",
-    )
+    assert status == 74 and worded(told.splitlines()[-1])
 
 
 @pytest.mark.parametrize("arguments", ABLE.values(), ids=ABLE.keys())
@@ -235,13 +233,13 @@ def test_two_results_do_not_go_to_one_place(
     (place / "results").mkdir(parents=True)
     status, told = ended(arguments, place)
     assert (status, begun) == (3, [])
-    assert "two results would be written there" in told
+    assert says(told, "results written")
 
 
 def test_one_place_has_two_names(tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     (tmp_path / "link").symlink_to("folder")
-    with pytest.raises(InputError, match="two results would be written there"):
+    with refusal(InputError):
         require_apart(tmp_path / "folder" / "new.json", None, tmp_path / "link" / "new.json")
     require_apart(tmp_path / "folder" / "new.json", tmp_path / "folder" / "other.json", None)
     require_apart(Path(os.devnull), Path(os.devnull))

@@ -12,6 +12,7 @@ from mcexact.derived.drawn.systems import Draw, drawn_system
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
+from tests.wording import says
 
 
 def made(network: str, states: int = 24, channels: int = 3, seed: int = 0) -> MultiChannelSystem:
@@ -33,7 +34,7 @@ def test_every_agent_acts_and_measures_and_the_seed_decides(network: str) -> Non
     assert plant == made(network)
     assert plant != made(network, seed=1)
     assert drawn_system(Draw(0, 24, 3, network=network)) == plant
-    assert "drawn numbers in the equations of" in str(plant.source)
+    assert says(str(plant.source), "drawn equations")
     assert made(network, NETWORKS[network].states * 2, 1).m == 1
 
 

@@ -21,6 +21,7 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.assurance.campaigns.periodic import differing, drawn, examined
 from tests.oracle.windows import strongly_connected
+from tests.wording import refusal
 
 plants = testing.systems_on_graphs(
     testing.systems(max_states=3, max_channels=3, time="discrete"), longest_delay=0
@@ -110,15 +111,15 @@ def test_a_loop_over_graphs_without_one_link_is_another_one() -> None:
 def test_arguments_are_refused_with_what_was_expected() -> None:
     A, B, C = [[1]], [[[1]], [[1]]], [[[1]], [[1]]]
     plant = MultiChannelSystem(A, B, C, time="discrete", neighbors={"1": ["2"]})
-    with pytest.raises(UsageError, match="expected an integer of at least 2, found 1"):
+    with refusal(UsageError):
         slow_system(plant, 1)
     with pytest.raises(UsageError, match="discrete"):
         slow_system(MultiChannelSystem(A, B, C, neighbors={"1": ["2"]}), 2)
-    with pytest.raises(UsageError, match="neighbor graph is needed"):
+    with refusal(UsageError):
         slow_system(MultiChannelSystem(A, B, C, time="discrete"), 2)
-    with pytest.raises(InputError, match="at least one graph"):
+    with refusal(InputError):
         union_graph([])
-    with pytest.raises(InputError, match="agents of the first graph"):
+    with refusal(InputError):
         union_graph([NeighborGraph.ring(2), NeighborGraph.ring(3)])
     with pytest.raises(InputError, match="without delays"):
         union_graph([NeighborGraph(["1", "2"], [[1], []], [(0, 1, 1)])])

@@ -13,6 +13,7 @@ from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model import gallery
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
+from tests.wording import refusal
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
 
@@ -102,7 +103,7 @@ def test_sensors_go_to_channels_in_all_ways(unused: bool) -> None:
 def test_a_family_that_is_too_long_is_refused_at_once() -> None:
     with pytest.raises(LimitReached, match=r"6 agents have 2\^30 neighbor graphs"):
         neighbor_graph_variants(agents(6))
-    with pytest.raises(LimitReached, match=f"there are {20**20} ways of giving sensors"):
+    with refusal(LimitReached):
         sensor_variants(agents(20))
     plant = ParametricSystem([["a + b"]], [[[1]]], [[[1]]], parameters=["a", "b"])
     with pytest.raises(LimitReached, match="combinations of values"):

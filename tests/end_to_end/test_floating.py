@@ -21,6 +21,7 @@ from tests.assurance.campaigns.floating import (
 )
 from tests.end_to_end.command_line import run
 from tests.synthesis.three_channels import three_channels
+from tests.wording import says
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +36,7 @@ def folder(tmp_path_factory):
             *("--certificates", str(place / time)),
         )
         assert done.status == 0, done.stderr
-        assert "designed in floating point; closed loop certified" in done.stdout
+        assert "closed loop certified" in done.stdout
         assert "distance to instability" in done.stdout
     return place
 
@@ -71,7 +72,7 @@ def test_a_no_ends_with_status_1_and_is_proved(folder, tmp_path, method):
     assert answer["certified"] is False and answer["bound"] == "50"
     checked = run("check", "--statements", str(tmp_path / answer["stability"]["certificate"]))
     assert checked.stdout.startswith("VALID ")
-    assert "): not every eigenvalue of A has" in checked.stdout
+    assert says(checked.stdout, "eigenvalue")
 
 
 def test_the_largest_rate_is_found(folder):
@@ -127,10 +128,11 @@ def test_the_cross_check_names_the_disagreements_and_what_answered(tmp_path):
     assert recorded["exhibit"] == "weak-input"
     done = run("crosscheck", str(tmp_path / "plant.json"))
     assert done.status == 0
-    assert f"{len(answer['disagreements'])} wrong in floating point" in done.stdout
+    assert says(done.stdout, "wrong floating")
+    assert f"{len(answer['disagreements'])} wrong" in done.stdout
     assert "numpy.linalg.matrix_rank(control.ctrb(A, B))" in done.stdout
     assert "a plant nearby with a fixed mode, decided exactly" in done.stdout
-    assert "where floating point was recorded to be wrong" in done.stdout
+    assert says(done.stdout, "recorded wrong")
 
 
 def test_the_exhibits_are_listed_and_written_as_a_page(tmp_path):

@@ -16,6 +16,7 @@ from mcexact.model.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
 from tests.synthesis.three_channels import three_channels
+from tests.wording import says
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +82,7 @@ def test_a_wrong_length_is_malformed_input(folder, tmp_path):
 
 def test_the_wrong_bound_is_wrong_usage(folder):
     done = run("design", "observer", str(folder / "continuous.json"), "--radius", "1/2")
-    assert done.status == 2 and "radius is for discrete time" in done.stderr
+    assert done.status == 2 and says(done.stderr, "radius discrete")
 
 
 def test_impossible_is_status_1_and_leaves_the_certificate(folder, tmp_path):

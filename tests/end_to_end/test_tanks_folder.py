@@ -18,6 +18,7 @@ from mcexact.constructions import sampled_system
 from mcexact.export.code import export_controller
 from mcexact.export.equations import EQUATIONS
 from mcexact.simulation.real import Quantizer, simulate_real
+from tests.wording import worded
 
 FOLDER = Path(__file__).parents[2] / "examples" / "tanks"
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
@@ -81,10 +82,7 @@ def test_the_program_computes_every_recorded_input_bit_by_bit(tmp_path: Path) ->
     built = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert built.returncode == 0 and not built.stderr, built.stderr
     done = play(FOLDER / "recorded.csv")
-    assert (done.returncode, done.stdout) == (
-        0,
-        "31 samples, 0 inputs differ from the recorded ones\n",
-    )
+    assert done.returncode == 0 and worded(done.stdout)
     with (FOLDER / "recorded.csv").open(encoding="utf-8") as file:
         head, *rows = csv.reader(file)
     k = head.index("computed u pump")
@@ -114,6 +112,6 @@ def test_the_folder_is_made_again_from_the_plant_alone(tmp_path: Path) -> None:
         command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    assert re.search(r"\d+ samples, 0 inputs differ from the recorded ones", done.stdout)
+    assert re.search(r"\d+ samples, 0 inputs differ", done.stdout)
     assert "Proved: cost" in done.stdout and "INVALID" not in done.stdout
     assert "Proved: cost" in (tmp_path / "code.html").read_text(encoding="utf-8")

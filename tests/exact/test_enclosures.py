@@ -12,6 +12,7 @@ from mcexact.errors import InputError
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import Disc, real_root_intervals, root_discs
 from tests.exact.draws import polynomials
+from tests.wording import refusal
 
 DECIMAL = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]*[1-9])?")
 
@@ -119,17 +120,17 @@ def test_constants_have_no_real_roots():
 
 @pytest.mark.parametrize("p", [Polynomial(()), Polynomial.of(2)])
 def test_a_constant_has_no_discs(p):
-    with pytest.raises(InputError, match="expected a polynomial of degree at least 1"):
+    with refusal(InputError):
         root_discs(p)
 
 
 def test_repeated_roots_are_refused():
-    with pytest.raises(InputError, match="expected a polynomial without repeated roots"):
+    with refusal(InputError):
         root_discs(Polynomial.from_roots([1, 1]))
 
 
 def test_intervals_of_the_zero_polynomial_are_refused():
-    with pytest.raises(InputError, match="expected a polynomial of degree at least 1, found 0"):
+    with refusal(InputError):
         real_root_intervals(Polynomial(()))
 
 

@@ -21,6 +21,7 @@ from tests.exact.draws import (
     rationals,
     square_matrices,
 )
+from tests.wording import refusal
 
 SHAPES = [(0, 0), (0, 3), (3, 0), (1, 1)]
 
@@ -117,14 +118,14 @@ def test_stacking_nothing_needs_a_size():
     assert hstack([], nrows=2).shape == (2, 0)
     assert vstack([], ncols=2).shape == (0, 2)
     assert block_diagonal([]).shape == (0, 0)
-    with pytest.raises(InputError, match="hstack: expected at least one matrix"):
+    with refusal(InputError):
         hstack([])
-    with pytest.raises(InputError, match="block: expected at least one row"):
+    with refusal(InputError):
         block([])
 
 
 def test_unequal_sizes_do_not_stack():
-    with pytest.raises(InputError, match=r"vstack: expected equal numbers of columns.*\[1, 2\]"):
+    with refusal(InputError):
         vstack([Matrix.identity(1), Matrix.identity(2)])
 
 
@@ -153,11 +154,11 @@ def test_numpy_integers_are_entries():
 @pytest.mark.parametrize("other", [Matrix.zeros(2, 3), Matrix.zeros(3, 1)])
 def test_shapes_must_match(other):
     M = Matrix.identity(2)
-    with pytest.raises(InputError, match=r"shapes do not match: 2 × 2 \+"):
+    with refusal(InputError):
         M + other
-    with pytest.raises(InputError, match="shapes do not match: 2 × 2 -"):
+    with refusal(InputError):
         M - other
-    with pytest.raises(InputError, match="shapes do not match"):
+    with refusal(InputError):
         other.T @ other.T
 
 
@@ -179,7 +180,7 @@ def test_powers_are_for_square_matrices():
 
 
 def test_negative_powers_are_refused():
-    with pytest.raises(InputError, match="expected an exponent that is at least 0, found -1"):
+    with refusal(InputError):
         Matrix.identity(2).power(-1)
 
 
@@ -211,12 +212,12 @@ def test_integers_over_a_denominator_are_brought_to_lowest_terms(rows, denominat
 
 def test_a_matrix_beyond_memory_is_refused():
     for operation in (Matrix.identity, lambda n: Matrix.zeros(n, n), lambda n: Matrix.zeros(0, n)):
-        with pytest.raises(LimitReached, match="too many for memory"):
+        with refusal(LimitReached):
             operation(2**40)
 
 
 def test_rows_are_examined_and_the_place_is_named():
-    with pytest.raises(InputError, match=r"^B\[1\]: expected 2 entries as in row 0, found 1"):
+    with refusal(InputError, where="B[1]"):
         Matrix.from_rows([[1, 2], [3]], where="B")
     with pytest.raises(FloatRefused, match=r"^B\[0\]\[1\]: a float"):
         Matrix.from_rows([[1, 0.5]], where="B")

@@ -31,6 +31,7 @@ from mcexact.exact.modular import (
 )
 from mcexact.exact.polynomial import Polynomial
 from tests.exact.draws import matrices, polynomials, square_matrices
+from tests.wording import refusal
 
 ELL = 1_000_003
 SMALL_PRIME = 5
@@ -222,7 +223,7 @@ def test_what_makes_no_sense_is_refused(operation, message):
 
 
 def test_a_matrix_beyond_memory_is_refused():
-    with pytest.raises(LimitReached, match="too many for memory"):
+    with refusal(LimitReached):
         ModularMatrix.zeros(2**40, 2**40, 7)
 
 
@@ -272,9 +273,9 @@ def test_operations_that_make_no_sense_for_polynomials():
         divmod(one, zero)
     with pytest.raises(InputError, match="every residue is a root of 0"):
         zero.roots()
-    with pytest.raises(InputError, match="expected a divisor of degree at least 1"):
+    with refusal(InputError):
         one.multiplicity_in(one)
-    with pytest.raises(InputError, match="moduli do not match"):
+    with refusal(InputError):
         one + ModularPolynomial.from_coefficients([1], 5)
 
 

@@ -23,6 +23,7 @@ from mcexact.exact.matrix import Matrix, block_diagonal
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
 from tests.exact.draws import evaluated, matrices, polynomials, small, square_matrices
+from tests.wording import refusal
 
 GOLDEN = Polynomial.of(-1, -1, 1)
 CUBIC = Polynomial.of(-2, 0, 0, 1)
@@ -164,7 +165,7 @@ def test_matrices_without_entries(shape):
 
 def test_a_reducible_polynomial_is_refused_where_it_is_no_field():
     M = PolynomialMatrix.pencil(Matrix.from_rows([[-1]]), Matrix.identity(1))
-    with pytest.raises(InputError, match=r"expected an irreducible polynomial, found x\^2 - 1"):
+    with refusal(InputError):
         field_nullspace(M, Polynomial.of(-1, 0, 1))
 
 

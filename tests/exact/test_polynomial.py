@@ -17,6 +17,7 @@ from tests.exact.draws import (
     small,
     sympy_polynomial,
 )
+from tests.wording import refusal
 
 ZERO, ONE, X = Polynomial(()), Polynomial.of(1), Polynomial.x()
 nonzero = polynomials().filter(lambda p: p.degree >= 0)
@@ -167,5 +168,5 @@ def test_floats_are_no_coefficients():
 
 
 def test_division_by_zero():
-    with pytest.raises(ZeroDivisionError, match="division by the zero polynomial"):
+    with refusal(ZeroDivisionError):
         divmod(X, ZERO)

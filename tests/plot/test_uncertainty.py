@@ -9,6 +9,7 @@ import pytest
 
 from mcexact.errors import UsageError
 from mcexact.plot.parameters import uncertainty, uncertainty_shares
+from tests.wording import refusal
 
 
 @pytest.mark.parametrize(
@@ -50,7 +51,7 @@ def test_shares_are_those_of_plants_that_are_proved_or_fail_within_a_part() -> N
 
 @pytest.mark.parametrize("found", [[], [_ends("0", "1"), _ends("0", "1", "controllable")]])
 def test_shares_are_those_of_one_property(found: list[SimpleNamespace]) -> None:
-    with pytest.raises(UsageError, match="all with one property and in one unit"):
+    with refusal(UsageError):
         uncertainty_shares(found)
 
 

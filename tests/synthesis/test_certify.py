@@ -16,6 +16,7 @@ from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Proposal, certify
 from tests.synthesis.three_channels import three_channels
+from tests.wording import refusal
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
 STATIC = local_controllers(PLANT, [[[-3]]])
@@ -30,7 +31,7 @@ def assert_valid(certificate):
 @pytest.mark.parametrize("method", ["polynomial", "lyapunov"])
 def test_the_eigenvalue_minus_two_is_faster_than_one(rate, stable, method):
     if (rate, method) == (2, "lyapunov"):
-        with pytest.raises(UsageError, match="Lyapunov method was inconclusive"):
+        with refusal(UsageError, where="method"):
             certify_controller(PLANT, STATIC, rate=rate, method=method)
         return
     found = certify_controller(PLANT, STATIC, rate=rate, method=method)
@@ -81,7 +82,7 @@ def test_a_loop_too_large_for_its_polynomial_says_so(monkeypatch):
     monkeypatch.setattr(certifying, "POLYNOMIAL_LIMIT", 0)
     assert not certify_controller(PLANT, STATIC, rate=2).stable
     monkeypatch.setattr(certifying, "_POLYNOMIAL_UNASKED", 0)
-    with pytest.raises(LimitReached, match="choose the method polynomial"):
+    with refusal(LimitReached):
         certify_controller(PLANT, STATIC, rate=2)
 
 
@@ -106,7 +107,7 @@ def test_the_largest_rate_is_searched_within_limits():
 
 
 def test_a_bound_of_the_other_time_domain_is_wrong_usage():
-    with pytest.raises(UsageError, match="radius is for discrete time"):
+    with refusal(UsageError):
         certify_controller(PLANT, STATIC, radius=1)
     with pytest.raises(UsageError, match="not both"):
         certify_controller(PLANT, STATIC, rate=1, largest=True)
@@ -114,11 +115,9 @@ def test_a_bound_of_the_other_time_domain_is_wrong_usage():
 
 def test_the_gate_lets_no_slow_loop_through():
     assert_valid(certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", Fraction(1))).proof)
-    with pytest.raises(
-        Impossible, match="not every eigenvalue of the loop satisfies Re λ < -2"
-    ) as refusal:
+    with refusal(Impossible) as refused:
         certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", Fraction(2)))
-    assert_valid(refusal.value.certificate)
+    assert_valid(refused.value.certificate)
 
 
 @pytest.mark.parametrize("progress", [True, "print", 3])

@@ -13,6 +13,7 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.channel_controller import channel_controller, observing_rows, transposed
+from tests.wording import refusal
 
 
 def drawn(rng, nrows, ncols, bound=2):
@@ -89,7 +90,7 @@ def test_a_derogatory_matrix_has_no_observing_row():
 def test_an_index_below_the_controllability_index_is_refused():
     A, B = Matrix.from_rows([[0, 1], [0, 0]]), Matrix.from_rows([[0], [1]])
     C = Matrix.from_rows([[1, 0]])
-    with pytest.raises(InputError, match="below the controllability index"):
+    with refusal(InputError):
         channel_controller(A, B, C, Polynomial.of(1, 2, 1), index=1)
 
 

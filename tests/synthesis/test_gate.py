@@ -18,6 +18,7 @@ from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import CertifiedLoop, Proposal, certify, first_certified
 from mcexact.synthesis.observer import observer_coordinates
 from tests.synthesis.three_channels import three_channels
+from tests.wording import refusal
 
 ANY = StabilityRegion("continuous")
 
@@ -46,10 +47,10 @@ def test_the_whole_spectrum_is_certified_for_any_controller(design):
 
 def test_another_polynomial_does_not_pass(design):
     wrong = design.loop.polynomial + Polynomial.of(1)
-    with pytest.raises(InternalError, match="does not have the spectrum"):
+    with refusal(InternalError):
         certify(three_channels(), Proposal(design.controller, (wrong,)), ANY)
     feedback, error = design.parts["feedback_polynomial"], design.parts["error_polynomial"]
-    with pytest.raises(InternalError, match="does not have the spectrum"):
+    with refusal(InternalError):
         certify(
             three_channels(),
             proposed(design, polynomials=(feedback, error + Polynomial.of(1))),
@@ -68,7 +69,7 @@ def test_another_program_does_not_pass(design):
 
 
 def test_a_region_that_is_not_met_does_not_pass(design):
-    with pytest.raises(UsageError, match="violates Re λ < -1: give one of the two"):
+    with refusal(UsageError):
         certify(three_channels(), proposed(design), StabilityRegion("continuous", Fraction(1)))
     unstable = Proposal(design.controller, (Polynomial.from_roots([1] * 14),))
     with pytest.raises(UsageError, match="violates Re λ < 0"):
@@ -79,7 +80,7 @@ def test_what_is_only_tried_may_fail_until_nothing_is_left(design):
     controller = design.controller
     tried = Proposal(controller, coordinates=observer_coordinates(3, controller))
     fast, said = StabilityRegion("continuous", Fraction(5)), []
-    with pytest.raises(LimitReached, match="could be certified for Re λ < -5"):
+    with refusal(LimitReached):
         first_certified(three_channels(), [tried, tried], fast, tell=said.append)
     assert said == ["certificate"] * 2
     with pytest.raises(Impossible):
@@ -88,9 +89,9 @@ def test_what_is_only_tried_may_fail_until_nothing_is_left(design):
 
 def test_nobody_else_makes_a_certified_loop(design):
     loop = design.loop
-    with pytest.raises(InternalError, match="functions of the gate"):
+    with refusal(InternalError):
         CertifiedLoop(loop.closed, loop.polynomial, loop.proofs, object())
-    with pytest.raises(InternalError, match="functions of the gate"):
+    with refusal(InternalError):
         replace(loop, key=None)
 
 

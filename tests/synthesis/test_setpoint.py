@@ -30,6 +30,7 @@ from mcexact.synthesis.design import Design
 from mcexact.synthesis.optimum.figures import Aims
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint, with_integrators
 from tests.assurance.campaigns import extended as campaign
+from tests.wording import refusal, says
 
 
 def two_tanks(time: str = "continuous") -> MultiChannelSystem:
@@ -103,15 +104,12 @@ def test_agents_take_their_own_reference_alone() -> None:
 
 def test_an_invariant_zero_at_0_is_refused_and_named() -> None:
     plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]], neighbors={"1": []})
-    with pytest.raises(Impossible, match="no equilibrium holds set-points") as refusal:
+    with refusal(Impossible) as refused:
         design_setpoint(plant, rate=1)
-    assert "0 is an invariant zero" in str(refusal.value)
-    verdict = check_document(encode(refusal.value.certificate).encode())
+    assert says(str(refused.value), "invariant zero")
+    verdict = check_document(encode(refused.value.certificate).encode())
     assert verdict.verdict == "VALID"
-    assert (
-        "in no stable linear time-invariant loop every output tends to every constant"
-        in verdict.statement
-    )
+    assert says(verdict.statement, "tends constant")
 
 
 def test_dependent_outputs_are_refused_and_no_zero_is_named() -> None:
@@ -121,18 +119,18 @@ def test_dependent_outputs_are_refused_and_no_zero_is_named() -> None:
         [[[1, 1]], [[1, 1]]],
         neighbors={"1": ["2"], "2": ["1"]},
     )
-    with pytest.raises(Impossible, match=r"\(-1, 1\) r ≠ 0") as refusal:
+    with pytest.raises(Impossible, match=r"\(-1, 1\) r ≠ 0") as refused:
         design_setpoint(plant, rate=1)
-    assert "invariant zero" not in str(refusal.value)
-    assert refusal.value.certificate.invariant_zero is False
+    assert "invariant zero" not in str(refused.value)
+    assert refused.value.certificate.invariant_zero is False
 
 
 def test_a_mode_that_nobody_controls_is_refused() -> None:
     plant = MultiChannelSystem([[1, 0], [0, -1]], [[[0], [1]]], [[[1, 1]]], neighbors={"1": []})
-    with pytest.raises(Impossible, match="do not control") as refusal:
+    with pytest.raises(Impossible, match="do not control") as refused:
         design_setpoint(plant, rate=1)
-    assert refusal.value.certificate.kind == "controllability"
-    assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
+    assert refused.value.certificate.kind == "controllability"
+    assert check_document(encode(refused.value.certificate).encode()).verdict == "VALID"
 
 
 @pytest.mark.parametrize("method", ["observer", "extended"])
@@ -143,10 +141,10 @@ def test_a_cut_of_the_graph_is_refused_with_evidence_about_the_plant(method: str
         [Matrix.zeros(0, 1), [[1]]],
         neighbors={"1": [], "2": []},
     )
-    with pytest.raises(Impossible) as refusal:
+    with pytest.raises(Impossible) as refused:
         design_setpoint(plant, rate=1, method=method)  # type: ignore[arg-type]
     verdict = check_document(
-        encode(refusal.value.certificate).encode(), Expectation(system=plant.digest())
+        encode(refused.value.certificate).encode(), Expectation(system=plant.digest())
     )
     assert verdict.verdict == "VALID", verdict.line()
 

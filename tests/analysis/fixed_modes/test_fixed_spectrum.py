@@ -34,6 +34,7 @@ from mcexact.model.system import MultiChannelSystem
 from tests.oracle.agreement import disagreements, drawn_pair
 from tests.oracle.draws import exact, sparse_system
 from tests.oracle.planted import planted
+from tests.wording import refusal, says
 
 Factors = dict[Polynomial, tuple[int, int, int, frozenset[str]]]
 
@@ -364,9 +365,9 @@ def test_many_fixed_modes_are_not_looked_for_sparsely(monkeypatch: pytest.Monkey
     )
     monkeypatch.setattr(blocks_module, "fixed_subspaces", None)
     found = analyze(nothing)
-    with pytest.raises(LimitReached, match="a sparse 6000 × 6000 matrix has more than"):
+    with refusal(LimitReached):
         found.fixed_spectrum  # noqa: B018
-    with pytest.raises(LimitReached, match="a sparse 6000 × 6000 matrix has more than"):
+    with refusal(LimitReached):
         found.completeness  # noqa: B018
     assert {"fixed_spectrum", "completeness"} <= set(found.open())
 
@@ -383,7 +384,7 @@ def test_what_is_told_where_it_is_open_how_often_a_mode_is_in_A(
     n = len(rows)
     A = [[*row, 0] for row in rows] + [[0] * n + [5]]
     found = analyze(MultiChannelSystem(A, [[[0]] * n + [[1]]], [[[0] * n + [1]]]))
-    assert "(at least once in A" in told(found, "answer.mode")
+    assert says(told(found, "answer.mode"), "least once")
     assert "| open |" in told(found, "fixed-modes")
     assert " & open & " in told(found, "latex")
     assert (" can be moved" in told(found, "table")) is (n == 1)

@@ -17,6 +17,7 @@ from mcexact.model.system import MultiChannelSystem
 from tests.oracle import gaps
 from tests.oracle.allocation import augmented, deficiencies, demands
 from tests.oracle.enumeration import plain
+from tests.wording import refusal
 
 SHARES = ("outputs+states", "states")
 
@@ -113,7 +114,7 @@ def test_no_plant_exceeds_the_factor_of_a_graph_on_which_nothing_relays() -> Non
 
 
 def test_arguments_are_refused_with_what_was_expected() -> None:
-    with pytest.raises(UsageError, match="neighbor graph is needed"):
+    with refusal(UsageError):
         sharing_gap(MultiChannelSystem([[0]], [[[1]]], [[[1]]]))
     with pytest.raises(UsageError, match="node_limit"):
         sharing_gap(NeighborGraph.ring(3), node_limit=0)

@@ -24,6 +24,7 @@ from tests.oracle.certificates.systems import read_plant
 from tests.oracle.draws import exact, sparse_system
 from tests.oracle.sentences.cases import Case, plain, same_roots
 from tests.oracle.sentences.failures import fixed_after
+from tests.wording import says
 
 SEEDS = 600
 """The number of drawn systems that are compared with enumeration, half of them with messages."""
@@ -74,11 +75,7 @@ def test_a_link_matters_where_one_agent_measures_and_another_one_acts() -> None:
     lost = [*failures(plant, "outputs").leaving()]
     assert ("links", "a", "b") in lost and ("links", "b", "a") not in lost
     said = analyze(plant, also=["failures"], information="outputs").account
-    assert (
-        "After 5 of 8 single failures of an agent, actuator, sensor or link, linear "
-        "time-invariant control by the outputs of all neighbors cannot stabilize the plant."
-        in said.at("answer")
-    )
+    assert says(said.at("answer"), "failures stabilize")
     assert rows(plant, information="outputs")[1][1] == lost
 
 

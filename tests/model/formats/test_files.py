@@ -28,6 +28,7 @@ from mcexact.model.system_file import read_system, system_text
 from tests.assurance.campaigns import damaged_files, grammar
 from tests.model.formats import hostile
 from tests.model.formats.hostile import archive, cell, csv, npz
+from tests.wording import refusal
 
 FULL = MultiChannelSystem(
     [["1/2", "0.1", 0], [-3, "1e-3", "1/3"], [0, 0, 12345678901234567890]],
@@ -67,9 +68,7 @@ def test_floats_are_written_if_the_rounding_makes_the_numbers_again(
         assert load_system(path, rounding=rounding) == load_system(path) == PLAIN
         assert load_system(path, rounding="dyadic").A[0, 0] == Fraction(0.1)
     else:
-        with pytest.raises(
-            InputError, match=r"A\[0\]\[0\]: no float is read as 0\.1 with the rounding"
-        ):
+        with refusal(InputError, where="A[0][0]", quantity="0.1"):
             save_system(PLAIN, path, rounding=rounding)
         assert not path.exists()
         save_system(PLAIN, path, nearest=True)
@@ -78,11 +77,11 @@ def test_floats_are_written_if_the_rounding_makes_the_numbers_again(
 
 def test_a_number_beyond_floats_is_not_written_as_one(tmp_path: Path) -> None:
     huge = MultiChannelSystem([[10**400]], [[[1]]], [[[1]]])
-    with pytest.raises(InputError, match="beyond the range of floats"):
+    with refusal(InputError):
         save_system(huge, tmp_path / "p.mat", nearest=True)
     with pytest.raises(UsageError, match=r"rounded in \.mat and \.npz files only"):
         save_system(huge, tmp_path / "p.json", nearest=True)
-    with pytest.raises(InputError, match=r"A\[0\]\[0\]: no float is read as 1/3: .* --rounding"):
+    with refusal(InputError, where="A[0][0]"):
         save_system(MultiChannelSystem([["1/3"]], [[[1]]], [[[1]]]), tmp_path / "p.mat")
 
 
@@ -384,10 +383,10 @@ def test_fractions_are_written_as_floats_that_are_read_as_these_fractions(
     save_system(plant, tmp_path / file, rounding="simplest")
     again = load_system(tmp_path / file)
     assert again == plant and again.rounding is None
-    with pytest.raises(InputError, match="no float is read as"):
+    with refusal(InputError):
         save_system(plant, tmp_path / file, rounding="decimal")
     long = MultiChannelSystem([[f"1/{10**9 + 7}"]], [[[1]]], [[[1]]])
-    with pytest.raises(InputError, match=r"no float is read as .* with the rounding 'simplest'"):
+    with refusal(InputError):
         save_system(long, tmp_path / file, rounding="simplest")
 
 
@@ -424,7 +423,7 @@ def test_a_plant_of_the_gallery_is_a_file(name: str) -> None:
 def test_a_plant_that_is_not_in_the_gallery_has_near_ones() -> None:
     with pytest.raises(UsageError, match="did you mean 'quadruple-tank-p"):
         load_system("gallery:quadruple-tank")
-    with pytest.raises(UsageError, match="'mcexact gallery' lists them"):
+    with refusal(UsageError):
         load_system("gallery:x")
 
 

@@ -48,6 +48,7 @@ from mcexact.synthesis.optimum.starts import (
     with_private_parts,
 )
 from tests.synthesis.optimum.plants import coupled, delayed
+from tests.wording import refusal
 
 
 def request(plant: MultiChannelSystem, bound: str, told=None) -> Request:
@@ -115,7 +116,7 @@ def test_a_limit_comes_with_the_diagnosis():
     plant = coupled()
     family = Family(decentralized_network(plant))
     # Nothing is found without any effort.
-    with pytest.raises(LimitReached, match=r"no controller was found for Re λ < -1/2: mode .* "):
+    with refusal(LimitReached, part=True):
         optimum(family, request(plant, "1/2"), Aims(effort=0.0))
 
 
@@ -129,7 +130,7 @@ def test_static_gains_come_first_and_the_theorem_last():
     assert made.order == 1
     steps = [each for each in told if each.startswith(("static", "order", "from"))]
     assert steps[0] == "static gains" and steps[1].startswith("order 1 per agent")
-    assert "from the theorem's controller" not in told
+    assert not any(each.startswith("from") for each in told)
 
 
 @pytest.mark.parametrize("disk", [0.4, 1.9])
@@ -234,7 +235,7 @@ def test_a_controller_that_the_gate_refuses_is_not_proposed():
     of = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
     K = np.array([[-1.25]])
     candidate = candidate_of(of, K)
-    with pytest.raises(LimitReached, match=r"could be certified for Re λ < -1/2"):
+    with refusal(LimitReached):
         with_few_digits(candidate, Target(request(plant, "1/2").region), None)
 
 

@@ -14,6 +14,7 @@ from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.optimum.figures import NO_LIMITS, Aims, Shape, least_damping
+from tests.wording import refusal
 
 
 def oscillator() -> MultiChannelSystem:
@@ -50,7 +51,7 @@ def test_what_is_not_reached_is_no_design():
     aims = Aims(largest_modulus=1.9, damping=0.99, largest_gain=0.01, seeds=1, effort=0.1)
     with pytest.raises(LimitReached, match="no controller"):
         design_decentralized(oscillator(), rate="3/2", aims=aims)
-    with pytest.raises(UsageError, match=r"no eigenvalue satisfies Re λ < -3/4 and \|λ\| < 1/2"):
+    with refusal(UsageError):
         design_decentralized(oscillator(), rate="3/4", aims=Aims(largest_modulus=0.5))
 
 
