@@ -116,12 +116,17 @@ def known(folder: Path, evidence: dict[str, Document]) -> Evidence:
 
 
 def casts(rule: Rule, premises: list[Premise]) -> Iterator[tuple[str, ...]]:
-    """Certificates that can play the roles of a rule, one for each, in some ways."""
+    """Certificates that can play the roles of a rule, one for each, in some ways.
+
+    A role for many is played by all that fit, too.
+    """
     able = [
         [each.file for each in premises if role.fits(each, True) or role.fits(each, False)]
         for role in rule.roles
     ]
     yield from itertools.islice(itertools.product(*able), 12)
+    if len(rule.roles) == 1 and rule.roles[0].many and able[0]:
+        yield tuple(able[0])
 
 
 OPPOSITE = [
