@@ -210,7 +210,7 @@ wording: $(STAMP)
 
 ## The tests and what they run on
 
-# Which tests take more than 0.7 seconds of the processor, measured one after another and written to
+# Which tests take more than 0.5 seconds of the processor, measured one after another and written to
 # tests/slow.txt: half an hour.  PATHS='tests/synthesis' measures some.
 durations: $(STAMP)
 	$(BIN)/python -m tests.durations $(PATHS)
