@@ -911,4 +911,6 @@ def read_subject(value: Json, plant: System, before: int = 0) -> System:
         system = CONSTRUCTIONS[name](system, parameters, place)
         if system.D is not None and system.D.is_zero():
             system = replace(system, D=None)
+        if k:
+            system = replace(system, missed=None)  # it is that of the plant, which has changed
     return system

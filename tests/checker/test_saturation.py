@@ -93,6 +93,12 @@ REJECTED: list[tuple[Any, ...]] = [
     ("a size too many", SIZED, ("claim.region.sizes", ["1/2", 1]), "MALFORMED"),
     ("no sizes", SIZED, ("claim.region.sizes", []), "MALFORMED"),
     ("exact samples of a plant that is not sampled", CUT, ("claim.exact", True), "INVALID"),
+    ("exact samples behind another construction", EXACT, (
+        "subject", [EXACT["subject"][0], *[{"construction": "dual"}] * 2, EXACT["subject"][1]]
+    ), "INVALID"),
+    ("exact samples of another system than the plant", EXACT, (
+        "subject", [*[{"construction": "dual"}] * 2, *EXACT["subject"]]
+    ), "INVALID"),
     ("samples that are not exact", EXACT, ("claim.exact", False), "INVALID"),
     ("samples without decimals", EXACT, (
         ("subject", held(FALLING, 0, "-1")), ("witness.scaling", [8])

@@ -22,7 +22,12 @@ HARMLESS: dict[str, str] = {
     "evidence.py: require_bounded: all((c.denominator == 1 for c in scaled))": (
         "a factor that is proved to be fixed divides det(xI - A), and is integral where A is"
     ),
+    "modes.py: check_fixed_spectrum: len(unsaid) == len(modes)": (
+        "a factor whose multiplicity in A is said remains in what is left of det(xI - A_F), which "
+        "has to be coprime with det(xI - A)"
+    ),
     "saturation.py: check_saturation: form is None": UNREAD,
+    "saturation.py: spread: plant.missed is not None": RAISES,
     "saturation.py: check_region: nearer > 0": RAISES,
     "saturation.py: check_region: radius > 0": (
         "no state has a norm below 0, and with 0 there is an error"
@@ -34,6 +39,8 @@ HARMLESS: dict[str, str] = {
     "boxes.py: read_disk: bool(ports)": RAISES,
     "cells.py: bottom_of: bool(below)": RAISES,
     "constructions.py: _at_once: False": RAISES,
+    "constructions.py: _without_links: system.neighbors is not None": RAISES,
+    "constructions.py: periodic_loop: not phases": RAISES,
     "constructions.py: merged: bool(parts)": (
         "no parts are all channels of a closed loop alone, which has none and stays what it is"
     ),

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import multiprocessing
-from collections import Counter
+import re
+from collections import Counter, defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
@@ -53,8 +54,11 @@ class Holes:
             self.found[site] = min(self.found.get(site, hole), hole, key=lambda h: h[0])
 
 
-def attempt(made: Try, holes: Holes, batch: Any) -> None:
-    """Check one try, and once more without the condition that refused it."""
+def attempt(made: Try, holes: Holes, batch: Any, only: Collection[str] = ()) -> None:
+    """Check one try, and once more without the condition that refused it.
+
+    With ``only``, conditions of other functions are not left out.
+    """
     check = weakened_checker().check_document
     GATES.open, GATES.last = None, None
     verdict = checked(made.document, check)
@@ -64,7 +68,7 @@ def attempt(made: Try, holes: Holes, batch: Any) -> None:
     if isinstance(made.document, dict):
         batch.rejected = made.document, verdict.place
     GATES.open = GATES.last
-    if GATES.open is None:
+    if GATES.open is None or (only and GATES.sites[GATES.open].function not in only):
         return
     holes.refused[GATES.open] += 1
     if GATES.open in holes.found:
@@ -80,77 +84,118 @@ def attempt(made: Try, holes: Holes, batch: Any) -> None:
         holes.true[GATES.open] += 1
 
 
-def _share(numbers: Sequence[int]) -> Holes:
+def _share(numbers: Sequence[int], only: Collection[str] = ()) -> Holes:
     holes = Holes()
     weakened_checker()
     for number in numbers:
         batch = drawn_batch(number)
         for made in tries(number, batch):
-            attempt(made, holes, batch)
+            attempt(made, holes, batch, only)
     return holes
 
 
-def attempt_traps(holes: Holes) -> None:
+def attempt_traps(holes: Holes, only: Collection[str] = ()) -> None:
     """Check the documents made by hand, which come before all tries."""
     for k, (name, document) in enumerate(TRAPS.items()):
         made = Try(k - len(TRAPS), document["kind"], None, name, document)
-        attempt(made, holes, SimpleNamespace(rejected=None))
+        attempt(made, holes, SimpleNamespace(rejected=None), only)
     holes.tries = 0
 
 
 def search(
-    count: int, processes: int = 2, kinds: Collection[str] = ORDER
+    count: int,
+    processes: int = 2,
+    kinds: Collection[str] = ORDER,
+    only: Collection[str] = (),
 ) -> tuple[list[Site], Holes]:
-    """Leave out conditions in so many tries about some kinds."""
+    """Leave out conditions in so many tries about some kinds; ``only`` those of some functions."""
     numbers, holes = batch_numbers(count, kinds), Holes()
     weakened_checker()
-    attempt_traps(holes)
+    attempt_traps(holes, only)
     if processes == 1:
-        holes.add(_share(numbers))
+        holes.add(_share(numbers, only))
         return GATES.sites, holes
     shares = min(len(numbers), processes * 16)
     with multiprocessing.get_context("fork").Pool(processes) as pool:
-        jobs = [pool.apply_async(_share, (numbers[k::shares],)) for k in range(shares)]
+        jobs = [pool.apply_async(_share, (numbers[k::shares], only)) for k in range(shares)]
         for job in jobs:
             holes.add(job.get())
     return GATES.sites, holes
 
 
-def table(sites: list[Site], holes: Holes, harmless: Mapping[str, str]) -> list[str]:
-    """The conditions of every file, what found the hole, and why one without hole is there."""
-    order = sorted(enumerate(sites), key=lambda pair: (pair[1].file, pair[1].line, pair[0]))
-    found = len(holes.found)
-    made = [
-        HEADER.format(tries=holes.tries, sites=len(sites), found=found, left=len(sites) - found)
-    ]
-    for file, group in groupby(order, key=lambda pair: pair[1].file):
-        rows = list(group)
-        made += ["", f"## `{file}`", "", "| in | condition | refused | hole |", "|---|---|---|---|"]
-        for k, site in rows:
-            text = site.text.replace("|", "\\|")
-            refused = holes.refused[k]
-            if k in holes.found:
-                number, mutator, why, _ = holes.found[k]
-                how = f"try {number:,}, {mutator}" if number >= 0 else f"“{mutator}”"
-                said = f"{how}: {why}".replace("|", "\\|")
-            else:
-                reason = harmless.get(site.key, "not explained")
-                said = f"none ({holes.alone[k]} accepted and true): {reason}"
-            made.append(f"| `{site.function}` | `{text}` | {refused:,} | {said} |")
-    return made
+def table(
+    sites: list[Site],
+    holes: Holes,
+    harmless: Mapping[str, str],
+    before: str = "",
+    only: Collection[str] = (),
+) -> list[str]:
+    """The conditions of every file, what found the hole, and why one without hole is there.
 
+    With ``only``, the rows of other functions are those of the table ``before``.
+    """
+    order = sorted(enumerate(sites), key=lambda pair: (pair[1].file, pair[1].line, pair[0]))
+    known, made, found = rows_by_condition(before), list[str](), 0
+    for file, group in groupby(order, key=lambda pair: pair[1].file):
+        made += ["", f"## `{file}`", "", "| in | condition | refused | hole |", "|---|---|---|---|"]
+        for k, site in group:
+            start = start_of(site)
+            if not only or site.function in only:
+                row = f"{start} {_found(k, site, holes, harmless, partial=bool(only))}"
+            else:
+                rest = known[file, start]
+                row = start + (rest.pop(0) if rest else f" 0 | {UNTRIED}")
+            found += "| none (" not in row and UNTRIED not in row
+            made.append(row)
+    whole = re.search("Of ([0-9,]+) tries", before) if only else None
+    tries = whole[1] if whole else f"{holes.tries:,}"
+    left = len(sites) - found
+    return [HEADER.format(tries=tries, sites=len(sites), found=found, left=left), *made]
+
+
+def start_of(site: Site) -> str:
+    """The start of the row of a condition."""
+    text = site.text.replace("|", "\\|")
+    return f"| `{site.function}` | `{text}` |"
+
+
+def rows_by_condition(before: str) -> defaultdict[tuple[str, str], list[str]]:
+    """What a table says of each condition: the rest of a row by its file and its start."""
+    file, known = "", defaultdict[tuple[str, str], list[str]](list)
+    for line in before.splitlines():
+        if line.startswith("## "):
+            file = line[4:-1]
+        elif row := re.fullmatch("([|] `.*?` [|] `.*?` [|])( [0-9].*)", line):
+            known[file, row[1]].append(row[2])
+    return known
+
+
+def _found(k: int, site: Site, holes: Holes, harmless: Mapping[str, str], partial: bool) -> str:
+    """The end of a row: how often a condition refused, and its hole or the reason of none."""
+    refused = f"{holes.refused[k]:,}" + (f" of {holes.tries:,}" if partial else "")
+    if k not in holes.found:
+        reason = harmless.get(site.key, UNEXPLAINED)
+        return f"{refused} | none ({holes.alone[k]} accepted and true): {reason} |"
+    number, mutator, why, _ = holes.found[k]
+    how = f"try {number:,}, {mutator}" if number >= 0 else f"“{mutator}”"
+    said = f"{how}: {why}".replace("|", "\\|")
+    return f"{refused} | {said} |"
+
+
+UNEXPLAINED, UNTRIED = "not explained", "not tried |"
 
 HEADER = """# What the campaign finds when a condition of the checker is left out
 
-`python -m tests.assurance.attack N --weakened FILE` writes this table.  Of {tries:,} tries each one
+`python -m tests.assurance.attack N --weakened FILE` writes this table.  Of {tries} tries each one
 that a condition refuses is checked again without that condition; what is accepted then and is false
 is the hole that the condition closes.  There are {sites} conditions: every `require`, each part of
 one that joins several by `and`, and each `if` that does nothing but refuse a document.  A hole is
 found for {found}; for each of the other {left} the reason stands in its row.
 
-"Refused" counts the tries that the condition was the first to refuse.  The number of a try says how
-many it took, all kinds together; `python -m tests.assurance.attack --only K` makes that document
-again.  What is in quotation marks is a document made by hand, in `forgeries/`."""
+"Refused" counts the tries that the condition was the first to refuse; "12 of 20,000" stands where a
+later run, `--functions NAME`, tried a function again that had changed.  The number of a try says
+how many it took, all kinds together; `python -m tests.assurance.attack --only K` makes that
+document again.  What is in quotation marks is a document made by hand, in `forgeries/`."""
 
 
 def documents(holes: Holes) -> list[str]:

@@ -14,6 +14,7 @@ from ..mutators import SMALL_MODULI, other_modulus
 from . import (
     box_traps,
     boxes,
+    construction_traps,
     gains,
     graph_traps,
     loops,
@@ -69,6 +70,7 @@ FORGERS = {
 
 TRAPS: dict[str, Document] = {
     **plain_traps.TRAPS,
+    **construction_traps.TRAPS,
     **box_traps.TRAPS,
     **graph_traps.TRAPS,
     **performance.TRAPS,

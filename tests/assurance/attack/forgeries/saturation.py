@@ -8,7 +8,17 @@ from typing import Any
 
 from tests.checker.handmade import certificate, changed, matrix, plant
 from tests.checker.performance_plants import form, static
-from tests.checker.saturation_plants import CUT, DOUBLED, NEAR, RISEN, UNMOVED
+from tests.checker.saturation_plants import (
+    CUT,
+    DOUBLED,
+    EXACT,
+    EXACT_NEAR,
+    NEAR,
+    RISEN,
+    SIZED,
+    UNMOVED,
+    held,
+)
 from tests.oracle.drawn.plants import Document, number
 
 from .performance import other_form, other_gain
@@ -103,7 +113,27 @@ def other_scaling(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def behind_samples(rng: random.Random, _: Document) -> Forged:
+    """Exact samples, to fewer decimals, in another time, or behind other constructions."""
+    document = changed(rng.choice((EXACT, EXACT_NEAR)))
+    steps, what = document["subject"], rng.randrange(4)
+    if what == 0:
+        steps[0]["decimals"] = rng.randrange(3)
+    elif what == 1:
+        steps[0]["step"] = rng.choice(("1/4", 1, 2))
+    else:
+        place = rng.choice((0, 1, 1, 1))
+        between: list[list[Document]] = [
+            [{"construction": "dual"}] * 2,
+            [{"construction": "restricted", "channels": ["1"]}],
+            [{"construction": "feedback", "gains": [matrix([rng.choice((0, 0, 1, -1))])]}],
+        ]
+        steps[place:place] = rng.choice(between)
+    return document
+
+
 SATURATED = (
+    behind_samples,
     everywhere,
     other_limits,
     other_windup,
@@ -115,6 +145,10 @@ SATURATED = (
 
 # x' = u with u = -x: with u cut off, what is far away does not fall exponentially.
 DRIFTING = plant([[0]], ([[1]], [[1]]))
+# x' = x + u/10, sampled every 1/2: 1.6 x + 0.1 u to one decimal, where 1.649 x + 0.065 u is exact.
+# With u = -9x besides, 0.7 x falls, and exactly 1.065 x rises.
+WEAK = plant([[1]], ([["1/10"]], [[1]]))
+SAMPLES, IDLE = held(WEAK, 1, 0)
 TRAPS: dict[str, Document] = {
     "an unstable plant that is held from everywhere": certificate(
         "saturation",
@@ -145,4 +179,15 @@ TRAPS: dict[str, Document] = {
         {"scaling": [2], "sectors": [0], "P": form([1])},
         static(DRIFTING, -1),
     ),
+    "exact samples behind a feedback that their rounding is multiplied by": certificate(
+        "saturation",
+        WEAK,
+        {"limits": [[[-1, 1]]], "back_calculation": [matrix()], "exact": True},
+        {"scaling": ["1/4"], "sectors": [0], "P": form([1])},
+        SAMPLES,
+        {"construction": "feedback", "gains": [matrix([-9])]},
+        IDLE,
+    ),
+    "exact samples, said with 1": changed(EXACT, ("claim.exact", 1)),
+    "a size below 0": changed(SIZED, ("claim.region.sizes", ["-1/2"])),
 }
