@@ -28,12 +28,18 @@ def meaning(document: Mapping[str, Any]) -> str:
     steps = [_step(document, k) for k in range(len(document["subject"]))]
     claim = dict(document["claim"])
     if document["kind"] in NULL_IS_STABLE and claim["bound"] is None:
-        claim["bound"] = int(document["system"]["time"] == "discrete")  # what null stands for
+        claim["bound"] = int(_is_discrete(document))  # what null stands for
     if claim.get("gain_radii") is not None:
         inner = subject_of(document, len(steps) - 1)
         claim["gain_radii"] = _agents(inner, claim["gain_radii"])
     parts = (document["kind"], _plant(document["system"]), steps, _plain(claim, ""))
     return _text(parts)
+
+
+def _is_discrete(document: Mapping[str, Any]) -> bool:
+    """Whether the subject is in discrete time: the plant is, or it is sampled."""
+    sampled = any(step["construction"] == "sampled" for step in document["subject"])
+    return sampled or bool(document["system"]["time"] == "discrete")
 
 
 def _text(value: Any) -> str:

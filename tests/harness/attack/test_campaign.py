@@ -11,10 +11,11 @@ import pytest
 from mcexact.checker import arithmetic
 from mcexact.checker.kinds import KINDS, check_document
 from mcexact.exact import tables
-from tests.assurance.attack.campaign import run, run_batch
+from tests.assurance.attack.campaign import misstated, run, run_batch
 from tests.assurance.attack.report import Report
 from tests.assurance.attack.tries import ORDER, SIZE, batch_numbers, drawn_batch, tries
-from tests.checker.handmade import VALID
+from tests.checker.handmade import VALID, certificate
+from tests.checker.saturation_plants import FALLING, held
 from tests.oracle import certificates as oracle
 from tests.oracle.certificates import reading as oracle_reading
 from tests.oracle.certificates.constructions import CONSTRUCTIONS as KNOWN
@@ -108,3 +109,13 @@ def test_every_bound_holds_for_a_plant_that_no_controller_stabilizes() -> None:
     }  # fmt: skip
     assert check_document(document).verdict == "VALID"
     assert judge(document) == (TRUE, "")
+
+
+def test_no_bound_of_samples_means_the_unit_circle() -> None:
+    report = Report()
+    samples = held(FALLING, 6, "-1")
+    for bound in (None, 1):
+        claim = {"bound": bound, "stable": True}
+        made = certificate("stability", FALLING, claim, {"method": "polynomial"}, *samples)
+        assert misstated(made, check_document(made), report) == ""
+    assert len(report.meanings) == len(report.statements) == 1
