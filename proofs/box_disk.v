@@ -195,7 +195,10 @@ Let regular2 lambda : regular lambda -> forall D, doubled D -> lambda *: block_m
 Proof.
 move=> reg D [Z' mem ->]; have u := finite mem.
 rewrite loop_eigenvalue -?map_drsubmx ?map_unitmx ?unit_twice_pencil// eigenvalue_twice// negb_or.
-by rewrite -!loop_eigenvalue ?finite ?reg//; apply: mirrored.
+have mem' := mirrored mem; have v := finite mem'.
+apply/andP; split.
+  by move: (reg _ mem); rewrite (loop_eigenvalue lambda u).
+by move: (reg _ mem'); rewrite (loop_eigenvalue lambda v).
 Qed.
 
 Let bar_center : bar (up Z) = up Z.

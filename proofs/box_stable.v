@@ -108,7 +108,7 @@ move=> u; have nz : d.[t] != 0 by rewrite d_at -unitfE -unitmxE.
 pose D : C := inC (d.[t] ^+ 2); have nD : D != 0 by rewrite fmorph_eq0 expf_neq0.
 pose L := map_mx inC (c *: (loop_of (along t) + a%:M)).
 have echar : at_ t (char_poly (N a c)) = char_poly (D *: L).
-  by rewrite /at_ !map_char_poly N_at// map_mxZ.
+  by rewrite /at_ map_char_poly N_at// map_char_poly map_mxZ.
 have -> : eigenvalue L z = eigenvalue (D *: L) (D * z).
   apply/eigenvalueP/eigenvalueP => -[v ev nv]; exists v => //.
     by rewrite -scalemxAr ev scalerA.
@@ -210,7 +210,7 @@ rewrite half; apply: (@on_line R n k Z Z' (fun z => 'Re z < 0) (fun z => 'Re z =
   by apply: regular_not (line _ t01); apply: reg; rewrite ?Re_conj// Im_conj oppr_ge0 ltW.
 - move=> z; have -> : z = inC 1 * (z - inC b + inC b) by rewrite subrK rmorph1 mul1r.
   by rewrite moved_eigenvalue// e0 -half => /start.
-by rewrite moved_eigenvalue// e1.
+by rewrite e1 moved_eigenvalue.
 Qed.
 
 (* Discrete time. *)
@@ -240,7 +240,7 @@ rewrite disc; apply: (@on_line R n k Z Z' (fun z => `|z| < 1) (fun z => `|z| = 1
   by apply: regular_not (line _ t01); apply: reg; rewrite ?norm_conjC// Im_conj oppr_ge0 ltW.
 - move=> z; rewrite {1}[z]back moved_eigenvalue// e0 => /start.
   by rewrite disc -back.
-by rewrite moved_eigenvalue// e1.
+by rewrite e1 moved_eigenvalue.
 Qed.
 
 (* Every disc of the segments is regular, and so is every point of the border beyond the last one. *)

@@ -189,6 +189,9 @@ Lemma one_block : posdef (1%:M : 'M[algC]_(2 + 2)). Proof. by move=> x; apply: f
 
 Notation quarter := (times (1 / 4%:R)).
 Notation half := (times (1 / 2%:R)).
+Lemma psd_I : psd I. Proof. exact: psd_times. Qed.
+Lemma psd_quarter : psd quarter. Proof. exact: psd_times. Qed.
+Lemma psd_half : psd half. Proof. exact: psd_times. Qed.
 Definition proper := loop_proper (times (-1)) I I (times (-2%:R)) I (times (-1)).
 Lemma stable_proper : stable_continuous proper.
 Proof.
@@ -208,7 +211,7 @@ Lemma inst_bound_proper : exists X, [/\ proper *m X + X *m proper^H + noise_prop
 Proof.
 have pN : psd (noise_proper I I I) by rewrite /noise_proper !timesE; apply: psd_block.
 have [X [eX pX _]] := covariance_continuous stable_proper pN; exists X; split=> //.
-apply: (bound_proper _ _ _ _ stable_proper eX first_quarter); rewrite ?times_adj//; do ?exact: psd_times.
+apply: (bound_proper psd_I psd_I (times_adj _ _) psd_quarter stable_proper eX first_quarter).
 rewrite /second_proper !timesE; exact: psd_block.
 Qed.
 
@@ -260,7 +263,7 @@ have four0 : 0 < four by rewrite ltr0q.
 have pN : psd (noise_filtered 2 I I four).
   apply: psd_corner; rewrite -rmorphX !timesE; exact: psd_block.
 have [X [eX pX _]] := covariance_continuous stable_filtered pN; exists X; split=> //.
-apply: (bound_continuous _ _ _ _ four0 stable_filtered eX first_quarter); rewrite ?times_adj//; do ?exact: psd_times.
+apply: (bound_continuous psd_I psd_I (times_adj _ _) psd_quarter four0 stable_filtered eX first_quarter).
 have two : 2%:R / four = ratr (2%:R / 4%:R) by rewrite fmorph_div; congr (_ / _); rewrite rmorph_nat.
 rewrite /second_filtered /= two -fmorphV !timesE; exact: psd_block.
 Qed.
@@ -285,7 +288,7 @@ Proof.
 have pN : psd (noise_discrete I half minus_half I I).
   by apply: psdD; [apply/psd_corner/psd_times | apply/psd_of/psd_times].
 have [X [eX pX _]] := covariance_discrete stable_sampled pN; exists X; split=> //.
-apply: (bound_discrete _ _ _ _ stable_sampled eX); rewrite ?times_adj//; do ?exact: psd_times.
+apply: (bound_discrete psd_I psd_I (times_adj _ _) psd_half stable_sampled eX).
   rewrite /first_discrete adj_row !mul_col_mx !mul_mx_row /block_mx !timesE !opE !timesE; exact: psd_block.
 rewrite /second_discrete /= !timesE; exact: psd_block.
 Qed.
