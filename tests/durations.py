@@ -24,7 +24,7 @@ from tests.end_to_end.prepared import Prepared
 ROOT = Path(__file__).parents[1]
 LIST = Path(__file__).with_name("slow.txt")
 MEASURED = ROOT / "build" / "durations.tsv"
-LIMIT = 0.5
+LIMIT = 0.25
 SLOW_FIXTURES = frozenset({"whole", "written"})
 """Fixtures of a module that take seconds; the tests that use one are slow."""
 NEVER_SLOW = (
