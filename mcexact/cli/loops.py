@@ -31,7 +31,6 @@ from mcexact.analysis.boxes.largest import (
 from mcexact.analysis.boxes.loops import box_stability
 from mcexact.answer.account import Account
 from mcexact.answer.boxes import BoxStability
-from mcexact.answer.evidence import RootDisc
 from mcexact.answer.loops import (
     EVERY_LOOP,
     EVERY_LOOP_PART,
@@ -47,7 +46,7 @@ from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import count
 from mcexact.cli import parts, periodic, uncertainty
 from mcexact.cli.files import plant_in, system_in
-from mcexact.cli.results import Evidence, Loop, Simulated
+from mcexact.cli.results import Evidence, Loop, Simulated, loop_document
 from mcexact.derived.modulo import states_of_rest
 from mcexact.derived.sampling import DECIMALS, is_sampled, sampled_system, tustin
 from mcexact.errors import InputError, LimitReached, UsageError
@@ -197,7 +196,7 @@ def certified(
                 "of a plant with feedthrough only the eigenvalues of the loop are decided: leave "
                 "out --gains, --weights and the page"
             )
-        document = _document(verdict, wanted["largest"], digits, warnings, outside)
+        document = loop_document(verdict, warnings, wanted["largest"], digits, outside)
         return _without_figures(verdict, notes, document, system_by_digest)
     loop, weighed = closed_loop(system, controller), read_weights(weights, limits)
     with InputError.inside(plant[0] if weights is None else weights[0]):
@@ -244,36 +243,13 @@ def certified(
         with_page=with_page,
         system_by_digest=system_by_digest and system.plant is sized,
         document=account.as_json(
-            **_document(verdict, wanted["largest"], digits, warnings, outside),
+            **loop_document(verdict, warnings, wanted["largest"], digits, outside),
             **loops.view,
             **uncertainty.view(search),
             assessment=assessment.to_dict(),
         ),
         controller=controller_text(limited_controller(controller, system.limits, proved)),
     )
-
-
-def _document(
-    verdict: StabilityVerdict,
-    largest: bool,
-    digits: int | None,
-    warnings: Sequence[str],
-    outside: RootDisc | None,
-) -> dict[str, Any]:
-    """What the JSON of a verdict says of the loop itself."""
-    bound = None if verdict.bound is None else str(verdict.bound)
-    return {
-        "certified": verdict.stable,
-        "region": str(verdict.region),
-        "bound": bound,
-        "method": verdict.method,
-        "states": verdict.about.n,
-        "blocks": list(verdict.blocks),
-        "largest": bound if largest else None,
-        "warnings": warnings,
-        "rounded_to_digits": digits,
-        "eigenvalue_outside": None if outside is None else outside.to_dict(),
-    }
 
 
 def _without_figures(
@@ -290,14 +266,7 @@ def _without_figures(
         "note: costs, margins and peaks of such loops are not computed",
         *(f"note: {each}" for each in notes),
     ]
-    return Loop(
-        Evidence.of(account, system_by_digest),
-        account.as_json(**document, first_line=lines[0]),
-        tables(account.sentences, note=account.reading),
-        None,
-        lines,
-        "",
-    )
+    return Loop.without_figures(account, document, lines, system_by_digest)
 
 
 def assessed(

@@ -12,8 +12,9 @@ from typing import Any
 
 from mcexact.answer.account import Account
 from mcexact.answer.sentence import Context, Sentences
+from mcexact.answer.time_varying import PERIODIC_SLOW
 from mcexact.cli import parts
-from mcexact.cli.results import Evidence, Loop, Refused, Simulated
+from mcexact.cli.results import Evidence, Loop, Refused, Simulated, loop_document
 from mcexact.derived.modulo import states_of_rest
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.rational import Limits
@@ -125,30 +126,15 @@ def certified(
         controller = read_periodic_controller(program[1], Limits(**limits))
         verdict = certify_periodic(system, controller, radius=radius)
     account = account_of_period(verdict, controller, region)
+    decay = [each for each in account.sentences.at("table") if each.template is PERIODIC_SLOW]
     document = {
-        "certified": verdict.stable,
+        **loop_document(verdict, controller.warnings_for(system)),
         "region": str(region),
         "bound": None if region.bound is None else str(region.bound),
         "period": controller.period,
-        "method": verdict.method,
-        "states": verdict.about.n,
-        "blocks": list(verdict.blocks),
-        "largest": None,
-        "rounded_to_digits": None,
-        "eigenvalue_outside": None,
-        "warnings": list(controller.warnings_for(system)),
     }
-    answers = [each.line for each in account.sentences.at("answer")]
-    slow = f"The loop does not have {region} in the mean of a step."
-    lines = [*(answers or [slow]), f"note: {_UNKNOWN}"]
-    return Loop(
-        Evidence.of(account, system_by_digest),
-        account.as_json(**document, first_line=lines[0]),
-        tables(account.sentences, note=account.reading),
-        None,
-        lines,
-        "",
-    )
+    lines = [each.line for each in account.sentences.at("answer") or decay]
+    return Loop.without_figures(account, document, [*lines, f"note: {_UNKNOWN}"], system_by_digest)
 
 
 _RUN_WITH = ("initial", "horizon", "disturbances", "arithmetic")

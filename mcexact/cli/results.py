@@ -17,10 +17,12 @@ from typing import Any
 from mcexact.analysis.questions import asked_by
 from mcexact.answer import protocol
 from mcexact.answer.account import Account
+from mcexact.answer.evidence import RootDisc
+from mcexact.answer.loops import StabilityVerdict
 from mcexact.answer.protocol import Answer
 from mcexact.model.properties import Property
 from mcexact.report.html import AnswerPage
-from mcexact.report.text import Table
+from mcexact.report.text import Table, tables
 
 PART_OF_SEARCH = 4
 """The search for plants nearby has this part of the time that a command leaves to one system."""
@@ -223,6 +225,70 @@ class Loop(Shown):
 
     verdict: Sequence[str]
     controller: str
+
+    @classmethod
+    def without_figures(
+        cls,
+        account: Account,
+        document: Mapping[str, Any],
+        lines: Sequence[str],
+        system_by_digest: bool,
+    ) -> Loop:
+        """Return the verdict of a loop whose costs, margins and peaks are not computed.
+
+        Parameters
+        ----------
+        account : Account
+        document : mapping
+            What the JSON says besides the sentences and the first line.
+        lines : sequence of str
+            The lines before the tables.
+        system_by_digest : bool
+            Whether the files name the plant by its digest.
+        """
+        return cls(
+            Evidence.of(account, system_by_digest),
+            account.as_json(**document, first_line=lines[0]),
+            tables(account.sentences, note=account.reading),
+            None,
+            lines,
+            "",
+        )
+
+
+def loop_document(
+    verdict: StabilityVerdict,
+    warnings: Sequence[str],
+    largest: bool = False,
+    digits: int | None = None,
+    outside: RootDisc | None = None,
+) -> dict[str, Any]:
+    """Return what the JSON of a verdict says of the loop itself.
+
+    Parameters
+    ----------
+    verdict : StabilityVerdict
+    warnings : sequence of str
+    largest : bool
+        Whether the bound of the region is the largest that was found.
+    digits : int, optional
+        The digits to which the controller was rounded.
+    outside : RootDisc, optional
+        A disc around an eigenvalue outside the region.
+    """
+    bound = None if verdict.bound is None else str(verdict.bound)
+    return {
+        "certified": verdict.stable,
+        "region": str(verdict.region),
+        "bound": bound,
+        "method": verdict.method,
+        "states": verdict.about.n,
+        "blocks": list(verdict.blocks),
+        "largest": bound if largest else None,
+        "warnings": list(warnings),
+        "rounded_to_digits": digits,
+        "eigenvalue_outside": None if outside is None else outside.to_dict(),
+    }
 
 
 @dataclass(frozen=True)

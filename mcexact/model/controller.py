@@ -561,7 +561,20 @@ def read_controller(
     expect_object(document, None, ("format", "time", "system", "agents"))
     require_time(document["time"])
     expect_string(document["system"], "system", "the digest of a system, a string")
-    agents = expect_list(document["agents"], "agents")
+    programs = read_programs(document["agents"], limits)
+    require_short_numbers(text, limits)
+    return Controller(document["time"], document["system"], programs)
+
+
+def read_programs(document: Any, limits: Limits = DEFAULT_LIMITS) -> tuple[AgentProgram, ...]:
+    """Read the programs of all agents from the list in a controller's file.
+
+    Raises
+    ------
+    InputError
+        If it is malformed; the message says where, what was expected and what was found.
+    """
+    agents = expect_list(document, "agents")
     if not agents:
         raise InputError("expected at least one agent, found none", where="agents")
     keys = ("name", "shared", "private", *MAPS)
@@ -573,11 +586,9 @@ def read_controller(
     ]
     names = checked_names(labels, places)
     sizes = [expect_integer(a["shared"], f"agents[{k}].shared") for k, a in enumerate(agents)]
-    programs = [
+    return tuple(
         _read_agent(agent, f"agents[{k}]", names, sizes, limits) for k, agent in enumerate(agents)
-    ]
-    require_short_numbers(text, limits)
-    return Controller(document["time"], document["system"], tuple(programs))
+    )
 
 
 def _read_agent(

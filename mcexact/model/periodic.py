@@ -12,18 +12,15 @@ of one period to that of the next: the product of the matrices of the N loops, t
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 from mcexact.errors import InputError, place_of
-from mcexact.exact.matrix import Matrix, bit_length, largest_entry
+from mcexact.exact.matrix import Matrix, bit_length
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.exact.roots import is_discrete
+from mcexact.exact.roots import is_discrete, require_time
 from mcexact.model.controller import (
     PERIODIC_FORMAT,
     AgentProgram,
@@ -31,12 +28,11 @@ from mcexact.model.controller import (
     Equations,
     controller_document,
     document_text,
-    read_controller,
+    read_programs,
 )
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import (
-    canonical,
     expect_format,
     expect_list,
     expect_object,
@@ -119,38 +115,27 @@ class PeriodicController(Shown):
         """The sum of the dimensions of all agents' states."""
         return self.phases[0].order
 
-    def at(self, t: int) -> Controller:
-        """Return the programs of step t."""
-        return self.phases[t % self.period]
-
-    def shifted(self, steps: int) -> PeriodicController:
-        """Return the controller that begins its period some steps later."""
-        first = steps % self.period
-        return PeriodicController(self.phases[first:] + self.phases[:first])
-
     def bit_length(self) -> int:
         """The number of bits of the longest numerator or denominator of an entry."""
         return bit_length(M for phase in self.phases for M in phase.matrices())
-
-    def largest_entry(self) -> Fraction:
-        """The largest absolute value of an entry."""
-        return largest_entry(M for phase in self.phases for M in phase.matrices())
 
     def warnings_for(self, system: MultiChannelSystem) -> tuple[str, ...]:
         """Return a warning if the controller was made for another plant."""
         return self.phases[0].warnings_for(system)
 
-    def require_fits(self, system: MultiChannelSystem) -> None:
-        """Check that this controller can run on a system.
+    def loops_with(self, system: MultiChannelSystem) -> list[Matrix]:
+        """Return the matrix of the loop in each step, with the state (x, z_1, …, z_m).
 
         Raises
         ------
         UsageError, InputError
             As in `Controller.require_fits`, for the first phase that does not fit.
         """
+        loops = list[Matrix]()
         for t, phase in enumerate(self.phases):
             with InputError.inside(f"phases[{t}]"):
-                closed_loop(system, phase)
+                loops.append(closed_loop(system, phase).matrix)
+        return loops
 
     def explain(self) -> str:
         """Say in plain words what the agents keep and use."""
@@ -228,9 +213,10 @@ def phases_of(
     read = list[Controller]()
     for t, phase in enumerate(phases):
         expect_object(phase, f"phases[{t}]", ("agents",), ("time",))
-        own = {"format": "mcexact-controller/1", "system": system, "time": "discrete"}
         with InputError.inside(f"phases[{t}]"):
-            read.append(read_controller(json.dumps({**own, **phase}), limits))
+            time = phase.get("time", "discrete")
+            require_time(time)
+            read.append(Controller(time, system, read_programs(phase["agents"], limits)))
     return PeriodicController(tuple(read))
 
 
@@ -268,39 +254,6 @@ def periodic_text(controller: PeriodicController) -> str:
 # The loop over one period.
 
 
-@dataclass(frozen=True, eq=False)
-class PeriodicLoop:
-    """The loop of a plant and a periodic controller.
-
-    Attributes
-    ----------
-    plant : MultiChannelSystem
-    controller : PeriodicController
-    """
-
-    plant: MultiChannelSystem
-    controller: PeriodicController
-
-    @cached_property
-    def steps(self) -> tuple[Matrix, ...]:
-        """The matrix of each step of the period, N of them, with the state (x, z_1, …, z_m)."""
-        return tuple(closed_loop(self.plant, phase).matrix for phase in self.controller.phases)
-
-    @cached_property
-    def monodromy(self) -> Matrix:
-        """The matrix of a whole period: M_{N−1} ⋯ M_1 M_0."""
-        product = Matrix.identity(self.steps[0].nrows)
-        for step in self.steps:
-            product = step @ product
-        return product
-
-    @cached_property
-    def system(self) -> MultiChannelSystem:
-        """The monodromy matrix as a system without channels, of which a step is a period."""
-        construction = {"construction": "periodic_loop", "phases": self.controller.document()}
-        return self.plant.derived(self.monodromy, (), (), construction)
-
-
 def periodic_loop(system: MultiChannelSystem, controller: PeriodicController) -> MultiChannelSystem:
     """Make the loop of a periodic controller over one period.
 
@@ -323,10 +276,9 @@ def periodic_loop(system: MultiChannelSystem, controller: PeriodicController) ->
     """
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, PeriodicController, "controller")
-    controller.require_fits(system)
-    return PeriodicLoop(system, controller).system
-
-
-def same_programs(one: PeriodicController, other: PeriodicController) -> bool:
-    """Whether two periodic controllers have the same programs in every phase."""
-    return canonical(one.document()) == canonical(other.document())
+    steps = controller.loops_with(system)
+    monodromy = Matrix.identity(steps[0].nrows)
+    for step in steps:
+        monodromy = step @ monodromy
+    construction = {"construction": "periodic_loop", "phases": controller.document()}
+    return system.derived(monodromy, (), (), construction)

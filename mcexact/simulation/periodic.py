@@ -19,7 +19,7 @@ from mcexact.exact.matrix import Rounding, matrix_to_float
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import ClosedLoop
 from mcexact.model.periodic import PeriodicController, periodic_loop
-from mcexact.model.system import MultiChannelSystem, any_system
+from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.network import (
     Drive,
     InitialState,
@@ -95,7 +95,6 @@ def simulate_periodic(
     >>> [str(snapshot.plant[0]) for snapshot in run.snapshots]
     ['1', '1/4', '1/2', '1/8', '1/4']
     """
-    any_system(system)
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, PeriodicController, "controller")
     M = periodic_loop(system, controller).A  # what does not fit is refused here

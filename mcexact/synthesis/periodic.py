@@ -45,7 +45,7 @@ from mcexact.exact.rational import Entry
 from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.periodic import PeriodicController, periodic_loop
-from mcexact.model.system import MultiChannelSystem, any_system
+from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.optimum.diagnosis import rounded_controller
 
@@ -113,7 +113,6 @@ def certify_periodic(
     >>> certify_periodic(plant, controller, radius="1/2").stable
     False
     """
-    any_system(system)
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, PeriodicController, "controller")
     _require_discrete(system)

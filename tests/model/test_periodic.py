@@ -46,16 +46,14 @@ def test_the_loop_over_a_period_is_what_agents_do_step_by_step() -> None:
         phases = json.loads(periodic_text(controller))["phases"]
         for first in range(controller.period):
             expected = monodromy_by_hand(system, phases, first)
-            assert periodic_loop(system, controller.shifted(first)).A.rows() == tuple(
-                map(tuple, expected)
-            )
+            later = PeriodicController(controller.phases[first:] + controller.phases[:first])
+            assert periodic_loop(system, later).A.rows() == tuple(map(tuple, expected))
 
 
 def test_the_known_gains_of_the_gallery() -> None:
     loop = periodic_loop(PLANT, GAINS)
     assert (loop.n, loop.m, loop.subject[-1]["construction"]) == (3, 0, "periodic_loop")
-    assert (GAINS.period, GAINS.order, GAINS.names, GAINS.at(3)) == (2, 0, ("1", "2"), EVEN)
-    assert GAINS.largest_entry() == 1
+    assert (GAINS.period, GAINS.order, GAINS.names) == (2, 0, ("1", "2"))
     assert GAINS.bit_length() == 9
     assert "repeat after 2 steps" in GAINS.explain()
 
