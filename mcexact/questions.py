@@ -13,14 +13,14 @@ An answer has its claims as attributes, ``explain()`` for a reader, and is what
 
 from mcexact.analysis.analyze import Analysis
 from mcexact.analysis.controllability import ExceptionalGains, exceptional_gains
-from mcexact.analysis.failures import failures
+from mcexact.analysis.failures import failures, fewest_failures
 from mcexact.analysis.fixed_modes import pencil_rank
 from mcexact.analysis.single_channel import ErrorGains, error_gains, single_channel_gains
 from mcexact.analysis.stability import certify_stability, open_loop_spectrum
 from mcexact.analysis.structure import complementary_subsystem
 from mcexact.answer.check import Verdict
 from mcexact.answer.evidence import RateInterval, RootDisc
-from mcexact.answer.failures import Failure, Failures
+from mcexact.answer.failures import Failure, Failures, Fewest, FewestFailures
 from mcexact.answer.loops import ClosedLoopSpectrum, StabilityVerdict
 from mcexact.answer.modes import Assignability, Completeness, FixedFactor, FixedSpectrum, PencilRank
 from mcexact.answer.protocol import Answer
@@ -51,6 +51,8 @@ __all__ = [
     "ExceptionalSet",
     "Failure",
     "Failures",
+    "Fewest",
+    "FewestFailures",
     "FixedFactor",
     "FixedSpectrum",
     "JointControllability",
@@ -69,6 +71,7 @@ __all__ = [
     "error_gains",
     "exceptional_gains",
     "failures",
+    "fewest_failures",
     "open_loop_spectrum",
     "pencil_rank",
     "single_channel_gains",

@@ -40,3 +40,35 @@ have -> : closed_loop X (fun i => P i *m P' i *m F i *m (Q' i *m Q i)) =
   by rewrite failed_loop; congr (_ + _); apply: eq_bigr => i _; rewrite !mulmxA.
 exact: h.
 Qed.
+
+(* Several failures: parts E fail, and P S, Q S are the masks of the parts S that work. *)
+Section SoMany.
+Variables (L : fieldType) (n m : nat) (p q : 'I_m -> nat) (X : multichannel L n p q) (E : finType).
+Variables (P : {set E} -> forall i, 'M[L]_(p i)) (Q : {set E} -> forall i, 'M[L]_(q i)).
+Hypothesis masks_in : forall S S' i, P (S :&: S') i = P S i *m P S' i.
+Hypothesis masks_out : forall S S' i, Q (S :&: S') i = Q S' i *m Q S i.
+
+Definition after (K : {set E}) := failed X (P (~: K)) (Q (~: K)).
+
+Theorem fixed_after_all_in (K K' : {set E}) lambda :
+  K \subset K' -> fixed (after K) lambda -> fixed (after K') lambda.
+Proof.
+move=> sub h F; rewrite failed_loop.
+have -> : closed_loop X (fun i => P (~: K') i *m F i *m Q (~: K') i) =
+    closed_loop (after K) (fun i => P (~: K') i *m F i *m Q (~: K') i).
+  have both : ~: K' = ~: K :&: ~: K' by apply/esym/setIidPr; rewrite setCS.
+  rewrite failed_loop; congr (_ + _); apply: eq_bigr => i _.
+  by rewrite {1}both {2}both masks_in masks_out !mulmxA.
+exact: h.
+Qed.
+
+(* Where no k parts meet the complement of every set of failures that are harmless, more than k matter. *)
+Theorem at_least_so_many (harmless : seq {set E}) k lambda (K : {set E}) :
+  (forall G, G \in harmless -> ~ fixed (after G) lambda) ->
+  (forall H : {set E}, (#|H| <= k)%N -> exists2 G, G \in harmless & [disjoint H & ~: G]) ->
+  fixed (after K) lambda -> (k < #|K|)%N.
+Proof.
+move=> good miss fx; rewrite ltnNge; apply/negP => /miss [G inG]; rewrite disjoints_subset setCK => sub.
+exact: good inG (fixed_after_all_in sub fx).
+Qed.
+End SoMany.

@@ -31,6 +31,47 @@ rewrite /without eqxx /= mulr0n raddf0 mulmx0 !mul0mx add0r mulmx1 !mul1mx mulmx
 by move=> <-.
 Qed.
 
+(* Either agent alone may fail, so that two have to before the mode is fixed. *)
+Definition works (S : {set 'I_2}) (i : 'I_2) : 'M[rat]_1 := (i \in S)%:R%:M.
+Lemma works_both S S' i : works (S :&: S') i = works S i *m works S' i.
+Proof. by rewrite /works inE -scalar_mxM -natrM mulnb. Qed.
+Lemma works_both_turned S S' i : works (S :&: S') i = works S' i *m works S i.
+Proof. by rewrite setIC works_both. Qed.
+
+Lemma one_works (j : 'I_2) : \sum_(i < 2) (i \in ~: [set j])%:R = 1 :> rat.
+Proof. by rewrite !big_ord_recl big_ord0 !inE; case: j => [[|[|//]] ?]. Qed.
+
+Lemma each_moves j : ~ fixed (after double works works [set j]) 1.
+Proof.
+move=> /(_ (fun=> - one)) /eigenvalueP [v h nz]; case/negP: nz.
+have loop : closed_loop (after double works works [set j]) (fun=> - one) = 0.
+  rewrite /closed_loop (eq_bigr (fun i => - ((i \in ~: [set j])%:R%:M : 'M[rat]_1))) => [|i _].
+    by rewrite sumrN -raddf_sum /= one_works subrr.
+  by rewrite /= /works mulmxN mul1mx mulmx1 mulNmx -scalar_mxM -natrM mulnb andbb.
+by move: h; rewrite loop mulmx0 scale1r => <-.
+Qed.
+
+Lemma all_fixed : fixed (after double works works setT) 1.
+Proof.
+move=> F; apply/eigenvalueP; exists one; last by rewrite -[1%:M]/one oner_eq0.
+rewrite /closed_loop big1 => [|i _]; first by rewrite addr0 mul1mx scale1r.
+by rewrite /= /works setCT inE raddf0 mulmx0 !mul0mx.
+Qed.
+
+Definition inst_fixed_after_all_in :=
+  fixed_after_all_in works_both works_both_turned (subsetT setT) all_fixed.
+
+Lemma inst_at_least_so_many : (1 < #|[set: 'I_2]|)%N.
+Proof.
+apply: (at_least_so_many works_both works_both_turned (harmless := [:: [set ord0]; [set lift ord0 ord0]]))
+    all_fixed => [G | H].
+  by rewrite !inE => /orP [] /eqP ->; apply: each_moves.
+rewrite leq_eqVlt ltnS leqn0 cards_eq0 => /orP [/cards1P [j ->] | /eqP ->]; last first.
+  by exists [set ord0]; rewrite ?inE ?eqxx // disjoints_subset sub0set.
+exists [set j]; last by rewrite disjoints_subset setCK.
+by rewrite !inE !(inj_eq set1_inj); case: j => [[|[|//]] ?].
+Qed.
+
 (* Modulo 7 a system without states has no fixed mode: the bound of `large_modulus` is the empty case. *)
 Definition seven : modulus := @Modulus 7 isT.
 Definition stateless : multichannel (Zloc seven) 0 ones ones := Multichannel 0 (fun=> 0) (fun=> 0).

@@ -260,6 +260,18 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             reuses=_SPECTRUM,
             kind="fixed_spectrum",
         ),
+        "fewest_failures": Question(
+            "failures:fewest_failures",
+            "the fewest agents after whose failure a further mode is fixed, or one that is not "
+            "stable, and the fewest actuators and sensors where agents have several; with "
+            "--information outputs those of links, too",
+            about="plant",
+            needs="information",
+            by_default=False,
+            option="fewest-failures",
+            reuses=_SPECTRUM,
+            kind="fixed_spectrum",
+        ),
         "completeness": Question(
             "fixed_modes:completeness",
             "whether any single channel can control and observe everything",

@@ -256,17 +256,19 @@ class Several(tuple[Certified, ...]):
         """Yield the answers such that a sentence about one has no other as its premise."""
         return _separately(self._read, self)
 
-    def grouped(self, by: str) -> Iterator[tuple[Certified, ...]]:
+    def grouped(self, by: str | Callable[[Answer], Any]) -> Iterator[tuple[Certified, ...]]:
         """Yield the answers in groups, as `separately` yields single ones.
 
         Parameters
         ----------
-        by : str
-            The claim that is the same in all answers of a group, and is no premise by that.
+        by : str or callable
+            The claim that is the same in all answers of a group, or a function of the answer; it is
+            no premise by that.
         """
         groups: dict[Any, list[Certified]] = {}
         for each in self:
-            groups.setdefault(getattr(each._answer, by), []).append(each)
+            key = getattr(each._answer, by) if isinstance(by, str) else by(each._answer)
+            groups.setdefault(key, []).append(each)
         return _separately(self._read, [tuple(group) for group in groups.values()])
 
 

@@ -329,8 +329,15 @@ def _arrows(edges: Sequence[tuple[str, str]]) -> str:
     return ", ".join(cut(arrows, 40)) or "none"
 
 
-def failures_in_words(failures: Iterable[tuple[str, str, Any]]) -> str:
+def failures_in_words(failures: Iterable[tuple[str, str, Any]], last_by: str = "or") -> str:
     """Name failed agents, actuators, sensors and links.
+
+    Parameters
+    ----------
+    failures : iterable
+        Each with its part, the agent, and the number or the receiver.
+    last_by : {"or", "and"}
+        The word before the last one.
 
     Examples
     --------
@@ -356,7 +363,23 @@ def failures_in_words(failures: Iterable[tuple[str, str, Any]]) -> str:
         else:
             words.append(f"{part.removesuffix('s')} {which} of agent {name}")
     *first, last = cut(words, 12)
-    return " or ".join(filter(None, [", ".join(first), last]))
+    return f" {last_by} ".join(filter(None, [", ".join(first), last]))
+
+
+def _so_many(part: str, least: int, most: int) -> str:
+    """Write how many agents, actuators, sensors or links."""
+    numbers = str(most) if least == most else f"{least} to {most}"
+    return f"{numbers} {part.removesuffix('s') if most == 1 else part}"
+
+
+def _spared(then: str) -> Write:
+    """Write what still holds after any k failures of a part, if k is not 0."""
+
+    def write(value: tuple[str, int]) -> str:
+        part, k = value
+        return f"; after any {_so_many(part, k, k)} {then}" if k else ""
+
+    return write
 
 
 def several_modes(factors: Sequence[Polynomial]) -> str:
@@ -571,6 +594,10 @@ FORMS: dict[str, Write] = {
     "rounded samples": lambda which: _SAMPLES[which],
     "several modes": several_modes,
     "failures": failures_in_words,
+    "failures together": lambda failures: failures_in_words(failures, "and"),
+    "still stabilizable": _spared("it is"),
+    "nothing further": _spared("nothing further"),
+    "not decided": lambda sizes: f"; of {_so_many(*sizes)} it is not known" if sizes else "",
     "parts": choice(own="agent, actuator or sensor", outputs="agent, actuator, sensor or link"),
     "windup": lambda some: " and with the anti-windup gains of the controller" if some else "",
     "step": approximated,

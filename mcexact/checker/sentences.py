@@ -514,6 +514,7 @@ quotient(
 AFTER = Role(FIXED.kinds, FAILED, many=True, apart=True)
 MORE = "failures.fixed_after_more"
 STILL = f"{MORE}; {WANG_DAVISON}"
+SO_MANY = "failures.at_least_so_many"
 Failure = tuple[str, Any]
 """Which part failed: "agents", "actuators", "sensors" or "links", and the one of them."""
 
@@ -630,6 +631,127 @@ def _none_after(before: Premise, after: list[Premise]) -> str:
     bad = require_all_others(after, lambda each: same(each["polynomial"], before["polynomial"]))
     besides = f", but for {failures(bad)}" if bad else ""
     return f"{of_failures(after)}: every single failure{besides} leaves no further mode fixed"
+
+
+# Several failures: the fewest after which something is lost.
+
+
+def lost_together(after: Premise) -> tuple[str, list[Any]]:
+    """The failures of a subject, all of them of agents, of actuators, of sensors or of links."""
+    step = after.document["subject"][0]
+    parts = [what for what in FAILURES if step[what]]
+    after.expect(len(parts) == 1, "failures of different parts")
+    return parts[0], step[parts[0]]
+
+
+def fewest_lost(after: list[Premise], fine: Holds) -> tuple[str, int, list[Premise]]:
+    """What fails, the largest k for which premises prove all fine after k failures, and the rest.
+
+    Every k failures are among those of one premise that is fine: then ``failures.fixed_after_more``
+    says that all is fine after them.  In other words, no k of them meet, for every such premise,
+    the parts that are left (``failures.at_least_so_many``).  The last part of the result has the
+    other premises, those about the fewest failures first.
+    """
+    part = lost_together(after[0])[0]
+    every = [json.dumps(one) for what, one in every_failure(after[0]) if what == part]
+    bit = {one: 1 << k for k, one in enumerate(every)}
+    left, others = [(1 << len(every)) - 1], []
+    for each in after:
+        what, lost = lost_together(each)
+        each.expect(what == part, "failures of other parts than those of another premise")
+        each.expect(all(json.dumps(one) in bit for one in lost), "links over which nothing is sent")
+        if fine(each):
+            left.append(left[0] - sum(bit[json.dumps(one)] for one in lost))
+        else:
+            others.append((len(lost), each))
+    others.sort(key=lambda pair: pair[0])
+    most = others[0][0] if others else len(every)
+    k = 0
+    while k < most and not hit([*{*left}], k + 1):
+        k += 1
+    return part, k, [each for _, each in others]
+
+
+def hit(sets: list[int], most: int) -> bool:
+    """Whether at most so many elements meet all sets, which are given by bits."""
+    spend(100 * (len(sets) + 1))
+    if not sets:
+        return True
+    sets = sorted(sets, key=int.bit_count)
+    taken = disjoint = 0
+    for each in sets:
+        if not each & taken:
+            taken |= each
+            disjoint += 1
+    if not sets[0] or disjoint > most:
+        return False
+    first, passed = sets[0], 0
+    while first:
+        one = first & -first
+        # what meets the first set in an element that was passed has been tried
+        if hit([each & ~passed for each in sets if not each & one], most - 1):
+            return True
+        passed |= one
+        first -= one
+    return False
+
+
+def any_of(k: int, part: str) -> str:
+    """Any k failures, in words."""
+    return f"any {k} of the {part}"
+
+
+@rule("failures-fewest-unstable", AFTER, theorem=f"{FIXED_DYNAMIC}; {SO_MANY}; {WANG_DAVISON}")
+def _fewest_unstable(after: list[Premise]) -> str:
+    """Failures after which a mode is fixed that is not stable, and how many there are at least."""
+    part, k, bad = fewest_lost(after, stabilizable)
+    after[0].expect(bool(bad), "every fixed mode is stable")
+    lost = ", ".join(map(json.dumps, lost_together(bad[0])[1]))
+    fewer = f", and stabilizable after that of {any_of(k, part)}" if k else ""
+    return (
+        f"{of_failures(after)}: not stabilizable by {LTI} after the failure of {part} {lost}{fewer}"
+    )
+
+
+@rule("failures-fewest-fixed", FIXED, AFTER, theorem=SO_MANY)
+def _fewest_fixed(before: Premise, after: list[Premise]) -> str:
+    """Failures after which a further mode is fixed, and how many there are at least."""
+    part, k, bad = fewest_lost(after, lambda each: same(each["polynomial"], before["polynomial"]))
+    after[0].expect(bool(bad), "no further mode is fixed")
+    lost = ", ".join(map(json.dumps, lost_together(bad[0])[1]))
+    modes, known = polynomial_text(bad[0]["polynomial"]), before["polynomial"]
+    besides = f", of {polynomial_text(known)} without a failure" if len(known) > 1 else ""
+    fewer = f", and no further ones after that of {any_of(k, part)}" if k else ""
+    fixed = f"fixed are the roots of {modes} after the failure of {part} {lost}"
+    return f"{of_failures(after)}: {fixed}{besides}{fewer}"
+
+
+def without_all(after: list[Premise]) -> tuple[Premise, str]:
+    """A premise about the failure of all parts of a sort, and the failure in words."""
+
+    def missing(each: Premise) -> int:
+        part, lost = lost_together(each)
+        return sum(what == part for what, _ in every_failure(each)) - len(lost)
+
+    last = min(after, key=missing)
+    last.expect(missing(last) == 0, "not all parts of a sort have failed")
+    return last, f"the failure of all {lost_together(last)[0]}"
+
+
+@rule("failures-all-stabilizable", AFTER, theorem=WANG_DAVISON)
+def _all_stable(after: list[Premise]) -> str:
+    """Each fixed mode is stable after the failure of all parts of a sort."""
+    last, lost = without_all(after)
+    last.expect(stabilizable(last), "a mode is not stable")
+    return f"{of_failures(after)}: stabilizable by {LTI} after {lost}"
+
+
+@rule("failures-all-none", FIXED, AFTER)
+def _all_none(before: Premise, after: list[Premise]) -> str:
+    """No further mode is fixed after the failure of all parts of a sort."""
+    last, lost = without_all(after)
+    last.expect(same(last["polynomial"], before["polynomial"]), "a further mode is fixed")
+    return f"{of_failures(after)}: {lost} leaves no further mode fixed"
 
 
 # How the spectrum can be assigned.

@@ -12,9 +12,8 @@ from mcexact.model.system import MultiChannelSystem
 
 def asked(plant: MultiChannelSystem, **question: Any) -> Analysis:
     """As the command asks, with ``minimal=True`` and so on."""
-    options = [
-        name for name in ("minimal", "links", "delayed", "failures") if question.pop(name, False)
-    ]
+    names = ("minimal", "links", "delayed", "failures", "fewest-failures")
+    options = [name for name in names if question.pop(name.replace("-", "_"), False)]
     options += ["every-channel"] * question.pop("every_channel", False)
     return analyze(plant, also=asked_by(*options), **question)
 

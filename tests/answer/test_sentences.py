@@ -78,6 +78,7 @@ def drawn(seed: int) -> MultiChannelSystem:
 def question(plant: MultiChannelSystem, rng: random.Random) -> dict[str, Any]:
     """Something to ask as well."""
     asked: dict[str, Any] = {"links": plant.m <= 3, "failures": plant.m <= 3}
+    asked["fewest_failures"] = plant.m <= 2
     if plant.neighbors is not None:
         asked["minimal"] = True
         asked["information"] = rng.choice(["own", "outputs"])

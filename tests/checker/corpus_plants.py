@@ -14,7 +14,7 @@ from mcexact.analysis.analyze import analyze
 from mcexact.analysis.boxes.margins import box_disk_margin
 from mcexact.analysis.boxes.members import box_fixed_modes, box_setpoints
 from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.failures import failures
+from mcexact.analysis.failures import failures, fewest_failures
 from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum
 from mcexact.analysis.questions import asked_by
 from mcexact.analysis.sharing import (
@@ -459,6 +459,20 @@ def nearby() -> Iterator[tuple[str, list[Document]]]:
         yield f"nearby_{name}", [module.spectrum(own), *laws, *map(module.spectrum, others)]
 
 
+def failing() -> Iterator[tuple[str, list[Document]]]:
+    """Plants of which two agents or links have to fail, or all of them may."""
+    ways = [[[1], [0]]] * 2 + [[[0], [1]]], [[[1, 0]]] * 2 + [[[0, 1]]]
+    for name, mode in (("failing", 1), ("failing_stable", -2)):
+        plant = MultiChannelSystem([[mode, 0], [0, -3]], *ways)
+        found = fewest_failures(plant, parts=["agents"])
+        yield name, [document(found.before), *map(document, found)]
+    linked = MultiChannelSystem(
+        [[1]], [[[1]], [[0]], [[0]]], [[[0]], [[1]], [[1]]], neighbors={"1": ["2", "3"], "2": ["3"]}
+    )
+    found = fewest_failures(linked, "outputs", parts=["links"])
+    yield "failing_links", [document(found.before), *map(document, found)]
+
+
 def pool() -> Iterator[tuple[str, list[Document]]]:
     """Plants, each with certificates about it."""
     design, performance = test_sentences_design, test_sentences_performance
@@ -476,6 +490,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     yield "periodic", [*test_periodic.SAID]
     portless = MultiChannelSystem([[1]], [Matrix.zeros(1, 0)], [Matrix.zeros(0, 1)])
     yield "portless", [document(each) for each in failures(portless)]
+    yield from failing()
     yield "boxes", OF_ONE_PLANT
     yield "setpoints_in_boxes", list(held_in_boxes())
     yield "margins_in_boxes", list(margins_in_boxes())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +11,9 @@ import pytest
 
 from mcexact import MultiChannelSystem, fixed_spectrum
 from mcexact.analysis.failures import failures
+from mcexact.answer.failures import hitting_set
 from mcexact.answer.protocol import document
+from mcexact.checker.sentences import hit
 from mcexact.derived.constructions import augmented_outputs, failed
 from mcexact.derived.feedthrough import input_filters
 from tests.checker.handmade import Document, checked
@@ -206,6 +210,81 @@ def test_of_two_failures_at_once_nothing_is_said(tmp_path: Path) -> None:
     evidence = {"fixed_spectrum": SPARED["fixed_spectrum"], "failures_1": BOTH}
     for key in ("failures-unstable-row", "failures-fixed"):
         assert verdict(tmp_path, key, evidence, [*evidence]) == "INVALID"
+
+
+PAIRED = MultiChannelSystem([[1]], [[[1]]] * 3, [[[1]]] * 3, names=["a", "b", "c"])
+"""Each of three agents moves the mode 1."""
+WHOLE = {"fixed_spectrum": document(fixed_spectrum(PAIRED))}
+EACH = {
+    "".join(lost): after(PAIRED, agents=lost)
+    for lost in (*map(list, ("a", "b", "c", "ab", "ac", "bc", "abc")),)
+}
+PORTS = {
+    "actuators": after(PAIRED, actuators=[("a", 1), ("b", 1), ("c", 1)]),
+    "both": after(PAIRED, agents=["a"], actuators=[("b", 1)]),
+}
+PAIRS = ["ab", "ac", "bc"]
+
+
+@pytest.mark.parametrize(
+    ("key", "cited", "follows"),
+    [
+        ("unstable", [*PAIRS, "abc"], "and stabilizable after that of any 2 of the agents"),
+        ("unstable", ["ab", "ac", "abc"], "and stabilizable after that of any 1 of the agents"),
+        ("unstable", ["ab", "c", "abc"], "and stabilizable after that of any 1 of the agents"),
+        ("unstable", ["ab", "abc"], 'after the failure of agents "a", "b", "c"'),
+        ("unstable", ["abc"], 'after the failure of agents "a", "b", "c"'),
+        ("unstable", PAIRS, ""),
+        ("unstable", [*PAIRS, "actuators"], ""),
+        ("unstable", [*PAIRS, "both"], ""),
+        ("fixed", ["fixed_spectrum", *PAIRS, "abc"], "any 2 of the agents"),
+        ("fixed", ["fixed_spectrum", "actuators"], 'actuators ["a", 1], ["b", 1], ["c", 1]'),
+        ("fixed", [*PAIRS, "abc"], ""),
+        ("fixed", ["fixed_spectrum", *PAIRS], ""),
+    ],
+)
+def test_fewer_failures_than_are_covered_prove_less(
+    tmp_path: Path, key: str, cited: list[str], follows: str
+) -> None:
+    evidence = WHOLE | EACH | PORTS
+    listed = [sentence(f"failures-fewest-{key}", *cited, evidence=evidence)]
+    [found] = said(write(tmp_path, evidence, manifest(evidence, listed)))
+    assert found.verdict == ("IMPLIED" if follows else "INVALID"), found.line()
+    assert not follows or f"{follows} [" in found.statement, found.statement
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_the_search_of_the_checker_is_enumeration(seed: int) -> None:
+    rng = random.Random(seed)
+    n = rng.randrange(1, 7)
+    sets = [rng.randrange(2**n) for _ in range(rng.randrange(8))]
+    elements = [1 << k for k in range(n)]
+    for most in range(n + 1):
+        some = (sum(few) for few in combinations(elements, most))
+        assert hit(sets, most) == any(all(each & few for each in sets) for few in some)
+        found = hitting_set(sets, most, lambda: None)
+        assert (found is not None) == hit(sets, most)
+        if found is not None:
+            assert found.bit_count() <= most and all(each & found for each in sets)
+
+
+def test_failures_of_all_parts(tmp_path: Path) -> None:
+    still = MultiChannelSystem([[-1]], [[[1]], [[1]]], [[[1]], [[1]]])
+    moved = MultiChannelSystem([[1]], [[[0]], [[0]]], [[[1]], [[1]]])
+    for k, (plant, key) in enumerate([(still, "all-stabilizable"), (moved, "all-none")]):
+        evidence = {
+            "fixed_spectrum": document(fixed_spectrum(plant)),
+            "one": after(plant, agents=["1"]),
+            "two": after(plant, agents=["1", "2"]),
+        }
+        for cited, expected in ((["one", "two"], "IMPLIED"), (["one"], "INVALID")):
+            for rule in ("all-stabilizable", "all-none"):
+                cited_ = ["fixed_spectrum"] * (rule == "all-none") + cited
+                listed = [sentence(f"failures-{rule}", *cited_, evidence=evidence)]
+                folder = tmp_path / f"{k}{rule}{len(cited)}"
+                folder.mkdir()
+                [found] = said(write(folder, evidence, manifest(evidence, listed)))
+                assert found.verdict == (expected if rule == key else "INVALID"), found.line()
 
 
 def test_failures_with_messages_prove_nothing_without_them(tmp_path: Path) -> None:

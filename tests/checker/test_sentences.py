@@ -149,6 +149,8 @@ OPPOSITE = [
     ("quotient-fixed-none", "quotient-fixed"),
     ("time-varying-stabilizes", "no-causal-control"),
     ("failures-stabilizable", "failures-unstable"),
+    ("failures-all-stabilizable", "failures-fewest-unstable"),
+    ("failures-all-none", "failures-fewest-fixed"),
 ]
 ELSEWHERE = (
     "feedthrough",

@@ -1,7 +1,8 @@
-"""Single failures, against enumeration: each is tried by itself, by the rank of every pencil."""
+"""Failures, against enumeration: all are tried, by the rank of every pencil."""
 
 from __future__ import annotations
 
+import pickle
 import random
 import re
 from collections import Counter
@@ -11,9 +12,9 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.analyze import analyze
-from mcexact.analysis.failures import failures
+from mcexact.analysis.failures import failures, fewest_failures
 from mcexact.analysis.modulo import modulo
-from mcexact.answer.failures import Failures, failure_of
+from mcexact.answer.failures import Failures, every, failure_of
 from mcexact.answer.protocol import document
 from mcexact.answer.templates import failures_in_words
 from mcexact.errors import InputError, UsageError
@@ -22,8 +23,9 @@ from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.certificates.systems import read_plant
 from tests.oracle.draws import exact, sparse_system
+from tests.oracle.sentences.analysis import stable
 from tests.oracle.sentences.cases import Case, plain, same_roots
-from tests.oracle.sentences.failures import fixed_after
+from tests.oracle.sentences.failures import after_several, fewest, fixed_after, more_fixed
 from tests.wording import says
 
 SEEDS = 600
@@ -66,6 +68,96 @@ def test_every_single_failure_is_decided_as_by_enumeration(first: int) -> None:
                 assert [*map(str, facts.fixed)] == [*map(str, case.subject.fixed)], (seed, failure)
             seen[failure[0]] += len(facts.fixed) > len(case.subject.fixed)
     assert {"agents", "actuators", "sensors"} <= {part for part, k in seen.items() if k}
+
+
+@pytest.mark.parametrize("first", range(0, SEEDS, 50))
+def test_the_fewest_failures_are_those_of_enumeration(first: int) -> None:
+    seen: Counter[int | None] = Counter()
+    for seed in range(first, first + 50):
+        plant, information = drawn(seed)
+        parts = ["agents", "actuators", "sensors", *["links"] * (information == "outputs")]
+        found = fewest_failures(plant, information, parts=parts)
+        case = Case(read_plant(document(found.before)["system"]), {"information": information})
+        assert {*found.fixing()} == {part for part in parts if every(part, plant)}
+        questions = [(found.fixing(), more_fixed(case))]
+        if stable(case.subject):
+            questions += [(found.destabilizing(), lambda facts: not stable(facts))]
+        else:
+            assert found.destabilizing() == {}
+        for by_part, matters in questions:
+            for part, answer in by_part.items():
+                assert answer.number == fewest(case, part, matters), (seed, part)
+                if answer.failures is not None:
+                    assert matters(after_several(case, answer.failures)), (seed, part)
+                else:
+                    assert answer.spared == len(every(part, plant))
+                seen[answer.number] += 1
+    assert {None, 1, 2} <= {*seen}
+
+
+def published() -> list[list[str]]:
+    """The rows of the page about the fewest agents of published plants."""
+    page = Path(__file__).parents[3] / "docs" / "how-to" / "failures.md"
+    rows_of = r"^\| `([\w-]+)`.* \| (\d+) \| (\d+|no failure) \| (\d+|no failure) \|$"
+    return [[*row] for row in re.findall(rows_of, page.read_text("utf-8"), re.M)]
+
+
+def test_the_fewest_agents_of_published_plants_are_computed() -> None:
+    assert len(published()) == 8
+    for name, m, fixed, unstable in published():
+        plant = gallery.load(name)
+        found = fewest_failures(plant, parts=["agents"])
+        numbers = (found.fixing()["agents"].number, found.destabilizing()["agents"].number)
+        assert (int(m), fixed, unstable) == (plant.m, *(str(k or "no failure") for k in numbers))
+
+
+SPARE = MultiChannelSystem([[1]], [[[1]]] * 5, [[[1]]] * 5)
+"""Each of five agents moves the mode 1."""
+
+
+def test_a_limit_leaves_bounds_that_are_proved() -> None:
+    [full, bounded] = [fewest_failures(SPARE, node_limit=k).fixing()["agents"] for k in (500, 3)]
+    assert full.number == 5 and full.spared == 4
+    assert bounded.number is None and bounded.failures is not None
+    assert bounded.spared < 4 and len(bounded.failures) == 5
+    with pytest.raises(UsageError, match="node_limit"):
+        fewest_failures(SPARE, node_limit=0)
+    with pytest.raises(UsageError, match="parts"):
+        fewest_failures(SPARE, parts=["links"])
+
+
+def test_what_is_said_of_the_fewest_failures() -> None:
+    def said(name: str) -> list[tuple[str, Any, Any]]:
+        account = analyze(gallery.load(name), ["fixed_spectrum", "fewest_failures"]).account
+        sentences = [each for each in account.sentences if "failures" in each.template.key]
+        values = [each.values for each in sentences]
+        return [
+            (
+                each.template.key.removeprefix("failures-"),
+                len(v.get("failures", ())),
+                v.get("spared"),
+            )
+            for each, v in zip(sentences, values, strict=True)
+        ]
+
+    assert said("compleib-nn10") == [("fewest-unstable", 3, ("agents", 2))] * 1 + [
+        ("fewest-unstable", 3, ("sensors", 2))
+    ] * (len(said("compleib-nn10")) - 1)
+    assert said("farina-three-rooms") == [
+        ("all-stabilizable", 0, None),
+        ("fewest-fixed", 2, ("agents", 1)),
+    ]
+    assert said("relative-positions-4") == [("all-none", 0, None)]
+    assert said("compleib-tf1")[0] == ("fewest-unstable", 1, ("agents", 0))
+
+
+def test_the_fewest_failures_are_printed_and_kept_by_a_copy() -> None:
+    found = fewest_failures(SPARE)
+    assert str(found).splitlines()[0] == (
+        "further fixed: agent 1, agent 2, agent 3, agent 4 and agent 5; by any 4 agents: no"
+    )
+    assert pickle.loads(pickle.dumps(found)).fixing() == found.fixing()
+    assert repr(found).startswith("FewestFailures(")
 
 
 def test_a_link_matters_where_one_agent_measures_and_another_one_acts() -> None:
@@ -111,7 +203,9 @@ def test_what_is_said_of_published_plants() -> None:
 
 def test_the_table_of_five_published_plants_is_computed() -> None:
     page = Path(__file__).parents[3] / "docs" / "how-to" / "failures.md"
-    rows_of = re.findall(r"^\| `([\w-]+)`, .* \| (\d+) \| (.*) \|$", page.read_text("utf-8"), re.M)
+    rows_of = re.findall(
+        r"^\| `([\w-]+)`, [^|]* \| (\d+) \| ([^|]*) \|$", page.read_text("utf-8"), re.M
+    )
     assert len(rows_of) == 5
     for name, number, lost in rows_of:
         plant = gallery.load(name)

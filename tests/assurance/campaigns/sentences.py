@@ -198,7 +198,7 @@ def analysis(rng: random.Random) -> Iterator[Judged]:
     asked: dict[str, Any] = {}
     if rng.random() < 0.2:
         plant = _single(rng, plant.time)
-    options = ["links", "failures"] * (plant.m <= 3)
+    options = ["links", "failures", "fewest-failures"] * (plant.m <= 3)
     if rng.random() < 0.7:
         plant = with_graph(rng, plant, delays=rng.random() < 0.4)
         options.append("minimal")

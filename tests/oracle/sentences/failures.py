@@ -1,8 +1,9 @@
-"""Judges of the sentences about single failures: each is tried, by the rank of every pencil."""
+"""Judges of the sentences about failures: each is tried, by the rank of every pencil."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations
 from typing import Any
 
 from tests.oracle.certificates.constructions import built
@@ -101,3 +102,73 @@ def _none(said: Said, case: Case) -> bool:
 def _none_of_the_others(said: Said, case: Case) -> bool:
     bad = named(case.others("failures-fixed"))
     return bool(bad) and not {*further(case)} - {*bad} and right_parts(said, case)
+
+
+def after_several(case: Case, lost: Sequence[Failure]) -> Facts:
+    """What is known of the plant after several failures of one part."""
+    if not lost:
+        return case.subject
+    [part] = {part for part, _, _ in lost}
+    heard = case.asked.get("information") == "outputs"
+    place = case.plant.names.index
+    if part == "links":
+        lost = sorted(lost, key=lambda one: (place(one[1]), place(one[2])))
+    ones = [agent if part == "agents" else [agent, which] for part, agent, which in lost]
+    empty = {key: [] for key in ("agents", "actuators", "sensors", "links")}
+    step = {"construction": "failed", **empty, part: ones}
+    then = [{"construction": "augmented_outputs"}] * heard
+    return Facts(built(case.plant, [step, *then]))
+
+
+def fewest(case: Case, part: str, matters: Callable[[Facts], bool]) -> int | None:
+    """The least number of failures of a part that matter, by enumeration; None if there is none."""
+    heard = case.asked.get("information") == "outputs"
+    every = [one for one, _ in every_failure(case.plant, heard=heard) if one[0] == part]
+    for number in range(len(every) + 1):
+        if any(matters(after_several(case, lost)) for lost in combinations(every, number)):
+            return number
+    return None
+
+
+def more_fixed(case: Case) -> Callable[[Facts], bool]:
+    """Whether more is fixed than without failures."""
+    known = len(case.subject.fixed)
+    return lambda facts: len(facts.fixed) > known
+
+
+def _right_number(said: Said, case: Case, matters: Callable[[Facts], bool]) -> bool:
+    """Whether the failures that are named matter, and no fewer than is said do."""
+    lost = [tuple(one) for one in said.values["failures"]]
+    part, spared = said.values["spared"]
+    least = fewest(case, part, matters)
+    between = said.values["between"]
+    numbers = (spared + 1, len(lost) - 1) if between is None else tuple(between[1:])
+    if least is None or not spared < least <= len(lost) or not matters(after_several(case, lost)):
+        return False
+    decided = between is None and least == len(lost) == spared + 1
+    return decided or numbers == (spared + 1, len(lost) - 1)
+
+
+@judge("failures-fewest-unstable")
+def _fewest_unstable(said: Said, case: Case) -> bool:
+    return stable(case.subject) and _right_number(said, case, lambda facts: not stable(facts))
+
+
+@judge("failures-fewest-fixed")
+def _fewest_fixed(said: Said, case: Case) -> bool:
+    if not _right_number(said, case, more_fixed(case)):
+        return False
+    facts = after_several(case, [tuple(one) for one in said.values["failures"]])
+    known = [*map(str, case.subject.fixed)]
+    more = sorted(str(q) for q in facts.fixed if str(q) not in known)
+    return more == sorted(str(q) for p in said.values["modes"] for q, _ in irreducible(p))
+
+
+@judge("failures-all-stabilizable")
+def _all_stable(said: Said, case: Case) -> bool:
+    return fewest(case, said.values["part"], lambda facts: not stable(facts)) is None
+
+
+@judge("failures-all-none")
+def _all_none(said: Said, case: Case) -> bool:
+    return fewest(case, said.values["part"], more_fixed(case)) is None
