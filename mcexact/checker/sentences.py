@@ -647,10 +647,11 @@ def lost_together(after: Premise) -> tuple[str, list[Any]]:
 def fewest_lost(after: list[Premise], fine: Holds) -> tuple[str, int, list[Premise]]:
     """What fails, the largest k for which premises prove all fine after k failures, and the rest.
 
-    Every k failures are among those of one premise that is fine: then ``failures.fixed_after_more``
-    says that all is fine after them.  In other words, no k of them meet, for every such premise,
-    the parts that are left (``failures.at_least_so_many``).  The last part of the result has the
-    other premises, those about the fewest failures first.
+    Every k failures are among those of one premise that is fine: no k of them meet, for every such
+    premise, the parts that are left.  The last part of the result has the other premises, those
+    about the fewest failures first.
+
+    Theorem ``failures.at_least_so_many``.
     """
     part = lost_together(after[0])[0]
     every = [json.dumps(one) for what, one in every_failure(after[0]) if what == part]

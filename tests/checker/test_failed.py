@@ -261,7 +261,7 @@ def test_the_search_of_the_checker_is_enumeration(size: int) -> None:
     for _ in range(40):
         sets = [
             sum(rng.sample(elements, rng.choice([size, size, size + 1, size - 1])))
-            for _ in range(rng.randrange(9))
+            for _ in range(rng.randrange(8 * size))
         ]
         for most in range(5):
             some = (sum(few) for few in combinations(elements, most))
@@ -271,6 +271,13 @@ def test_the_search_of_the_checker_is_enumeration(size: int) -> None:
             assert (found is not None) == right, sets
             if found is not None:
                 assert found.bit_count() <= most and all(each & found for each in sets)
+
+
+def test_two_elements_of_the_smallest_set_may_be_needed() -> None:
+    others = [120 - (1 << k) for k in range(3, 7)]
+    sets = [0b111, *(one | each for one in (2, 4) for each in others)]
+    assert not hit(sets, 1) and hit(sets, 2)
+    assert hitting_set(sets, 2, lambda: None) == 0b110
 
 
 def test_failures_of_all_parts(tmp_path: Path) -> None:
