@@ -93,12 +93,15 @@ weakened-checker: $(STAMP)
 	  $(if $(ONLY),--functions $(ONLY)) $(if $(KINDS),--kinds $(KINDS))
 
 # Mutation testing of the checker: every small change has to make one of these tests fail: half an hour.
-# FILES='location rank' tries some files, and continues where an earlier run has ended.  After it
+# FILES='location rank' tries some files, and continues where an earlier run has ended; SAMPLE=100 tries
+# so many changes of each file, the same ones in every run, MINUTES=15 stops after so many, and OWN=1
+# runs the tests of these files alone, which takes a minute in place of ten before the first.  After it
 # `python -m tests.assurance.mutants.search STEM` looks for documents that tell such changes from the
 # checker, and keeps them for the tests.
 mutants: $(STAMP)
 	$(PIP) --editable '.[mutants]'
-	HYPOTHESIS_PROFILE=ci $(BIN)/python -m tests.assurance.mutants $(FILES)
+	HYPOTHESIS_PROFILE=ci $(BIN)/python -m tests.assurance.mutants $(FILES) \
+	  $(if $(SAMPLE),--sample $(SAMPLE)) $(if $(MINUTES),--minutes $(MINUTES)) $(if $(OWN),--own)
 
 # The package's readers of system files and controller files beside the checker's, on 120,000 drawn
 # and damaged files: minutes.

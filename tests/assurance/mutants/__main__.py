@@ -10,9 +10,11 @@ first (``tests.assurance.mutants.topics``) and then the shorter ones, up to S se
 What was killed stays so while its file is the same; the rest is tried again in every run, since
 tests may have been added.  Which tests run which lines is found anew only where a test or the
 checker has changed.  What ``tests/checker/SURVIVORS.md`` explains counts as one that survives and
-is not tried.  ``--only DeleteStatement`` tries the changes of one operator, ``--fresh`` starts
-anew, ``--report`` tries nothing.  The exit status is 1 if the score is below 95 %, or if a survivor
-is not explained.
+is not tried.  ``--only DeleteStatement`` tries the changes of one operator, ``--sample 100`` so
+many of each file, drawn in the same way in every run.  After ``--minutes 15`` of a file no change
+is begun.  ``--own`` runs the tests of these files, and those of documents, alone; what survives may
+be noticed by others.  ``--fresh`` starts anew, ``--report`` tries nothing.  What was not tried is
+counted.  The exit status is 1 if the score is below 95 %, or if a survivor is not explained.
 """
 
 from __future__ import annotations
@@ -66,6 +68,9 @@ def main() -> int:
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--seconds", type=float, default=20.0)
     parser.add_argument("--only", default="")
+    parser.add_argument("--sample", type=int, default=0)
+    parser.add_argument("--minutes", type=float, default=float("inf"))
+    parser.add_argument("--own", action="store_true")
     parser.add_argument("--fresh", action="store_true")
     parser.add_argument("--report", action="store_true")
     options = parser.parse_args()
@@ -88,9 +93,13 @@ def main() -> int:
             str(FOLDER),
             str(options.seconds),
             options.only,
+            str(options.sample),
+            str(options.minutes),
         ]
-        if not selection.is_current(chosen, ROOT):
-            finished(inside(trees[0], "-m", "tests.assurance.mutants.selection", str(chosen)))
+        tests = _own_tests(stems) if options.own else []
+        if not selection.is_current(chosen, ROOT, tests):
+            choose = "-m", "tests.assurance.mutants.selection", str(chosen)
+            finished(inside(trees[0], *choose, *tests))
         finished(
             *(
                 inside(tree, *worker, *part)
@@ -103,6 +112,14 @@ def main() -> int:
     status = report.write(FOLDER, ROOT / CHECKER, stems)
     print(f"{(time.monotonic() - begun) / 3600:.2f} hours, {options.workers} workers")
     return status
+
+
+def _own_tests(stems: list[str]) -> list[str]:
+    """The files of tests of some files of the checker, and those of documents."""
+    from tests.assurance.mutants import topics
+
+    names = {name for stem in stems for name in topics.tests(stem)}
+    return sorted({*topics.DOCUMENTS, *(f"tests/checker/{name}" for name in names)})
 
 
 def _parts(stems: list[str], count: int) -> list[list[str]]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from tests.assurance.mutants import explained, operators, session
 
 SCORE = 95
+COLUMNS = (*session.OUTCOMES, "explained", "not tried")
 
 
 def write(folder: Path, checker: Path, stems: list[str]) -> int:
@@ -16,7 +17,7 @@ def write(folder: Path, checker: Path, stems: list[str]) -> int:
     known = explained.read()
     total: Counter[str] = Counter()
     open_: list[str] = []
-    print(f"{'file':28}{'mutants':>9}" + "".join(f"{word:>13}" for word in session.OUTCOMES))
+    print(f"{'file':28}{'tried':>9}" + "".join(f"{word:>13}" for word in COLUMNS))
     for stem in stems:
         database = folder / f"{stem}.sqlite"
         if not database.exists():
@@ -36,6 +37,7 @@ def write(folder: Path, checker: Path, stems: list[str]) -> int:
                         f"{stem}:{mutant.line}: {mutant.outcome}\n"
                         f"    {mutant.before}\n    {mutant.after}\n"
                     )
+        count["not tried"] = session.untried(database)
         total += count
         print(_row(stem, count))
     print(_row("all", total))
@@ -49,4 +51,4 @@ def write(folder: Path, checker: Path, stems: list[str]) -> int:
 
 def _row(name: str, count: Counter[str]) -> str:
     tried = sum(count[word] for word in session.OUTCOMES)
-    return f"{name:28}{tried:9}" + "".join(f"{count[word]:13}" for word in session.OUTCOMES)
+    return f"{name:28}{tried:9}" + "".join(f"{count[word]:13}" for word in COLUMNS)

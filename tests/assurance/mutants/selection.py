@@ -1,18 +1,19 @@
 """Which tests run which line of the checker, and how long each takes.
 
-    python -m tests.assurance.mutants.selection FILE
+    python -m tests.assurance.mutants.selection FILE [TEST…]
 
-runs ``tests/checker`` in the current folder and writes the answer to a JSON file.  What was found
-holds as long as the checker and these tests are the same.
+runs ``tests/checker``, or these files of it, in the current folder and writes the answer to a JSON
+file.  What was found holds as long as the checker and these tests are the same.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import random
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,17 @@ class Watch:
         return result
 
 
+def drawn(stem: str, changes: Iterable[tuple[str, int]], count: int = 0) -> set[tuple[str, int]]:
+    """So many changes of a file, each an operator and its occurrence; the same ones in every run.
+
+    All of them if ``count`` is 0, or if they are no more.
+    """
+    known = sorted(changes)
+    if not 0 < count < len(known):
+        return {*known}
+    return {*random.Random(f"mutants of {stem}").sample(known, count)}
+
+
 def files() -> list[str]:
     """The files of tests that are run."""
     found = sorted(Path("tests/checker").glob("test_*.py"))
@@ -57,19 +69,20 @@ def digest(root: Path) -> str:
     return found.hexdigest()
 
 
-def is_current(target: Path, root: Path) -> bool:
-    """Whether a file has the answer for the checker and the tests of a tree."""
+def is_current(target: Path, root: Path, tests: Sequence[str] = ()) -> bool:
+    """Whether a file has the answer for the checker and all tests of a tree, or for some files."""
     if not target.exists():
         return False
-    return bool(json.loads(target.read_text(encoding="utf-8")).get("of") == digest(root))
+    known = json.loads(target.read_text(encoding="utf-8"))
+    return bool(known.get("of") == digest(root) and known.get("tests") == [*tests])
 
 
-def main(target: str) -> int:
+def main(target: str, *tests: str) -> int:
     """Run the tests, and write down which lines each of them runs."""
     measured = coverage.Coverage(data_file=None, source=["mcexact/checker"], config_file=False)
     watch = Watch(measured)
     measured.start()
-    status = pytest.main(["-q", "-p", "no:cacheprovider", *files()], plugins=[watch])
+    status = pytest.main(["-q", "-p", "no:cacheprovider", *(tests or files())], plugins=[watch])
     measured.stop()
     numbers = {name: k for k, name in enumerate(watch.seconds)}
     data, lines = measured.get_data(), {}
@@ -80,10 +93,11 @@ def main(target: str) -> int:
             for line, names in found.items()
         }
     seconds = list(watch.seconds.items())
-    text = json.dumps({"of": digest(Path()), "seconds": seconds, "lines": lines})
+    about = {"of": digest(Path()), "tests": tests}
+    text = json.dumps(about | {"seconds": seconds, "lines": lines})
     Path(target).write_text(text, encoding="utf-8")
     return int(status)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))

@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import tempfile
+import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,11 +20,10 @@ from cosmic_ray.work_db import WorkDB, use_db
 from cosmic_ray.work_item import MutationSpec, TestOutcome, WorkerOutcome, WorkItem, WorkResult
 
 from tests.assurance.mutants import explained, operators, topics, warm
+from tests.assurance.mutants import selection as selecting
 from tests.assurance.mutants.documents import UNLOADABLE, telling
 from tests.checker.kept import Case, by_group, group
 
-DOCUMENTS = ("tests/checker/test_kept.py", "tests/checker/test_recorded.py")
-"""The tests that look at many documents in little time."""
 OUTCOMES = ("killed", "survived", "timeout", "not covered", "abnormal")
 
 
@@ -65,7 +65,7 @@ def stage(test: str, stem: str) -> int:
     """0 for a test of the module, 1 for documents that are kept, else 2."""
     if Path(test.partition("::")[0]).name in topics.tests(stem):
         return 0
-    return 1 if test.startswith(DOCUMENTS) else 2
+    return 1 if test.startswith(topics.DOCUMENTS) else 2
 
 
 def headers(source: str) -> list[tuple[int, int]]:
@@ -157,26 +157,55 @@ def mutated(spec: MutationSpec, source: str) -> str:
     return mutate_code(source, operator, spec.occurrence) or source
 
 
-def work(
-    stem: str, path: Path, database: Path, selection: Selection, most: float, only: str
-) -> None:
-    """Try what is left of a session, of all operators or of those of one name.
+@dataclass(frozen=True)
+class Limits:
+    """Which changes of a file are tried.
+
+    Attributes
+    ----------
+    seconds : float
+        Of tests for each of them.
+    only : str
+        The end of the names of their operators.
+    sample : int
+        How many of all changes, drawn by the name of the file; 0 means all.
+    minutes : float
+        By the clock, after which none is begun.
+    """
+
+    seconds: float
+    only: str = ""
+    sample: int = 0
+    minutes: float = float("inf")
+
+
+def work(stem: str, path: Path, database: Path, selection: Selection, limits: Limits) -> None:
+    """Try what is left of a session, within limits.
 
     A change that is explained counts as one that survives, and takes no time.
     """
     known, cases = explained.read(), [case for found in by_group().values() for case in found]
     source = path.read_text(encoding="utf-8")
     stamp = os.stat(path).st_mtime_ns
-    lines = headers(source)
+    lines, begun = headers(source), time.monotonic()
     with use_db(str(database), WorkDB.Mode.open) as session:
+        specs = [item.mutations[0] for item in _not_left_out(session)]
+        every = [(spec.operator_name, spec.occurrence) for spec in specs]
+        chosen = selecting.drawn(stem, every, limits.sample)
         for number, item in enumerate(session.pending_work_items, start=1):
             spec = item.mutations[0]
-            if not spec.operator_name.endswith(only):
+            if (spec.operator_name, spec.occurrence) not in chosen:
                 continue
+            if not spec.operator_name.endswith(limits.only):
+                continue
+            if time.monotonic() - begun > 60 * limits.minutes:
+                break
             first, last = spec.start_pos[0], spec.end_pos[0]
             around = [(a, b) for a, b in lines if a <= first <= b] or [(first, last)]
             first, last = max(around)[0], max(last, max(around)[1])
-            tests, seconds = selection.ordered(stem, selection.tests(stem, first, last), most)
+            tests, seconds = selection.ordered(
+                stem, selection.tests(stem, first, last), limits.seconds
+            )
             outcome = "survived" if tests else "not covered"
             changed = mutated(spec, source)
             if known.holds(stem, *differing(source, changed)[1:]):
@@ -226,6 +255,22 @@ class Mutant:
     line: int
     before: str
     after: str
+
+
+def _not_left_out(session: Any) -> list[WorkItem]:
+    """The mutants that are to be tried, and those that were."""
+    tried = [
+        item
+        for item, result in session.completed_work_items
+        if result.worker_outcome != WorkerOutcome.SKIPPED
+    ]
+    return [*session.pending_work_items, *tried]
+
+
+def untried(database: Path) -> int:
+    """How many mutants of a session were not tried."""
+    with use_db(str(database), WorkDB.Mode.open) as session:
+        return len(list(session.pending_work_items))
 
 
 def mutants(path: Path, database: Path) -> Iterator[Mutant]:

@@ -10,6 +10,8 @@ from pathlib import Path
 
 CHECKER = Path("mcexact/checker")
 TESTS = Path("tests/checker")
+DOCUMENTS = ("tests/checker/test_kept.py", "tests/checker/test_recorded.py")
+"""The tests that look at many documents in little time."""
 
 
 @cache

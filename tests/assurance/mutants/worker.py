@@ -1,6 +1,6 @@
 """Try the mutants of some files in the copy that is the current folder.
 
-python -m tests.assurance.mutants.worker FOLDER SECONDS OPERATOR STEM…
+python -m tests.assurance.mutants.worker FOLDER SECONDS OPERATOR SAMPLE MINUTES STEM…
 """
 
 from __future__ import annotations
@@ -11,17 +11,18 @@ from pathlib import Path
 from tests.assurance.mutants import operators, selection, session, warm
 
 
-def main(folder: str, most: str, only: str, *stems: str) -> int:
+def main(folder: str, most: str, only: str, sample: str, minutes: str, *stems: str) -> int:
     """Try them, after a change that has to be noticed and one that must not."""
     operators.register()
     chosen = session.Selection.read(Path(folder) / "selection.json")
     warm.load(selection.files())
     _require_sound(chosen, float(most))
+    limits = session.Limits(float(most), only, int(sample), float(minutes))
     for stem in stems:
         path, database = Path("mcexact/checker", f"{stem}.py"), Path(folder, f"{stem}.sqlite")
         session.plan(path, database)
         session.forget(path, database, {"survived", "timeout", "not covered", "abnormal"}, only)
-        session.work(stem, path, database, chosen, float(most), only)
+        session.work(stem, path, database, chosen, limits)
         print(f"{stem}: done", flush=True)
     return 0
 
