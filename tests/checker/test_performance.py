@@ -7,7 +7,7 @@ import pytest
 from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.performance import require_positive, symmetric
 from mcexact.checker.reading import Refused
-from tests.checker.handmade import Document, changed, checked, matrix, without
+from tests.checker.handmade import Document, certificate, changed, checked, matrix, plant, without
 from tests.checker.performance_plants import (
     ALL,
     BOTH,
@@ -41,6 +41,16 @@ from tests.checker.performance_plants import (
 from tests.checker.tables import accepts, rejects
 from tests.wording import says
 
+LAG = plant([[-1]], ([[1]], [[1]]))
+LAGGING = certificate(
+    "disk_margin",
+    LAG,
+    {"at": "inputs", "together": False, "margin": 1},
+    {"parts": [{"ports": [0], "scaling": [1], "P": form([1])}]},
+    static(LAG, -2),
+)
+"""T is -2/(x + 3): T + 1/2 is below 1, which T - 1/2 is not."""
+
 ACCEPTED = [
     *ALL.items(),
     ("a bound with a bandwidth", changed(SHARED, ("claim.weights.bandwidth", 100))),
@@ -58,6 +68,7 @@ ACCEPTED = [
         UNLIKE_MARGIN, ("claim.at", "outputs"), ("witness.parts.0.P", form([9], exponent=1))
     )),
     ("a margin of a chain", SHIFTING_MARGIN),
+    ("a margin where T is below 0", LAGGING),
     ("a bound of a chain", SHIFTING_BOUND),
     ("a bound of a mass", PUSHED_BOUND),
     ("a sector with a scaling in continuous time", changed(
@@ -71,6 +82,9 @@ ACCEPTED = [
 
 P, GROUP = "witness.P", "witness.groups.0"
 REJECTED = [
+    ("a margin of -T, where T is above 0", LAGGING, (
+        ("subject", [static(LAG, "1/2")]), ("witness.parts.0.P", form([2], exponent=-1))
+    ), "INVALID"),
     ("a cost below what is proved", COST, ("claim.cost", 6)),
     ("an indefinite matrix", COST, (P, form([-3])), "INVALID"),
     ("a matrix that is too small", COST, ((P, form([2])), ("claim.cost", 100)), "INVALID"),
