@@ -32,7 +32,7 @@ CHECKING = {
     "reading": ("checker/parametric_system.py", "read_parametric"),
     "det(xI − A_F)": ("checker/bivariate.py", "characteristic"),
     "resultants": ("checker/bivariate.py", "resultant"),
-    "coprimality": ("checker/arithmetic.py", "coprime"),
+    "coprimality": ("checker/core/arithmetic.py", "coprime"),
     "zero blocks": ("checker/parameters.py", "zero_block"),
 }
 """The ends of files' paths, and names, of functions that do most of the work."""

@@ -28,8 +28,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from mcexact import design_decentralized, load_system
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation
-from mcexact.checker.reading import Limits
 from mcexact.constructions import sampled_system
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import percent, three_digits

@@ -23,10 +23,10 @@ from typing import TYPE_CHECKING, Any
 from mcexact import checker
 from mcexact.answer.protocol import Answer, fields_of, is_optional, key_of, kind_named
 from mcexact.checker.command import NAME, plants_beside, verdicts_of
+from mcexact.checker.core.reading import Limits as reading_Limits
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.kinds import PLANT, Expectation, check_document
 from mcexact.checker.kinds import Verdict as Found
-from mcexact.checker.reading import Limits as reading_Limits
-from mcexact.checker.reading import Refused
 from mcexact.derived.constructions import LINE as constructions_LINE
 from mcexact.derived.constructions import (
     add_links,

@@ -3,7 +3,10 @@
 The checker takes documents of ``mcexact-certificate/1`` and gives verdicts.  It never searches: a
 VALID claim follows from equalities that the checker has recomputed, by rules proved in ``proofs/``.
 For a manifest (``mcexact-manifest/1``) it states in its own words what the certificates imply.  The
-folder shares no code with the rest of mcexact; it can be copied and run with ``python checker
+folder ``core`` has what rests on nothing else of it: fixed spectra, controllability, the transfer
+graph, completeness and set-points.
+
+The checker shares no code with the rest of mcexact; it can be copied and run with ``python checker
 FILE…`` or ``--manifest FOLDER``, and as an archive with ``python -I mcexact-checker.pyz FILE…``.
 
 Importing this package imports nothing of the standard library, and leaves ``sys.path`` alone.
@@ -11,12 +14,12 @@ Importing this package imports nothing of the standard library, and leaves ``sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from .core.reading import Limits
     from .kinds import Expectation, Verdict, check_document
-    from .reading import Limits
 
 __all__ = ["Expectation", "Limits", "Verdict", "check_document"]
-_FILES = dict(zip(__all__, ("kinds", "reading", "kinds", "kinds"), strict=True))
-"""The file of each public name."""
+_FILES = dict(zip(__all__, ("kinds", "core.reading", "kinds", "kinds"), strict=True))
+"""The module of each public name."""
 
 
 def __getattr__(name: str) -> object:

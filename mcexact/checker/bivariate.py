@@ -12,13 +12,16 @@ modulo several numbers, whose product is more than twice a bound on its coeffici
 from the plant.
 """
 
+from __future__ import annotations
+
 import math
 from fractions import Fraction
-from itertools import zip_longest
+from itertools import pairwise, zip_longest
 from operator import mul
+from typing import Any
 
-from . import budget, reading
-from .arithmetic import (
+from .core import budget, reading
+from .core.arithmetic import (
     Matrix,
     Polynomial,
     Rows,
@@ -26,7 +29,6 @@ from .arithmetic import (
     characteristic_polynomial,
     characteristic_polynomial_modulo,
     cleared,
-    interpolated,
     inverse,
     poly_divide,
     poly_modulo,
@@ -34,9 +36,8 @@ from .arithmetic import (
     stack,
     stripped,
 )
-from .budget import counted
-from .parametric_system import Layers, ParametricSystem
-from .reading import (
+from .core.budget import counted
+from .core.reading import (
     Json,
     fields,
     integer,
@@ -48,7 +49,8 @@ from .reading import (
     shown,
     string,
 )
-from .system import channel_set, polynomial_text, quoted
+from .core.system import channel_set, polynomial_text, quoted
+from .parametric_system import Layers, ParametricSystem
 
 # Polynomials in x whose coefficients are polynomials in a parameter t.
 
@@ -466,3 +468,34 @@ def named_text(value: Json, system: ParametricSystem) -> str:
     inputs = f"the matrix B of the inputs of channel {quoted(value['from'])}"
     outputs = f"the matrix C of the outputs of channel {quoted(value['to'])}"
     return f"{factors} with the matrix A, {inputs} and {outputs}"
+
+
+# Polynomials in a parameter t from their values at 0, 1, …, over Q and modulo ℓ.
+
+
+def interpolated(values: list[Polynomial], ell: int = 0) -> list[Polynomial]:
+    """The coefficients with these values at t = 0, 1, …, one polynomial in t for each (Newton).
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    many, longest = len(values), max(map(budget.limbs_of, values))
+    units = budget.reductions(1, longest) if ell else budget.fractions(1, longest + many // 8)
+    budget.spend(2 * units * many * many * len(values[0]))
+    inverses = [inverse(k, ell) if ell else Fraction(1, k) for k in range(1, many)]
+    return [_of_column([*column], inverses, ell) for column in zip(*values, strict=True)]
+
+
+def _of_column(values: list[Any], inverses: list[Any], ell: int) -> Polynomial:
+    """Σ Δ^k / k! · t (t − 1) … (t − k + 1), Δ^k the differences of order k at 0."""
+    slopes: list[Any] = values[:1]
+    scale: Any = 1
+    for f in inverses:
+        scale = scale * f % ell if ell else scale * f
+        differences = [b - a for a, b in pairwise(values)]
+        values = [c % ell for c in differences] if ell else differences
+        slopes.append(values[0] * scale)
+    p: Polynomial = []
+    for t in reversed(range(len(slopes))):
+        p = [a - t * b for a, b in zip([slopes[t], *p], [*p, 0], strict=True)]
+        p = [c % ell for c in p] if ell else p
+    return stripped(p)

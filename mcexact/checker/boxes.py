@@ -17,31 +17,14 @@ from fractions import Fraction
 from itertools import pairwise
 from operator import mul
 
-from . import budget, loops
-from .arithmetic import Matrix, absolute, beside, diagonal, stack
+from . import loops
 from .cells import FunctionLoop, boxes_of_cells, ranges_text
 from .constructions import ports_of
-from .discs import (
-    Box,
-    Pencil,
-    Regular,
-    complex_matrix,
-    discs_of_gains,
-    inverse_multiplied,
-    left_inverse,
-    loop_pencil,
-    magnitude,
-    multiplied,
-    read_weights,
-    regular_by,
-    require_covered,
-    right_inverse,
-)
-from .evidence import inputs
-from .modes import inside, no_fixed_mode, read_rate_or_radius
-from .parametric_system import FunctionSystem
-from .performance import PORTS, diagonal_of
-from .reading import (
+from .controllers import MAPS, read_controller
+from .core import budget
+from .core.arithmetic import Matrix, absolute, beside, diagonal, stack
+from .core.evidence import inputs
+from .core.reading import (
     Json,
     fields,
     integer,
@@ -53,18 +36,30 @@ from .reading import (
     require,
     string,
 )
-from .roots import Disc
-from .system import (
-    MAPS,
+from .core.roots import Disc
+from .core.system import System, canonical_json, channel_set, with_digest
+from .discs import (
+    Box,
     Pair,
-    System,
-    canonical_json,
-    channel_set,
+    Pencil,
+    Regular,
+    complex_matrix,
+    discs_of_gains,
+    inverse_multiplied,
+    left_inverse,
+    loop_pencil,
+    magnitude,
+    multiplied,
     pairs_of,
     radii_in_words,
-    read_controller,
-    with_digest,
+    read_weights,
+    regular_by,
+    require_covered,
+    right_inverse,
 )
+from .modes import inside, no_fixed_mode, read_rate_or_radius
+from .parametric_system import FunctionSystem
+from .performance import PORTS, diagonal_of
 
 # Kind ``box_fixed``: no member of a box has a fixed mode; ``proofs/boxes.md``.
 

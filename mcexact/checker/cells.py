@@ -19,9 +19,21 @@ from math import comb, lcm, prod
 from operator import add
 from typing import Any
 
-from . import budget
-from .arithmetic import Matrix, Polynomial, poly_product, stripped
 from .constructions import CONSTRUCTIONS, LINE, closed_loop, read_subject
+from .core import budget
+from .core.arithmetic import Matrix, Polynomial, poly_product, stripped
+from .core.reading import (
+    Json,
+    fields,
+    incomplete,
+    integer,
+    items,
+    malformed,
+    rational,
+    require,
+    string,
+)
+from .core.system import System, polynomial_text
 from .discs import LOOP, Box, system_of
 from .parametric_system import (
     PARAMETER,
@@ -36,8 +48,6 @@ from .parametric_system import (
     least_denominator,
     one_parameter,
 )
-from .reading import Json, fields, incomplete, integer, items, malformed, rational, require, string
-from .system import System, polynomial_text
 
 # Cells of the ranges, and boxes around the plants at their values; ``proofs/boxes.md``.
 

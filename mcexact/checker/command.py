@@ -26,15 +26,24 @@ from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import IO, NoReturn
 
-from . import (
-    reading,
-    sentences_loops,
-    sentences_nearby,
-    sentences_parameters,
-    sentences_performance,
-)
-from .budget import Budget, Kept, current, keeping, limited, spend
+from . import sentences_loops, sentences_nearby, sentences_parameters, sentences_performance
 from .cells import constructed
+from .core import reading
+from .core.budget import Budget, Kept, current, keeping, limited, spend
+from .core.reading import (
+    Json,
+    Limits,
+    Refused,
+    fields,
+    items,
+    malformed,
+    parse,
+    read_file,
+    require,
+    shown,
+    string,
+)
+from .core.system import System, counted
 from .discs import at_values
 from .kinds import (
     CLAIM,
@@ -60,24 +69,10 @@ from .kinds import (
     sampled_again,
 )
 from .parametric_system import FunctionSystem, digest_of_values
-from .reading import (
-    Json,
-    Limits,
-    Refused,
-    fields,
-    items,
-    malformed,
-    parse,
-    read_file,
-    require,
-    shown,
-    string,
-)
 from .sentences import ANOTHER_STEP, AT_SAMPLES, RULES, Premise
 from .sentences_loops import CLOSED
 from .sentences_performance import held_from
 from .summaries import cut
-from .system import System, counted
 
 # Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them.
 

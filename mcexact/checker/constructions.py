@@ -12,11 +12,12 @@ from dataclasses import replace
 from functools import reduce
 from typing import NamedTuple
 
-from . import evidence
-from .arithmetic import Matrix, beside, characteristic_polynomial, diagonal, divided, stack
-from .budget import spend, table
-from .evidence import inputs, outputs, read_gains
-from .reading import (
+from .controllers import MAPS, read_controller
+from .core import evidence
+from .core.arithmetic import Matrix, beside, characteristic_polynomial, diagonal, stack
+from .core.budget import spend, table
+from .core.evidence import inputs, outputs, read_gains
+from .core.reading import (
     Json,
     fields,
     incomplete,
@@ -33,22 +34,21 @@ from .reading import (
     shown,
     string,
 )
-from .sampling import enclosure
-from .system import (
-    MAPS,
+from .core.system import (
     System,
     by_channel,
     canonical_json,
     channel_set,
     counted,
     digest_of,
+    dual,
     edge_set,
     polynomial_text,
     prefixed,
-    read_controller,
     suffixed,
     with_digest,
 )
+from .sampling import divided, enclosure
 
 # Construction ``closed_loop``: the plant and the programs of its agents, as one matrix.
 
@@ -558,7 +558,7 @@ def _registered(system: System, M: Matrix, late: int, one: int) -> System:
     )
 
 
-# Constructions ``dual``, ``failed``, ``feedback``, ``merged``, ``modulo`` and others.
+# Constructions ``failed``, ``feedback``, ``merged``, ``modulo`` and others; the core has ``dual``.
 
 MODULO = ("part", "annihilator", "pivots", "polynomial")
 
@@ -571,17 +571,6 @@ def direct(system: System, outputs_: list[int], inputs_: list[int]) -> Matrix | 
     rows = [k for i in outputs_ for k in range(sum(q[:i]), sum(q[: i + 1]))]
     columns = [k for j in inputs_ for k in range(sum(p[:j]), sum(p[: j + 1]))]
     return system.D.take(rows, columns)
-
-
-def dual(system: System, step: dict[str, Json], place: str) -> System:
-    """A', (C_i)', (B_i)'; no neighbor graph.
-
-    Open: see ``proofs/OPEN.md``.
-    """
-    fields(step, place)
-    B, C = [M.T for M in system.C], [M.T for M in system.B]
-    D = None if system.D is None else system.D.T
-    return prefixed("the dual", system, A=system.A.T, B=B, C=C, D=D, neighbors=None, delays={})
 
 
 def feedback(system: System, step: dict[str, Json], place: str) -> System:

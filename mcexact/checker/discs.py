@@ -23,8 +23,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from . import budget, reading
-from .arithmetic import Matrix, absolute, entries_of, stack
 from .constructions import (
     Signal,
     Terms,
@@ -36,11 +34,14 @@ from .constructions import (
     sampled_within,
     signals_of,
 )
-from .evidence import closed_loop, read_gains
+from .controllers import MAPS, read_controller
+from .core import budget, reading
+from .core.arithmetic import Matrix, absolute, entries_of, stack
+from .core.evidence import closed_loop, read_gains
+from .core.reading import Json, decimal, fields, incomplete, integer, items, malformed, require
+from .core.roots import Disc
+from .core.system import System, digest, read_radii
 from .modes import RateOrRadius
-from .reading import Json, decimal, fields, incomplete, integer, items, malformed, require
-from .roots import Disc
-from .system import MAPS, System, digest, pairs_of, radii_in_words, read_controller, read_radii
 
 # Complex matrices, of pairs of integers over one denominator, and their absolute values.
 
@@ -639,3 +640,43 @@ def _over(M: Matrix, d: int) -> Matrix:
     f = d // M.denominator
     budget.spend(budget.table(M.nrows, M.ncols, M.limbs))
     return Matrix([[f * entry for entry in row] for row in M.rows], M.ncols, d)
+
+
+Pair = tuple[Fraction, Fraction]
+"""A radius, and the absolute value of the entry that it is of."""
+
+
+def pairs_of(nominal: list[Matrix], radii: list[Matrix]) -> list[Pair]:
+    """The radius of each entry that is uncertain or not 0."""
+    pairs = list[Pair]()
+    for M, D in zip(nominal, radii, strict=True):
+        values = {(i, j): abs(x) for i, j, x in entries_of(M)}
+        spread = {(i, j): radius for i, j, radius in entries_of(D)}
+        places, longest = {**values, **spread}, max(M.limbs, D.limbs)
+        budget.spend(100 + 200 * len(places) + 4 * budget.fractions(len(places), longest))
+        for place in places:
+            radius = Fraction(spread.get(place, 0), D.denominator)
+            pairs.append((radius, Fraction(values.get(place, 0), M.denominator)))
+    return pairs
+
+
+def radii_in_words(pairs: list[Pair], whose: str) -> str:
+    """How far entries may be from "the latter", whose radii are ``whose`` in words.
+
+    Where all radii are one part of the absolute values, this part says all; otherwise how many
+    radii there are, the largest one, and the largest part, unless an entry that is 0 is uncertain.
+    """
+    wide = [pair for pair in pairs if pair[0]]
+    longest = budget.limbs_of([number for pair in pairs for number in pair])
+    budget.spend(budget.fractions(4 * len(pairs) + 4, 2 * longest))
+    if not wide:
+        return f"by at most {whose} (no entry has one)"
+    parts = [radius / value for radius, value in wide if value]
+    largest = f"none above {max(radius for radius, _ in wide)}"
+    if len(parts) == len(wide):
+        most = f"{max(parts)} of the absolute value"
+        if len(pairs) == len(wide) and len(set(parts)) == 1:
+            return f"by at most {most}s of the latter"
+        largest += f" and none above {most} of its entry"
+    have = "1 entry has one" if len(wide) == 1 else f"{len(wide)} entries have one"
+    return f"by at most {whose} ({have}, {largest})"

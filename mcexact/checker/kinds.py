@@ -34,15 +34,15 @@ from . import (
     steps,
     structure,
 )
-from .arithmetic import NotAUnit
-from .budget import MORE, Budget, current, kept, limited
-from .budget import NOT_ABOUT as NOT_ABOUT
-from .budget import Verdict as Verdict
 from .cells import subject_of
 from .constructions import read_subject
-from .discs import LOOPS, SAMPLED, at_values
-from .parametric_system import FunctionSystem, digest_of_values, plant_of, plant_of_file
-from .reading import (
+from .controllers import Saturation, read_controller_file
+from .core import fixed_modes, reach
+from .core.arithmetic import NotAUnit
+from .core.budget import MORE, Budget, current, kept, limited
+from .core.budget import NOT_ABOUT as NOT_ABOUT
+from .core.budget import Verdict as Verdict
+from .core.reading import (
     Json,
     Limits,
     Refused,
@@ -55,17 +55,11 @@ from .reading import (
     shown,
     string,
 )
+from .core.system import System, canonical_json, described, digest_of, parse_canonical
+from .core.system import digest as plant_digest
+from .discs import LOOPS, SAMPLED, at_values
+from .parametric_system import FunctionSystem, digest_of_values, plant_of, plant_of_file
 from .summaries import summary
-from .system import (
-    Saturation,
-    System,
-    canonical_json,
-    described,
-    digest_of,
-    parse_canonical,
-    read_controller_file,
-)
-from .system import digest as plant_digest
 
 # What is asked of a certificate: the plant, the controller, and the statement or the claim.
 
@@ -336,9 +330,9 @@ KINDS = {
     "complementary_subsystem": Rule(
         structure.check_complementary_subsystem, structure.complementary_subsystem_statement
     ),
-    "completeness": Rule(modes.check_completeness, modes.completeness_statement),
+    "completeness": Rule(fixed_modes.check_completeness, fixed_modes.completeness_statement),
     "controllability": Rule(
-        structure.check_controllability, structure.controllability_statement, feedthrough=True
+        reach.check_controllability, reach.controllability_statement, feedthrough=True
     ),
     "controllability_indices": Rule(
         structure.check_controllability_indices,
@@ -354,7 +348,7 @@ KINDS = {
     "exceptional_gains": Rule(
         structure.check_exceptional_gains, structure.exceptional_gains_statement
     ),
-    "fixed_spectrum": Rule(modes.check_fixed_spectrum, modes.fixed_spectrum_statement),
+    "fixed_spectrum": Rule(fixed_modes.check_fixed_spectrum, fixed_modes.fixed_spectrum_statement),
     "loop_cost": Rule(performance.check_loop_cost, performance.loop_cost_statement),
     "neighbor_graph": Rule(structure.check_neighbor_graph, structure.neighbor_graph_statement),
     "parametric_box_controllable": Rule(
@@ -373,7 +367,7 @@ KINDS = {
     "pencil_rank": Rule(modes.check_pencil_rank, modes.pencil_rank_statement),
     "saturation": Rule(saturation.check_saturation, saturation.saturation_statement),
     "sector": Rule(performance.check_sector, performance.sector_statement),
-    "setpoint": Rule(structure.check_setpoint, structure.setpoint_statement),
+    "setpoint": Rule(reach.check_setpoint, reach.setpoint_statement),
     "shared_dimensions": Rule(sharing.check_shared_dimensions, sharing.shared_dimensions_statement),
     "sharing_gap": Rule(sharing_gap.check_sharing_gap, sharing_gap.sharing_gap_statement),
     "single_channel_gains": Rule(
@@ -381,7 +375,7 @@ KINDS = {
     ),
     "stability": Rule(loops.check_stability, loops.stability_statement),
     "step_peaks": Rule(steps.check_step_peaks, steps.step_peaks_statement),
-    "transfer_graph": Rule(structure.check_transfer_graph, structure.transfer_graph_statement),
+    "transfer_graph": Rule(reach.check_transfer_graph, reach.transfer_graph_statement),
 }
 """The rule of each kind."""
 

@@ -15,8 +15,8 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from . import budget, evidence
-from .arithmetic import (
+from .core import budget, evidence
+from .core.arithmetic import (
     Echelon,
     Matrix,
     Polynomial,
@@ -28,9 +28,8 @@ from .arithmetic import (
     scaled_bound,
     stack,
 )
-from .budget import products, spend
-from .modes import inside, read_rate_or_radius
-from .reading import (
+from .core.budget import products, spend
+from .core.reading import (
     Json,
     boolean,
     fields,
@@ -42,8 +41,9 @@ from .reading import (
     require,
     string,
 )
-from .roots import in_region, is_hurwitz
-from .system import System, denied, polynomial_text
+from .core.roots import in_region, is_hurwitz
+from .core.system import System, denied, polynomial_text
+from .modes import inside, read_rate_or_radius
 
 # Quadratic forms that decrease along trajectories of a loop; ``proofs/stability.md``.
 

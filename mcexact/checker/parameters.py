@@ -17,17 +17,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import reduce
 
-from . import bivariate, budget, evidence, reading
-from .arithmetic import (
-    Matrix,
-    Polynomial,
-    coprime,
-    exponent,
-    inverse,
-    poly_divide,
-    poly_modulo,
-    poly_product,
-)
+from . import bivariate
 from .bivariate import (
     Bivariate,
     characteristic,
@@ -46,11 +36,22 @@ from .bivariate import (
     text,
     without,
 )
-from .budget import counted
+from .core import budget, evidence, reading
+from .core.arithmetic import (
+    Matrix,
+    Polynomial,
+    coprime,
+    exponent,
+    inverse,
+    poly_divide,
+    poly_modulo,
+    poly_product,
+)
+from .core.budget import counted
+from .core.reading import Json, fields, integer, items, matrices, names, positions, require
+from .core.roots import disc_set, require_real_or_not, root_discs
+from .core.system import FIXED, PENCIL, channel_set, polynomial_text
 from .parametric_system import Layers, ParametricSystem, Range, common_divisor
-from .reading import Json, fields, integer, items, matrices, names, positions, require
-from .roots import disc_set, require_real_or_not, root_discs
-from .system import FIXED, PENCIL, channel_set, polynomial_text
 
 # Values of a parameter in claims: where nothing is claimed, and their words.
 

@@ -27,10 +27,10 @@ from fractions import Fraction
 from itertools import zip_longest
 from typing import Any, Generic, Protocol, TypeVar
 
-from . import budget, reading, system
-from .arithmetic import Matrix, Polynomial, coprime, poly_divide, poly_product, stripped
-from .budget import fractions, limbs_of, reductions, spend
-from .reading import (
+from .core import budget, reading, system
+from .core.arithmetic import Matrix, Polynomial, coprime, poly_divide, poly_product, stripped
+from .core.budget import fractions, limbs_of, reductions, spend
+from .core.reading import (
     Json,
     Limits,
     fields,
@@ -42,7 +42,7 @@ from .reading import (
     shown,
     string,
 )
-from .system import (
+from .core.system import (
     System,
     as_typed,
     canonical,

@@ -23,12 +23,12 @@ from fractions import Fraction
 from operator import mul
 from typing import NamedTuple
 
-from . import budget
-from .arithmetic import Matrix, beside, entries_of, stack
-from .budget import spend
 from .constructions import Disturbed, disturbed, ports_of
-from .evidence import inputs, outputs
-from .reading import (
+from .core import budget
+from .core.arithmetic import Matrix, beside, entries_of, stack
+from .core.budget import spend
+from .core.evidence import inputs, outputs
+from .core.reading import (
     Json,
     boolean,
     fields,
@@ -42,7 +42,7 @@ from .reading import (
     require,
     string,
 )
-from .system import System, edge_set, quoted
+from .core.system import System, edge_set, quoted
 
 # Symmetric matrices, and that they are positive definite.
 

@@ -15,13 +15,14 @@ rule, rounded.
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import Any
 
-from . import budget
-from .arithmetic import Matrix, Rows, absolute, beside, divided
-from .budget import spend
-from .system import System
+from .core import budget
+from .core.arithmetic import Matrix, Rows, absolute, beside
+from .core.budget import spend
+from .core.system import System
 
 TURNS = 24
 """How often the weights are improved."""
@@ -217,3 +218,24 @@ def _is_rounded(exact: Matrix, rounded: Matrix) -> bool:
         for first, second in zip(missed.rows, most.rows, strict=True)
         for x, y in zip(first, second, strict=True)
     )
+
+
+def divided(M: Matrix, R: Matrix) -> Matrix | None:
+    """M⁻¹R for a square M, by elimination over Q; None if M is singular."""
+    n, width = M.nrows, M.nrows + R.ncols
+    budget.spend(1000 + budget.fractions(n * n * width, (n + 1) * (M.limbs + R.limbs)))
+    rows = [
+        [Fraction(x, M.denominator) for x in first] + [Fraction(x, R.denominator) for x in second]
+        for first, second in zip(M.rows, R.rows, strict=True)
+    ]
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if rows[i][k]), None)
+        if pivot is None:
+            return None
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [x / rows[k][k] for x in rows[k]]
+        for i in range(n):
+            if i != k and rows[i][k]:
+                rows[i] = [x - rows[i][k] * y for x, y in zip(rows[i], rows[k], strict=True)]
+    d = math.lcm(*(x.denominator for row in rows for x in row[n:]))
+    return Matrix([[int(x * d) for x in row[n:]] for row in rows], R.ncols, d)

@@ -21,9 +21,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import reduce
 
-from . import budget
-from .arithmetic import Matrix, absolute, beside, diagonal, stack
 from .constructions import Loop
+from .controllers import Saturation
+from .core import budget
+from .core.arithmetic import Matrix, absolute, beside, diagonal, stack
+from .core.reading import Json, fields, items, matrix, rational, require
+from .core.system import System, read_limits
 from .performance import (
     bordered,
     diagonal_of,
@@ -33,8 +36,6 @@ from .performance import (
     require_positive,
     symmetric,
 )
-from .reading import Json, fields, items, matrix, rational, require
-from .system import Saturation, System, read_limits
 
 Ranges = list[tuple[Fraction, Fraction] | None]
 

@@ -23,15 +23,15 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from .arithmetic import exponent
-from .budget import spend
 from .constructions import FAILURES, SHARED, read_subject
-from .evidence import require_coprime
+from .core.arithmetic import exponent
+from .core.budget import spend
+from .core.evidence import require_coprime
+from .core.reading import polynomial, require
+from .core.roots import in_stability_region
+from .core.system import PENCIL, System, channel_set, counted, described, edge_set, polynomial_text
 from .kinds import same
 from .modes import no_fixed_mode
-from .reading import polynomial, require
-from .roots import in_stability_region
-from .system import PENCIL, System, channel_set, counted, described, edge_set, polynomial_text
 
 # Rules for sentences: premises, the roles that premises play, and the table of rules.
 

@@ -12,13 +12,16 @@
 import json
 from fractions import Fraction
 
-from . import budget
 from .boxes import gain_pairs
 from .cells import constructed
 from .constructions import read_subject
+from .controllers import MAPS
+from .core import budget
+from .core.reading import Json, polynomial
+from .core.roots import in_stability_region
+from .core.system import System, counted, quoted, read_matrix, read_radii
+from .discs import Pair, pairs_of
 from .kinds import same
-from .reading import Json, polynomial
-from .roots import in_stability_region
 from .sentences import (
     ANOTHER_STEP,
     AT_SAMPLES,
@@ -39,7 +42,6 @@ from .sentences import (
     rule,
 )
 from .sentences_nearby import differences, farthest
-from .system import MAPS, Pair, System, counted, pairs_of, quoted, read_matrix, read_radii
 
 # What the certificates of a design, of a verdict on a controller and of a refusal imply.
 

@@ -19,12 +19,13 @@ modes of the own plant that are not fixed there are fixed by equalities between 
 from collections.abc import Callable
 from fractions import Fraction
 
-from . import budget
-from .arithmetic import FIRST, Matrix, absolute, coprime, entries_of, poly_modulo
-from .reading import Json, polynomial
-from .roots import in_stability_region
+from .core import budget
+from .core.arithmetic import FIRST, Matrix, absolute, coprime, entries_of, poly_modulo
+from .core.reading import Json, polynomial
+from .core.roots import in_stability_region
+from .core.system import System, polynomial_text
+from .discs import Pair, pairs_of
 from .sentences import DUAL, PLANT, Premise, Role, everywhere, rule
-from .system import Pair, System, pairs_of, polynomial_text
 
 EXACT_PART = Fraction(1, 10**12)
 """The part of an entry that rounding errors explain."""

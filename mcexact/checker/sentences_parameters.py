@@ -13,12 +13,12 @@ points holds for almost all values, if it fails only where a polynomial vanishes
 from collections.abc import Callable
 from itertools import combinations, pairwise
 
-from . import reading
+from .core import reading
+from .core.reading import Json
+from .core.system import described, edge_set, polynomial_text
 from .parameters import ends_of, ends_text, where_text
 from .parametric_system import FunctionSystem, ParametricSystem, common_divisor
-from .reading import Json
 from .sentences import HAUTUS, PLANT, RANK_RULE, Holds, Premise, Role, restate, rule
-from .system import described, edge_set, polynomial_text
 
 MODES = Role(("parametric_fixed_spectrum",), PLANT)
 CONTROLLED = Role(MODES.kinds, (("full_output",), ("merged", "full_output")))

@@ -6,14 +6,14 @@ of any controller that the bound is about.  The first line of ``design`` and ``c
 short sentences with rules of their own, since they say less than the rows of the table.
 """
 
-from . import budget
-from .budget import spend
+from .controllers import read_controller
+from .core import budget
+from .core.budget import spend
+from .core.reading import rational
 from .kinds import same
-from .reading import rational
 from .sampling import is_held
 from .sentences import ANOTHER_STEP, AT_SAMPLES, PLANT, Premise, Role, either, restate, rule
 from .sentences_loops import CLOSED, LOOP, LOOPS, alone, within
-from .system import read_controller
 
 COST, BOUND = Role(("loop_cost",), CLOSED), Role(("cost_bound",), PLANT)
 MARGIN, MARGINS = (Role(("disk_margin",), CLOSED, many=many) for many in (False, True))

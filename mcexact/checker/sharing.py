@@ -13,12 +13,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from . import budget, evidence, modes, reading
-from .arithmetic import Matrix, diagonal
-from .budget import spend
+from . import modes
 from .constructions import SHARED, arcs, augmented_outputs, extended, neighbors_of, shared
-from .reading import Json, fields, integer, items, malformed, names, rational, require
-from .system import FIXED, System, by_channel, canonical_json, edge_set
+from .core import budget, evidence, reading
+from .core.arithmetic import Matrix, diagonal
+from .core.budget import spend
+from .core.reading import Json, fields, integer, items, malformed, names, rational, require
+from .core.system import FIXED, System, by_channel, canonical_json, edge_set
 
 # Branch trees of covering programs; ``proofs/shared_dimensions.md``.
 

@@ -11,11 +11,11 @@ that no dominating set is smaller.
 from collections.abc import Iterable
 from fractions import Fraction
 
-from .budget import spend
 from .constructions import neighbors_of
-from .reading import Json, fields, integer, names, require
+from .core.budget import spend
+from .core.reading import Json, fields, integer, names, require
+from .core.system import System
 from .sharing import Program
-from .system import System
 
 # Kind ``sharing_gap``: two numbers of the neighbor graph; ``proofs/sharing_gap.md``.
 

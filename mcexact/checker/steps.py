@@ -20,13 +20,13 @@ from fractions import Fraction
 from operator import mul
 from typing import NamedTuple
 
-from . import budget
-from .arithmetic import Matrix, stack
-from .budget import spend
 from .constructions import Disturbed, references
+from .core import budget
+from .core.arithmetic import Matrix, stack
+from .core.budget import spend
+from .core.reading import Json, fields, integer, items, malformed, rational, require, string
+from .core.system import System
 from .performance import LARGEST, diagonal_of, loop_of, lyapunov, require_positive, symmetric
-from .reading import Json, fields, integer, items, malformed, rational, require, string
-from .system import System
 
 SIDES = ("inputs", "outputs", "setpoints")
 LEAST_BITS, MOST_BITS = 16, 1000

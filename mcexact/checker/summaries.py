@@ -7,14 +7,23 @@ lists, discs, weights, and what the words mean.  A kind without a summary has a 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
-from .arithmetic import Polynomial
 from .boxes import lie_inside
+from .core.arithmetic import Polynomial
+from .core.reading import Json
+from .core.system import (
+    PENCIL,
+    System,
+    channel_set,
+    counted,
+    denied,
+    edge_set,
+    polynomial_text,
+    quoted,
+)
 from .discs import Box
 from .loops import within as within_region
 from .modes import inside, no_fixed_mode
 from .parametric_system import FunctionSystem, ParametricSystem
-from .reading import Json
-from .system import PENCIL, System, channel_set, counted, denied, edge_set, polynomial_text, quoted
 
 LENGTH = 160
 """The most characters of a summary; what is longer is cut."""

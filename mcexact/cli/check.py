@@ -34,8 +34,8 @@ from mcexact.checker.command import (
     status_of,
     verdicts,
 )
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Clock, Found, memory
-from mcexact.checker.reading import Limits
 from mcexact.cli import options, verified
 from mcexact.cli.commands import INTERRUPTED
 from mcexact.cli.output import deliver, json_text
@@ -382,8 +382,8 @@ def checker_archive() -> bytes:
     """
     folder, archive = Path(checker.__path__[0]), io.BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_STORED) as packed:
-        for path in sorted(folder.glob("*.py")):
-            member = zipfile.ZipInfo(path.name, FIRST_DAY)
+        for path in sorted(folder.rglob("*.py")):
+            member = zipfile.ZipInfo(path.relative_to(folder).as_posix(), FIRST_DAY)
             member.create_system, member.external_attr = 3, 0o644 << 16
             packed.writestr(member, path.read_bytes())
     return archive.getvalue()

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from mcexact.checker.system import digest_of
+from mcexact.checker.core.system import digest_of
 
 NAME = "mcexact-verified"
 VERSION = f"{NAME} 2"

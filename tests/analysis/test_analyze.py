@@ -19,8 +19,8 @@ from mcexact.analysis.questions import (
     questions_about,
 )
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation
-from mcexact.checker.reading import Limits
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model import gallery

@@ -14,8 +14,8 @@ from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.account import SHORT, Account
 from mcexact.answer.sentence import PLANT
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation
-from mcexact.checker.reading import Limits
 from mcexact.errors import InputError, LimitReached
 from mcexact.model import gallery
 from tests.answer.asking import asked

@@ -15,8 +15,8 @@ from mcexact.answer.account import Account
 from mcexact.answer.sentence import Context, Sentences
 from mcexact.answer.templates import Sentence
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation
-from mcexact.checker.reading import Limits
 from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.roots import StabilityRegion

@@ -27,6 +27,8 @@ import networkx as nx
 ROOT = Path(__file__).parents[2]
 PACKAGE = "mcexact"
 PLAN = Path(__file__).with_name("layout.toml")
+CORE = f"{PACKAGE}.checker.core"
+"""What imports nothing else, not even of its own folder."""
 LEAST, MOST = 80, 1000
 """The lines of code of a module."""
 TOP, INSIDE, TYPES = "top", "inside", "types"
@@ -250,6 +252,7 @@ class Layout:
             (one, other)
             for one, other in sorted(self.graph(TOP, INSIDE, TYPES).edges)
             if not self._may(folder_of(one), folder_of(other), place)
+            or (one.startswith(CORE) and not other.startswith(CORE))
         ]
 
     @staticmethod

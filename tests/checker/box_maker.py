@@ -12,10 +12,12 @@ from fractions import Fraction
 from operator import mul
 from typing import Any
 
-from mcexact.checker.arithmetic import Matrix, absolute, beside
 from mcexact.checker.boxes import augmented, segments_of
 from mcexact.checker.cells import cells_of, members_of_cell
 from mcexact.checker.cells import subject_of as read_subject
+from mcexact.checker.core.arithmetic import Matrix, absolute, beside
+from mcexact.checker.core.evidence import inputs
+from mcexact.checker.core.system import read_plant
 from mcexact.checker.discs import (
     ROOT_2,
     Box,
@@ -27,9 +29,7 @@ from mcexact.checker.discs import (
     right_inverse,
     system_of,
 )
-from mcexact.checker.evidence import inputs
 from mcexact.checker.parametric_system import plant_of
-from mcexact.checker.system import read_plant
 from tests.checker.handmade import Document, certificate, matrix
 
 Rows = list[list[Fraction]]

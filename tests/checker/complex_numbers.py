@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
 
 Complex = list[list[complex]]
 CLEAR = 1e-4

@@ -27,7 +27,7 @@ def answer(case: Case) -> str:
     a file is about.
     """
     # the modules are looked up when they are needed, since a changed checker may have been loaded
-    reading = importlib.import_module("mcexact.checker.reading")
+    reading = importlib.import_module("mcexact.checker.core.reading")
     limits = reading.Limits(**case.get("limits", {}))
     data: Any = case["document"]
     if isinstance(data, str):
@@ -40,9 +40,10 @@ def answer(case: Case) -> str:
     digits = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)
     try:
-        module = importlib.import_module("mcexact.checker.system")
+        module = importlib.import_module("mcexact.checker.core.system")
         if case["read"] == "system":
             return str(module.digest(module.read_system_file(data, limits)))
+        module = importlib.import_module("mcexact.checker.controllers")
         return " ".join(module.read_controller_file(data, limits)[:2])
     except reading.Refused as refused:
         return " ".join(refused.args[:3])

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation, Verdict
-from mcexact.checker.reading import Limits
 from mcexact.checker.sentences import RULES
 from tests.checker.handmade import (
     FIXED,

@@ -15,12 +15,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from mcexact.checker.budget import Budget
 from mcexact.checker.command import Evidence
+from mcexact.checker.core.budget import Budget
+from mcexact.checker.core.reading import Limits
+from mcexact.checker.core.system import digest, digest_of, read_plant
 from mcexact.checker.kinds import KINDS, Check, Expectation, Verdict, attempt, nothing_beside
-from mcexact.checker.reading import Limits
 from mcexact.checker.sentences import RULES, Premise
-from mcexact.checker.system import digest, digest_of, read_plant
 
 CORPUS = Path(__file__).parent / "corpus" / "sentences"
 TABLE = CORPUS / "rules.txt"

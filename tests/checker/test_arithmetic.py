@@ -11,8 +11,8 @@ import pytest
 from sympy import QQ, ZZ, isprime
 from sympy.polys.matrices import DomainMatrix
 
-from mcexact.checker import arithmetic as characteristic
-from mcexact.checker.arithmetic import (
+from mcexact.checker.core import arithmetic as characteristic
+from mcexact.checker.core.arithmetic import (
     Echelon,
     Matrix,
     NotAUnit,

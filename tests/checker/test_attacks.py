@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.core.reach import components
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import check_document
-from mcexact.checker.reading import Limits
-from mcexact.checker.structure import components
 from tests import effort
 from tests.checker.handmade import INTEGRATOR, certificate, plant
 

@@ -7,11 +7,11 @@ from itertools import pairwise
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix as Exact
-from mcexact.checker.budget import Budget, limited
-from mcexact.checker.evidence import split
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import System
+from mcexact.checker.core.arithmetic import Matrix as Exact
+from mcexact.checker.core.budget import Budget, limited
+from mcexact.checker.core.evidence import split
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System
 from tests.checker.handmade import (
     CHAIN,
     FREE,

@@ -10,13 +10,13 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix, characteristic_polynomial
 from mcexact.checker.boxes import segments_of
 from mcexact.checker.constructions import read_subject
+from mcexact.checker.core.arithmetic import Matrix, characteristic_polynomial
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.roots import in_region
+from mcexact.checker.core.system import read_plant
 from mcexact.checker.discs import Pencil, loop_pencil
-from mcexact.checker.reading import Refused
-from mcexact.checker.roots import in_region
-from mcexact.checker.system import read_plant
 from tests.checker.box_maker import Rows, fractions, solved, stable, subject_of
 from tests.checker.box_plants import (
     ALL,

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.core.reading import Limits
+from mcexact.checker.core.system import canonical_json, digest_of
 from mcexact.checker.kinds import Verdict
 from mcexact.checker.parametric_system import plant_of_file
-from mcexact.checker.reading import Limits
-from mcexact.checker.system import canonical_json, digest_of
 from tests.checker.box_maker import DENOMINATOR, stable
 from tests.checker.box_plants import (
     CALM,

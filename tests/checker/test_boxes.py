@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix, absolute
 from mcexact.checker.constructions import CONSTRUCTIONS, read_subject
+from mcexact.checker.core.arithmetic import Matrix, absolute
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.discs import LOOP as CLOSED
-from mcexact.checker.reading import Refused
 from tests.checker.box_maker import fractions, subject_of
 from tests.checker.box_plants import CALM, CERTAIN, DAMPED, LOOP, PAIR, uncertain
 from tests.checker.handmade import matrix, plant

@@ -8,10 +8,11 @@ from math import comb
 
 import pytest
 
-from mcexact.checker import budget, command
-from mcexact.checker.arithmetic import Polynomial
-from mcexact.checker.budget import GRANTED, MORE, PER_BYTE, Budget, Refused, current, limited
-from mcexact.checker.roots import is_hurwitz
+from mcexact.checker import command
+from mcexact.checker.core import budget
+from mcexact.checker.core.arithmetic import Polynomial
+from mcexact.checker.core.budget import GRANTED, MORE, PER_BYTE, Budget, Refused, current, limited
+from mcexact.checker.core.roots import is_hurwitz
 from tests.checker.test_work import named
 
 

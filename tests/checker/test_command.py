@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from mcexact import checker
-from mcexact.checker.system import digest, read_plant
+from mcexact.checker.core.system import digest, read_plant
 from tests.checker.handmade import FIXED, FREE, PAPER, changed, checked
 from tests.checker.manifests import EVIDENCE, SENTENCES, write
 from tests.effort import PATIENCE

@@ -15,8 +15,9 @@ from typing import Any
 import pytest
 
 from mcexact import checker
-from mcexact.checker import command, kinds, reading
+from mcexact.checker import command, kinds
 from mcexact.checker.command import main
+from mcexact.checker.core import reading
 from mcexact.checker.kinds import Verdict
 from tests.checker.handmade import FIXED, FREE, PAPER, changed
 from tests.checker.manifests import EVIDENCE, SENTENCES, write

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
 from mcexact.checker.discs import ComplexMatrix, magnitude
 
 

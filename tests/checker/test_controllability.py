@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact.checker.reading import Refused
-from mcexact.checker.structure import krylov_ranks, require_reached
-from mcexact.checker.system import digest, read_plant
+from mcexact.checker.core.reach import krylov_ranks
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import digest, read_plant
+from mcexact.checker.structure import require_reached
 from tests.checker.handmade import (
     CONTROLLABLE,
     UNCONTROLLABLE,

@@ -8,10 +8,11 @@ from typing import Any
 import pytest
 
 from mcexact.checker import structure
-from mcexact.checker.arithmetic import Matrix, SparseMatrix
-from mcexact.checker.evidence import inputs
-from mcexact.checker.structure import banded_krylov_ranks, krylov_ranks
-from mcexact.checker.system import System
+from mcexact.checker.core.arithmetic import Matrix, SparseMatrix
+from mcexact.checker.core.evidence import inputs
+from mcexact.checker.core.reach import krylov_ranks
+from mcexact.checker.core.system import System
+from mcexact.checker.structure import banded_krylov_ranks
 from tests.checker.handmade import (
     GENERIC,
     INDICES,

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.reading import Refused
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.sharing import Program
 
 Cuts = Sequence[tuple[set[int], int]]

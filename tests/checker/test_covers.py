@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.discs import ROOT_2, Cell, Regular, magnitude, require_covered
-from mcexact.checker.reading import Refused
 
 
 def cell(re: Any, im: Any, size: Any, square: bool) -> Cell:

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import evidence
-from mcexact.checker.arithmetic import Matrix, NotAUnit
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import read_plant
+from mcexact.checker.core import evidence
+from mcexact.checker.core.arithmetic import Matrix, NotAUnit
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import read_plant
 from tests.checker.handmade import matrix, plant
 
 SYSTEM = read_plant(

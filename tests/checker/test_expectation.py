@@ -10,9 +10,10 @@ from typing import Any
 import pytest
 
 from mcexact.checker.constructions import read_subject
+from mcexact.checker.controllers import FORMAT
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.system import canonical_json, digest, read_plant
 from mcexact.checker.kinds import NOT_ABOUT, Expectation, Verdict, difference
-from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import FORMAT, canonical_json, digest, read_plant
 from tests.checker.box_plants import (
     AGAIN,
     AT_SAMPLES,

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.core.reading import Limits, Refused
 from mcexact.checker.parametric_system import LONGEST, common_divisor, function, function_text
-from mcexact.checker.reading import Limits, Refused
 from mcexact.errors import InputError
 from mcexact.model.entries import parse_expression
 

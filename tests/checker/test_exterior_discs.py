@@ -7,10 +7,10 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System
 from mcexact.checker.discs import Box, exterior_discs, with_gains
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import System
 from tests.checker.box_maker import decimal
 from tests.checker.complex_numbers import drawn, numbers, real, sizes, times
 from tests.checker.handmade import matrix

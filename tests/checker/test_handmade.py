@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from mcexact.checker.core.system import digest, read_plant
 from mcexact.checker.kinds import KINDS
-from mcexact.checker.system import digest, read_plant
 from tests.checker.handmade import FIXED, FREE, GRAPH, OSCILLATION, PAPER, VALID, Document, checked
 from tests.wording import says, worded
 

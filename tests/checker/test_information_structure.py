@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.checker.constructions import read_subject
-from mcexact.checker.system import read_plant
+from mcexact.checker.core.system import read_plant
 from tests.checker.handmade import plant
 
 LATE = read_plant(

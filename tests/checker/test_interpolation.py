@@ -6,7 +6,8 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.checker.arithmetic import NotAUnit, interpolated
+from mcexact.checker.bivariate import interpolated
+from mcexact.checker.core.arithmetic import NotAUnit
 
 
 def test_values_are_interpolated_over_q_and_modulo_a_number() -> None:

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import NotAUnit
-from mcexact.checker.budget import Budget, limited
+from mcexact.checker.core.arithmetic import NotAUnit
+from mcexact.checker.core.budget import Budget, limited
+from mcexact.checker.core.reading import Limits, Refused
 from mcexact.checker.kinds import KINDS, Expectation, Verdict, attempt, check_document
-from mcexact.checker.reading import Limits, Refused
 from tests.checker.handmade import FIXED, FREE, changed, checked, without
 from tests.wording import refusal
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix as Exact
-from mcexact.checker.arithmetic import NotAUnit
-from mcexact.checker.evidence import krylov_loop, unmoved_degree
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import System, read_plant
+from mcexact.checker.core.arithmetic import Matrix as Exact
+from mcexact.checker.core.arithmetic import NotAUnit
+from mcexact.checker.core.evidence import krylov_loop, unmoved_degree
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System, read_plant
 from tests.checker.handmade import (
     CHAIN,
     COMPLETE,

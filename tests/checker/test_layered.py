@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.bivariate import is_zero, layered_difference, product, reduced
+from mcexact.checker.core.arithmetic import Matrix
 
 ONE = Fraction(1)
 

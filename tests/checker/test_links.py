@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.reading import Refused
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System, read_plant
 from mcexact.checker.sharing import candidates, carried, link
-from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import plant
 
 PORTS = [([[1], [0]], [[1, 2]]), ([[0], [1]], [[0, 3], [4, 0]]), ([[1], [1]], [[0, 5]])]

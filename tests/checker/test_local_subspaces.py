@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.evidence import Losses
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import read_plant
+from mcexact.checker.core.evidence import Losses
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import read_plant
 from tests.checker.handmade import Document, changed, layers, plant
 
 Row = tuple[str, Document, Document, list[int], int]

@@ -8,9 +8,9 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.checker import roots as location
-from mcexact.checker.arithmetic import poly_product
-from mcexact.checker.roots import in_region, in_stability_region, is_hurwitz, is_schur
+from mcexact.checker.core import roots as location
+from mcexact.checker.core.arithmetic import poly_product
+from mcexact.checker.core.roots import in_region, in_stability_region, is_hurwitz, is_schur
 
 GRID = [Fraction(k, 2) for k in range(-4, 5)]
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, limited
 from mcexact.checker.command import pointed, verdicts_of
+from mcexact.checker.core.budget import GRANTED, PER_BYTE, Budget, limited
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.system import digest, read_plant
 from mcexact.checker.kinds import FORMAT, KINDS, NOT_ABOUT, Expectation, same
-from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import digest, read_plant
 from tests import effort
 from tests.checker.handmade import FREE, PAPER, Document, changed, checked, without
 from tests.checker.manifests import (

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.checker.arithmetic import (
+from mcexact.checker.core.arithmetic import (
     BLOCK,
     SMALL,
     ByteEchelon,

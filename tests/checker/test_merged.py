@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.constructions import read_subject
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import System, read_plant
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System, read_plant
 from tests.checker.handmade import (
     FIXED,
     FREE,

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from mcexact.checker.constructions import read_subject
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import read_plant
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import read_plant
 from tests.checker.handmade import (
     FREE,
     PAIR,

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import NotAUnit
+from mcexact.checker.core.arithmetic import NotAUnit
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.parameters import MovedModes
 from mcexact.checker.parametric_system import one_parameter, read_parametric
-from mcexact.checker.reading import Refused
 from tests.assurance.attack.forgeries.parametric_traps import LARGE, constant, plant, scalar
 
 ELL = 101

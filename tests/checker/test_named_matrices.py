@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from mcexact.checker.bivariate import named_matrix, named_text
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
-from mcexact.checker.reading import Refused
 from tests.assurance.attack.forgeries.parametric_traps import plant
 from tests.wording import worded
 

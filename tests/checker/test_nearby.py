@@ -15,8 +15,8 @@ from mcexact.analysis.nearby.allowances import rounding, typed
 from mcexact.answer.protocol import document
 from mcexact.checker.command import manifest_verdicts
 from mcexact.checker.command import verdicts as command_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import NOT_ABOUT, Clock, Expectation
-from mcexact.checker.reading import Limits
 from mcexact.checker.sentences_nearby import last_digit
 from mcexact.derived.constructions import dual
 from mcexact.exact.polynomial import Polynomial

@@ -7,7 +7,7 @@ import random
 import networkx
 import pytest
 
-from mcexact.checker.structure import components
+from mcexact.checker.core.reach import components
 from tests.checker.handmade import COMPLETE, RING, Document, changed, checked, without
 
 BROKEN = changed(RING, ("system.neighbors.3", []), ("claim.strongly_connected", False))

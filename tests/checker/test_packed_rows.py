@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from mcexact.checker.arithmetic import (
+from mcexact.checker.core.arithmetic import (
     FEW,
     LONG,
     SMALL,
@@ -18,8 +18,8 @@ from mcexact.checker.arithmetic import (
     most_addends,
     multiples,
 )
-from mcexact.checker.budget import Budget, limited
-from mcexact.checker.reading import Refused
+from mcexact.checker.core.budget import Budget, limited
+from mcexact.checker.core.reading import Refused
 
 MODULI = [2, 3, 7, SMALL - 1, SMALL, SMALL + 1, 127, 128, 2**30 - 35, 10**20 + 39]
 

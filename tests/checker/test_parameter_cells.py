@@ -10,9 +10,9 @@ import pytest
 
 from mcexact import ParametricSystem
 from mcexact.checker.cells import box_of_cell, cells_of
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.discs import Box
 from mcexact.checker.parametric_system import read_parametric
-from mcexact.checker.reading import Refused
 from tests.checker.box_maker import fractions
 from tests.checker.handmade import ranged
 

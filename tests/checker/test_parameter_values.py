@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from mcexact.checker.cells import rearranged
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.parameters import listed_value, roots_text, values_left_out, where_text
 from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
-from mcexact.checker.reading import Refused
 from tests.assurance.attack.forgeries.parametric_traps import plant
 from tests.wording import worded
 

@@ -10,10 +10,10 @@ import pytest
 
 from mcexact.checker.cells import cells_of, members_of_cell, subject_of
 from mcexact.checker.constructions import closed_loop
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.discs import loop_pencil
 from mcexact.checker.kinds import Expectation, check_document
 from mcexact.checker.parametric_system import plant_of
-from mcexact.checker.reading import Limits
 from tests.checker.box_maker import Rows, fractions
 from tests.checker.box_plants import GAIN_RADII, LOOP, LOOP_STABLE
 from tests.checker.handmade import Document, changed, checked, ranged, without

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.budget import MORE, PER_BYTE, Budget, limited
+from mcexact.checker.core.budget import MORE, PER_BYTE, Budget, limited
 from tests.checker.handmade import FREE, changed, checked, plant, without
 from tests.checker.parametric_plants import (
     ALL,

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem, ParametricSystem
+from mcexact.checker.core.reading import Limits, Refused
 from mcexact.checker.kinds import Expectation
-from mcexact.checker.reading import Limits, Refused
 from mcexact.errors import InputError
 from mcexact.model.system_file import read_parametric_system, system_text
 from tests.checker.handmade import changed, checked

@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import bivariate, boxes, budget, cells, reading
-from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.budget import Budget, limited
+from mcexact.checker import bivariate, boxes, cells
+from mcexact.checker.core import budget, reading
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.budget import Budget, limited
 from mcexact.checker.discs import Pencil
 from mcexact.checker.parametric_system import (
     ONE,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.performance import require_positive, symmetric
-from mcexact.checker.reading import Refused
 from tests.checker.handmade import Document, certificate, changed, checked, matrix, plant, without
 from tests.checker.performance_plants import (
     ALL,

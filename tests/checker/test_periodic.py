@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from mcexact.checker.constructions import read_subject
+from mcexact.checker.core.reading import Limits
+from mcexact.checker.core.system import read_plant
 from mcexact.checker.kinds import Expectation, check_document
-from mcexact.checker.reading import Limits
-from mcexact.checker.system import read_plant
 from tests.checker.handmade import Document, certificate, changed, checked
 from tests.checker.manifests import manifest, said, sentence, write
 from tests.checker.tables import accepts, rejects

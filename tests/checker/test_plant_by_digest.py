@@ -13,7 +13,6 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, limited
 from mcexact.checker.command import (
     main,
     manifest_verdicts,
@@ -21,9 +20,10 @@ from mcexact.checker.command import (
     verdicts,
     verdicts_of,
 )
+from mcexact.checker.core.budget import GRANTED, PER_BYTE, Budget, limited
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.system import digest, read_plant
 from mcexact.checker.kinds import NOT_ABOUT, Clock, Expectation, check_document
-from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import digest, read_plant
 from tests.checker import test_blocks, test_completeness, test_transfer_graph
 from tests.checker.handmade import FIXED, FREE, GRAPH, PAPER, VALID, Document, changed, checked
 from tests.checker.manifests import (

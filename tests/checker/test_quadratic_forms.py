@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.loops import decreasing, require_dominant, transformed
-from mcexact.checker.reading import Refused
 from tests.checker.handmade import matrix
 
 

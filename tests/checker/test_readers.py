@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import reading
-from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.reading import Limits, Refused
+from mcexact.checker.core import reading
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Limits, Refused
 
 
 def verdict_of(call: Callable[[], Any]) -> str:

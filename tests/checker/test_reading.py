@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.checker import reading
+from mcexact.checker.core import reading
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import check_document
-from mcexact.checker.reading import Limits
 from tests import effort
 from tests.checker.handmade import FIXED, FREE, PAPER, Document, changed, checked, without
 from tests.wording import refusal, worded

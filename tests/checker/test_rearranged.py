@@ -22,8 +22,8 @@ from mcexact import (
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer.check import constructed
 from mcexact.answer.protocol import document
-from mcexact.checker.budget import Budget, Refused, limited
 from mcexact.checker.cells import REARRANGING, subject_of
+from mcexact.checker.core.budget import Budget, Refused, limited
 from mcexact.checker.parametric_system import ParametricSystem as Read
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.constructions import dual, extended_system, restricted

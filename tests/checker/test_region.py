@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System, read_plant
 from mcexact.checker.modes import (
     claimed_cost,
     read_rate_or_radius,
     require_fixed_modes_inside,
     require_outside,
 )
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import CHAIN, PAIR, changed, matrix, plant
 
 CONTINUOUS = read_plant(PAIR)

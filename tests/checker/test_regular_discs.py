@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
 from mcexact.checker.discs import Pencil, left_inverse, right_inverse
 from tests.checker.complex_numbers import CLEAR, drawn, numbers, real, sizes, times
 

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 import sympy
 
-from mcexact.checker.arithmetic import NotAUnit
 from mcexact.checker.bivariate import (
     degree_bound,
     difference,
@@ -17,7 +16,8 @@ from mcexact.checker.bivariate import (
     residues,
     resultant,
 )
-from mcexact.checker.reading import Refused
+from mcexact.checker.core.arithmetic import NotAUnit
+from mcexact.checker.core.reading import Refused
 
 t = sympy.Symbol("t")
 PRIME = 1000003

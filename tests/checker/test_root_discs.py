@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import poly_product
-from mcexact.checker.reading import Refused
-from mcexact.checker.roots import Disc, require_rate, root_discs
+from mcexact.checker.core.arithmetic import poly_product
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.roots import Disc, require_rate, root_discs
 
 
 def disc(re: Any, im: Any, radius: Any) -> dict[str, Any]:

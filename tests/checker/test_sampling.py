@@ -10,13 +10,13 @@ from typing import Any
 import pytest
 from flint import fmpq
 
-from mcexact.checker import budget
-from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.budget import Refused
 from mcexact.checker.constructions import read_subject
+from mcexact.checker.core import budget
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.budget import Refused
+from mcexact.checker.core.system import read_plant
 from mcexact.checker.kinds import check_document
 from mcexact.checker.sampling import enclosure, weights
-from mcexact.checker.system import read_plant
 from tests.checker.box_maker import fractions, subject_of
 from tests.checker.handmade import certificate, plant
 from tests.oracle.certificates.sampling import enclosed

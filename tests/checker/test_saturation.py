@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.core.reading import Limits, Refused
 from mcexact.checker.kinds import Expectation
-from mcexact.checker.reading import Limits, Refused
 from tests.checker.handmade import Document, changed, checked, matrix
 from tests.checker.performance_plants import form, static
 from tests.checker.saturation_plants import (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from mcexact.checker.core.system import read_plant
 from mcexact.checker.sentences import DUAL, HEARD, PLANT, SYSTEM, Path, Premise, Role
-from mcexact.checker.system import read_plant
 from tests.checker.handmade import FREE
 
 AUGMENTED = ("augmented_outputs",)

@@ -24,8 +24,8 @@ from mcexact.answer.listing import everything
 from mcexact.answer.protocol import document
 from mcexact.answer.templates import Template
 from mcexact.checker.command import Evidence
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation, Verdict
-from mcexact.checker.reading import Limits
 from mcexact.checker.sentences import RULES, Premise, Rule
 from mcexact.checker.sentences_loops import DIMENSIONS
 from mcexact.derived.constructions import Share, extended_system, merged

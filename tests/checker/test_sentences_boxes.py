@@ -11,9 +11,10 @@ import pytest
 from mcexact.analysis.boxes.loops import box_stability
 from mcexact.analysis.boxes.margins import box_disk_margin
 from mcexact.answer.protocol import document, encode
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.system import read_matrix
+from mcexact.checker.discs import pairs_of, radii_in_words
 from mcexact.checker.sentences_loops import least
-from mcexact.checker.system import pairs_of, radii_in_words, read_matrix
 from mcexact.model.box import Box
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem

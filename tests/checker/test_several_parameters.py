@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.core.reading import Limits, Refused
 from mcexact.checker.parametric_system import read_parametric
-from mcexact.checker.reading import Limits, Refused
 from mcexact.errors import InputError
 from mcexact.model.system_file import read_parametric_document
 from tests.checker.handmade import ranged

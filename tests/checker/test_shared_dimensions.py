@@ -8,9 +8,9 @@ import pytest
 
 from mcexact.analysis.sharing import minimal_shared_dimensions
 from mcexact.answer.protocol import document
-from mcexact.checker.reading import Refused
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import read_plant
 from mcexact.checker.sharing import read_cut
-from mcexact.checker.system import read_plant
 from mcexact.model import gallery
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

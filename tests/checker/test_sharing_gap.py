@@ -7,7 +7,7 @@ import random
 
 import pytest
 
-from mcexact.checker.budget import Refused
+from mcexact.checker.core.budget import Refused
 from mcexact.checker.sharing_gap import bits, require_no_more_relays
 from tests.checker.handmade import RING, Document, changed, checked, without
 from tests.oracle import gaps

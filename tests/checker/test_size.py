@@ -1,11 +1,13 @@
-"""The checker stays small enough to be read in one sitting, and depends on nothing."""
+"""A function of the checker fits on a screen, its core stands alone, and it depends on nothing."""
 
 from __future__ import annotations
 
 import ast
 import io
+import re
 import sys
 import tokenize
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
@@ -14,7 +16,7 @@ from mcexact import checker
 from mcexact.checker.kinds import KINDS
 
 FOLDER = Path(checker.__file__).parent
-FILES = sorted(FOLDER.glob("*.py"))
+FILES = sorted(FOLDER.rglob("*.py"))
 RULES = {rule.check.__module__.rpartition(".")[2] for rule in KINDS.values()}
 """The modules with the rules about certificates."""
 SENTENCES = {path.stem for path in FILES if path.stem.startswith("sentences")}
@@ -33,8 +35,8 @@ LONGEST = 50
 """The lines of code of a function: one screen."""
 
 
-def lengths(source: str) -> dict[str, int]:
-    """The lines of each function that hold code: no blank lines, comments or docstrings."""
+def code_lines(source: str) -> set[int]:
+    """The lines that hold code: no blank lines, comments or docstrings."""
     lines = set()
     for token in tokenize.generate_tokens(io.StringIO(source).readline):
         if token.type not in SKIPPED:
@@ -45,7 +47,13 @@ def lengths(source: str) -> dict[str, int]:
         alone = node.value if isinstance(node, ast.Expr) else None
         if isinstance(alone, ast.Constant) and isinstance(alone.value, str):
             lines -= set(range(alone.lineno, (alone.end_lineno or alone.lineno) + 1))
-    functions = [each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef)]
+    return lines
+
+
+def lengths(source: str) -> dict[str, int]:
+    """How many lines of each function hold code."""
+    lines = code_lines(source)
+    functions = [each for each in ast.walk(ast.parse(source)) if isinstance(each, ast.FunctionDef)]
     return {
         f"{each.name} in line {each.lineno}": len(
             lines & set(range(each.lineno, (each.end_lineno or each.lineno) + 1))
@@ -76,12 +84,35 @@ def outer(x):
     assert lengths(source) == {"outer in line 2": 6, "inner in line 7": 4}
 
 
+def size(paths: Iterable[Path]) -> int:
+    """The lines of code of some files."""
+    return sum(len(code_lines(path.read_text(encoding="utf-8"))) for path in paths)
+
+
+@pytest.mark.parametrize("page", ["README.md", "SECURITY.md"])
+def test_pages_give_the_sizes_of_the_core_and_of_the_whole(page: str) -> None:
+    """They say what a VALID rests on: the figures are those of the code, to a hundred lines."""
+    text = " ".join((FOLDER.parents[1] / page).read_text(encoding="utf-8").split())
+    core = [path for path in FILES if path.parent.name == "core"]
+    for words, files in (("core, `mcexact/checker/core/`,", core), ("whole checker", FILES)):
+        figure = re.search(rf"{words} has ([0-9,]+) lines", text)
+        assert figure and abs(int(figure[1].replace(",", "")) - size(files)) <= 100, words
+
+
+def test_the_core_imports_nothing_of_the_rest() -> None:
+    for path in (path for path in FILES if path.parent.name == "core"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            assert not isinstance(node, ast.ImportFrom) or node.level <= 1, path
+            assert not isinstance(node, ast.Import) or "mcexact" not in ast.unparse(node), path
+
+
 def imported(stem: str) -> set[str]:
     """The modules of the checker that one of them imports."""
-    nodes = ast.walk(ast.parse((FOLDER / f"{stem}.py").read_text(encoding="utf-8")))
+    paths = {path.stem: path for path in reversed(FILES)}
+    nodes = ast.walk(ast.parse(paths[stem].read_text(encoding="utf-8")))
     found = [node for node in nodes if isinstance(node, ast.ImportFrom) and node.level == 1]
-    names = {name for node in found for name in (node.module, *(each.name for each in node.names))}
-    return {path.stem for path in FILES} & names
+    modules = {str(node.module).rpartition(".")[2] for node in found}
+    return paths.keys() & {*modules, *(each.name for node in found for each in node.names)}
 
 
 def test_no_rule_about_a_certificate_rests_on_the_sentences() -> None:

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix, SparseMatrix, beside, listed, stack
-from mcexact.checker.budget import Budget, limited
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import digest, read_matrix, read_plant
+from mcexact.checker.core.arithmetic import Matrix, SparseMatrix, beside, listed, stack
+from mcexact.checker.core.budget import Budget, limited
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import digest, read_matrix, read_plant
 from mcexact.model import system_file
 from tests.checker.handmade import listed as in_json
 from tests.checker.handmade import plant

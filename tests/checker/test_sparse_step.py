@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import arithmetic, evidence
-from mcexact.checker.arithmetic import (
+from mcexact.checker.core import arithmetic, evidence
+from mcexact.checker.core.arithmetic import (
     SMALL,
     Matrix,
     SparseMatrix,
@@ -17,8 +17,8 @@ from mcexact.checker.arithmetic import (
     residues,
     within,
 )
-from mcexact.checker.budget import Budget, limited
-from mcexact.checker.evidence import (
+from mcexact.checker.core.budget import Budget, limited
+from mcexact.checker.core.evidence import (
     LONG,
     WHOLE,
     DiagonalStep,
@@ -28,8 +28,8 @@ from mcexact.checker.evidence import (
     loop_entries,
     split,
 )
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import System
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System
 from tests.checker.handmade import Document, changed, checked
 from tests.checker.test_krylov import ACCEPTED, FALSE, REJECTED, spectrum
 from tests.checker.test_sparse import drawn, same

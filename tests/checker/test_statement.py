@@ -14,11 +14,17 @@ import pytest
 
 from mcexact.checker.cells import looped, rearranged
 from mcexact.checker.constructions import CONSTRUCTIONS, read_subject
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import (
+    System,
+    canonical_json,
+    described,
+    polynomial_text,
+    read_plant,
+)
 from mcexact.checker.discs import box_of
 from mcexact.checker.kinds import KINDS, check_document
 from mcexact.checker.parametric_system import digest, plant_of
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import System, canonical_json, described, polynomial_text, read_plant
 from mcexact.model.system_file import read_system
 from mcexact.model.text import plain
 from tests.checker.handmade import (

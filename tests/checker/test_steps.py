@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
 from mcexact.checker.steps import Lanes, exponents_of, scaled, stays_within
 from tests.checker.handmade import changed, checked, without
 from tests.checker.performance_plants import (

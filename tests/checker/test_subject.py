@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.checker import arithmetic
 from mcexact.checker.constructions import CONSTRUCTIONS, LINE, read_subject
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import System, digest, read_plant
+from mcexact.checker.core import arithmetic
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System, digest, read_plant
 from mcexact.derived.constructions import (
     add_links,
     augmented_outputs,

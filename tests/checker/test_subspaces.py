@@ -7,15 +7,15 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.evidence import (
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.evidence import (
     Losses,
     require_pencil_kernel,
     shrunk_subspace,
     zero_transfer,
 )
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import read_plant
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import read_plant
 from tests.checker.handmade import CHAIN, OSCILLATOR, PAIR, layers, matrix, plant
 
 LOST = {"channels_T": [], "U": layers([[0], [1]]), "V": layers([]), "pivots": [1]}

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import KINDS, Expectation, Verdict
-from mcexact.checker.reading import Limits
 from mcexact.checker.summaries import LENGTH, SUMMARIES, cut
 from tests.checker.handmade import FIXED, FREE, MODE, Document, changed, checked
 from tests.checker.manifests import CONTROLLABLE, OBSERVABLE, manifest, sentence, write

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import system
-from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import digest, read_matrix, read_plant, read_system_file, too_long
+from mcexact.checker.core import system
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.system import digest, read_matrix, read_plant, read_system_file, too_long
 from mcexact.model import gallery, system_file
 from tests.checker.handmade import PAPER
 

@@ -13,11 +13,22 @@ import pytest
 from mcexact import checker
 from mcexact.checker.kinds import KINDS
 from mcexact.checker.sentences import RULES as RULES_OF_SENTENCES
+from tests.assurance.mutants.topics import sources
 
 FOLDER = Path(checker.__file__).parent
 PROOFS = FOLDER.parent.parent / "proofs"
-STEMS = sorted(path.stem for path in FOLDER.glob("*.py"))
-NO_RULE = {"__init__", "__main__", "budget", "command", "kinds", "reading", "summaries", "system"}
+SOURCES = sources(FOLDER)
+STEMS = sorted(SOURCES)
+NO_RULE = {
+    "__init__",
+    "__main__",
+    "budget",
+    "command",
+    "kinds",
+    "reading",
+    "summaries",
+    "controllers",
+}
 NO_RULE |= {stem for stem in STEMS if stem.startswith("sentences")}
 """What reads, starts, speaks and counts.
 
@@ -31,7 +42,7 @@ ELSEWHERE = ("paper, ", "supporting: ")
 @cache
 def tree(stem: str) -> ast.Module:
     """The parsed module of the checker."""
-    return ast.parse((FOLDER / f"{stem}.py").read_text(encoding="utf-8"))
+    return ast.parse(SOURCES[stem].read_text(encoding="utf-8"))
 
 
 def documented(node: ast.AST) -> list[str]:
@@ -66,7 +77,8 @@ def imported(stem: str) -> dict[str, str]:
     found: dict[str, str] = {}
     for node in ast.walk(tree(stem)):
         if isinstance(node, ast.ImportFrom) and node.level == 1:
-            start = f"{node.module}." if node.module else ""
+            module = (node.module or "").removeprefix("core").removeprefix(".")
+            start = f"{module}." if module else ""
             found |= {alias.asname or alias.name: f"{start}{alias.name}" for alias in node.names}
     return found
 

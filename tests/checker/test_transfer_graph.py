@@ -8,12 +8,12 @@ import random
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix, product
-from mcexact.checker.budget import Budget, limited
-from mcexact.checker.evidence import unseen, without_path
-from mcexact.checker.reading import Refused
-from mcexact.checker.structure import read_arcs, require_arcs, require_connected
-from mcexact.checker.system import System, read_plant
+from mcexact.checker.core.arithmetic import Matrix, product
+from mcexact.checker.core.budget import Budget, limited
+from mcexact.checker.core.evidence import unseen, without_path
+from mcexact.checker.core.reach import read_arcs, require_arcs, require_connected
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import System, read_plant
 from tests.checker.handmade import GRAPH, certificate, changed, checked, matrix, plant
 from tests.checker.tables import accepts, rejects
 

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 import sympy
 
-from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.bivariate import (
     characteristic,
     degree,
@@ -22,7 +21,8 @@ from mcexact.checker.bivariate import (
     text,
     without,
 )
-from mcexact.checker.reading import Refused
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Refused
 
 t, x = sympy.symbols("t x")
 PRIME = 1000003

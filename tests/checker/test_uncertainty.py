@@ -9,10 +9,10 @@ import pytest
 
 from mcexact import MultiChannelSystem
 from mcexact.boxes import Box
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.system import canonical, digest, read_plant, read_radii, read_system_file
 from mcexact.checker.parametric_system import plant_of_file
-from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import canonical, digest, read_plant, read_radii, read_system_file
 from mcexact.model import system_file
 from tests.checker.box_plants import PAIR
 from tests.checker.handmade import INTEGRATOR, VALID, changed, checked, plant

@@ -16,8 +16,11 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem, check, fixed_spectrum
-from mcexact.checker import budget, kinds
-from mcexact.checker.arithmetic import (
+from mcexact.checker import kinds
+from mcexact.checker.command import verdicts_of
+from mcexact.checker.controllers import read_controller_file
+from mcexact.checker.core import budget
+from mcexact.checker.core.arithmetic import (
     ByteEchelon,
     Echelon,
     Matrix,
@@ -31,15 +34,14 @@ from mcexact.checker.arithmetic import (
     rank,
     stack,
 )
-from mcexact.checker.arithmetic import characteristic_polynomial_modulo as char_modulo
-from mcexact.checker.budget import GRANTED, MORE, PER_BYTE, Budget, current, limited
-from mcexact.checker.command import verdicts_of
+from mcexact.checker.core.arithmetic import characteristic_polynomial_modulo as char_modulo
+from mcexact.checker.core.budget import GRANTED, MORE, PER_BYTE, Budget, current, limited
+from mcexact.checker.core.reach import components
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.roots import in_region, is_hurwitz, is_schur
+from mcexact.checker.core.system import read_system_file
 from mcexact.checker.kinds import Expectation, check_document
 from mcexact.checker.loops import require_spectrum, turned
-from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.roots import in_region, is_hurwitz, is_schur
-from mcexact.checker.structure import components
-from mcexact.checker.system import read_controller_file, read_system_file
 from mcexact.errors import InputError
 from tests import effort
 from tests.checker import heavy
@@ -118,8 +120,8 @@ def test_the_work_that_is_named_decides_a_certificate_of_each_kind(kind: str) ->
 def test_the_work_that_is_named_while_the_subject_is_built_decides_what_follows(
     domain: str, subject: list[Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mcexact.checker.budget.GRANTED", 0)
-    monkeypatch.setattr("mcexact.checker.budget.PER_BYTE", 0)
+    monkeypatch.setattr("mcexact.checker.core.budget.GRANTED", 0)
+    monkeypatch.setattr("mcexact.checker.core.budget.PER_BYTE", 0)
     document = heavy.plant([[0]], heavy.port(1), time=domain, **heavy.heard(1))
     to_build = check_document(data_of(heavy.connected(document, *subject)), limits=ENOUGH).spent
     data = data_of(heavy.stable(document, *subject))

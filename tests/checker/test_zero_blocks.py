@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.parameters import polynomial_layers, require_multiple, zero_block
 from mcexact.checker.parametric_system import one_parameter, read_parametric
-from mcexact.checker.reading import Refused
 from tests.assurance.attack.forgeries.parametric_traps import block, layers, plant
 from tests.checker.handmade import changed
 

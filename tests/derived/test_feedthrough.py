@@ -31,8 +31,8 @@ from mcexact import (
 )
 from mcexact.checker import constructions
 from mcexact.checker.constructions import read_subject
-from mcexact.checker.reading import Refused
-from mcexact.checker.system import read_plant
+from mcexact.checker.core.reading import Refused
+from mcexact.checker.core.system import read_plant
 from mcexact.constructions import input_filters, periodic_loop
 from mcexact.derived.constructions import add_links, feedback, full_output
 from mcexact.derived.feedthrough import without_feedthrough

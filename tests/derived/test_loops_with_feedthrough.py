@@ -22,7 +22,7 @@ from mcexact import (
     simulate,
 )
 from mcexact.checker.constructions import read_subject
-from mcexact.checker.system import read_plant
+from mcexact.checker.core.system import read_plant
 from mcexact.constructions import input_filters, plant_controller
 from mcexact.designs import AgentProgram, LinearMap, local_controllers
 from mcexact.errors import UsageError

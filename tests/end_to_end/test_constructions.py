@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from mcexact import testing
 from mcexact.checker.constructions import read_subject
-from mcexact.checker.system import digest as checked_digest
-from mcexact.checker.system import read_plant
+from mcexact.checker.core.system import digest as checked_digest
+from mcexact.checker.core.system import read_plant
 from mcexact.derived.constructions import (
     Share,
     add_links,

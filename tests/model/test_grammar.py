@@ -9,8 +9,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import reading, system
-from mcexact.checker import system as checker
+from mcexact.checker import controllers
+from mcexact.checker.core import reading
+from mcexact.checker.core import system as checker
 from mcexact.exact import rational
 from mcexact.model import entries, system_file
 from tests.assurance.campaigns import controller_grammar
@@ -37,7 +38,7 @@ def test_a_controller_file_with_zeros_is_the_one_that_certificates_hold() -> Non
     agent = {"name": "1", "shared": 0, "private": 0, "shared_update": {}, "private_update": {}}
     document = {"format": "mcexact-controller/1", "system": "", "time": "discrete"}
     digests = {
-        system.read_controller_file(
+        controllers.read_controller_file(
             json.dumps({**document, "agents": [{**agent, "input": used}]}).encode(),
             reading.Limits(),
         )
@@ -66,11 +67,11 @@ def hidden(value: Any, place: str, longest: int, allowed: str = "") -> str:
 
 SIGNED = re.compile(rational._NUMBER.pattern.replace("-?", "[+-]?", 1), re.ASCII)
 LOOSENED = [
-    ("nulls are keys left out", system, "fields", lenient_fields, 2),
+    ("nulls are keys left out", checker, "fields", lenient_fields, 2),
     ("the rest of a file is ignored", checker, "_check_unused", lambda *_: None, 0),
     ("feedthrough is ignored", checker, "_feedthrough", lambda *_: None, 0),
     ("names may be hidden", checker, "printable", hidden, 0),
-    ("a number may be as long as it likes", system, "too_long", lambda *_: False, 3),
+    ("a number may be as long as it likes", checker, "too_long", lambda *_: False, 3),
     ("names may be numbers", system_file, "expect_name", lambda value, where: value, 17),
     ("long numbers may be texts", system_file, "require_short_numbers", lambda *_: None, 0),
     ("sparse matrices may be longer", entries, "LONGEST_SIDE", 2**24, 1),

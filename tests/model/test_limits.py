@@ -17,8 +17,9 @@ from mcexact import (
     save_controller,
     save_system,
 )
-from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import read_controller_file, read_system_file
+from mcexact.checker.controllers import read_controller_file
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.system import read_system_file
 from mcexact.derived.sampling import c2d, sampled_system
 from mcexact.designs import local_controllers
 from mcexact.errors import InputError, UsageError

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact import MultiChannelSystem, load_system, save_system
-from mcexact.checker.reading import Refused
+from mcexact.checker.core.reading import Refused
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.regulated import (

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.analysis.performance import default_weights, weights_in
-from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import digest, read_system_file
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.system import digest, read_system_file
 from mcexact.derived.sampling import c2d
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.model.loop import closed_loop

@@ -21,8 +21,8 @@ from hypothesis import strategies as st
 from mcexact import testing
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.answer import protocol
+from mcexact.checker.core.reading import Limits as CheckerLimits
 from mcexact.checker.kinds import check_document
-from mcexact.checker.reading import Limits as CheckerLimits
 from mcexact.derived.constructions import extended_system
 from mcexact.errors import FloatRefused, InputError, NotWritten
 from mcexact.exact.matrix import Matrix

@@ -10,8 +10,8 @@ import pytest
 from mcexact.answer.account import Account
 from mcexact.answer.protocol import encode
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation, check_document
-from mcexact.checker.reading import Limits
 from mcexact.derived.constructions import (
     augmented_outputs,
     extended_system,

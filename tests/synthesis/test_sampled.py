@@ -23,8 +23,8 @@ from mcexact import (
 from mcexact.answer.protocol import encode
 from mcexact.boxes import Box, box_stability
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation, check_document
-from mcexact.checker.reading import Limits
 from mcexact.constructions import c2d, sampled_system
 from mcexact.designs import local_controllers
 from mcexact.errors import LimitReached

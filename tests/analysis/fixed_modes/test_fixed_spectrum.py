@@ -18,8 +18,8 @@ from mcexact.answer import protocol
 from mcexact.answer.evidence import Block, CoprimePolynomials, LocalSubspace
 from mcexact.answer.modes import ByBlocks, FixedFactor, FixedSpectrum
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation, check_document
-from mcexact.checker.reading import Limits
 from mcexact.derived.constructions import dual
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode

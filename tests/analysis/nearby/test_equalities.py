@@ -14,8 +14,8 @@ from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.nearby.equalities import why_fixed
 from mcexact.answer.check import check
 from mcexact.checker.command import manifest_verdicts
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation
-from mcexact.checker.reading import Limits
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix

@@ -172,8 +172,10 @@ class _Finder(importlib.abc.MetaPathFinder):
         head, _, stem = fullname.partition(".")
         if head != PACKAGE:
             return None
-        file = SOURCES / f"{stem or '__init__'}.py"
-        search = None if stem else [str(SOURCES)]
+        file = SOURCES.joinpath(*stem.split(".")).with_suffix(".py") if stem else SOURCES
+        folder = file if file.is_dir() else file.with_suffix("")
+        search = [str(folder)] if folder.is_dir() else None
+        file = folder / "__init__.py" if search else file
         return importlib.util.spec_from_file_location(
             fullname, file, loader=_Loader(fullname, str(file)), submodule_search_locations=search
         )

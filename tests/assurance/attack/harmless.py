@@ -22,7 +22,7 @@ HARMLESS: dict[str, str] = {
     "evidence.py: require_bounded: all((c.denominator == 1 for c in scaled))": (
         "a factor that is proved to be fixed divides det(xI - A), and is integral where A is"
     ),
-    "modes.py: check_fixed_spectrum: len(unsaid) == len(modes)": (
+    "fixed_modes.py: check_fixed_spectrum: len(unsaid) == len(modes)": (
         "a factor whose multiplicity in A is said remains in what is left of det(xI - A_F), which "
         "has to be coprime with det(xI - A)"
     ),
@@ -179,13 +179,13 @@ HARMLESS: dict[str, str] = {
     "parametric_system.py: _table: integer(i, place) >= r or integer(j, place) >= c or (i, j) in seen": CANONICAL,
     "modes.py: check_deficiency: coefficients is None": UNREAD,
     "modes.py: check_deficiency: subspace is None": UNREAD,
-    "system.py: read_controller: not agents": (
+    "controllers.py: read_controller: not agents": (
         "a controller without agents fits a system without channels alone, and changes nothing"
     ),
-    "system.py: read_controller: len({M.nrows for M in read}) > 1": (
+    "controllers.py: read_controller: len({M.nrows for M in read}) > 1": (
         "in a certificate each matrix has the shape that the plant needs"
     ),
-    "system.py: read_controller_file: version != FORMAT": USERS,
+    "controllers.py: read_controller_file: version != FORMAT": USERS,
     "kinds.py: _read: len(data) > limits.bytes or hashlib.sha256(data).hexdigest() == value": USERS,
     "system.py: parse_canonical: canonical_json(value).encode('ascii') != data": USERS,
     "kinds.py: saying: not line or not text.isascii() or len(text.splitlines()) != 1": USERS,
@@ -209,7 +209,7 @@ HARMLESS: dict[str, str] = {
     ),
     "discs.py: _pencil: used <= reads.keys()": RAISES,
     "system.py: radii_form: part < 0": USERS,
-    "modes.py: check_fixed_spectrum: completion is None": UNREAD,
+    "fixed_modes.py: check_fixed_spectrum: completion is None": UNREAD,
     "kinds.py: _parts: not isinstance(document, Mapping)": RAISES,
     "modes.py: check_pencil_rank: len(pivots) == c - r": SHAPE,
     "reading.py: parse: depth > limits.depth": "no kind reads anything that is nested so deep",
@@ -226,17 +226,17 @@ HARMLESS: dict[str, str] = {
         "a disc around a multiple root leaves fewer roots than there are other discs, which are "
         "disjoint and hold one each"
     ),
-    "structure.py: check_setpoint: r <= rows": "no matrix has a negative number of rows",
-    "structure.py: check_setpoint: len(pivots) == rows - r": SHAPE,
-    "structure.py: check_setpoint: row is None": UNREAD,
-    "structure.py: check_setpoint: x0 is None": UNREAD,
+    "reach.py: check_setpoint: r <= rows": "no matrix has a negative number of rows",
+    "reach.py: check_setpoint: len(pivots) == rows - r": SHAPE,
+    "reach.py: check_setpoint: row is None": UNREAD,
+    "reach.py: check_setpoint: x0 is None": UNREAD,
     "structure.py: check_single_channel_gains: cyclic or b is None": UNREAD,
     "loops.py: check_stability: block.stop <= M.nrows": RAISES,
     "constructions.py: read_subject: not isinstance(step, dict) or type(step.get('construction')) is not str": RAISES,
     "system.py: read_matrix: integer(i, place) >= r or integer(j, place) >= c or (i, j) in cells": LARGE,
     "system.py: _with_graph: len(set(senders)) < len(senders)": CANONICAL,
-    "structure.py: read_arcs: type(end) is not str or end not in known": RAISES,
-    "structure.py: require_arcs: k < system.n": (
+    "reach.py: read_arcs: type(end) is not str or end not in known": RAISES,
+    "reach.py: require_arcs: k < system.n": (
         "a power beyond n shows an edge as well; the condition bounds the work"
     ),
 }  # fmt: skip

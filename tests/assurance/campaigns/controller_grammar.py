@@ -12,9 +12,9 @@ import random
 import sys
 from typing import Any
 
-from mcexact.checker import reading
-from mcexact.checker import system as checker
-from mcexact.checker.system import canonical_json, digest_of
+from mcexact.checker import controllers as checker
+from mcexact.checker.core import reading
+from mcexact.checker.core.system import canonical_json, digest_of
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
 from mcexact.model.controller import read_controller

@@ -17,9 +17,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from mcexact.checker import reading
-from mcexact.checker.system import digest as checked_digest
-from mcexact.checker.system import read_plant, read_system_file
+from mcexact.checker.core import reading
+from mcexact.checker.core.system import digest as checked_digest
+from mcexact.checker.core.system import read_plant, read_system_file
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
 from mcexact.model import system, system_file

@@ -27,6 +27,8 @@ import sys
 import time
 from pathlib import Path
 
+from tests.assurance.mutants import topics
+
 ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / "build" / "mutants"
 CHECKER = Path("mcexact/checker")
@@ -74,7 +76,7 @@ def main() -> int:
     parser.add_argument("--fresh", action="store_true")
     parser.add_argument("--report", action="store_true")
     options = parser.parse_args()
-    stems = options.stems or sorted(path.stem for path in (ROOT / CHECKER).glob("*.py"))
+    stems = options.stems or sorted(topics.sources(ROOT / CHECKER))
     begun = time.monotonic()
     FOLDER.mkdir(parents=True, exist_ok=True)
     if options.fresh:
@@ -126,10 +128,11 @@ def _parts(stems: list[str], count: int) -> list[list[str]]:
     """Files for each worker, of about the same size in all."""
     parts: list[list[str]] = [[] for _ in range(count)]
     sizes = [0] * count
-    for stem in sorted(stems, key=lambda stem: -(ROOT / CHECKER / f"{stem}.py").stat().st_size):
+    known = {stem: path.stat().st_size for stem, path in topics.sources(ROOT / CHECKER).items()}
+    for stem in sorted(stems, key=lambda stem: -known[stem]):
         least = sizes.index(min(sizes))
         parts[least].append(stem)
-        sizes[least] += (ROOT / CHECKER / f"{stem}.py").stat().st_size
+        sizes[least] += known[stem]
     return parts
 
 

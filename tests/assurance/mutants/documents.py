@@ -21,11 +21,12 @@ SECONDS = 5.0
 class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     """Loads one module of the checker from changed code."""
 
-    def __init__(self, name: str, code: CodeType) -> None:
-        self.name, self.code = name, code
+    def __init__(self, stem: str, code: CodeType) -> None:
+        self.names = {f"mcexact.checker.{stem}", f"mcexact.checker.core.{stem}"}
+        self.code = code
 
     def find_spec(self, name: str, path: Any, target: Any = None) -> Any:
-        return importlib.util.spec_from_loader(name, self) if name == self.name else None
+        return importlib.util.spec_from_loader(name, self) if name in self.names else None
 
     def exec_module(self, module: ModuleType) -> None:
         exec(self.code, module.__dict__)
@@ -57,7 +58,7 @@ def _first(stem: str, code: CodeType, cases: Sequence[Case]) -> int:
     os.dup2(devnull, 2)
     for name in [name for name in sys.modules if name.startswith("mcexact.checker")]:
         del sys.modules[name]
-    sys.meta_path.insert(0, Changed(f"mcexact.checker.{stem}", code))
+    sys.meta_path.insert(0, Changed(stem, code))
     try:
         signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
         importlib.import_module("mcexact.checker.kinds")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 
-from tests.assurance.mutants import explained, operators, session
+from tests.assurance.mutants import explained, operators, session, topics
 
 SCORE = 95
 COLUMNS = (*session.OUTCOMES, "explained", "not tried")
@@ -18,16 +18,17 @@ def write(folder: Path, checker: Path, stems: list[str]) -> int:
     total: Counter[str] = Counter()
     open_: list[str] = []
     print(f"{'file':28}{'tried':>9}" + "".join(f"{word:>13}" for word in COLUMNS))
+    sources = topics.sources(checker)
     for stem in stems:
         database = folder / f"{stem}.sqlite"
         if not database.exists():
             continue
         count: Counter[str] = Counter()
-        if not session.is_current(checker / f"{stem}.py", database):
+        if not session.is_current(sources[stem], database):
             print(f"{stem:28}has changed since")
             open_.append(f"{stem}: has changed since\n")
             continue
-        for mutant in session.mutants(checker / f"{stem}.py", database):
+        for mutant in session.mutants(sources[stem], database):
             count[mutant.outcome] += 1
             if mutant.outcome != "killed":
                 if known.holds(stem, mutant.before, mutant.after):

@@ -108,7 +108,7 @@ def spread(cases: list[Case], most: int) -> list[Case]:
 def search(stem: str, known: dict[str, list[Case]]) -> list[Case]:
     """The documents that tell the changes of one file apart."""
     begun = time.monotonic()
-    path = CHECKER / f"{stem}.py"
+    path = topics.sources()[stem]
     source, cases = path.read_text(encoding="utf-8"), tried_on(stem, known)
     listed, kept = explained.read(), []
     counts: dict[str, int] = defaultdict(int)
@@ -157,7 +157,7 @@ def main() -> int:
     if options.again:
         write([{**case, "answer": answer(case)} for case in kept])
         return 0
-    stems = options.stems or sorted(path.stem for path in CHECKER.glob("*.py"))
+    stems = options.stems or sorted(topics.sources())
     known = pool(options.batches, options.kinds, options.files)
     print({name: len(cases) for name, cases in known.items()}, flush=True)
     jobs = [(stem, known) for stem in stems]

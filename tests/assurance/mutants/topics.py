@@ -14,10 +14,19 @@ DOCUMENTS = ("tests/checker/test_kept.py", "tests/checker/test_recorded.py")
 """The tests that look at many documents in little time."""
 
 
+def sources(folder: Path = CHECKER) -> dict[str, Path]:
+    """The files of the checker, those of its core included, by their stems.
+
+    Both folders have an ``__init__``: that of the core defines nothing, and is left out.
+    """
+    paths = sorted(folder.rglob("*.py"), key=lambda path: -len(path.parts))
+    return {path.stem: path for path in paths}
+
+
 @cache
 def kinds(stem: str) -> frozenset[str]:
     """The kinds that a module checks: each has a function of its name there."""
-    source = (CHECKER / f"{stem}.py").read_text(encoding="utf-8")
+    source = sources()[stem].read_text(encoding="utf-8")
     return frozenset(re.findall(r"^def check_(\w+)\(claim\b", source, re.MULTILINE))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from tests.assurance.mutants import operators, selection, session, warm
+from tests.assurance.mutants import operators, selection, session, topics, warm
 
 
 def main(folder: str, most: str, only: str, sample: str, minutes: str, *stems: str) -> int:
@@ -19,7 +19,7 @@ def main(folder: str, most: str, only: str, sample: str, minutes: str, *stems: s
     _require_sound(chosen, float(most))
     limits = session.Limits(float(most), only, int(sample), float(minutes))
     for stem in stems:
-        path, database = Path("mcexact/checker", f"{stem}.py"), Path(folder, f"{stem}.sqlite")
+        path, database = topics.sources()[stem], Path(folder, f"{stem}.sqlite")
         session.plan(path, database)
         session.forget(path, database, {"survived", "timeout", "not covered", "abnormal"}, only)
         session.work(stem, path, database, chosen, limits)
@@ -32,7 +32,7 @@ def _require_sound(chosen: session.Selection, most: float) -> None:
     tests, _ = chosen.ordered("arithmetic", list(range(len(chosen.seconds))), most)
     if (outcome := warm.run(tests, 900)) != "survived":
         raise SystemExit(f"without a change the tests do not pass: {outcome}")
-    path = Path("mcexact/checker/arithmetic.py")
+    path = Path("mcexact/checker/core/arithmetic.py")
     source = path.read_text(encoding="utf-8")
     try:
         path.write_text(source.replace("def is_zero(self)", "def is_nil(self)"), encoding="utf-8")

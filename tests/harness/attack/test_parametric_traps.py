@@ -15,8 +15,8 @@ from mcexact import MultiChannelSystem, fixed_spectrum
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.answer import protocol
 from mcexact.checker import parameters
-from mcexact.checker.arithmetic import cleared, poly_modulo
 from mcexact.checker.bivariate import characteristic, without
+from mcexact.checker.core.arithmetic import cleared, poly_modulo
 from mcexact.checker.kinds import check_document
 from mcexact.model.system_file import read_parametric_system
 from tests.assurance.attack.campaign import judged

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation, Verdict, check_document
-from mcexact.checker.reading import Limits
 from tests.assurance.attack.tries import drawn_batch
 from tests.oracle.certificates.judge import FALSE, TRUE, judge
 from tests.oracle.certificates.reading import Unspecified

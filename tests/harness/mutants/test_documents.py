@@ -14,7 +14,7 @@ RANK = "require(lost >= deficiency >= 1"
 
 def told(before: str, after: str) -> int:
     """What the documents tell of a change."""
-    source = Path(mcexact.checker.__path__[0], "evidence.py").read_text(encoding="utf-8")
+    source = Path(mcexact.checker.__path__[0], "core", "evidence.py").read_text(encoding="utf-8")
     assert before in source
     return telling("evidence", compile(source.replace(before, after), "", "exec"), CASES)
 

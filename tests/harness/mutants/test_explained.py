@@ -6,6 +6,7 @@ from pathlib import Path
 
 import mcexact.checker
 from tests.assurance.mutants.explained import Explained, read
+from tests.assurance.mutants.topics import sources
 
 FOLDER = Path(mcexact.checker.__path__[0])
 
@@ -15,7 +16,7 @@ def gone(explained: Explained) -> list[tuple[str, str]]:
     found = set()
     for stem, before, _ in explained.changes:
         if stem != "everywhere":
-            text = (FOLDER / f"{stem}.py").read_text(encoding="utf-8")
+            text = sources(FOLDER)[stem].read_text(encoding="utf-8")
             if before not in map(str.strip, text.splitlines()):
                 found.add((stem, before))
     return sorted(found)

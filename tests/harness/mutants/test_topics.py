@@ -5,7 +5,7 @@ from __future__ import annotations
 from mcexact.checker.kinds import KINDS
 from tests.assurance.mutants import topics
 
-MODULES = sorted(path.stem for path in topics.CHECKER.glob("*.py"))
+MODULES = sorted(topics.sources())
 
 
 def test_each_kind_belongs_to_the_module_that_checks_it() -> None:

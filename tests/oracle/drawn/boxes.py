@@ -8,9 +8,9 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+from mcexact.checker.core.reading import Limits
 from mcexact.checker.discs import Box
 from mcexact.checker.parametric_system import plant_of_file
-from mcexact.checker.reading import Limits
 from tests.checker.box_maker import (
     control_witness,
     controllable,

@@ -1,9 +1,9 @@
-"""Plant, radii, controller, and the words of statements.
+"""Plant and its dual, radii, and the words of statements.
 
-Plants and controllers are read from certificates and from system files by the same functions.  A
-file may give numbers as decimals and radii as parts of the entries or by the digits that are
-typed; a certificate must have the canonical form, of which the digest is taken.  Whether a
-certificate and a file are about the same plant is decided by comparing their digests.
+Plants are read from certificates and from system files by the same functions.  A file may give
+numbers as decimals and radii as parts of the entries or by the digits that are typed; a certificate
+must have the canonical form, of which the digest is taken.  Whether a certificate and a file are
+about the same plant is decided by comparing their digests.
 
 `described` says what system a claim is about: the plant by its digest, and the constructions that
 were applied to it.  ``FORMAT.md`` specifies these words.  A name always stands in quotes, so that
@@ -25,7 +25,6 @@ from typing import Any, Protocol
 
 from . import arithmetic, budget, reading
 from .arithmetic import Matrix, Polynomial, SparseMatrix, entries_of
-from .budget import current, limited
 from .reading import (
     Json,
     Limits,
@@ -158,8 +157,6 @@ def form_of(M: Matrix) -> Json:
 # Radii: how far entries may be from their nominal values.
 
 WAYS = ("relative", "digits", "absolute")
-Pair = tuple[Fraction, Fraction]
-"""A radius, and the absolute value of the entry that it is of."""
 
 
 def as_typed(data: bytes, document: Json, limits: Limits) -> Json:
@@ -212,42 +209,6 @@ def read_radii(form: Json, names: list[str], nominal: list[Matrix]) -> list[Matr
     if form is not None:
         return _absolute(form["absolute"], names, nominal, None)
     return [Matrix.zeros(M.nrows, M.ncols) for M in nominal]
-
-
-def pairs_of(nominal: list[Matrix], radii: list[Matrix]) -> list[Pair]:
-    """The radius of each entry that is uncertain or not 0."""
-    pairs = list[Pair]()
-    for M, D in zip(nominal, radii, strict=True):
-        values = {(i, j): abs(x) for i, j, x in entries_of(M)}
-        spread = {(i, j): radius for i, j, radius in entries_of(D)}
-        places, longest = {**values, **spread}, max(M.limbs, D.limbs)
-        budget.spend(100 + 200 * len(places) + 4 * budget.fractions(len(places), longest))
-        for place in places:
-            radius = Fraction(spread.get(place, 0), D.denominator)
-            pairs.append((radius, Fraction(values.get(place, 0), M.denominator)))
-    return pairs
-
-
-def radii_in_words(pairs: list[Pair], whose: str) -> str:
-    """How far entries may be from "the latter", whose radii are ``whose`` in words.
-
-    Where all radii are one part of the absolute values, this part says all; otherwise how many
-    radii there are, the largest one, and the largest part, unless an entry that is 0 is uncertain.
-    """
-    wide = [pair for pair in pairs if pair[0]]
-    longest = budget.limbs_of([number for pair in pairs for number in pair])
-    budget.spend(budget.fractions(4 * len(pairs) + 4, 2 * longest))
-    if not wide:
-        return f"by at most {whose} (no entry has one)"
-    parts = [radius / value for radius, value in wide if value]
-    largest = f"none above {max(radius for radius, _ in wide)}"
-    if len(parts) == len(wide):
-        most = f"{max(parts)} of the absolute value"
-        if len(pairs) == len(wide) and len(set(parts)) == 1:
-            return f"by at most {most}s of the latter"
-        largest += f" and none above {most} of its entry"
-    have = "1 entry has one" if len(wide) == 1 else f"{len(wide)} entries have one"
-    return f"by at most {whose} ({have}, {largest})"
 
 
 def _absolute(
@@ -707,109 +668,15 @@ def described(system: Described) -> str:
     return f"{system.words} ({sizes})"
 
 
-# Controllers in canonical form, from a certificate or a controller file, and their digest.
-
-MAPS = ("shared_update", "private_update", "input")
-USED = ("outputs", "shared", "private", "reference")
-FORMAT = "mcexact-controller/1"
-PERIODIC_FORMAT = "mcexact-periodic-controller/1"
+# Construction ``dual``, of which the observability of a plant is the controllability.
 
 
-def read_controller(
-    value: Json, place: str, system: System | None = None, limits: Limits | None = None
-) -> dict[str, Json]:
-    """The canonical object of a controller, its matrices read.
+def dual(system: System, step: dict[str, Json], place: str) -> System:
+    """A', (C_i)', (B_i)'; no neighbor graph.
 
-    What is absent or empty is left out, and so are matrices of zeros and a hold of no steps: who
-    does not act on a signal does not use it.  Without a system the numbers of inputs and outputs
-    are not known; ``limits`` are those of a file.
+    Open: see ``proofs/OPEN.md``.
     """
-    time, listed = fields(value, place, "time", "agents")
-    keys = ("name", "shared", "private", *MAPS)
-    optional = ("hold", *(SATURATION if limits is not None else ()))
-    agents = [fields(agent, place, *keys, optional=optional) for agent in items(listed, place)]
-    if not agents:
-        malformed(place, "expected at least one agent")
-    known = reading.own_names([agent[0] for agent in agents], [place] * len(agents))
-    ports = system if system and system.names == known else None
-    q = [C.nrows for C in ports.C] if ports else [None] * len(known)
-    p = [B.ncols for B in ports.B] if ports else [None] * len(known)
-    x, z = ([integer(agent[k], place) for agent in agents] for k in (1, 2))
-    programs: list[dict[str, Json]] = []
-    for i, (_, _, _, shared_update, private_update, control, hold, *_) in enumerate(agents):
-        steps = {name: integer(d, place) for name, _, d in reading.by_name(hold, place, known)}
-        program: dict[str, Json] = {"hold": {name: d for name, d in steps.items() if d}}
-        updates = (shared_update, x[i]), (private_update, z[i]), (control, p[i])
-        for label, (parts, nrows) in zip(MAPS, updates, strict=True):
-            where = f"{place}.{label}"
-            *by_agent, private, reference = fields(parts, where, optional=USED)
-            maps: dict[str, Json] = {}
-            read: list[Matrix] = []
-            for key, entries, widths in zip(USED, by_agent, (q, x), strict=False):
-                used = [
-                    (name, read_matrix(M, where, nrows, widths[j], limits))
-                    for name, j, M in reading.by_name(entries, where, known)
-                ]
-                read += [M for _, M in used]
-                maps[key] = {name: M for name, M in used if not M.is_zero()}
-            for key, entry, width in (("private", private, z[i]), ("reference", reference, q[i])):
-                if entry is not None:
-                    read.append(read_matrix(entry, where, nrows, width, limits))
-                    maps[key] = None if read[-1].is_zero() else read[-1]
-            if len({M.nrows for M in read}) > 1:
-                malformed(where, "expected matrices of one number of rows")
-            program[label] = {key: part for key, part in maps.items() if part}
-        kept = {key: part for key, part in program.items() if part}
-        programs.append({"name": known[i], "shared": x[i], "private": z[i], **kept})
-    return {"time": string(time, place, "continuous", "discrete"), "agents": programs}
-
-
-SATURATION = ("limits", "back_calculation")
-"""The keys of a controller file that are no part of the linear program."""
-Saturation = tuple[tuple[Json, Matrix | None], ...]
-"""For each agent the limits of its inputs, and its anti-windup gains, each None without any."""
-
-
-def _read_saturation(agents: list[Json], place: str, limits: Limits) -> Saturation:
-    """The limits and anti-windup gains of agents that `read_controller` has read."""
-    result = list[tuple[Json, Matrix | None]]()
-    for agent in agents:
-        listed, gains = (agent.get(key) for key in SATURATION)
-        rows = [M for key in USED[:2] for M in agent["input"].get(key, {}).values()]
-        rows += [M for key in USED[2:] if (M := agent["input"].get(key)) is not None]
-        p = read_matrix(rows[0], place, None, None, limits).nrows if rows else None
-        if listed is not None:
-            p = len(items(listed, place, p))
-            listed = read_limits(listed, place, p, limits)
-        L = None
-        if gains is not None:
-            L = read_matrix(gains, place, agent["shared"] + agent["private"], p, limits)
-        result.append((listed, L))
-    return tuple(result)
-
-
-def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str, Saturation]:
-    """The digest of the controller in a file, that of its plant or "", and its saturation."""
-    with limited(current(limits.work), len(data)):
-        document = parse_file(data, limits)
-        if isinstance(document, dict) and document.get("format") == PERIODIC_FORMAT:
-            return _read_periodic_file(document, limits)
-        keys = ("format", "system", "time", "agents")
-        version, plant, *parts = fields(document, "controller", *keys)
-        if version != FORMAT:
-            malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
-        loop = dict(zip(("time", "agents"), parts, strict=True))
-        controller = read_controller(loop, "controller", limits=limits)
-        saturation = _read_saturation(parts[1], "controller", limits)
-        return digest_of(canonical_json(controller)), string(plant, "system"), saturation
-
-
-def _read_periodic_file(document: Json, limits: Limits) -> tuple[str, str, Saturation]:
-    """The same of the file of a periodic controller, whose phases are controllers of one plant."""
-    _, plant, time, listed = fields(document, "controller", "format", "system", "time", "phases")
-    phases = []
-    for t, phase in enumerate(items(listed, "controller")):
-        (agents,) = fields(phase, f"phases[{t}]", "agents")
-        own = {"time": time, "agents": agents}
-        phases.append(read_controller(own, f"phases[{t}]", limits=limits))
-    return digest_of(canonical_json({"phases": phases})), string(plant, "system"), ()
+    fields(step, place)
+    B, C = [M.T for M in system.C], [M.T for M in system.B]
+    D = None if system.D is None else system.D.T
+    return prefixed("the dual", system, A=system.A.T, B=B, C=C, D=D, neighbors=None, delays={})

@@ -27,7 +27,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
-from itertools import chain, compress, pairwise
+from itertools import chain, compress
 from operator import itemgetter, mul
 from typing import Any
 
@@ -542,27 +542,6 @@ def echelon(ell: int, ncols: int) -> Echelon | ByteEchelon:
     return ByteEchelon(ell, ncols) if ell <= SMALL else Echelon(ell)
 
 
-def divided(M: Matrix, R: Matrix) -> Matrix | None:
-    """M⁻¹R for a square M, by elimination over Q; None if M is singular."""
-    n, width = M.nrows, M.nrows + R.ncols
-    budget.spend(1000 + budget.fractions(n * n * width, (n + 1) * (M.limbs + R.limbs)))
-    rows = [
-        [Fraction(x, M.denominator) for x in first] + [Fraction(x, R.denominator) for x in second]
-        for first, second in zip(M.rows, R.rows, strict=True)
-    ]
-    for k in range(n):
-        pivot = next((i for i in range(k, n) if rows[i][k]), None)
-        if pivot is None:
-            return None
-        rows[k], rows[pivot] = rows[pivot], rows[k]
-        rows[k] = [x / rows[k][k] for x in rows[k]]
-        for i in range(n):
-            if i != k and rows[i][k]:
-                rows[i] = [x - rows[i][k] * y for x, y in zip(rows[i], rows[k], strict=True)]
-    d = math.lcm(*(x.denominator for row in rows for x in row[n:]))
-    return Matrix([[int(x * d) for x in row[n:]] for row in rows], R.ncols, d)
-
-
 def rank_modulo(A: Matrix, ell: int) -> int:
     """The rank modulo ℓ, at most that over Q.
 
@@ -891,37 +870,6 @@ def _residues(M: Matrix) -> Iterator[tuple[int, Polynomial]]:
             tried *= ell
             with suppress(NotAUnit):
                 yield ell, characteristic_polynomial_modulo(M.modulo(ell), ell)
-
-
-# Polynomials in a parameter t from their values at 0, 1, …, over Q and modulo ℓ.
-
-
-def interpolated(values: list[Polynomial], ell: int = 0) -> list[Polynomial]:
-    """The coefficients with these values at t = 0, 1, …, one polynomial in t for each (Newton).
-
-    Open: see ``proofs/OPEN.md``.
-    """
-    many, longest = len(values), max(map(budget.limbs_of, values))
-    units = budget.reductions(1, longest) if ell else budget.fractions(1, longest + many // 8)
-    budget.spend(2 * units * many * many * len(values[0]))
-    inverses = [inverse(k, ell) if ell else Fraction(1, k) for k in range(1, many)]
-    return [_of_column([*column], inverses, ell) for column in zip(*values, strict=True)]
-
-
-def _of_column(values: list[Any], inverses: list[Any], ell: int) -> Polynomial:
-    """Σ Δ^k / k! · t (t − 1) … (t − k + 1), Δ^k the differences of order k at 0."""
-    slopes: list[Any] = values[:1]
-    scale: Any = 1
-    for f in inverses:
-        scale = scale * f % ell if ell else scale * f
-        differences = [b - a for a, b in pairwise(values)]
-        values = [c % ell for c in differences] if ell else differences
-        slopes.append(values[0] * scale)
-    p: Polynomial = []
-    for t in reversed(range(len(slopes))):
-        p = [a - t * b for a, b in zip([slopes[t], *p], [*p, 0], strict=True)]
-        p = [c % ell for c in p] if ell else p
-    return stripped(p)
 
 
 # Sparse matrices.
