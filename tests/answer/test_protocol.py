@@ -69,11 +69,13 @@ def about(name: str) -> tuple[tuple[str, Answer], ...]:
         if each.about in {"system", "plant"}
         and each.needs != "uncertainty"
         and (question != "complementary_subsystem" or plant.m > 1)
+        and (each.needs != "channels" or plant.D is None)
     ]
     first = plant.names[0]
     everything = mcexact.analyze(plant, asked, subset=[first], channel=first)
     found = [*everything.account.answers.items()]
-    found += [(question, each) for question, each in answers(plant) if each is not None]
+    if plant.D is None:
+        found += [(question, each) for question, each in answers(plant) if each is not None]
     if name == "liu2020-3ch-no-communication":
         found += mcexact.design_observer(plant, rate=1).certificates.items()
         found += [(each.kind, each) for _, each in of_a_parameter()]
