@@ -8,8 +8,9 @@ from fractions import Fraction
 import pytest
 
 from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.core.reading import Refused
 from mcexact.checker.steps import Lanes, exponents_of, scaled, stays_within
-from tests.checker.handmade import changed, checked, without
+from tests.checker.handmade import Document, changed, checked, without
 from tests.checker.performance_plants import (
     CONTINUOUS_STEP,
     FOLLOWING,
@@ -22,11 +23,21 @@ from tests.checker.performance_plants import (
 from tests.checker.tables import accepts, rejects
 from tests.wording import says
 
+TWO_OUTPUTS = changed(
+    STEPPED,
+    ("system.channels.0.C", [[1], [2]]),
+    ("subject.0.controller.agents.0.input.outputs.1", [[-1, 0]]),
+    ("claim.outputs", [["1001/1000", "2003/1000"]]),
+    ("witness.sizes", [1, 1, 2]),
+    ("witness.P", form([4])),
+)
+
 ACCEPTED = [
     ("a step at an input", STEPPED),
     ("an error of a sensor", SENSED),
     ("a step of a set-point", FOLLOWING),
     ("a step in continuous time", CONTINUOUS_STEP),
+    ("more outputs than states", TWO_OUTPUTS),
     ("bounds that are larger", changed(STEPPED, ("claim.inputs", [[5]]))),
     ("no set-point is used", changed(STEPPED, ("claim", {
         "at": "setpoints", "inputs": [["1/1000"]], "outputs": [["1/1000"]],
@@ -131,6 +142,37 @@ def test_products_in_lanes_are_those_of_each_vector() -> None:
             for lane in range(5)
         ]
         assert lanes.numbers(packed) == wanted
+
+
+def test_a_product_that_would_pass_for_one_of_the_next_lane_is_refused() -> None:
+    rows = [([0], [2**30]), ([1], [1])]
+    lanes = Lanes(3, 20, rows)
+    with pytest.raises(Refused):
+        lanes.products(rows, [lanes.packed([2**18, 0, 0]), lanes.packed([0, 0, 0])])
+
+
+# In units: x and u are 2^18 in size.  A step is rounded by 3 at most, the sum of a signal by 3, and
+# at the rate 1/4 a change of 3 becomes 12 in all.
+LEAST = [
+    ("what follows one step", STEPPED, "inputs", 2**18 + 3 + 3 + 12),
+    ("an error that passes to the input at once", SENSED, "inputs", 2**18 + 3),
+    ("an output that follows one step", SENSED, "outputs", 2**18 + 3 + 3 + 12),
+    ("no step, after which 2^19 is to come at the rate 1/4", changed(
+        STEPPED, ("witness.times", 0), ("claim.outputs", [[40]])
+    ), "inputs", 4 * (2**19 + 3) + 3),
+    ("in continuous time, afterwards", CONTINUOUS_STEP, "outputs", 8390706),
+    ("in continuous time, in the last step", changed(
+        CONTINUOUS_STEP, ("witness.times", 40), ("claim.inputs", [[2]])
+    ), "outputs", 8405386),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("document", "key", "least"), [row[1:] for row in LEAST])
+def test_a_bound_has_to_leave_room_for_rounding(document: Document, key: str, least: int) -> None:
+    unit = Fraction(2) ** document["witness"]["unit"]
+    for bound, verdict in ((least, "VALID"), (least - 1, "INVALID")):
+        claimed = changed(document, (f"claim.{key}", [[str(bound * unit)]]))
+        assert checked(claimed).verdict == verdict
 
 
 @pytest.mark.parametrize("outside", [256, -257, 2**19, -(2**19)])
