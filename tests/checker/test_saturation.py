@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import json
+from fractions import Fraction
 from typing import Any
 
 import pytest
 
-from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.core.arithmetic import Matrix
+from mcexact.checker.constructions import Loop
 from mcexact.checker.kinds import Expectation
+from mcexact.checker.core.reading import Limits, Refused
+from mcexact.checker.saturation import agrees, check_region, spread, windup
+from mcexact.checker.core.system import System
 from tests.checker.handmade import Document, changed, checked, matrix
 from tests.checker.performance_plants import form, static
 from tests.checker.saturation_plants import (
@@ -144,6 +149,7 @@ def controller_file(document: Document, **of_agent: Any) -> bytes:
         ({"limits": [[-1, 1]], "back_calculation": [[1]]}, "VALID"),
         ({"back_calculation": [["2/2"]]}, "VALID"),
         ({"limits": [[-1, 2]], "back_calculation": [[1]]}, "NOT ABOUT"),
+        ({"limits": [[-2, 1]], "back_calculation": [[1]]}, "NOT ABOUT"),
         ({"limits": [[-1, 1]], "back_calculation": [[2]]}, "NOT ABOUT"),
         ({"limits": [[-1, 1]]}, "NOT ABOUT"),
         ({}, "NOT ABOUT"),
@@ -155,6 +161,46 @@ def test_a_controller_file_has_the_limits_and_the_gains_of_the_claim(
     expected = Expectation().controlled(controller_file(INTEGRAL, **of_agent), Limits())
     found = checked(INTEGRAL, expected=expected)
     assert found.verdict == verdict, found.line()
+
+
+def test_a_claim_about_one_agent_is_not_about_a_file_of_two() -> None:
+    claim = {"limits": [[[-1, 1]]], "back_calculation": [matrix()]}
+    own = [(Fraction(-1), Fraction(1))]
+    assert agrees(claim, ((own, None),))
+    assert not agrees(claim, ((own, None), (own, None)))
+    assert not agrees(claim | {"back_calculation": [matrix(), matrix()]}, ((own, None),))
+
+
+def test_inputs_without_limits_and_both_factors_of_a_form_are_in_what_rounding_changes() -> None:
+    # |dA| = 1/8, |dB| = [1/4, 1/2]; u_1 = 2z is cut off, u_2 = -3z is not: R = [13/8, 1/4]
+    one = Matrix([[1]], 1)
+    missed = System(
+        "discrete", [], Matrix([[1]], 1, 8), [Matrix([[1]], 1, 4), Matrix([[1]], 1, 2)], []
+    )
+    samples = System("discrete", ["1", "2"], one, [one, one], [one, one], missed=missed)
+    signals = Matrix([[1]], 1, 2), one, Matrix([[2], [-3]], 1)
+    # with P = 3 the sums of the rows of R'|P[M, E]|, its transpose and R'|P|R
+    assert spread(one.times(3), signals, [0], samples) == [Fraction(1233, 64), Fraction(261, 32)]
+
+
+def test_anti_windup_acts_on_the_states_of_its_agent_alone() -> None:
+    one = Matrix([[1]], 1)
+    two = System("discrete", ["1", "2"], one, [one, one], [one, one])
+    widths = [1, 1, 2, 3, 1, 5, 7]  # of the plant, of the two agents, and of stored messages
+    loop = Loop(two, [], [(("x", 0, 0), width) for width in widths], [])
+    gains = [matrix(*[[10 * i + k] for k in range(size)]) for i, size in ((1, 3), (2, 4))]
+    made = windup(gains, two, loop)
+    rows = [[10, 0], [11, 0], [12, 0], [0, 20], [0, 21], [0, 22], [0, 23]]
+    assert made.rows == [[0, 0], *rows, *[[0, 0]] * 12]
+
+
+def test_a_ball_of_states_is_within_the_region_up_to_the_last_digit() -> None:
+    # 1/radius^2 is 64/9, a little more than 7
+    inputs = ([(Fraction(-1), Fraction(1))], [Fraction(0)])
+    region = {"P": form([7]), "radius": "3/8"}
+    assert check_region(region, Matrix([[1]], 1), inputs, 1) == Matrix([[7]], 1)
+    with pytest.raises(Refused):
+        check_region(region | {"radius": "2/5"}, Matrix([[1]], 1), inputs, 1)
 
 
 def test_without_gains_a_file_is_that_of_a_claim_without_gains() -> None:

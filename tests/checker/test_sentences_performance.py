@@ -81,6 +81,7 @@ DENIED: list[tuple[str, list[Document]]] = [
     ("performance-bound-graph", [STEP_BOUND]),
     ("performance-ratio first-cost", [COST, OTHER_WEIGHTS]),
     ("performance-ratio first-cost", [COST, NOTHING]),
+    ("performance-ratio first-cost", [COST, changed(STEP_BOUND, ("claim.cost", -1))]),
     ("performance-ratio first-cost", [ONE_WAY_COST, GROUPS]),
     ("performance-ratio-graph", [COST, STEP_BOUND]),
     ("performance-input-margin", [OUTPUT_MARGIN]),
