@@ -127,6 +127,16 @@ def test_what_certificates_imply_of_performance(
     assert verdict.verdict == "IMPLIED", verdict.line()
 
 
+@pytest.mark.parametrize("margins", [("1/3", "1/2"), ("1/2", "1/3")])
+def test_the_least_margin_is_that_of_inputs_or_of_outputs(
+    tmp_path: Path, margins: tuple[str, str]
+) -> None:
+    both = zip((MARGIN, OUTPUT_MARGIN), margins, strict=True)
+    documents = [changed(each, ("claim.margin", size)) for each, size in both]
+    found = judged(tmp_path, "first-margin", documents)
+    assert "has a disk margin of at least 1/3 from" in found.statement
+
+
 @pytest.mark.parametrize(("key", "documents"), rows(DENIED))
 def test_what_certificates_do_not_imply_of_performance(
     tmp_path: Path, key: str, documents: list[Document]
