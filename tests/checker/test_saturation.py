@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker.core.arithmetic import Matrix
 from mcexact.checker.constructions import Loop
-from mcexact.checker.kinds import Expectation
+from mcexact.checker.core.arithmetic import Matrix
 from mcexact.checker.core.reading import Limits, Refused
-from mcexact.checker.saturation import agrees, check_region, spread, windup
 from mcexact.checker.core.system import System
+from mcexact.checker.kinds import Expectation
+from mcexact.checker.saturation import agrees, check_region, spread, windup
 from tests.checker.handmade import Document, changed, checked, matrix
 from tests.checker.performance_plants import form, static
 from tests.checker.saturation_plants import (
