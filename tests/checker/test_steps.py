@@ -161,9 +161,9 @@ LEAST = [
         STEPPED, ("witness.times", 0), ("claim.outputs", [[40]])
     ), "inputs", 4 * (2**19 + 3) + 3),
     ("in continuous time, afterwards", CONTINUOUS_STEP, "outputs", 8390706),
-    ("in continuous time, in the last step", changed(
-        CONTINUOUS_STEP, ("witness.times", 40), ("claim.inputs", [[2]])
-    ), "outputs", 8405386),
+    ("in continuous time, at the beginning", changed(
+        CONTINUOUS_STEP, ("claim.at", "outputs"), ("claim.outputs", [[2]])
+    ), "inputs", 50332270),
 ]  # fmt: skip
 
 
