@@ -67,6 +67,8 @@ def _system(draw: DrawFn, system: MultiChannelSystem) -> MultiChannelSystem:
         arguments["time"] = system.time
     if system.names != tuple(str(i + 1) for i in range(system.m)):
         arguments["names"] = system.names
+    if system.D is not None:
+        arguments["D"] = _rows(system.D)
     if system.neighbors is not None:
         arguments["neighbors"] = printed_graph(draw, system.neighbors)
     equal: MultiChannelSystem = _built(draw, MultiChannelSystem, **arguments)
@@ -118,15 +120,28 @@ def _time(choices: HypothesisChoices, time: str | None) -> str:
 
 @st.composite
 def _systems(
-    draw: DrawFn, min_states: int, max_states: int, max_channels: int, time: str | None
+    draw: DrawFn,
+    min_states: int,
+    max_states: int,
+    max_channels: int,
+    time: str | None,
+    feedthrough: bool,
 ) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(min_states, max_states), choices.integer(1, max_channels)
-    return printed(draw, drawn.any_system(choices, n, m, time=_time(choices, time)))
+    found = drawn.any_system(choices, n, m, time=_time(choices, time))
+    if feedthrough and choices.option((True, False)):
+        found = drawn.with_feedthrough(choices, found)
+    return printed(draw, found)
 
 
 def systems(
-    max_states: int = 5, max_channels: int = 4, *, min_states: int = 0, time: str | None = None
+    max_states: int = 5,
+    max_channels: int = 4,
+    *,
+    min_states: int = 0,
+    time: str | None = None,
+    feedthrough: bool = False,
 ) -> SearchStrategy[Drawn]:
     """Draw systems of all kinds: sparse, minimal, inactive channels, fixed modes, uncontrollable.
 
@@ -135,13 +150,16 @@ def systems(
     max_states, max_channels, min_states : int
     time : {"continuous", "discrete"}, optional
         Both are drawn by default.
+    feedthrough : bool
+        Whether about half of those with inputs and outputs have a D ≠ 0, of which no fixed modes
+        are known.
 
     Returns
     -------
     SearchStrategy of Drawn
         An attribute that the construction does not determine is None.
     """
-    return _systems(min_states, max_states, max_channels, time)
+    return _systems(min_states, max_states, max_channels, time, feedthrough)
 
 
 @st.composite

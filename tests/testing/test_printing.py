@@ -50,6 +50,7 @@ def reported(strategy: SearchStrategy[Any], fails: Any) -> tuple[str, Any]:
     [
         (testing.systems(), lambda d: d.system.n > 1),
         (testing.systems(), lambda d: not d.system.n),
+        (testing.systems(feedthrough=True), lambda d: d.system.D is not None),
         (testing.systems(), lambda d: any(not c.B.ncols for c in d.system.channels)),
         (testing.systems(), lambda d: any(not c.C.nrows for c in d.system.channels)),
         (

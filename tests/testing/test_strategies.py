@@ -4,7 +4,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, find, given, settings
 from hypothesis import strategies as st
 
-from mcexact import testing
+from mcexact import fixed_spectrum, joint_controllability, joint_observability, testing
 from mcexact.derived.drawn.systems import jointly_controllable_system
 
 QUICK = settings(max_examples=300, database=None, suppress_health_check=list(HealthCheck))
@@ -46,6 +46,32 @@ def test_minimal_systems_shrink_to_few_states_and_small_entries():
 )
 def test_systems_of_every_kind_are_drawn(wanted):
     assert wanted(find(testing.systems(), wanted, settings=PATIENT))
+
+
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        lambda d: d.system.D is None,
+        lambda d: d.system.D is not None and d.system.time == "discrete",
+        lambda d: d.system.D is not None and d.jointly_controllable is False,
+        lambda d: d.system.D is not None and any(not c.B.ncols for c in d.system.channels),
+    ],
+)
+def test_systems_with_feedthrough_are_drawn_among_others(wanted):
+    assert wanted(find(testing.systems(feedthrough=True), wanted, settings=PATIENT))
+
+
+@given(testing.systems(max_states=3, max_channels=3, feedthrough=True))
+@settings(max_examples=20, deadline=None)
+def test_what_is_known_of_systems_with_feedthrough_holds(drawn):
+    for known, decided in (
+        (drawn.jointly_controllable, joint_controllability),
+        (drawn.jointly_observable, joint_observability),
+    ):
+        assert known is None or decided(drawn.system).controllable == known
+    if drawn.system.D is not None:
+        assert drawn.fixed_modes is drawn.fixed_mode is drawn.indices is None
+        testing.assert_valid(fixed_spectrum(drawn.system))
 
 
 @given(testing.systems_with_fixed_mode(degree=2, time="discrete"))

@@ -421,6 +421,48 @@ def any_system(choices: Choices, states: int, channels: int, *, time: str = "con
     return sparse_system(choices, states, channels, time=time)
 
 
+def with_feedthrough(choices: Choices, drawn: Drawn) -> Drawn:
+    """Add a drawn feedthrough to a system, if it has inputs and outputs.
+
+    Parameters
+    ----------
+    choices : Choices
+    drawn : Drawn
+        Without feedthrough.
+
+    Returns
+    -------
+    Drawn
+        The same A, B_i and C_i with a D ≠ 0.  Joint controllability and observability are those of
+        the given system; of its other properties, which depend on D, none is known.
+
+    Examples
+    --------
+    >>> from mcexact.derived.drawn.primary_form import SeededChoices
+    >>> choices = SeededChoices(2)
+    >>> drawn = with_feedthrough(choices, jointly_controllable_system(choices, 2, 2))
+    >>> drawn.system.D is not None, drawn.jointly_controllable, drawn.fixed_modes
+    (True, True, None)
+    """
+    system = drawn.system
+    p, q = (sum(widths) for widths in zip(*system.sizes, strict=True))
+    if not p or not q:
+        return drawn
+    D = [[choices.option((0, 0, 1, -1, 2)) for _ in range(p)] for _ in range(q)]
+    if not any(map(any, D)):
+        D[choices.integer(0, q - 1)][choices.integer(0, p - 1)] = 1
+    made = MultiChannelSystem(
+        system.A,
+        [channel.B for channel in system.channels],
+        [channel.C for channel in system.channels],
+        D=D,
+        time=system.time,
+        names=system.names,
+        neighbors=system.neighbors,
+    )
+    return Drawn(made, drawn.jointly_controllable, drawn.jointly_observable)
+
+
 def _require_sizes(states: int, channels: int) -> None:
     if states < 0 or channels < 1:
         raise UsageError(f"expected at least 0 states and 1 channel, found {states} and {channels}")

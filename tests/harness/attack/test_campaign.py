@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import random
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ from mcexact.checker.core import arithmetic
 from mcexact.checker.kinds import KINDS, check_document
 from mcexact.exact import tables
 from tests.assurance.attack.campaign import misstated, run, run_batch
+from tests.assurance.attack.forgeries.subjects import other_feedthrough
 from tests.assurance.attack.report import Report
 from tests.assurance.attack.tries import ORDER, SIZE, batch_numbers, drawn_batch, tries
 from tests.checker.handmade import VALID, certificate
@@ -21,6 +24,7 @@ from tests.oracle.certificates import reading as oracle_reading
 from tests.oracle.certificates.constructions import CONSTRUCTIONS as KNOWN
 from tests.oracle.certificates.judge import KINDS as JUDGED
 from tests.oracle.certificates.judge import TRUE, judge
+from tests.oracle.drawn.certificates import some_certificate
 from tests.oracle.drawn.subjects import CONSTRUCTIONS
 
 
@@ -30,6 +34,22 @@ def test_nothing_false_is_accepted_and_nothing_true_is_refused() -> None:
     assert report.total("undecided") <= report.total("tries") / 100
     assert report.total("true") > report.total("tries") / 10
     assert report.total("rejected") > report.total("tries") / 4
+
+
+def test_forgeries_about_feedthrough_are_refused_unless_they_are_true() -> None:
+    """D of the other sign, or with two rows or columns exchanged, often changes what is fixed."""
+    verdicts: Counter[tuple[bool, bool]] = Counter()
+    for seed in range(200):
+        rng = random.Random(seed // 2)
+        kind = ("fixed_spectrum", "transfer_graph")[seed % 2]
+        forgery = some_certificate(rng, kind, "input_filters")
+        if "D" in forgery["system"]:
+            forgery = other_feedthrough(rng, forgery)
+            accepted = check_document(forgery).verdict == "VALID"
+            true = judge(forgery)[0] == TRUE
+            assert true or not accepted, seed
+            verdicts[true, accepted] += 1
+    assert verdicts[False, False] > 10 and verdicts[True, True] > 10
 
 
 def test_the_same_holds_where_matrices_list_their_entries(monkeypatch: pytest.MonkeyPatch) -> None:

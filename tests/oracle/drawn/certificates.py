@@ -36,7 +36,7 @@ from .observers import drawn_observer
 from .parametric import drawn_moves, drawn_on_a_line, drawn_parametric_plant
 from .performance import KINDS as PERFORMANCE
 from .performance import drawn_performance
-from .plants import Document, drawn_plant
+from .plants import Document, add_feedthrough, drawn_plant
 from .subjects import NEEDS_GRAPH, drawn_subject
 
 Found = Any
@@ -239,6 +239,8 @@ def drawn_certificate(rng: random.Random, kind: str, focus: str | None) -> Docum
     plant = drawn_plant(rng, graph=graph)
     if kind in ABOUT_THE_PLANT:
         return certified(rng, kind, plant, [])
+    if focus == "input_filters" and rng.random() < 0.7:
+        add_feedthrough(rng, plant)
     steps = drawn_subject(rng, plant, focus)
     return None if steps is None else certified(rng, kind, plant, steps)
 

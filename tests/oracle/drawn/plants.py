@@ -56,6 +56,13 @@ def rows_of(value: Any) -> list[list[int | str]]:
     return rows
 
 
+def columns_of(value: Any) -> int:
+    """The number of columns of a matrix of a system."""
+    if isinstance(value, list):
+        return len(value[0]) if value else 0
+    return int(value["shape"][1])
+
+
 def drawn_plant(rng: random.Random, *, graph: bool = False, most: int = 3) -> Document:
     """A plant, often with fixed modes, inactive channels, or none of something.
 
@@ -85,6 +92,17 @@ def drawn_plant(rng: random.Random, *, graph: bool = False, most: int = 3) -> Do
     if graph or rng.random() < 0.6:
         add_graph(rng, plant)
     return plant
+
+
+def add_feedthrough(rng: random.Random, plant: Document) -> None:
+    """A drawn D that is not 0, with a row for each output and a column for each input, if any."""
+    p = sum(columns_of(each["B"]) for each in plant["channels"])
+    q = sum(len(rows_of(each["C"])) for each in plant["channels"])
+    if not p or not q:
+        return
+    D = entries(rng, q, p, 0.5, rng.choice(VALUES))
+    D[rng.randrange(q)][rng.randrange(p)] = rng.choice((1, -1, 2))
+    plant["D"] = table(D, p)
 
 
 def add_graph(rng: random.Random, plant: Document) -> None:

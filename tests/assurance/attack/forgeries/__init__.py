@@ -83,6 +83,8 @@ TRAPS: dict[str, Document] = {
 
 def forged(rng: random.Random, document: Document) -> Document:
     """One forgery of the kind, or of any kind."""
+    if "D" in document["system"] and rng.random() < 0.5:
+        return subjects.other_feedthrough(rng, document)
     if rng.random() < 0.1:
         made = subjects.colliding_names(rng, document)
         if made is not None:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import copy
 import random
+from fractions import Fraction
 
 from flint import fmpq, fmpq_mat
 
 from tests.oracle.certificates.algebra import selection
 from tests.oracle.certificates.constructions import subject_of
 from tests.oracle.certificates.reading import Unspecified
-from tests.oracle.drawn.plants import Document
+from tests.oracle.drawn.plants import Document, number, rows_of, table
 from tests.oracle.drawn.subjects import CONSTRUCTIONS, drawn_step, text_of
 
 from ..mutators import PARTS, renamed
@@ -37,6 +38,31 @@ def other_time(rng: random.Random, document: Document) -> Document:
             if controller is not None:
                 controller["time"] = time
     return document
+
+
+def other_feedthrough(rng: random.Random, document: Document) -> Document:
+    """D of the other sign, one entry of the other sign, or two rows or columns exchanged."""
+    rows = [[*row] for row in rows_of(document["system"]["D"])]
+    what, (q, p) = rng.randrange(4), (len(rows), len(rows[0]))
+    if what == 0:
+        rows = [[negative(entry) for entry in row] for row in rows]
+    elif what == 1:
+        i, j = rng.choice([(i, j) for i in range(q) for j in range(p) if rows[i][j]])
+        rows[i][j] = negative(rows[i][j])
+    elif what == 2:
+        i, k = rng.randrange(q), rng.randrange(q)
+        rows[i], rows[k] = rows[k], rows[i]
+    else:
+        j, k = rng.randrange(p), rng.randrange(p)
+        for row in rows:
+            row[j], row[k] = row[k], row[j]
+    document["system"]["D"] = table(rows, p)
+    return document
+
+
+def negative(entry: int | str) -> int | str:
+    """The negative of an entry of a plant, as it is written."""
+    return number(-Fraction(entry))
 
 
 def other_phases(rng: random.Random, document: Document) -> Document | None:
