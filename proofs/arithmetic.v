@@ -1,4 +1,4 @@
-(* checker/arithmetic.py: rationals modulo l, and what a computation modulo l proves over Q.
+(* checker/core/arithmetic.py: rationals modulo l, and what a computation modulo l proves over Q.
 
    `integral_at l` are the rationals whose denominator is prime to l ("a modulus divides no
    denominator in use"); `Zloc l` is the ring of them, `Zloc_rat` its embedding in Q, `residue`

@@ -1,4 +1,4 @@
-(* checker/arithmetic.py: det(xI - A) over Q from its residues; modulo l it is computed as
+(* checker/core/arithmetic.py: det(xI - A) over Q from its residues; modulo l it is computed as
    in hessenberg.v.
 
    M = N / den, N of integers, is A, its transpose or a multiple of A.  D det(xI - M) has integer

@@ -1,4 +1,4 @@
-(* checker/modes.py: kind `completeness`, rules yes and no. *)
+(* checker/core/fixed_modes.py: kind `completeness`, rules yes and no. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph fixed_spectrum.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,4 +1,4 @@
-(* checker/structure.py: kinds `controllability`,
+(* checker/core/reach.py and checker/structure.py: kinds `controllability`,
    `controllability_indices`, and the spaces of `assignability`.
 
    (A, B) is the pair of the channels named, B = B_T.  krylov A B k = A^k B and

@@ -1,4 +1,4 @@
-(* checker/evidence.py, _loss: a shrunk subspace of the dual system (A', C_i', B_i') for the complement s of T proves
+(* checker/core/evidence.py, _loss: a shrunk subspace of the dual system (A', C_i', B_i') for the complement s of T proves
    the same loss of rank as one of the system for T.
 
    With W the transpose of its columns, modulo p: W (xI - A) = Z C_s, W B_i = 0 for i in T, and some columns of W are

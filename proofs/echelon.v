@@ -1,4 +1,4 @@
-(* checker/arithmetic.py: `ByteEchelon`, an echelon form in blocks.
+(* checker/core/arithmetic.py: `ByteEchelon`, an echelon form in blocks.
 
    The rows E of a block are the identity at the pivots of the block, and 0 at the pivots of all blocks
    before it.  So the rows that are kept have a right inverse, which `arithmetic.rank_from_below` asks for. *)

@@ -1,4 +1,4 @@
-(* checker/arithmetic.py, rank: elimination without fractions (A6 of arithmetic.md).
+(* checker/core/arithmetic.py, rank: elimination without fractions (A6 of arithmetic.md).
 
    With pivots in the rows and columns of W, the entry in row r and column c is the minor of W bordered by
    r and c.  A step yields the minors bordered once more, so that every division is exact; where all

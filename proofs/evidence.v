@@ -1,4 +1,4 @@
-(* checker/evidence.py: shrunk subspaces and zero transfers, the evidence that several kinds share.
+(* checker/core/evidence.py: shrunk subspaces and zero transfers, the evidence that several kinds share.
 
    A shrunk subspace (T, U, V) of deficiency d for p: modulo p, (xI - A) U = B_T V and C_i U = 0
    for i outside T; some rows of U are an identity modulo p; the columns of U number at least

@@ -1,4 +1,4 @@
-(* checker/modes.py: kind `fixed_spectrum`, rules 1 to 5.
+(* checker/core/fixed_modes.py: kind `fixed_spectrum`, rules 1 to 5.
 
    The data are rationals whose denominators are prime to l; h embeds Q into any field L. *)
 From mathcomp Require Import all_ssreflect all_algebra.

@@ -1,4 +1,4 @@
-(* checker/arithmetic.py, characteristic_polynomial_modulo (A3 of arithmetic.md): a matrix over
+(* checker/core/arithmetic.py, characteristic_polynomial_modulo (A3 of arithmetic.md): a matrix over
    a commutative ring is brought to Hessenberg form by A L = L H with L invertible, and det(xI - H) follows by
    a recursion on the columns of H.  No property of the ring but commutativity is used. *)
 From mathcomp Require Import all_ssreflect fingroup perm all_algebra.

@@ -1,4 +1,4 @@
-(* checker/evidence.py: a shrunk subspace of the system of some states Z is one of the whole system, if the states D
+(* checker/core/evidence.py: a shrunk subspace of the system of some states Z is one of the whole system, if the states D
    that Z drives do not act on Z.
 
    In the order D, Z, others, with N = xI - A and U, V the shrunk subspace of Z:

@@ -1,4 +1,4 @@
-(* checker/roots.py: where the roots of a polynomial lie, by exact recursions.
+(* checker/core/roots.py: where the roots of a polynomial lie, by exact recursions.
 
    Routh's recursion (continuous time) and Schur and Cohn's (discrete time), each an equivalence, for
    polynomials with real coefficients over a closed field C such as algC.  No analysis is used: the

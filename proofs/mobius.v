@@ -1,4 +1,4 @@
-(* checker/roots.py, is_schur: s -> (1 + s)/(1 - s) maps the left half-plane onto the unit disc.
+(* checker/core/roots.py, is_schur: s -> (1 + s)/(1 - s) maps the left half-plane onto the unit disc.
    With is_hurwitzP of location.v for the transformed polynomial, or its opposite. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Coq Require Import Ring.

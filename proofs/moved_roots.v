@@ -1,4 +1,4 @@
-(* checker/roots.py, in_region (L4 and L5 of location.md): a rate by a shift, a radius by scaling.
+(* checker/core/roots.py, in_region (L4 and L5 of location.md): a rate by a shift, a radius by scaling.
    The polynomials are made by Horner's rule, as the checker makes them, over Q; C is a closed field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import location mobius.

@@ -1,4 +1,4 @@
-(* checker/roots.py: `best_rate`, the interval for minus the largest real part, or for the largest
+(* checker/core/roots.py: `best_rate`, the interval for minus the largest real part, or for the largest
    modulus, of all fixed modes.
 
    The discs are those of all factors together; root_discs in root_discs.v gives the root z_i in each and

@@ -1,4 +1,4 @@
-(* checker/evidence.py, root discs: n^2 |p(c)|^2 <= r^2 |p'(c)|^2 puts a root within r of c, and
+(* checker/core/evidence.py, root discs: n^2 |p(c)|^2 <= r^2 |p'(c)|^2 puts a root within r of c, and
    n disjoint discs hold exactly one root each. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import location.

@@ -1,4 +1,4 @@
-(* checker/roots.py, is_hurwitz (L2 and L3 of location.md): Routh's array in integers.
+(* checker/core/roots.py, is_hurwitz (L2 and L3 of location.md): Routh's array in integers.
    Each row is a positive multiple of Routh's, so the signs of the first entries decide as the recursion on
    rational polynomials does (location.is_hurwitzP).  A division that is not exact gives no answer. *)
 From mathcomp Require Import all_ssreflect all_algebra.

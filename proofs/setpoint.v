@@ -1,4 +1,4 @@
-(* checker/structure.py: kind `setpoint`.  S = [A, B; C, 0] (discrete time: A - I for A), B and C of all
+(* checker/core/reach.py: kind `setpoint`.  S = [A, B; C, 0] (discrete time: A - I for A), B and C of all
    channels; q outputs. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import arithmetic evidence controllability.

@@ -1,4 +1,4 @@
-(* checker/structure.py: kind `neighbor_graph`, and the strong components of `transfer_graph`
+(* checker/structure.py and checker/core/reach.py: kind `neighbor_graph`, and the strong components of `transfer_graph`
    and `assignability`.
 
    The recursion of Roy and Warshall: start from j -> j and the arcs, and for one node k after the other

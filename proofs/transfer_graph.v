@@ -1,4 +1,4 @@
-(* checker/structure.py and checker/evidence.py: arcs and zero transfers.
+(* checker/core/reach.py and checker/core/evidence.py: arcs and zero transfers.
 
    C (xI - A)^-1 B is C adj(xI - A) B divided by chi_A, so it vanishes iff the polynomial matrix
    C adj(xI - A) B does; `transfer` is that matrix. *)

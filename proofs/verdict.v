@@ -1,6 +1,6 @@
 (* The checker's verdict on one certificate, recomputed here: the example of Section IV-B keeps 1
    fixed when agents share their outputs only.  `check_shrunk` is the rule "shrunk subspace" of
-   checker/evidence.py on integer entries, evaluated by the kernel; `check_shrunk_fixed` says what a
+   checker/core/evidence.py on integer entries, evaluated by the kernel; `check_shrunk_fixed` says what a
    positive verdict means. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel evidence pencil_space anderson_clements.

@@ -1,4 +1,4 @@
-(* Kind `transfer_graph`, checker/structure.py, check_transfer_graph: which channels reach which.
+(* Kind `transfer_graph`, checker/core/reach.py, check_transfer_graph: which channels reach which.
 
    An edge is a C_i A^k B_j, k < n, that is not 0 modulo l.  That there is none, by the states on which the inputs of j
    act, directly and through A, none of which C_i measures; or by the columns of a matrix X with an identity at the

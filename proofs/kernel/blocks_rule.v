@@ -1,4 +1,4 @@
-(* Rule Blocks, checker/evidence.py, split: the bounds of blocks of states add up, where no closed loop leads from a
+(* Rule Blocks, checker/core/evidence.py, split: the bounds of blocks of states add up, where no closed loop leads from a
    block to a later one.  A block is a system of its own, cut out of the lists. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.

@@ -1,4 +1,4 @@
-(* Rule Coprime, checker/evidence.py, require_coprime: u p + v q = 1 modulo l, and the last coefficient of p is a unit.
+(* Rule Coprime, checker/core/evidence.py, require_coprime: u p + v q = 1 modulo l, and the last coefficient of p is a unit.
    Then p and q have no common root over any field that contains Q. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.

@@ -1,4 +1,4 @@
-(* The claim of the kind `fixed_spectrum`, checker/modes.py, check_fixed_spectrum: all fixed modes, with their
+(* The claim of the kind `fixed_spectrum`, checker/core/fixed_modes.py, check_fixed_spectrum: all fixed modes, with their
    multiplicities, ranks and channels; and how it follows from facts about the factors, block by block or by two
    characteristic polynomials.  Where the roots of the factors lie is in regions_rule.v. *)
 From Coq Require Import ZArith.

@@ -1,4 +1,4 @@
-(* det(xI - A) modulo l, checker/arithmetic.py, characteristic_polynomial_modulo: with A L = L H and L Y = I modulo l, H
+(* det(xI - A) modulo l, checker/core/arithmetic.py, characteristic_polynomial_modulo: with A L = L H and L Y = I modulo l, H
    zero below its first subdiagonal, it is det(xI - H), which a recursion on the columns of H computes.  L, H and Y are
    prepared outside. *)
 From Coq Require Import ZArith.

@@ -1,4 +1,4 @@
-(* Rule Krylov, checker/evidence.py, unmoved_degree: at most n - L modes are fixed, by one sequence of numbers modulo l.
+(* Rule Krylov, checker/core/evidence.py, unmoved_degree: at most n - L modes are fixed, by one sequence of numbers modulo l.
 
    With b = B_q x, c = y C_q and s_k = c A_F^k b, the monic d of degree L satisfies sum_j d_j s_(k+j) = 0 for
    k < L - 1, and a num + e d = 1, num the polynomial part of d times the sum of s_k x^(-k-1).  The recurrence holds

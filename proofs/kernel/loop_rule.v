@@ -1,4 +1,4 @@
-(* Rules about one closed loop modulo l, checker/evidence.py, TwoPolynomials: det(xI - A_F) modulo l is coprime to
+(* Rules about one closed loop modulo l, checker/core/evidence.py, TwoPolynomials: det(xI - A_F) modulo l is coprime to
    another polynomial, or not divisible by a power.  The matrix of the loop is computed, its polynomial by
    hessenberg_rule.v. *)
 From Coq Require Import ZArith.

@@ -1,4 +1,4 @@
-(* Kind `controllability`, checker/structure.py, check_controllability: what the inputs of some channels T reach.
+(* Kind `controllability`, checker/core/reach.py, check_controllability: what the inputs of some channels T reach.
 
    From above by rows W with an identity at the pivots, W A = Z W and W B_T = 0.  From below by vectors, each of which is
    a column of some B_i, i in T, or A times an earlier one, with X times the k-th of them the k-th unit vector modulo l;

@@ -1,4 +1,4 @@
-(* Where the roots of the factors lie, checker/roots.py: stability by Routh's test, discs with one root each, and the
+(* Where the roots of the factors lie, checker/core/roots.py: stability by Routh's test, discs with one root each, and the
    interval for the rate.  These are about complex numbers: every closed field with a conjugation and a norm. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.

@@ -1,4 +1,4 @@
-(* Kind `setpoint`, checker/structure.py, check_setpoint: the rank of M = [A, B; C, 0], in discrete time [A - I, B; C, 0],
+(* Kind `setpoint`, checker/core/reach.py, check_setpoint: the rank of M = [A, B; C, 0], in discrete time [A - I, B; C, 0],
    B and C those of all channels; and whether [xI - A, B; C, 0] has full row rank for some x.
 
    A row of as many numbers as M has rows is one of n and one for the outputs of each channel.  From above by rows W with

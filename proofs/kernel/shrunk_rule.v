@@ -1,4 +1,4 @@
-(* Rule ShrunkSubspace, checker/evidence.py, shrunk_subspace and _local_subspace: p^d divides det(xI - A_F) for all
+(* Rule ShrunkSubspace, checker/core/evidence.py, shrunk_subspace and _local_subspace: p^d divides det(xI - A_F) for all
    gains F, and the pencil of the channels outside T loses the rank d at every root of p.
 
    Modulo p, (xI - A) U = Y V and C_i U = 0 for i outside T; the columns of the integer matrix Y span the B_i for i in

@@ -1,4 +1,4 @@
-(* Rule Spectrum, checker/arithmetic.py, characteristic_polynomial: det(xI - A) over Q.
+(* Rule Spectrum, checker/core/arithmetic.py, characteristic_polynomial: det(xI - A) over Q.
 
    Row i of A times the integer d_i > 0 is a row of integers N.  The coefficients of prod d_i times det(xI - A) are then
    integers of absolute value at most prod (d_i + sum_j |N_ij|), so they are known from their residues modulo enough l. *)
