@@ -68,7 +68,7 @@ let transfer_graph known (claim : Claim.graph) =
     edges (String.concat ", " (List.map (channel_set known) claim.Claim.parts)) (denied claim.Claim.connected)
 
 let completeness holds =
-  Printf.sprintf "it is %scomplete, which means that its transfer graph is strongly connected and no mode is %s" (denied holds) fixed
+  Printf.sprintf "it is %scomplete, where complete means that its transfer graph is strongly connected and no mode is %s" (denied holds) fixed
 
 let setpoint time (claim : Claim.setpoint) =
   let shift, place = if time = "discrete" then (" - I", 1) else ("", 0) in

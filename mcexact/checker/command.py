@@ -486,10 +486,23 @@ def _named(manifest: str, limits: Limits) -> set[str]:
 
 
 def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
-    """The verdicts on a manifest, its certificates and its sentences, and then their numbers."""
-    numbers, remarks, plant = Counter[tuple[str, bool]](), 0, ""
-    for about, verdict in manifest_verdicts(path, wanted, limits):
+    """The verdicts on a manifest, its certificates and its sentences, and then their numbers.
+
+    The numbers stand with the digest of the manifest, which binds the words of its sentences and
+    the bytes of its certificates, and with what nobody asked to compare with.
+    """
+    numbers, remarks, plant, in_loop = Counter[tuple[str, bool]](), 0, "", False
+    file, digests = manifest_file(path), list[str]()
+
+    def read(name: str) -> bytes:
+        data = _bytes(file, name, limits)
+        if not name:
+            digests.append(hashlib.sha256(data).hexdigest())
+        return data
+
+    for about, verdict in verdicts_of(read, wanted, limits, plants_beside(file, limits)):
         own = about == {"file": NAME}
+        in_loop = in_loop or bool(verdict.controller_digest)
         if verdict.verdict == "REMARK":
             remarks += 1
         elif not own:
@@ -501,6 +514,11 @@ def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]
     valid, other = numbers["file", True], numbers["file", False]
     numbers_text = f"{implied} sentences implied, {rest} not, {counted(remarks, 'remark')}"
     numbers_text += f"; {valid} certificates valid, {other} not"
+    numbers_text += "".join(f"; manifest of SHA-256 {digest}" for digest in digests)
+    if not wanted.system:
+        numbers_text += "; no plant was given to compare with"
+    if in_loop and not wanted.controller:
+        numbers_text += "; no controller was given to compare with"
     yield {"file": path}, Verdict("COUNTED", numbers_text, system_digest=plant)
 
 

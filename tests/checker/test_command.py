@@ -184,7 +184,8 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     assert len(lines) == len(EVIDENCE) + len(SENTENCES)
     assert counted == (
         f"COUNTED 'evidence' {len(SENTENCES)} sentences implied, 0 not, 0 remarks; "
-        f"{len(EVIDENCE)} certificates valid, 0 not"
+        f"{len(EVIDENCE)} certificates valid, 0 not; manifest of SHA-256 "
+        + hashlib.sha256((folder / "evidence" / "manifest.json").read_bytes()).hexdigest()
     )
     words = [line.split()[0] for line in lines]
     assert words == ["VALID"] * len(EVIDENCE) + ["IMPLIED"] * len(SENTENCES)
@@ -204,6 +205,7 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     named = run(folder, "--manifest", "nowhere", "fixed.json").stdout.splitlines()[1]
     assert named.startswith("MALFORMED 'nowhere' unreadable file: ")
     nothing = "COUNTED 'nowhere' 0 sentences implied, 0 not, 0 remarks; 0 certificates valid, 0 not"
+    nothing += "; no plant was given to compare with"
     assert absent.stdout.splitlines()[1] == nothing  # a manifest is no certificate
     files = [f"evidence/{path.name}" for path in (folder / "evidence").iterdir()]
     words = [line.split()[0] for line in run(folder, *files).stdout.splitlines()]

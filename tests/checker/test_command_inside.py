@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import hashlib
 import importlib
 import io
 import json
@@ -181,7 +182,9 @@ def test_a_line_names_its_file_where_there_are_several(
         line.startswith(f"IMPLIED {text}") for line, text in zip(implied, texts, strict=True)
     )
     told = f"{len(SENTENCES)} sentences implied, 0 not, 0 remarks; "
-    told += f"{len(EVIDENCE)} certificates valid, 0 not"
+    told += f"{len(EVIDENCE)} certificates valid, 0 not; manifest of SHA-256 "
+    told += hashlib.sha256((folder / "evidence" / "manifest.json").read_bytes()).hexdigest()
+    told += "; no plant was given to compare with"
     assert counted == f"COUNTED 'evidence' {told}"
     assert main([*files, "--statements"]) == 1
     valid, *_ = capsys.readouterr().out.splitlines()

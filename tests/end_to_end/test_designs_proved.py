@@ -1,5 +1,6 @@
 """What `design` and `certify` prove is about the plant in the file, with neighbors or without."""
 
+import hashlib
 from pathlib import Path
 
 import pytest
@@ -44,7 +45,9 @@ def assert_proved_about(plant: str, certificates: Path) -> None:
     told = "1 remark" if len(remarks) == 1 else f"{len(remarks)} remarks"
     assert counted == (
         f"COUNTED {str(certificates)!a} {len(claimed)} sentences implied, 0 not, {told}; "
-        f"{len(files)} certificates valid, 0 not"
+        f"{len(files)} certificates valid, 0 not; manifest of SHA-256 "
+        f"{hashlib.sha256((certificates / 'manifest.json').read_bytes()).hexdigest()}"
+        "; no controller was given to compare with"
     )
 
 

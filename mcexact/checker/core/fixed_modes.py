@@ -158,7 +158,7 @@ def check_completeness(claim: Json, witness: Json, system: System) -> None:
 def completeness_statement(claim: Json, system: System) -> str:
     """The statement: whether the system is complete."""
     means = f"its transfer graph is strongly connected and no mode is {FIXED}"
-    return f"it is {denied(claim['complete'])}complete, which means that {means}"
+    return f"it is {denied(claim['complete'])}complete, where complete means that {means}"
 
 
 def _require_complete(witness: Json, system: System) -> None:

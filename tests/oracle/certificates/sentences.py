@@ -111,8 +111,8 @@ def _complementary(claim: Any, system: System) -> str:
 
 def _completeness(claim: Any, system: System) -> str:
     return (
-        f"it is {_not(claim['complete'])}complete, which means that its transfer graph is strongly "
-        f"connected and no mode is fixed {LTI}"
+        f"it is {_not(claim['complete'])}complete, where complete means that its transfer graph is "
+        f"strongly connected and no mode is fixed {LTI}"
     )
 
 
