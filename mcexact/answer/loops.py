@@ -438,7 +438,8 @@ def _title(loop: Claim, context: Context) -> Said:
     elif context.method == "observer":
         yield (OBSERVER if context.arithmetic == "exact" else OBSERVER_FLOAT)()
     else:
-        yield NETWORK(kind=context.network)
+        shares = context.network == "decentralized" or any(context.dimensions.values())
+        yield NETWORK(kind=context.network if shares else "without")
 
 
 @design_rule("table", ORDER, ORDER_INTEGRATORS)

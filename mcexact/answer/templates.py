@@ -553,6 +553,7 @@ FORMS: dict[str, Write] = {
     "regulated": _regulated,
     "network": choice(
         decentralized="decentralized controller",
+        without="distributed controller",
         extended="distributed controller with shared states",
         lifted="distributed controller with shared states, sent with delays",
         held="distributed controller with shared states, held for the delays",

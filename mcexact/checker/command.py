@@ -329,9 +329,10 @@ class Evidence:
             spend(1000 + 10 * len(because))
             cited = list(dict.fromkeys(name for name, *_ in because))
             for name in cited if self.own() else self.verdicts:
-                open_ = "INCOMPLETE" if self.verdicts[name].status == 5 else "INVALID"
+                verdict = self.verdicts[name]
+                open_ = "INCOMPLETE" if verdict.status == 5 else "INVALID"
                 if name not in self.premises:
-                    raise Refused(open_, "premise", name, "this certificate is not VALID")
+                    raise Refused(open_, "premise", name, f"this certificate is {_judged(verdict)}")
             for name, pointer, value in because:
                 entry = pointed(self.premises[name].document, pointer, name)
                 require(same(entry, value), "value", name, f"another value at {shown(pointer)}")
@@ -389,6 +390,11 @@ def pointed(document: Json, pointer: str, place: str) -> Json:
             good = False
     require(good, "pointer", place, f"{shown(pointer)} points to nothing")
     return node
+
+
+def _judged(verdict: Verdict) -> str:
+    """What a sentence says of a premise that it cannot have."""
+    return verdict.message if verdict.verdict == NOT_ABOUT else "not VALID"
 
 
 # Verify certificates, and print one line for each.

@@ -74,7 +74,7 @@ def controller(known: list[Premise]) -> tuple[Premise, list[Json]]:
         if premise.path and premise.path[-1] == "closed_loop" and premise.path != AT_SAMPLES
         if premise.path[0] != ANOTHER_STEP
     ]
-    known[0].expect(bool(loops), "expected a certificate about a closed loop")
+    known[0].expect(bool(loops), "no certificate about such a closed loop is VALID")
     return loops[0], loops[0].document["subject"][-1]["controller"]["agents"]
 
 
@@ -99,7 +99,10 @@ def _observer_order(known: list[Premise]) -> str:
     loop, _ = controller(known)
     system = constructed(loop.document["subject"][:-1], loop.plant)
     order = system.n * system.m + system.m - 1
-    return f"For {system.words}: the paper's observer has {counted(order, 'state')}"
+    return (
+        f"For {system.words}: the observer of Liu, Wang, Fullmer and Morse has "
+        f"{counted(order, 'state')}"
+    )
 
 
 @rule("design-longest-number")

@@ -6,6 +6,7 @@ import hashlib
 import os
 import platform
 import shlex
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -100,8 +101,13 @@ def audit_page(
         )
     if refused:
         answer.append(f"warning: {refused} certificates or sentences are not proved; see below.")
-    plants = dict.fromkeys(each.system_digest for each in verdicts if each.verdict == "VALID")
-    loops = dict.fromkeys(each.controller_digest for each in verdicts if each.controller_digest)
+    plants, loops = defaultdict[str, list[str]](list), defaultdict[str, list[str]](list)
+    for about, each in found:
+        number = about.get("number", about.get("file", ""))
+        if each.verdict == "VALID":
+            plants[each.system_digest].append(number)
+        if each.controller_digest:
+            loops[each.controller_digest].append(number)
     for words, digests in (("plant", plants), ("controller", loops)):
         if digests and words not in asked:
             answer.append(f"warning: no {words} was given to compare with: compare the digest.")
@@ -111,9 +117,10 @@ def audit_page(
     for manifest in dict.fromkeys(about["manifest"] for about, _ in found if "manifest" in about):
         facts += [("the manifest", manifest), *_bytes_of(manifest)]
     for words, digests in (("plant", plants), ("controller", loops)):
-        for k, digest in enumerate(digests):
-            which = "" if not k else ", another one: nearby, in a box, or at samples"
-            facts.append((f"SHA-256 of the numbers of the {words}{which}", digest))
+        for k, (digest, numbers) in enumerate(digests.items()):
+            which = f"another {words}, nearby, in a box, or at samples," if k else f"the {words}"
+            whose = f"SHA-256 of the numbers of {which} of the certificates {', '.join(numbers)}"
+            facts.append((whose, digest))
     facts += [("version", f"mcexact {__version__}, Python {platform.python_version()}")]
     status = status_of(found)
     last = line_of(found[-1], named=True) if found else ""
@@ -122,6 +129,8 @@ def audit_page(
         ("make the checker as one file", f"mcexact check --export {ARCHIVE}"),
         ("with Python alone", shlex.join(["python", "-I", ARCHIVE, *arguments])),
         ("it then ends with", f"status {status}, and the line {last}"),
+        ("whole statements", "the same with --statements"),
+        ("SHA-256 of a file", "sha256sum FILE, or on Windows certutil -hashfile FILE SHA256"),
         (f"SHA-256 of {ARCHIVE}", f"{archive} (ask whoever you trust for it, not the sender)"),
     ]
     signed = [("name", ""), ("date", ""), ("signature", "")]
