@@ -152,3 +152,8 @@ def replaced(document: Document, path: tuple[str | int, ...], value: Any) -> Doc
         node = node[key]
     node[path[-1]] = value
     return result
+
+
+def digest_of(file: Path) -> str:
+    """The SHA-256 of the bytes of a file."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()

@@ -16,7 +16,7 @@ import pytest
 from mcexact import checker
 from mcexact.checker.core.system import digest, read_plant
 from tests.checker.handmade import FIXED, FREE, PAPER, changed, checked
-from tests.checker.manifests import EVIDENCE, SENTENCES, write
+from tests.checker.manifests import EVIDENCE, SENTENCES, digest_of, write
 from tests.effort import PATIENCE
 
 ENVIRONMENTS = [
@@ -182,11 +182,12 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     assert (done.returncode, done.stderr) == (0, "")
     *lines, counted = done.stdout.splitlines()
     assert len(lines) == len(EVIDENCE) + len(SENTENCES)
-    assert counted == (
+    counts, digest = counted.rsplit("; ", 1)
+    assert counts == (
         f"COUNTED 'evidence' {len(SENTENCES)} sentences implied, 0 not, 0 remarks; "
-        f"{len(EVIDENCE)} certificates valid, 0 not; manifest of SHA-256 "
-        + hashlib.sha256((folder / "evidence" / "manifest.json").read_bytes()).hexdigest()
+        f"{len(EVIDENCE)} certificates valid, 0 not"
     )
+    assert digest.split()[-1] == digest_of(folder / "evidence" / "manifest.json")
     words = [line.split()[0] for line in lines]
     assert words == ["VALID"] * len(EVIDENCE) + ["IMPLIED"] * len(SENTENCES)
     both = run(folder, "fixed.json", "--manifest", "evidence/manifest.json", "--json")
@@ -205,8 +206,7 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     named = run(folder, "--manifest", "nowhere", "fixed.json").stdout.splitlines()[1]
     assert named.startswith("MALFORMED 'nowhere' unreadable file: ")
     nothing = "COUNTED 'nowhere' 0 sentences implied, 0 not, 0 remarks; 0 certificates valid, 0 not"
-    nothing += "; no plant was given to compare with"
-    assert absent.stdout.splitlines()[1] == nothing  # a manifest is no certificate
+    assert absent.stdout.splitlines()[1].startswith(nothing)  # a manifest is no certificate
     files = [f"evidence/{path.name}" for path in (folder / "evidence").iterdir()]
     words = [line.split()[0] for line in run(folder, *files).stdout.splitlines()]
     assert (words.count("VALID"), words.count("IMPLIED")) == (len(EVIDENCE), len(SENTENCES))
