@@ -1002,7 +1002,10 @@ def _checked(
     forbidden: Iterable[tuple[str, str]],
 ) -> _Links:
     if plant.subject:
-        raise UsageError("give the plant, not a system derived from it", where="system")
+        raise UsageError(
+            "links are sought for a plant without feedthrough, not for a system derived from it",
+            where="system",
+        )
     one_of(share, (None, *get_args(Carried)), "share", InputError)
     carried: Carried = share or ("outputs" if dimensions is None else "outputs+states")
     if (carried == "outputs") != (dimensions is None):
