@@ -49,6 +49,7 @@ CHROME = {
     "factor of det(xI-A) | rank | below n",
     "All answers",
     "bound and least",
+    "channel",
     "Evidence",
     "Every answer has a certificate, which mcexact check verifies independently. Click once on a "
     "block to select all of it.",
