@@ -427,14 +427,17 @@ def as_options(text: str) -> str:
 def line_of(result: Found, *, named: bool, statements: bool = False) -> str:
     """A verdict as one line; ``named`` with the name of its file, ``statements`` with all words.
 
-    A certificate of a manifest has its number before its name.  The text of a sentence is quoted,
-    in which anything may be written; the numbers of the premises stand behind it, and in words of
-    the checker what follows from them.
+    A certificate of a manifest has its number before its name.  Of a sentence that is implied, the
+    numbers of its premises come first, and in words of the checker what follows from them; its
+    text, in which anything may be written, is quoted at the end.
     """
     about, verdict = result
     if "text" in about:
-        by = f" by {about['premises']}" if about["premises"] and not verdict.status else ""
-        name = cut(ascii(about["text"]), MOST_QUOTED) + by
+        name = ascii(about["text"])
+        name = name if statements else cut(name, MOST_QUOTED)
+        if verdict.verdict == "IMPLIED":
+            by = f"by {about['premises']}" if about["premises"] else ""
+            return as_options(f"{verdict.line(by, short=not statements)}; in the report: {name}")
     else:
         name = ascii(about["file"]) if named or "number" in about else ""
         name = f"{about['number']} {name}" if "number" in about else name

@@ -49,19 +49,21 @@ def _sentences(found: Sequence[Found]) -> Table:
     """Each sentence of the report, quoted, and from which certificates it follows."""
     rows = tuple(
         (
-            about["text"],
             verdict.verdict,
             about["premises"],
             verdict.summary if not verdict.status else f"{verdict.code}: {verdict.message}",
+            about["text"],
         )
         for about, verdict in found
         if "text" in about
     )
-    note = "The first column is quoted from the manifest, in which anything may be written: the "
-    note += "checker does not read it. The last column is what it proved from the certificates of "
-    note += "these numbers: [3] stands for what the certificate 3 proves. Compare both. A REMARK "
-    note += "claims nothing."
-    columns = ("sentence of the report", "verdict", "certificates", "what follows from them")
+    note = "What follows is what the checker proved from the certificates of these numbers: [3] "
+    note += (
+        "stands for what the certificate 3 proves, which is under Evidence, with all its numbers. "
+    )
+    note += "The last column is quoted from the manifest, in which anything may be written: the "
+    note += "checker does not read it. Compare both. A REMARK claims nothing."
+    columns = ("verdict", "certificates", "what follows from them", "sentence of the report")
     return Table("Sentences of the report", columns, rows, note)
 
 

@@ -141,9 +141,9 @@ def command(
     """Verify each CERTIFICATE and print one line with the verdict and what it proves in short.
 
     A folder stands for its manifest: for the certificates that it names, numbered, and the
-    sentences of the report. Each sentence is quoted with the numbers of the certificates that imply
-    it. The quoted words are the report's own; what is proved is what the lines of these
-    certificates say, or the words behind the numbers.
+    sentences of the report. Behind IMPLIED stands what the checker proves from the certificates of
+    these numbers, in its own words, and then the sentence that the report makes of it, in quotes:
+    the checker does not read it. Compare the two.
 
     --statements prints whole statements, each behind its SHA-256. INVALID, MALFORMED and
     INCOMPLETE are followed by a code and a place. A certificate about another plant, another loop

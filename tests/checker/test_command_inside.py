@@ -178,7 +178,8 @@ def test_a_line_names_its_file_where_there_are_several(
     assert invalid.startswith("INVALID 'invalid.json' common_factor ")
     texts = [ascii(each["text"]) for each in SENTENCES]
     assert all(
-        line.startswith(f"IMPLIED {text}") for line, text in zip(implied, texts, strict=True)
+        line.startswith("IMPLIED ") and line.endswith(f": {text}")
+        for line, text in zip(implied, texts, strict=True)
     )
     told = f"{len(SENTENCES)} sentences implied, 0 not, 0 remarks; "
     told += f"{len(EVIDENCE)} certificates valid, 0 not"

@@ -379,6 +379,7 @@ TAKEN = {
     *("local_controllers", "minimal_realization", "observability_indices", "pencil_rank"),
     *(
         "certify_controller",
+        "fewest_failures",
         "simulate",
         "pencil_ranks",
         "save_system",
