@@ -215,7 +215,9 @@ def test_both_checkers_agree_about_every_published_plant(name: str, tmp_path: Pa
         assert verdict.verdict == "VALID"
         paths.append(str(path))
         statements.append(verdict.statement)
-    assert all(answer.confirmed for answer in verified.confirmations(paths, statements))
+    known = plant.D is None  # what makes a plant without feedthrough of it is not verified there
+    found = verified.confirmations(paths, statements)
+    assert [answer.confirmed for answer in found] == [known] * len(paths)
 
 
 @pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
