@@ -186,7 +186,8 @@ def test_certificates_can_name_the_system_by_its_digest(call: Call, tmp_path: Pa
     sizes = [(tmp_path / name / "transfer_graph.json").stat().st_size for name in folders]
     assert sizes[1] < sizes[0]
     checks = [call("check", "--manifest", each, "--system", TRIPLE)[1] for each in folders.values()]
-    assert checks[0] == checks[1].replace("named", "whole")
+    whole, named = (said.rpartition("; ")[0] for said in checks)  # without the manifest's digest
+    assert whole == named.replace("named", "whole") != ""
     assert call("check", "--manifest", folders["named"])[0] == 5
     status, _, err = call("analyze", TRIPLE, "--system-by-digest")
     assert status == 2
