@@ -1,8 +1,9 @@
 """How good are designs without a rate for the published plants?
 
 Run as ``python -m benchmarks.gallery_designs [ROWS.jsonl] [PLANT …]``; by default all plants of the
-gallery, each designed for as ``decentralized``, ``extended`` (over its own links, or else over a
-ring) and ``setpoint``.  ROWS is a file: rows that it holds are printed and not measured again.
+gallery without feedthrough, each designed for as ``decentralized``, ``extended`` (over its own
+links, or else over a ring) and ``setpoint``.  ROWS is a file: rows that it holds are printed and
+not measured again.
 
 A line holds the figures of `designed_rows`, or what the request was answered with, and the figures
 of what is made by hand.  The last lines count the answers.
@@ -42,6 +43,11 @@ def prepared(name: str, structure: str) -> MultiChannelSystem:
     return plant
 
 
+def _without_feedthrough() -> list[str]:
+    """The plants of whose designs costs are known."""
+    return [name for name in gallery.names() if gallery.load(name).D is None]
+
+
 def row_of(name: str, structure: str) -> Row:
     """The row of a request; what is made by hand stands beside designs without communication."""
     plant = prepared(name, structure)
@@ -54,7 +60,7 @@ def main(arguments: list[str]) -> int:
     path, names = chosen(arguments, "gallery_designs")
     known, counts = kept(path), Counter[str]()
     for structure in DESIGNS:
-        for name in names or gallery.names():
+        for name in names or _without_feedthrough():
             row = measured(path, f"{name} {structure}", partial(row_of, name, structure), known)
             counts[f"{structure}: {row['answer']}"] += 1
             hand = told_by_hand(row["by hand"])
