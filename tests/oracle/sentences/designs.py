@@ -56,8 +56,12 @@ def _kind(name: str, case: Case) -> bool:
     if name == "decentralized":
         return not _messages(case) and not any(sizes)
     late = bool(case.plant.delays)
-    return {"extended": not late, "lifted": late, "held": late}[name] and (
-        not held or name == "held"
+    if name == "without":
+        return not any(sizes) and not held
+    return (
+        any(sizes)
+        and {"extended": not late, "lifted": late, "held": late}[name]
+        and (not held or name == "held")
     )
 
 

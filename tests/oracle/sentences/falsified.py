@@ -26,11 +26,15 @@ OTHER_WORDS = {
     "outputs+states": ("states",), "states": ("outputs+states",),
     "decentralized": ("extended", "observer"), "observer": ("decentralized",),
     "extended": ("decentralized",), "lifted": ("extended",), "held": ("extended",),
+    "without": ("extended",),
     "controllable": ("observable",), "observable": ("controllable",),
 }  # fmt: skip
 """Other keywords of the same fields."""
-GIVEN = {"time", "control"}
-"""Fields that a case determines, so that a sentence can be tried where it was not said."""
+GIVEN = {"time", "control", "part"}
+"""Fields that a case determines, or of which one value will do.
+
+So a sentence that has no others can be tried where it was not said.
+"""
 OLD_STEADY_STATE = "every output tends to the set-point of its agent, if that is constant"
 
 
@@ -64,7 +68,7 @@ def unsaid(fields: Mapping[str, Sequence[str]], case: Case) -> Iterator[Said]:
     known = {row.rule for row in case.rows}
     own = case.asked.get("information", "own") == "own"
     received = "instant" if case.plant.delays else "outputs"
-    given = {"time": case.slow, "control": "own" if own else received}
+    given = {"time": case.slow, "control": "own" if own else received, "part": "agents"}
     for rule, names in fields.items():
         if rule not in known and set(names) <= GIVEN:
             yield Said(rule, {name: given[name] for name in names})
