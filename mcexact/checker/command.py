@@ -2,13 +2,13 @@
 
 The line is VALID and what the certificate proves in short, with --statements the SHA-256 of the
 statement and the whole statement; or INVALID, MALFORMED or INCOMPLETE, a code and a place; or NOT
-ABOUT, if it is about another plant, loop or claim than asked for.  With several files it names its
-file.  A file named manifest.json is read as a manifest: its certificates have numbers, and each of
-its sentences is quoted behind what follows from its premises, which have numbers.  A folder stands for
-its manifest, and without one for all its certificates.  With --controller there is nothing else in
-the loop unless --expect says so; of several certificates, those about no loop are about the plant.
-Work is limited by default to 40,000,000 units and 4,000 for each byte, four times as many if the
-plant has a parameter.
+ABOUT, if it is about another plant, loop or claim than asked for. With several files it names its
+file. A file named manifest.json is read as a manifest: its certificates have numbers, and each of
+its sentences is quoted behind what follows from its premises, which have numbers. A folder stands
+for its manifest, and without one for all its certificates. With --controller there is nothing else
+in the loop unless --expect says so; of several certificates, those about no loop are about the
+plant. Work is limited by default to 40,000,000 units and 4,000 for each byte, four times as many if
+the plant has a parameter.
 """
 
 import argparse
