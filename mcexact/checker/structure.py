@@ -380,12 +380,12 @@ def require_components(value: Json, place: str, system: System, parts: list[list
     require_arcs(system, triples, modulus(number, f"{place}.modulus"))
     connected = components(system.m, [(j, i) for j, i, _ in triples])
     require(connected == parts, "component", f"{place}.arcs", "not the sets that they connect")
-    turns = [integer(k, f"{place}.order") for k in items(order, f"{place}.order", len(parts))]
-    once = sorted(turns) == list(range(len(parts)))
+    sequence = [integer(k, f"{place}.order") for k in items(order, f"{place}.order", len(parts))]
+    once = sorted(sequence) == list(range(len(parts)))
     require(once, "order", f"{place}.order", "expected every component once")
     spend(PAIRS * (system.m**2 if len(parts) > 1 else 1))
     backwards, earlier = set[tuple[int, int]](), list[int]()
-    for k in turns:
+    for k in sequence:
         backwards |= {(j, i) for j in parts[k] for i in earlier}
         earlier += parts[k]
     require_no_edges(backwards, zeros, f"{place}.zeros", system)

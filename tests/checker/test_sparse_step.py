@@ -97,6 +97,13 @@ def test_full_diagonals_are_multiplied_as_number_by_number(ell: int, n: int) -> 
             assert list(step.residues(found)) == expected
 
 
+def test_a_diagonal_is_full_from_a_twelfth_of_its_places_on() -> None:
+    entries = [(k, k, 1) for k in range(3)] + [(0, 1, 1), (1, 2, 1)]
+    assert full_diagonals(entries, 36) == [0]
+    assert full_diagonals(entries, 37) == []
+    assert full_diagonals(entries, 24) == [-1, 0]
+
+
 @pytest.mark.parametrize("ell", WHOLE)
 @pytest.mark.parametrize("size", [1, 5, 6, 25, 26, 41, 42, 70, 103])
 def test_bytes_hold_the_sums_of_any_number_of_diagonals(ell: int, size: int) -> None:

@@ -376,7 +376,7 @@ def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] |
     last = _last_steps(system, triples)
     order = sorted(range(system.n), key=last.__getitem__, reverse=True)
     place = dict(zip(order, range(system.n), strict=True))
-    power, many = [rows[a] for a in order], system.n
+    power = [rows[a] for a in order]
     spend(100 * system.n)
     entries = [(place[a], place[b], x) for a, b, x in residues(system.A, ell)]
     A = SparseProduct(entries, system.n, width, ell)
@@ -392,9 +392,7 @@ def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] |
             for j in sources:
                 if not any(any(row[sizes[j] : sizes[j + 1]]) for row in seen):
                     return j, i, k
-        while many and last[order[many - 1]] <= k:
-            many -= 1
-        power = A(power, many)
+        power = A(power, sum(map(k.__lt__, last)))
     return None
 
 
@@ -407,19 +405,19 @@ def _last_steps(system: System, triples: Triples) -> list[int]:
     for _, i, k in triples:
         largest[i] = max(largest.get(i, 0), k)
     top = max(largest.values(), default=0)
-    turns: list[list[int]] = [[] for _ in range(top + 1)]
+    states: list[list[int]] = [[] for _ in range(top + 1)]
     for i, k in largest.items():
         for _, b, _ in entries_of(system.C[i]):
             last[b] = max(last[b], k)
-            turns[k].append(b)
+            states[k].append(b)
     for k in range(top, 1, -1):
-        spend(60 * len(turns[k]))
-        for a in turns[k]:
+        spend(60 * len(states[k]))
+        for a in states[k]:
             if last[a] == k:
                 for b, _ in lines[a]:
                     if last[b] < k - 1:
                         last[b] = k - 1
-                        turns[k - 1].append(b)
+                        states[k - 1].append(b)
     return last
 
 
@@ -464,9 +462,11 @@ class SparseProduct:
         for line in _lines(entries, nrows):
             xs = [x for _, x in line]
             simple = sum(xs) <= most
-            if not simple:
-                by_one = len(line) * (40 + width // 8)
-                units += min(by_one, by_coefficient_units(len(line), width, ell))
+            units += (
+                0
+                if simple
+                else min(len(line) * (40 + width // 8), by_coefficient_units(len(line), width, ell))
+            )
             self.lines.append((_getter([j for j, _ in line]), xs, simple))
         self.units = units // max(nrows, 1)
 
@@ -603,10 +603,10 @@ class DiagonalStep:
             (8 * k, [int.from_bytes(row.translate(table), "little") for table in tables])
             for k, row in full.items()
         ]
-        self.low = int.from_bytes(bytes([ell]) * n, "little")
-        self.high = int.from_bytes(bytes([255 >> self.bits]) * n, "little")
+        self.low, above = int.from_bytes(bytes([ell]) * n, "little"), 255 >> self.bits
+        self.high = int.from_bytes(bytes([above]) * n, "little")
         # twice a folded byte, and so many terms, are a byte
-        folded = ell + (255 >> self.bits)
+        folded = ell + above
         self.most, self.again = (255 - 2 * folded) // ell, -(-folded // ell)
         self.folds, bound = 0, folded + ell
         while bound > ell:
@@ -973,7 +973,7 @@ class TwoPolynomials:
         for _ in range(SQUARES):
             power = power @ power
         power = arithmetic.absolute(power)
-        rho = min(max(map(sum, M.rows), default=0) for M in (power, power.T))
+        rho = min(max(map(sum, M.rows)) for M in (power, power.T))
         for _ in range(SQUARES):
             rho = rho and math.isqrt(rho - 1) + 1
         longest = budget.limbs([D, rho]) * (k + 1) + budget.limbs_of(h)

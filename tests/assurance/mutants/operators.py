@@ -54,7 +54,7 @@ ESTIMATES = {
 """The functions that say how much work a step is, or how long its numbers are."""
 
 COSTS = {"longest", "turn", "turns", "units"}
-"""The names that only such estimates have."""
+"""The names, of attributes too, that only such estimates have."""
 
 TOLD = {"message"}
 """The name that only messages for a human have."""
@@ -211,7 +211,7 @@ def outside(source: str) -> list[Span]:
         elif isinstance(node, ast.Expr | ast.Assign | ast.AugAssign):
             right = node.value if isinstance(node, ast.Assign) else None
             values = right.elts if isinstance(right, ast.Tuple) else [node]
-            targets = [getattr(part, "id", "") for part in _targets(node)]
+            targets = [getattr(part, "id", getattr(part, "attr", "")) for part in _targets(node)]
             named = len(targets) == len(values)
             parts = [
                 part
@@ -248,7 +248,9 @@ def dimensions(source: str) -> list[Span]:
 
 
 def _targets(node: ast.AST) -> list[ast.expr]:
-    """What an assignment gives values to, part by part."""
+    """What an assignment gives values to, part by part, or what an augmented one changes."""
+    if isinstance(node, ast.AugAssign):
+        return [node.target]
     if not isinstance(node, ast.Assign):
         return []
     first = node.targets[0]
