@@ -470,13 +470,13 @@ def account_for_all_values(plant: ParametricSystem, answers: Mapping[str, Any]) 
     from mcexact.answer.several_parameters import sentences_of_several
 
     several = len(plant.parameters) > 1
-    given = Context(plant, _wording(plant, answers))
+    given = Context(plant, repeated_of(plant, answers))
     derived = (SEVERAL if several else RULES).sentences(by_certificate(answers), given)
     computed = Sentences(sentences_of_several(answers, given) if several else ())
     return Account(answers, given, derived, computed=computed, for_all_values=True)
 
 
-def _wording(plant: ParametricSystem, answers: Mapping[str, Any]) -> dict[str, Any]:
+def repeated_of(plant: ParametricSystem, answers: Mapping[str, Any]) -> dict[str, Any]:
     """What the sentences repeat of the plant, besides its sizes."""
     # start-up: few plants have parameters
     from mcexact.answer.parameters import apart_from_poles

@@ -454,11 +454,28 @@ def load_certificate(
     verdict = checked(data, plant=text, file=file)
     if verdict.verdict != "VALID":
         raise InputError(f"the checker does not accept it ({verdict.line()})", where=str(path))
+    return answer_in(file, data, system)
+
+
+def answer_in(
+    file: str, data: bytes, system: MultiChannelSystem | ParametricSystem | None = None
+) -> Answer:
+    """Make the answer from the bytes of a certificate that the checker has accepted.
+
+    Parameters
+    ----------
+    file : str
+        Where the certificate is; its plant may be beside it.
+    data : bytes
+    system : MultiChannelSystem or ParametricSystem, optional
+        Its plant, instead of the one that it contains or that is beside it.
+    """
     digits = sys.get_int_max_str_digits()
     try:
         # A certificate may contain longer numbers than the interpreter reads by default.
         sys.set_int_max_str_digits(0)
         document = json.loads(data)
+        plant = None if system is None else system.plant
         if plant is None and isinstance(document["system"], str):
             beside = plants_beside(file, _limits(len(data)))(document["system"])
             document["system"] = json.loads(beside or b"")
@@ -497,9 +514,14 @@ def _plant(document: Mapping[str, Any]) -> Any:
     return system_file.read_system(text, limits=_roomy(text))
 
 
+def controller_of_loop(document: Mapping[str, Any]) -> controller.Controller:
+    """Read a controller from the plain data of a certificate."""
+    text = canonical({"format": controller.FORMAT, "system": "", **document})
+    return controller.read_controller(text, _roomy(text))
+
+
 def _closed_loop(system: MultiChannelSystem, construction: Mapping[str, Any]) -> MultiChannelSystem:
-    text = canonical({"format": controller.FORMAT, "system": "", **construction["controller"]})
-    return closed_loop(system, controller.read_controller(text, _roomy(text))).system
+    return closed_loop(system, controller_of_loop(construction["controller"])).system
 
 
 def _periodic_loop(

@@ -318,8 +318,9 @@ ANOTHER_STEP = Template(
 )
 HELD = Template(
     "performance-at-samples",
-    "at least {margin:digits_below} at every single input and output, with the controller every "
-    "{step:step} by Tustin's rule, rounded to 12 digits, and inputs that are set at once",
+    "at least {margin:digits_below} at every single input and output, where the controller acts "
+    "every {step:step} units of time, made by Tustin's rule and rounded to 12 digits, and inputs "
+    "are set at once",
     label="disk margin at samples",
 )
 SECTORS = Template(
@@ -345,7 +346,7 @@ STEPS = {
 FIRST_COST = Template(
     "first-cost", "cost ≤ {ratio:digits_above} × any LTI controller's{proper:proper}"
 )
-FIRST_MARGIN = Template("first-margin", "disk margin ≥ {margin:digits_below} in every loop")
+FIRST_MARGIN = Template("first-margin", "disk margin ≥ {margin:digits_below} at each input and output")
 FIRST_BOX = Template("first-box", "stable within {part:percent} of each entry")
 FIRST_SAMPLED = Template("first-sampled", "sampled every {step:step}{late:short late}")
 FIRST_EXACT = Template("first-exact", "stable for its exact samples")

@@ -150,7 +150,7 @@ def verdicts_of(
     numbers = {name: str(k) for k, name in enumerate(sorted(digests), 1)}
     for k, sentence in enumerate(sentences):
         cited = dict.fromkeys(numbers[name] for name, *_ in sentence["because"])
-        about = {"text": sentence["text"], "premises": ", ".join(cited)}
+        about = {key: sentence[key] for key in ("text", "rule")} | {"premises": ", ".join(cited)}
         yield about, known.judged(sentence, f"sentences[{k}]")
 
 

@@ -123,7 +123,8 @@ def _at_samples(margins: list[Premise], _: list[Premise], loop: Premise) -> str:
     first = margins[0]
     first.expect(first.document["subject"][0]["late"] == 0, "inputs are applied late")
     first.expect(held_from(first, loop), "another controller than that of the loop at samples")
-    held = "its controller is that of the loop in continuous time"
+    every = f"acts every {first.document['subject'][0]['step']} units of time, and"
+    held = f"its controller {every} is that of the loop in continuous time"
     return f"{each_port(margins)}; {held} by Tustin's rule, rounded to 12 digits"
 
 

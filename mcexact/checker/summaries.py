@@ -295,10 +295,16 @@ OF_DUAL: Mapping[str, Callable[..., str]] = {
 """The kinds whose claims about a dual system say what channels of the system observe."""
 
 
+def _named(step: dict[str, Json]) -> str:
+    """A construction in a word or two, samples with their period."""
+    name = step["construction"].replace("_", " ")
+    return f"{name} every {step['step']}" if step["construction"] == "sampled" else name
+
+
 def summary(document: dict[str, Json], subject: System | FunctionSystem, statement: str) -> str:
     """What a verified certificate says, in one line, after the constructions of its subject."""
     kind, claim = document["kind"], document["claim"]
-    steps = [step["construction"].replace("_", " ") for step in document["subject"]]
+    steps = [_named(step) for step in document["subject"]]
     if kind in OF_DUAL and steps[-1:] == ["dual"]:
         text = OF_DUAL[kind](claim, subject, "observe")
         steps.pop()

@@ -7,23 +7,30 @@ import os
 import platform
 import shlex
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
 from mcexact import __version__
+from mcexact.answer.check import answer_in
 from mcexact.checker.command import line_of, status_of
+from mcexact.checker.core.budget import Verdict
 from mcexact.checker.kinds import Found
+from mcexact.errors import InputError
+from mcexact.model.files import load_parametric_system, load_system
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system import MultiChannelSystem
 from mcexact.report.html import AnswerPage
 from mcexact.report.text import Table
+from mcexact.report.wording import sentences_of
 
 ARCHIVE = "mcexact-checker.pyz"
 
 
 _ATTESTED = (
     "I ran the checker as it says above, on the files of the table “What was checked”. It ended "
-    "with the verdicts of this page. I compared each sentence with what follows beside it, and the "
-    "names of plant and controller with the files that I was given."
+    "with the verdicts of this page. I compared each sentence beside which “compare” stands with "
+    "what follows, and the names of plant and controller with the files that I was given."
 )
 """What the signature says."""
 
@@ -45,7 +52,36 @@ def _certificates(found: Sequence[Found], second: Mapping[int, str]) -> Table:
     return Table("Certificates", columns, tuple(rows), note)
 
 
-def _sentences(found: Sequence[Found]) -> Table:
+def sentences_again(
+    evidence: Iterable[tuple[str, bytes, Verdict]], plant: str | None
+) -> frozenset[tuple[str, str]]:
+    """Return the sentences that the package makes of the VALID ones of certificates.
+
+    Parameters
+    ----------
+    evidence : iterable
+        The file of each certificate, its bytes, and the verdict on it.
+    plant : str, optional
+        The file of the plant, which has a name.
+    """
+    known, answers = None if plant is None else _named(plant), {}
+    for file, data, verdict in evidence:
+        own = known is not None and known.digest() == verdict.system_digest
+        if verdict.verdict == "VALID":
+            with suppress(InputError):
+                answers[Path(file).stem] = answer_in(file, data, known if own else None)
+    return sentences_of(answers)
+
+
+def _named(plant: str) -> MultiChannelSystem | ParametricSystem | None:
+    """The plant of a file, whose name no certificate has; None if it cannot be read."""
+    for read in (load_system, load_parametric_system):
+        with suppress(InputError):
+            return read(plant)
+    return None
+
+
+def _sentences(found: Sequence[Found], worded: Collection[tuple[str, str]]) -> Table:
     """Each sentence of the report, quoted, and from which certificates it follows."""
     rows = tuple(
         (
@@ -53,6 +89,7 @@ def _sentences(found: Sequence[Found]) -> Table:
             about["premises"],
             verdict.summary if not verdict.status else f"{verdict.code}: {verdict.message}",
             about["text"],
+            "its own" if (about["rule"], about["text"]) in worded else "compare",
         )
         for about, verdict in found
         if "text" in about
@@ -61,9 +98,17 @@ def _sentences(found: Sequence[Found]) -> Table:
     note += (
         "stands for what the certificate 3 proves, which is under Evidence, with all its numbers. "
     )
-    note += "The last column is quoted from the manifest, in which anything may be written: the "
-    note += "checker does not read it. Compare both. A REMARK claims nothing."
-    columns = ("verdict", "certificates", "what follows from them", "sentence of the report")
+    note += "The sentence is quoted from the manifest, in which anything may be written: the "
+    note += "checker does not read it. “Its own” means that mcexact makes exactly this sentence of "
+    note += "these certificates, which was computed again for this page and is not proved. Where "
+    note += "it says “compare”, compare the sentence with what follows. A REMARK claims nothing."
+    columns = (
+        "verdict",
+        "certificates",
+        "what follows from them",
+        "sentence of the report",
+        "wording of mcexact",
+    )
     return Table("Sentences of the report", columns, rows, note)
 
 
@@ -74,6 +119,7 @@ def audit_page(
     archive: str,
     *,
     asked: Mapping[str, str],
+    worded: Collection[tuple[str, str]],
 ) -> AnswerPage:
     """Return the page of one run of the checker.
 
@@ -89,6 +135,8 @@ def audit_page(
         The SHA-256 of the checker as one file.
     asked : mapping
         The files of the plant and the controller that were asked for, by these words.
+    worded : collection of tuple
+        The rules and the texts of the sentences that the package makes of the certificates.
     """
     verdicts = [verdict for _, verdict in found]
     good = not any(verdict.status for verdict in verdicts)
@@ -97,9 +145,14 @@ def audit_page(
     refused = sum(bool(verdict.status) for verdict in verdicts)
     answer = [f"{proved} certificates are VALID."]
     if implied:
+        own = sum(
+            each.verdict == "IMPLIED" and (about["rule"], about["text"]) in worded
+            for about, each in found
+        )
+        rest = "compare the others with what follows" if own < implied else "none is left over"
         answer.append(
-            f"From them follows what stands beside {implied} sentences of the report. The checker "
-            "does not read the sentences themselves: compare both columns."
+            f"From them follows what stands beside {implied} sentences of the report. {own} of "
+            f"these sentences are exactly what mcexact makes of these certificates; {rest}."
         )
     if refused:
         answer.append(f"warning: {refused} certificates or sentences are not proved; see below.")
@@ -141,7 +194,7 @@ def audit_page(
     tables = (
         Table("What was checked", (), tuple(facts)),
         _certificates(found, second),
-        _sentences(found),
+        _sentences(found, worded),
         Table("How to repeat it", (), tuple(again)),
         Table("Signed", (), tuple(signed), _ATTESTED),
     )

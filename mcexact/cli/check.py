@@ -34,6 +34,7 @@ from mcexact.checker.command import (
     status_of,
     verdicts,
 )
+from mcexact.checker.core.budget import Verdict
 from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Clock, Found, memory
 from mcexact.cli import options, verified
@@ -285,7 +286,7 @@ def _write_page(
 ) -> None:
     """Write the page of the audit, with the bytes of certificates as evidence."""
     # The checker shall not need what writes pages.
-    from mcexact.cli.audit import audit_page
+    from mcexact.cli.audit import audit_page, sentences_again
     from mcexact.cli.files import write_result
 
     asked = {words: path for words, path in inputs.items() if path is not None}
@@ -294,15 +295,17 @@ def _write_page(
     pairs = ((f"--{name}", path) for name, path in given.items() if path is not None)
     options_given = [word for pair in pairs for word in pair]
     archive = hashlib.sha256(checker_archive()).hexdigest()
-    made = audit_page(judged, second, [*certificates, *options_given], archive, asked=asked)
-    texts, verdicts_of_files = {}, {}
+    evidence: dict[str, tuple[str, bytes, Verdict]] = {}
     for about, verdict in judged:
         if "text" not in about and verdict.verdict != "COUNTED" and about["file"] != "-":
-            name = about["file"]
             with contextlib.suppress(OSError):
-                texts[name] = Path(file_of(about)).read_text("utf-8", errors="replace")
-                verdicts_of_files[name] = verdict
-    write_result(page, made.rendered(texts, verdicts_of_files))
+                file = file_of(about)
+                evidence[about["file"]] = file, Path(file).read_bytes(), verdict
+    worded = sentences_again(evidence.values(), inputs["plant"])
+    called = [*certificates, *options_given]
+    made = audit_page(judged, second, called, archive, asked=asked, worded=worded)
+    texts = {name: data.decode("utf-8", "replace") for name, (_, data, _) in evidence.items()}
+    write_result(page, made.rendered(texts, {name: each for name, (*_, each) in evidence.items()}))
 
 
 class _Progress:

@@ -160,7 +160,7 @@ class Box(Shown):
         True
         """
         parts = set()
-        for (_, D), M in zip(self.radii.matrices(), _matrices(self.system), strict=True):
+        for (_, D), M in zip(self.radii.matrices(), matrices_of(self.system), strict=True):
             radii = {(i, j): Fraction(x, D.denominator) for i, j, x in D.nonzero()}
             values = {(i, j): Fraction(abs(x), M.denominator) for i, j, x in M.nonzero()}
             if not radii.keys() <= values.keys():
@@ -191,7 +191,7 @@ class Box(Shown):
     def contains(self, plant: MultiChannelSystem) -> bool:
         """Whether a plant of the same shapes is a member; names and graphs are not compared."""
         for (_, D), M, M0 in zip(
-            self.radii.matrices(), _matrices(plant), _matrices(self.system), strict=True
+            self.radii.matrices(), matrices_of(plant), matrices_of(self.system), strict=True
         ):
             if M.shape != M0.shape or plant.time != self.system.time:
                 return False
@@ -226,7 +226,7 @@ class Box(Shown):
         """The member with the nominal entries plus drawn multiples, −1 to 1, of their radii."""
         matrices = [
             M0 + _spread(D, part)
-            for (_, D), M0 in zip(self.radii.matrices(), _matrices(self.system), strict=True)
+            for (_, D), M0 in zip(self.radii.matrices(), matrices_of(self.system), strict=True)
         ]
         return MultiChannelSystem(
             matrices[0],
@@ -270,7 +270,7 @@ def radii_in_words(system: MultiChannelSystem) -> str:
         return "no entry is uncertain"
     pairs = [
         (Fraction(r, R.denominator), abs(M[i, j]))
-        for M, (_, R) in zip(_matrices(system), radii.matrices(), strict=True)
+        for M, (_, R) in zip(matrices_of(system), radii.matrices(), strict=True)
         for i, j, r in R.nonzero()
     ]
     if all(value for _, value in pairs):
@@ -281,12 +281,12 @@ def radii_in_words(system: MultiChannelSystem) -> str:
     return f"{radii.explain()}, {which}, by at most {largest}"
 
 
-def _matrices(plant: MultiChannelSystem) -> tuple[Matrix, ...]:
+def matrices_of(plant: MultiChannelSystem) -> tuple[Matrix, ...]:
     return plant.A, *plant.B, *plant.C
 
 
 def _zeros(plant: MultiChannelSystem) -> tuple[Matrix, list[Matrix], list[Matrix]]:
-    zeros = [Matrix.zeros(*M.shape) for M in _matrices(plant)]
+    zeros = [Matrix.zeros(*M.shape) for M in matrices_of(plant)]
     return zeros[0], zeros[1 : plant.m + 1], zeros[plant.m + 1 :]
 
 

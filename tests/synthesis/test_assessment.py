@@ -268,7 +268,7 @@ def test_a_loop_slower_than_the_open_loop_is_heard() -> None:
 
 
 def test_the_first_line_has_what_is_proved_and_fits() -> None:
-    proved = ["cost ≤ 1.22 × any LTI controller's", "disk margin ≥ 0.4 in every loop"]
+    proved = ["cost ≤ 1.22 × any LTI controller's", "disk margin ≥ 0.4 at each input and output"]
     proved.append("stable within 0.13 % of each entry")
     found = replace(assessed(), fails_within=Fraction(1, 500))
     line = found.first_line(proved)
