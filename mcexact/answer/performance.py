@@ -346,7 +346,9 @@ STEPS = {
 FIRST_COST = Template(
     "first-cost", "cost ≤ {ratio:digits_above} × any LTI controller's{proper:proper}"
 )
-FIRST_MARGIN = Template("first-margin", "disk margin ≥ {margin:digits_below} at each input and output")
+FIRST_MARGIN = Template(
+    "first-margin", "disk margin ≥ {margin:digits_below} at each input and output"
+)
 FIRST_BOX = Template("first-box", "stable within {part:percent} of each entry")
 FIRST_SAMPLED = Template("first-sampled", "sampled every {step:step}{late:short late}")
 FIRST_EXACT = Template("first-exact", "stable for its exact samples")

@@ -16,13 +16,13 @@ from mcexact.answer.check import answer_in
 from mcexact.checker.command import line_of, status_of
 from mcexact.checker.core.budget import Verdict
 from mcexact.checker.kinds import Found
+from mcexact.cli.wording import sentences_of
 from mcexact.errors import InputError
 from mcexact.model.files import load_parametric_system, load_system
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.html import AnswerPage
 from mcexact.report.text import Table
-from mcexact.report.wording import sentences_of
 
 ARCHIVE = "mcexact-checker.pyz"
 

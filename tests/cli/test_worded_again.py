@@ -10,8 +10,8 @@ from mcexact import analyze, load_certificate
 from mcexact.answer.account import Account
 from mcexact.answer.sentence import MANIFEST
 from mcexact.cli import main
+from mcexact.cli.wording import sentences_of
 from mcexact.model import gallery
-from mcexact.report.wording import sentences_of
 
 FOLDER = Path(gallery.__file__).parent
 PLANTS = ["quadruple-tank-pminus", "liu2020-3ch-no-communication", "feedthrough-that-cancels"]
