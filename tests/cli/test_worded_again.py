@@ -48,7 +48,11 @@ def test_all_that_an_analysis_says_is_made_again_but_the_name(name: str, tmp_pat
 def designed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the certificates of a design."""
     folder = tmp_path_factory.mktemp("designed")
-    plant = {"format": "mcexact-system/1", "A": [[0, 1], [0, -1]], "time": "continuous"}
+    plant: dict[str, Any] = {
+        "format": "mcexact-system/1",
+        "A": [[0, 1], [0, -1]],
+        "time": "continuous",
+    }
     plant["channels"] = [{"name": "1", "B": [[0], [1]], "C": [[1, 0]]}]
     (folder / "plant.json").write_text(json.dumps(plant), encoding="utf-8")
     files = [str(folder / "plant.json"), "-o", str(folder / "gains.json")]
