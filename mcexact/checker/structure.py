@@ -34,7 +34,7 @@ from .core.arithmetic import (
     stripped,
 )
 from .core.budget import counted, spend
-from .core.evidence import SparseProduct, annihilator, inputs, modulus
+from .core.evidence import SparseProduct, annihilator, by_row, inputs, modulus
 from .core.reach import PAIRS, components, krylov_ranks, read_arcs, require_arcs, require_no_edges
 from .core.reading import (
     Json,
@@ -75,7 +75,8 @@ def banded_krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> 
     for a, u, x in residues(B, ell):
         power[place[a]] |= x << 8 * u
     spend(n * (B.ncols + 8))
-    A = SparseProduct([(place[a], place[b], x) for a, b, x in entries], n, B.ncols, ell)
+    lines = by_row([(place[a], place[b], x) for a, b, x in entries], n)
+    A = SparseProduct(lines, B.ncols, ell)
     starting: list[list[tuple[int, int]]] = [[] for _ in range(n)]
     for k in counted(range(blocks)):
         spend(n * (60 + B.ncols // 2))

@@ -26,6 +26,7 @@ from mcexact.checker.core.evidence import (
     full_diagonals,
     krylov_loop,
     loop_entries,
+    residues_by_row,
     split,
 )
 from mcexact.checker.core.reading import Refused
@@ -327,6 +328,9 @@ def test_parts_and_residues_are_those_of_the_rows(seed: int) -> None:
     assert (
         residues(S, 7) == residues(M, 7) == [(i, j, M.modulo(7)[i][j]) for i, j, _ in entries_of(M)]
     )
+    lines = residues_by_row(M, 7)
+    assert lines == [[(j, x) for j, x in enumerate(row) if x] for row in M.modulo(7)]
+    assert lines == [[(j, x) for j, x in line if x] for line in residues_by_row(S, 7)]
 
 
 def test_what_is_sparse_is_charged() -> None:

@@ -27,7 +27,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
-from itertools import chain, compress
+from itertools import chain, compress, count
 from operator import itemgetter, mul
 from typing import Any
 
@@ -968,9 +968,8 @@ def entries_of(M: Matrix) -> list[Entry]:
     if isinstance(M, SparseMatrix):
         return M.entries
     spend(M.nrows * (8 + M.ncols))
-    places = [(i, j) for i, row in enumerate(M.rows) for j in compress(range(M.ncols), row)]
-    spend(100 * len(places))
-    return [(i, j, M.rows[i][j]) for i, j in places]
+    spend(100 * sum(map(bool, chain.from_iterable(M.rows))))
+    return [(i, j, row[j]) for i, row in enumerate(M.rows) for j in compress(count(), row)]
 
 
 def within(M: Matrix, rows: Mapping[int, int] | None, cols: Mapping[int, int] | None) -> Matrix:

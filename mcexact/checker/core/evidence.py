@@ -22,7 +22,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
-from itertools import accumulate, chain, zip_longest
+from itertools import accumulate, chain, compress, count, zip_longest
 from operator import add, itemgetter, mul
 from typing import Any
 
@@ -363,27 +363,20 @@ Triples = list[tuple[int, int, int]]
 def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] | None:
     """A claimed edge (j, i, k) with C_i A^k B_j = 0 modulo ℓ, or None; ℓ is at most ``SMALL``.
 
-    Each row of A^k [B_1 … B_m] is one long integer, with a byte for each column.  The states are in
-    the order of the last step whose row matters, so that the rows of a step are the first ones.
+    Each row of A^k [B_1 … B_m] is one long integer, with a byte for each column; rows that no later
+    edge needs are left out.
 
     Theorem ``transfer_graph.arc_rule``.
     """
     sizes = [0, *accumulate(B.ncols for B in system.B)]
-    width, rows = sizes[-1], _inputs(system, sizes, ell)
+    width, power = sizes[-1], _inputs(system, sizes, ell)
     wanted: dict[int, dict[int, list[int]]] = {}
     for j, i, k in triples:
         wanted.setdefault(k, {}).setdefault(i, []).append(j)
     last = _last_steps(system, triples)
-    order = sorted(range(system.n), key=last.__getitem__, reverse=True)
-    place = dict(zip(order, range(system.n), strict=True))
-    power = [rows[a] for a in order]
     spend(100 * system.n)
-    entries = [(place[a], place[b], x) for a, b, x in residues(system.A, ell)]
-    A = SparseProduct(entries, system.n, width, ell)
-    outputs = [
-        SparseProduct([(v, place[b], x) for v, b, x in residues(C, ell)], C.nrows, width, ell)
-        for C in system.C
-    ]
+    A = SparseProduct(residues_by_row(system.A, ell), width, ell)
+    outputs = [SparseProduct(residues_by_row(C, ell), width, ell) for C in system.C]
     for k in counted(range(max(wanted, default=-1) + 1)):
         for i, sources in wanted.get(k, {}).items():
             spend(len(outputs[i].lines) * (8 + width // 8))
@@ -392,7 +385,7 @@ def unseen(system: System, triples: Triples, ell: int) -> tuple[int, int, int] |
             for j in sources:
                 if not any(any(row[sizes[j] : sizes[j + 1]]) for row in seen):
                     return j, i, k
-        power = A(power, sum(map(k.__lt__, last)))
+        power = A(power, [step > k for step in last])
     return None
 
 
@@ -401,7 +394,7 @@ def _last_steps(system: System, triples: Triples) -> list[int]:
 
     Row a of A^k B is in the output C_i A^(k+l) B if a path of l arcs leads from a to it.
     """
-    last, largest, lines = [-1] * system.n, dict[int, int](), _lines(entries_of(system.A), system.n)
+    last, largest = [-1] * system.n, dict[int, int]()
     for _, i, k in triples:
         largest[i] = max(largest.get(i, 0), k)
     top = max(largest.values(), default=0)
@@ -410,7 +403,9 @@ def _last_steps(system: System, triples: Triples) -> list[int]:
         for _, b, _ in entries_of(system.C[i]):
             last[b] = max(last[b], k)
             states[k].append(b)
-    for k in range(top, 1, -1):
+    steps = range(top, 1, -1)
+    lines = by_row(entries_of(system.A), system.n) if steps else []
+    for k in steps:
         spend(60 * len(states[k]))
         for a in states[k]:
             if last[a] == k:
@@ -431,13 +426,25 @@ def _inputs(system: System, sizes: list[int], ell: int) -> list[int]:
     return rows
 
 
-def _lines(entries: list[Entry], nrows: int) -> list[list[tuple[int, int]]]:
-    """For each row the columns of its entries, and their values."""
+Line = list[tuple[int, int]]
+"""The columns of the entries of a row, with the entries."""
+
+
+def by_row(entries: list[Entry], nrows: int) -> list[Line]:
+    """The rows of a matrix that is given by its entries."""
     spend(100 * (len(entries) + nrows))
-    lines: list[list[tuple[int, int]]] = [[] for _ in range(nrows)]
+    lines: list[Line] = [[] for _ in range(nrows)]
     for i, j, x in entries:
         lines[i].append((j, x))
     return lines
+
+
+def residues_by_row(M: Matrix, ell: int) -> list[Line]:
+    """The entries modulo ℓ of each row of a matrix."""
+    if isinstance(M, SparseMatrix):
+        return by_row(residues(M, ell), M.nrows)
+    spend(40 * M.nrows * M.ncols)
+    return [[*zip(compress(count(), row), filter(None, row), strict=True)] for row in M.modulo(ell)]
 
 
 def _getter(places: Sequence[int]) -> Callable[[Any], Sequence[Any]]:
@@ -454,12 +461,13 @@ class SparseProduct:
     a byte holds their sum; those of long lines are added by coefficient.
     """
 
-    def __init__(self, entries: list[Entry], nrows: int, width: int, ell: int) -> None:
+    def __init__(self, lines: list[Line], width: int, ell: int) -> None:
         self.width, self.ell, most = width, ell, most_addends(ell)
-        spend(100 * (len(entries) + nrows))
-        units = nrows * (60 + width // 8) + len(entries) * (20 + width // 16)
+        nrows, entries = len(lines), sum(map(len, lines))
+        spend(100 * (entries + nrows))
+        units = nrows * (60 + width // 8) + entries * (20 + width // 16)
         self.lines: list[tuple[Any, list[int], bool]] = []
-        for line in _lines(entries, nrows):
+        for line in lines:
             xs = [x for _, x in line]
             simple = sum(xs) <= most
             units += (
@@ -470,19 +478,21 @@ class SparseProduct:
             self.lines.append((_getter([j for j, _ in line]), xs, simple))
         self.units = units // max(nrows, 1)
 
-    def __call__(self, power: list[int], many: int | None = None) -> list[int]:
-        """The first rows of the product, or all; those of the factor are ``power``."""
-        lines = self.lines[:many]
-        spend((1 + len(lines)) * self.units)
+    def __call__(self, power: list[int], needed: Sequence[bool] | None = None) -> list[int]:
+        """The rows of the product, 0 for those not needed; the rows of the factor are ``power``."""
+        needed = [True] * len(self.lines) if needed is None else needed
+        spend((1 + sum(needed)) * self.units + len(needed))
         of, width, table = int.from_bytes, self.width, multiples(self.ell)[1]
         return [
-            of(
+            0
+            if not taken
+            else of(
                 sum(map(mul, xs, gather(power))).to_bytes(width, "little").translate(table),
                 "little",
             )
             if simple
             else self._in_parts(xs, gather(power))
-            for gather, xs, simple in lines
+            for taken, (gather, xs, simple) in zip(needed, self.lines, strict=True)
         ]
 
     def _in_parts(self, xs: list[int], rows: Sequence[int]) -> int:
@@ -668,7 +678,7 @@ def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entr
     spend(200 * (most + system.m))
     entries = {(i, j): x for i, j, x in residues(A, ell)}
     for B, F, C in zip(system.B, gains, system.C, strict=True):
-        seen, inputs = _lines(residues(C, ell), C.nrows), residues(B, ell)
+        seen, inputs = residues_by_row(C, ell), residues(B, ell)
         gain = [[(h, f) for h, f in enumerate(row) if f] for row in F.modulo(ell)]
         for a, g, x in inputs:
             for h, f in gain[g]:
