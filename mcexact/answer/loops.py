@@ -325,12 +325,12 @@ EVERY_VALUE = Template(
 )
 FAILING_PLANT = Template(
     "certify-failing-plant",
-    "for a plant within {distance:percent_above} of each entry",
+    "for some plant within {distance:percent_above} of each entry",
     label="a loop is not stable",
 )
 FAILING_PLANT_RADII = Template(
     "certify-failing-plant-radii",
-    "for a plant within {distance:digits_above} times the radii",
+    "for some plant within {distance:digits_above} times the radii",
     label="a loop is not stable",
 )
 LARGEST = Template("certify-largest", "{bound:number}", label="largest rate found")

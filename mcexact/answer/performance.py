@@ -319,8 +319,8 @@ ANOTHER_STEP = Template(
 HELD = Template(
     "performance-at-samples",
     "at least {margin:digits_below} at every single input and output, where the controller acts "
-    "every {step:step} units of time, made by Tustin's rule and rounded to 12 digits, and inputs "
-    "are set at once",
+    "every {step:step} units of time, made by Tustin's rule, and inputs are set at once; its "
+    "numbers are rounded to 12 digits, those of the plant at samples to 12 decimals",
     label="disk margin at samples",
 )
 SECTORS = Template(

@@ -521,13 +521,13 @@ def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]
         yield {"file": path} if own else {**about, "manifest": path}, verdict
     implied, rest = numbers["text", True], numbers["text", False]
     valid, other = numbers["file", True], numbers["file", False]
-    numbers_text = f"{implied} sentences implied, {rest} not, {counted(remarks, 'remark')}"
-    numbers_text += f"; {valid} certificates valid, {other} not"
-    numbers_text += "".join(f"; manifest of SHA-256 {digest}" for digest in digests)
-    if not wanted.system:
-        numbers_text += "; no plant was given to compare with"
-    if in_loop and not wanted.controller:
-        numbers_text += "; no controller was given to compare with"
+    lacking = [] if wanted.system else ["plant"]
+    lacking += ["controller"] if in_loop and not wanted.controller else []
+    parts = [f"no {' and no '.join(lacking)} was given to compare with"] if lacking else []
+    parts.append(f"{implied} sentences implied, {rest} not, {counted(remarks, 'remark')}")
+    parts.append(f"{valid} certificates valid, {other} not")
+    parts += [f"manifest of SHA-256 {digest}" for digest in digests]
+    numbers_text = "; ".join(parts)
     yield {"file": path}, Verdict("COUNTED", numbers_text, system_digest=plant)
 
 

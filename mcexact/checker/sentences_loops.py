@@ -458,12 +458,12 @@ def within(loops: Premise) -> str:
     plant, radii = loops.plant, loops["gain_radii"]
     nominal = [plant.A, *plant.B, *plant.C]
     spread = read_radii(plant.uncertainty, plant.names, nominal)
-    allowed = [f"in the plant by more than {least(pairs_of(nominal, spread))}"]
+    part = f"by more than {least(pairs_of(nominal, spread))} of its modulus"
+    changes = f"no entry of the plant changes {part}"
     if radii is not None:
         pairs = gain_pairs(loops.document["subject"][-1]["controller"], radii)
-        allowed.append(f"in the controller by more than {least(pairs)}")
-    changes = " and none ".join(allowed)
-    return f"{loops.statement}; it holds if no entry changes {changes} of its modulus"
+        changes += f", and none of the controller by more than {least(pairs)} of its modulus"
+    return f"{loops.statement}; it holds if {changes}"
 
 
 restate("members-in-region", LOOPS, lambda c: True)

@@ -42,9 +42,8 @@ def beside(cost: Premise, bounds: list[Premise], *, graph: bool) -> str:
     most, least = (rational(each["cost"], each.file) for each in (cost, bound))
     bound.expect(least > 0, "the bound is not above 0")
     spend(budget.fractions(1, budget.limbs_of([most, least])))
-    return (
-        f"{cost.statement}; {bound.statement}: the former is at most {most / least} of the latter"
-    )
+    beside = f"the cost of the former is at most {most / least} times that bound"
+    return f"{cost.statement}; {bound.statement}: {beside}"
 
 
 ANY_BOUND = Role(("cost_bound",), PLANT, many=True)
@@ -123,9 +122,10 @@ def _at_samples(margins: list[Premise], _: list[Premise], loop: Premise) -> str:
     first = margins[0]
     first.expect(first.document["subject"][0]["late"] == 0, "inputs are applied late")
     first.expect(held_from(first, loop), "another controller than that of the loop at samples")
-    every = f"acts every {first.document['subject'][0]['step']} units of time, and"
-    held = f"its controller {every} is that of the loop in continuous time"
-    return f"{each_port(margins)}; {held} by Tustin's rule, rounded to 12 digits"
+    sampling = first.document["subject"][0]
+    held = f"its controller, which acts every {sampling['step']} units of time, is that of the loop"
+    rounded = f"rounded to 12 digits, its plant to {sampling['decimals']} decimals"
+    return f"{each_port(margins)}; {held} in continuous time by Tustin's rule, {rounded}"
 
 
 def own_peak(peaks: Premise) -> str:
@@ -134,7 +134,7 @@ def own_peak(peaks: Premise) -> str:
     own = [rational(row[k], peaks.file) for k, row in enumerate(rows)]
     spend(budget.fractions(len(own), budget.limbs_of(own)))
     each = {"inputs": "input k", "outputs": "output k", "setpoints": "output k"}[peaks["at"]]
-    return f"{peaks.statement}: the largest bound of the {each} for some k is {max(own)}"
+    return f"{peaks.statement}: for every k, the bound of the {each} is at most {max(own)}"
 
 
 def of_steps(key: str, at: str) -> None:

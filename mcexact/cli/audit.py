@@ -29,8 +29,8 @@ ARCHIVE = "mcexact-checker.pyz"
 
 _ATTESTED = (
     "I ran the checker as it says above, on the files of the table “What was checked”. It ended "
-    "with the verdicts of this page. I compared each sentence beside which “compare” stands with "
-    "what follows, and the names of plant and controller with the files that I was given."
+    "with the verdicts of this page. I made this page myself by the command above, or I compared "
+    "every sentence with what follows beside it."
 )
 """What the signature says."""
 
@@ -89,25 +89,27 @@ def _sentences(found: Sequence[Found], worded: Collection[tuple[str, str]]) -> T
             about["premises"],
             verdict.summary if not verdict.status else f"{verdict.code}: {verdict.message}",
             about["text"],
-            "its own" if (about["rule"], about["text"]) in worded else "compare",
+            "as computed" if (about["rule"], about["text"]) in worded else "compare",
         )
         for about, verdict in found
         if "text" in about
     )
-    note = "What follows is what the checker proved from the certificates of these numbers: [3] "
-    note += (
+    note = (
+        "What follows is what the checker proved from the certificates of these numbers: [3] "
         "stands for what the certificate 3 proves, which is under Evidence, with all its numbers. "
+        "The verdict is about this. The sentence is quoted from the manifest, in which anything "
+        "may be written, and the checker does not read it. “As computed” means that mcexact, when "
+        "this page was made, computed exactly this sentence from these certificates: if you did "
+        "not make the page, compare every sentence with what follows. A REMARK claims nothing. "
+        "What else a report says, such as “worth installing” or what it calls computed and not "
+        "certified, is not covered by this page."
     )
-    note += "The sentence is quoted from the manifest, in which anything may be written: the "
-    note += "checker does not read it. “Its own” means that mcexact makes exactly this sentence of "
-    note += "these certificates, which was computed again for this page and is not proved. Where "
-    note += "it says “compare”, compare the sentence with what follows. A REMARK claims nothing."
     columns = (
         "verdict",
         "certificates",
         "what follows from them",
         "sentence of the report",
-        "wording of mcexact",
+        "wording",
     )
     return Table("Sentences of the report", columns, rows, note)
 
@@ -149,10 +151,12 @@ def audit_page(
             each.verdict == "IMPLIED" and (about["rule"], about["text"]) in worded
             for about, each in found
         )
-        rest = "compare the others with what follows" if own < implied else "none is left over"
+        number = "all" if own == implied else f"{own} of {implied}"
         answer.append(
-            f"From them follows what stands beside {implied} sentences of the report. {own} of "
-            f"these sentences are exactly what mcexact makes of these certificates; {rest}."
+            f"From them follows what stands beside {implied} sentences of the report; the checker "
+            f"does not read the sentences themselves. When this page was made, mcexact computed "
+            f"{number} of them again from the certificates, word for word"
+            + ("." if own == implied else "; compare the others with what follows.")
         )
     if refused:
         answer.append(f"warning: {refused} certificates or sentences are not proved; see below.")
@@ -176,6 +180,8 @@ def audit_page(
             which = f"another {words}, nearby, in a box, or at samples," if k else f"the {words}"
             whose = f"SHA-256 of the numbers of {which} of the certificates {', '.join(numbers)}"
             facts.append((whose, digest))
+    asking = "compare it with that of a copy that you trust, not the sender's"
+    facts.append((f"SHA-256 of {ARCHIVE}", f"{archive} ({asking})"))
     facts += [("version", f"mcexact {__version__}, Python {platform.python_version()}")]
     status = status_of(found)
     last = line_of(found[-1], named=True) if found else ""
@@ -186,7 +192,6 @@ def audit_page(
         ("it then ends with", f"status {status}, and the line {last}"),
         ("whole statements", "the same with --statements"),
         ("SHA-256 of a file", "sha256sum FILE, or on Windows certutil -hashfile FILE SHA256"),
-        (f"SHA-256 of {ARCHIVE}", f"{archive} (ask whoever you trust for it, not the sender)"),
     ]
     signed = [("name", ""), ("date", ""), ("signature", "")]
     names = [os.path.basename(path) for path in asked.values()]
@@ -200,7 +205,8 @@ def audit_page(
     )
     return AnswerPage(
         f"Audit of certificates{about_what}",
-        "What an independent checker verified, and how anybody can repeat it.",
+        "What a checker verified that shares no code with the program that found it, and how "
+        "anybody can repeat it.",
         good,
         tuple(answer),
         (),
