@@ -521,7 +521,7 @@ def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]
         yield {"file": path} if own else {**about, "manifest": path}, verdict
     implied, rest = numbers["text", True], numbers["text", False]
     valid, other = numbers["file", True], numbers["file", False]
-    lacking = [] if wanted.system else ["plant"]
+    lacking = ["plant"] if plant and not wanted.system else []
     lacking += ["controller"] if in_loop and not wanted.controller else []
     parts = [f"no {' and no '.join(lacking)} was given to compare with"] if lacking else []
     parts.append(f"{implied} sentences implied, {rest} not, {counted(remarks, 'remark')}")
