@@ -121,3 +121,21 @@ let read_setpoint value =
   | _ -> assert false
 
 let listed_setpoint claim = { Kernel.p_solvable = claim.solvable; p_rank = claim.steady_rank; p_zero = claim.zero }
+
+(* The kind `closed_loop_spectrum`: a polynomial. *)
+let read_spectrum value =
+  match Json.fields "claim" [ "polynomial" ] value with [ p ] -> read_polynomial "claim.polynomial" 0 p | _ -> assert false
+
+(* The kind `stability`: a rate in continuous time, a radius in discrete time, and whether all eigenvalues meet it. *)
+type stability = { bound : Q.t; stable_loop : bool }
+
+let read_stability time value =
+  match Json.fields ~optional:[ "damping"; "largest_modulus" ] "claim" [ "bound"; "stable" ] value with
+  | [ bound; flag; damping; largest ] ->
+    let discrete = time = "discrete" in
+    let bound = if bound = Json.Null then (if discrete then Q.one else Q.zero) else Json.rational "claim.bound" bound in
+    if (if discrete then Q.sign bound <= 0 || Q.gt bound Q.one else Q.sign bound < 0) then invalid "claim.bound" "expected a rate >= 0, or a radius in (0, 1]";
+    let stable_loop = Json.boolean "claim.stable" flag in
+    if damping <> Json.Null || largest <> Json.Null then incomplete "claim" "damping ratios and largest moduli are not verified here";
+    { bound; stable_loop }
+  | _ -> assert false

@@ -4,17 +4,20 @@
    that of the checker in Python. *)
 open Refused
 
-let version = "2"
+let version = "3"
 
 (* What a certificate says in words, whether the kernel proves it, and the theorem as a file of Rocq. *)
 type read = { statement : string; proves : unit -> bool; theorem : unit -> string }
 
-(* Of the system that the claim is about: the plant, or its dual. *)
-let claimed kind (plant : Plant.t) dual claim witness =
+(* Of the system that the claim is about: the plant, its dual, or a loop. *)
+let claimed kind (plant : Plant.t) subject claim witness =
   let known = plant.Plant.names and listed = Plant.listed plant in
-  let m = List.length known and s = if dual then Kernel.zdual listed else listed in
-  let about words = Words.statement plant dual words in
-  let file = Rocq.file plant.Plant.digest listed dual in
+  let m = List.length known and s = if subject = Subject.Dual then Kernel.zdual listed else listed in
+  let about words = Words.statement plant subject words in
+  let file = Rocq.file plant.Plant.digest listed subject in
+  (match kind, subject with
+   | ("closed_loop_spectrum" | "stability"), _ | _, (Subject.Plain | Subject.Dual) -> ()
+   | _ -> incomplete "subject" "of loops, spectrum and stability are verified here");
   match kind with
   | "fixed_spectrum" ->
     let said = Claim.read known claim in
@@ -45,17 +48,30 @@ let claimed kind (plant : Plant.t) dual claim witness =
     let evidence = Structure.setpoint s discrete meant witness in
     { statement = about (Words.setpoint plant.Plant.time said);
       proves = (fun () -> Kernel.check_setpoint s discrete meant evidence); theorem = (fun () -> file (Rocq.setpoint discrete meant evidence)) }
+  | "closed_loop_spectrum" ->
+    let said = Claim.read_spectrum claim in
+    let meant = Claim.integers said in
+    let d, rows = Structure.loop_matrix s subject in
+    let evidence = lazy (Structure.spectrum d rows said witness) in
+    { statement = about (Words.closed_loop_spectrum said);
+      proves = (fun () ->
+          let f, w = Lazy.force evidence in
+          match subject with Subject.Loop c -> Kernel.check_loop_spectrum s c.Controller.listed meant f w | _ -> Kernel.check_open_spectrum s meant f w);
+      theorem = (fun () -> file (Rocq.closed_loop_spectrum subject meant (Lazy.force evidence))) }
+  | "stability" ->
+    let said = Claim.read_stability plant.Plant.time claim in
+    let flag = said.Claim.stable_loop and continuous = plant.Plant.time = "continuous" in
+    let u = Q.num said.Claim.bound and v = Q.den said.Claim.bound in
+    Structure.require_by_polynomial witness;
+    let evidence = lazy (let d, rows = Structure.loop_matrix s subject in Modular.spectrum d rows) in
+    { statement = about (Words.stability plant.Plant.time said);
+      proves = (fun () ->
+          let f, w = Lazy.force evidence in
+          match subject with
+          | Subject.Loop c -> Kernel.check_loop_stability s c.Controller.listed continuous u v flag f w
+          | _ -> Kernel.check_open_stability s continuous u v flag f w);
+      theorem = (fun () -> file (Rocq.stability subject continuous u v flag (Lazy.force evidence))) }
   | _ -> incomplete "kind" "not a kind that is verified here"
-
-(* Whether the claim is about the dual system; other constructions are not verified here. *)
-let read_subject value =
-  match List.map (fun step -> match step with
-      | Json.Object [ ("construction", Json.String "dual") ] -> ()
-      | Json.Object l when (match List.assoc_opt "construction" l with Some (Json.String "dual") -> true | _ -> false) -> malformed "subject" "unknown key"
-      | _ -> incomplete "subject" "no construction but one dual is verified here") (Json.items "subject" value) with
-  | [] -> false
-  | [ () ] -> true
-  | _ -> incomplete "subject" "no construction but one dual is verified here"
 
 let certificate text =
   let document = Json.parse text in
@@ -67,8 +83,8 @@ let certificate text =
   match Json.fields "file" [ "format"; "kind"; "system"; "subject"; "claim"; "witness" ] document with
   | [ _; kind; system; subject; claim; witness ] ->
     let kind = Json.string "kind" kind in
-    let dual = read_subject subject in
-    (try claimed kind (Plant.read system) dual claim witness
+    let plant = Plant.read system in
+    (try claimed kind plant (Subject.read plant subject) claim witness
      with Division_by_zero -> incomplete "witness.modulus" "a number is not invertible modulo l, as evidence is prepared here")
   | _ -> assert false
 

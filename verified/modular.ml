@@ -116,12 +116,24 @@ let factorize rows ncols =
   (List.map (fun row -> let row = Array.of_list row in List.map (fun j -> row.(j)) pivots) rows,
    Array.to_list (Array.map Array.to_list (Array.sub a 0 !r)))
 
+(* Denominators of rows, and integer rows. *)
+let rows_of d rows =
+  let row_denominator row = List.fold_left (fun acc x -> Z.lcm acc (Z.divexact d (Z.gcd d x))) Z.one row in
+  let ds = List.map row_denominator rows in
+  (ds, List.map2 (fun e row -> List.map (fun x -> Z.divexact (Z.mul e x) d) row) ds rows)
+
+(* What is known of a matrix over d modulo l, behind the moduli whose product is `before`. *)
+let residue d rows scale before l =
+  let i = inverse l d in
+  let similar = hessenberg l (List.map (fun row -> List.map (fun x -> Z.erem (Z.mul i x) l) row) rows) in
+  { Kernel.m_ell = l; m_inv = i; m_scale = inverse l scale; m_before = inverse l before; m_similar = similar }
+let residues d rows scale moduli =
+  List.rev (snd (List.fold_left (fun (before, l) ell -> (Z.mul before ell, residue d rows scale before ell :: l)) (Z.one, []) moduli))
+
 (* det(xI - A) over Q, integers with the last one the product of ds, and what proves it (spectrum_rule.v). *)
 let spectrum d rows =
   let n = List.length rows in
-  let row_denominator row = List.fold_left (fun acc x -> Z.lcm acc (Z.divexact d (Z.gcd d x))) Z.one row in
-  let ds = List.map row_denominator rows in
-  let scaled = List.map2 (fun e row -> List.map (fun x -> Z.divexact (Z.mul e x) d) row) ds rows in
+  let ds, scaled = rows_of d rows in
   let scale = List.fold_left Z.mul Z.one ds in
   let bound = List.fold_left2 (fun acc e row -> Z.mul acc (List.fold_left (fun acc x -> Z.add acc (Z.abs x)) e row)) Z.one ds scaled in
   let rec go before moduli value primes =
@@ -131,12 +143,9 @@ let spectrum d rows =
       | Seq.Cons (l, rest) ->
         if not (Z.equal (Z.gcd l d) Z.one) then go before moduli value rest
         else begin
-          let i = inverse l d in
-          let similar = hessenberg l (List.map (fun row -> List.map (fun x -> Z.erem (Z.mul i x) l) row) rows) in
-          let p = List.map (fun c -> Z.erem (Z.mul scale c) l) (characteristic l n similar) in
-          let inv = inverse l before in
-          let value = List.map2 (fun v c -> Z.add v (Z.mul before (Z.erem (Z.mul (Z.sub c v) inv) l))) value p in
-          let w = { Kernel.m_ell = l; m_inv = i; m_scale = inverse l scale; m_before = inv; m_similar = similar } in
+          let w = residue d rows scale before l in
+          let p = List.map (fun c -> Z.erem (Z.mul scale c) l) (characteristic l n w.Kernel.m_similar) in
+          let value = List.map2 (fun v c -> Z.add v (Z.mul before (Z.erem (Z.mul (Z.sub c v) w.Kernel.m_before) l))) value p in
           go (Z.mul before l) (w :: moduli) value rest
         end in
   let moduli, product, value = go Z.one [] (List.init (n + 1) (fun _ -> Z.zero)) primes in

@@ -3,7 +3,8 @@ open Refused
 
 type matrix = { nrows : int; ncols : int; rows : Q.t list list }
 type channel = { name : string; inputs : matrix; outputs : matrix }
-type t = { time : string; states : matrix; channels : channel list; names : string list; uncertain : bool; digest : string }
+type t = { time : string; states : matrix; channels : channel list; names : string list; uncertain : bool; digest : string;
+           heard : int list list option; waits : ((int * int) * int) list }
 
 let longest = 1 lsl 20
 
@@ -60,31 +61,36 @@ let read_channel k n value =
     { name = read_name place name; inputs; outputs }
   | _ -> assert false
 
-(* Neighbors and delays are in the digest; no claim here depends on them. *)
+(* For each agent whom it hears, besides itself, and the delays of (receiver, sender): loops depend on both. *)
 let read_graph known heard waits =
   let by_name place value = match value with
     | Json.Object l -> List.map (fun (k, v) -> match Json.names place known (Json.List [ Json.String k ]) with [ i ] -> (i, v) | _ -> assert false) l
     | _ -> malformed place "expected an object" in
   if heard = Json.Null && waits <> Json.Null then malformed "delays" "expected neighbors, too";
-  if heard <> Json.Null then begin
+  if heard = Json.Null then (None, [])
+  else begin
     let sets = List.map (fun (i, v) ->
         let l = Json.names "neighbors" known v in
         if List.mem i l then malformed "neighbors" "an agent is not listed as its own neighbor";
         (i, l)) (by_name "neighbors" heard) in
     if List.length sets <> List.length known then malformed "neighbors" "expected every agent";
-    if waits <> Json.Null then begin
-      let rows = by_name "delays" waits in
-      if rows = [] then malformed "delays" "expected the canonical form";
-      List.iter (fun (i, row) ->
-          let row = by_name "delays" row in
-          if row = [] then malformed "delays" "expected the canonical form";
-          List.iter (fun (j, steps) ->
-              ignore (Json.small ~least:1 "delays" steps);
-              if not (List.mem j (List.assoc i sets)) then malformed "delays" "nothing is received from there") row) rows
-    end
+    let delays =
+      if waits = Json.Null then []
+      else begin
+        let rows = by_name "delays" waits in
+        if rows = [] then malformed "delays" "expected the canonical form";
+        List.concat_map (fun (i, row) ->
+            let row = by_name "delays" row in
+            if row = [] then malformed "delays" "expected the canonical form";
+            List.map (fun (j, steps) ->
+                let steps = Json.small ~least:1 "delays" steps in
+                if not (List.mem j (List.assoc i sets)) then malformed "delays" "nothing is received from there";
+                ((i, j), steps)) row) rows
+      end in
+    (Some (List.mapi (fun i _ -> List.assoc i sets) known), delays)
   end
 
-(* So are radii: the claims that are checked here are about the nominal values. *)
+(* Radii are in the digest alone: the claims that are checked here are about the nominal values. *)
 let read_radii states channels value =
   if value <> Json.Null then begin
     let place = "uncertainty" in
@@ -121,9 +127,9 @@ let read value =
     let channels = List.mapi (fun k each -> read_channel k states.nrows each) channels in
     let names = List.map (fun each -> each.name) channels in
     if List.length (List.sort_uniq compare names) <> List.length names then malformed "channels" "expected names of their own";
-    read_graph names heard waits;
+    let heard, waits = read_graph names heard waits in
     read_radii states channels radii;
-    { time; states; channels; names; uncertain = radii <> Json.Null; digest = Sha256.digest (Json.canonical value) }
+    { time; states; channels; names; uncertain = radii <> Json.Null; digest = Sha256.digest (Json.canonical value); heard; waits }
   | _ -> assert false
 
 (* The same as lists of integers over one denominator. *)

@@ -122,7 +122,39 @@ let setpoint discrete (c : zsetpoint) w =
     plain = Printf.sprintf "@setpoint_plant plant sized %s claim evidence" (bool discrete);
     turned = Printf.sprintf "@setpoint_dual plant sized %s claim evidence" (bool discrete) }
 
-let file digest s dual t =
+(* `closed_loop_spectrum` and `stability`, whose loops are systems of their own *)
+let agent a = record "ZAgent" [ nat a.ag_states; matrix a.ag_update; matrix a.ag_input ]
+let evidence (f, w) = [ ("polynomial", "zrow", row f); ("evidence", "spectrum_witness", spectrum w) ]
+let controlled subject definitions = match subject with
+  | Subject.Loop c ->
+    let c = c.Controller.listed in
+    ("controller", "zcontroller", record "ZController" [ z c.co_den; list agent c.co_agents ]) :: definitions
+  | _ -> definitions
+let matrix_of subject system field = match subject with
+  | Subject.Loop _ -> Printf.sprintf "(system_loop %s plant controller)" field | _ -> Printf.sprintf "(mcA %s)" (system field)
+let loop_meaning = function Subject.Loop _ -> "system_loop, in mcexact.kernel.program_rule, is the loop with the controller." | _ -> "within is defined in mcexact.kernel.program_rule."
+
+let closed_loop_spectrum subject p proof =
+  { name = "closed_loop_spectrum"; about = "The characteristic polynomial of the loop, or of"; meaning = loop_meaning subject;
+    definitions = controlled subject (("claim", "zrow", row p) :: evidence proof);
+    says = (fun system -> Printf.sprintf "forall (K : fieldType) (h : {rmorphism rat -> K}), char_poly %s = up K claim" (matrix_of subject system "K"));
+    plain = (match subject with
+        | Subject.Loop _ -> "@check_loop_spectrum_sound plant controller claim polynomial evidence" | _ -> "@closed_loop_spectrum_plant plant sized claim polynomial evidence");
+    turned = "@closed_loop_spectrum_dual plant sized claim polynomial evidence" }
+
+let stability subject continuous u v flag proof =
+  let claim = Printf.sprintf "%s %s %s %s" (bool continuous) (z u) (z v) (bool flag) in
+  { name = "stability"; about = "Whether all eigenvalues lie in a region, of the loop, or of"; meaning = loop_meaning subject;
+    definitions = controlled subject (evidence proof);
+    says = (fun system -> Printf.sprintf "forall C : numClosedFieldType, %s <-> (forall z, eigenvalue %s z -> within %s %s %s z)"
+        (bool flag) (matrix_of subject system "C") (z u) (z v) (bool continuous));
+    plain = (match subject with
+        | Subject.Loop _ -> Printf.sprintf "@check_loop_stability_sound plant controller %s polynomial evidence" claim
+        | _ -> Printf.sprintf "@stability_plant plant sized %s polynomial evidence" claim);
+    turned = Printf.sprintf "@stability_dual plant sized %s polynomial evidence" claim }
+
+let file digest s subject t =
+  let dual = subject = Subject.Dual in
   let system field = if dual then Printf.sprintf "(dual (system_of %s plant))" field else Printf.sprintf "(system_of %s plant)" field in
   let define (name, kind, text) = Printf.sprintf "Definition %s : %s := %s." name kind text in
   String.concat "\n"
@@ -131,7 +163,7 @@ let file digest s dual t =
        "From Coq Require Import ZArith.";
        "From mathcomp Require Import all_ssreflect all_algebra.";
        "From mcexact Require Import multichannel completeness.";
-       "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts reach_rule arcs_rule setpoint_rule kinds.";
+       "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule kinds.";
        "";
        define ("plant", "zsystem", system_text s) ]
      @ List.map define t.definitions

@@ -281,3 +281,31 @@ let setpoint (s : Kernel.zsystem) discrete (claim : Kernel.zsetpoint) value =
         (Z.zero, nothing_below, List.map (split s) layers) in
     { Kernel.sp_below = steady; sp_above = above; sp_point; sp_full; sp_row }
   | _ -> assert false
+
+(* The matrix of the plant or of the loop, over one denominator. *)
+let loop_matrix (s : Kernel.zsystem) = function
+  | Subject.Loop c -> (Kernel.zclosed_den s c.Controller.listed, Kernel.zclosed s c.Controller.listed)
+  | _ -> (s.Kernel.zD, s.Kernel.zA)
+
+(* The polynomial p of a claim as that of the matrix, times the denominators of its rows, by the moduli of the witness. *)
+let spectrum d rows p value =
+  let place = "witness.moduli" in
+  let moduli = match Json.fields "witness" [ "moduli" ] value with
+    | [ l ] -> List.map (Json.integer ~least:2 place) (Json.items place l) | _ -> assert false in
+  ignore (List.fold_left (fun product l ->
+      if not (Z.equal (Z.gcd product l) Z.one) then invalid place "not coprime to those before it";
+      Z.mul product l) Z.one moduli);
+  if List.length p <> List.length rows + 1 then invalid "claim.polynomial" "expected another degree";
+  let ds, scaled = Modular.rows_of d rows in
+  let scale = List.fold_left Z.mul Z.one ds in
+  if List.exists (fun l -> not (Z.equal (Z.gcd scale l) Z.one)) moduli then invalid place "divides a denominator";
+  let f = List.map (fun c -> Q.mul (Q.of_bigint scale) c) p in
+  if List.exists (fun c -> not (Z.equal (Q.den c) Z.one)) f then invalid "claim.polynomial" "a coefficient that no matrix with these rows has";
+  (List.map Q.num f, { Kernel.s_ds = ds; s_N = scaled; s_moduli = Modular.residues d rows scale moduli })
+
+let require_by_polynomial value =
+  let keys = match value with Json.Object l -> l | _ -> malformed "witness.method" "expected a method" in
+  match List.assoc_opt "method" keys with
+  | Some (Json.String "polynomial") -> ignore (Json.fields "witness" [ "method" ] value)
+  | Some (Json.String ("lyapunov" | "instability")) -> incomplete "witness.method" "quadratic forms are not verified here"
+  | _ -> malformed "witness.method" "expected a method"

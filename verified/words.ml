@@ -17,12 +17,20 @@ let polynomial p =
   | [] -> "0"
   | (sign, first) :: rest -> String.concat " " (((if sign = "-" then "-" else "") ^ first) :: List.concat_map (fun (sign, each) -> [ sign; each ]) rest)
 
-(* For the system, with its sizes. *)
-let statement (plant : Plant.t) dual sentence =
+(* A digest, and what it is of where this is short. *)
+let with_digest text = Printf.sprintf "SHA-256 %s%s" (Sha256.digest text) (if String.length text <= 80 then " = " ^ text else "")
+
+(* For the system that the claim is about, with its sizes. *)
+let statement (plant : Plant.t) subject sentence =
   let nominal = if plant.Plant.uncertain then " at its nominal values" else "" and n = plant.Plant.states.Plant.nrows in
-  let known = plant.Plant.names in
-  Printf.sprintf "For %sthe plant %s%s (%d state%s, channels %s, %s time): %s" (if dual then "the dual of: " else "") plant.Plant.digest nominal
-    n (if n = 1 then "" else "s") (braced (List.map json known)) plant.Plant.time sentence
+  let known = braced (List.map json plant.Plant.names) in
+  let before, states, ports = match subject with
+    | Subject.Plain -> ("", n, "channels " ^ known)
+    | Subject.Dual -> ("the dual of: ", n, "channels " ^ known)
+    | Subject.Loop c ->
+      (Printf.sprintf "the closed loop with the controller with %s of: " (with_digest c.Controller.text), n + c.Controller.added,
+       Printf.sprintf "%d of the controlled system and %d added by the controller of the channels %s" n c.Controller.added known) in
+  Printf.sprintf "For %sthe plant %s%s (%d state%s, %s, %s time): %s" before plant.Plant.digest nominal states (if states = 1 then "" else "s") ports plant.Plant.time sentence
 
 let fixed = "fixed under linear time-invariant decentralized control"
 let pencil = "[xI - A, B; C, 0]"
@@ -80,3 +88,9 @@ let setpoint time (claim : Claim.setpoint) =
     Printf.sprintf
       "%s, so that in no stable linear time-invariant loop every output tends to every constant set-point; the normal rank of %s is %sits number of rows%s"
       rows pencil (denied zero) (if zero then Printf.sprintf ", so that %d is an invariant zero" place else "")
+
+let closed_loop_spectrum p = "the characteristic polynomial of A is " ^ polynomial p
+
+let stability time (claim : Claim.stability) =
+  let inside = if time = "discrete" then "modulus below " ^ Q.to_string claim.Claim.bound else "real part below " ^ Q.to_string (Q.neg claim.Claim.bound) in
+  Printf.sprintf "%severy eigenvalue of A has %s" (denied claim.Claim.stable_loop) inside

@@ -19,7 +19,7 @@ from pathlib import Path
 from mcexact.checker.core.system import digest_of
 
 NAME = "mcexact-verified"
-VERSION = f"{NAME} 2"
+VERSION = f"{NAME} 3"
 """What the program must say of itself: the version of what it prints and of the format it reads."""
 SECONDS = 60.0
 """After this time, or that of the whole run, the program is stopped and has confirmed nothing."""

@@ -1,10 +1,11 @@
 (* The kinds other than `fixed_spectrum`, for which facts are not enough: `controllability` (of the dual system,
-   observability), `transfer_graph`, `completeness` and `setpoint`.  Each check proves its claim of every system that a
+   observability), `transfer_graph`, `completeness`, `setpoint`, and without a controller `closed_loop_spectrum` and
+   `stability`, which program_rule.v has with one.  Each check proves its claim of every system that a
    list represents, and so of the plant of the list, and of its dual where the list is that of the dual. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel fixed_bound transfer_graph completeness.
-From mcexact.kernel Require Import lists systems residues shrunk_rule fixed_rule regions_rule reach_rule arcs_rule setpoint_rule facts.
+From mcexact.kernel Require Import lists systems residues shrunk_rule fixed_rule regions_rule reach_rule arcs_rule setpoint_rule program_rule facts.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -128,6 +129,18 @@ Corollary setpoint_plant d c w : check_setpoint s d c w -> forall (K : fieldType
 Proof. by move=> ok K h; apply: (check_setpoint_sound ok h). Qed.
 Corollary setpoint_dual d c w : check_setpoint (zdual s) d c w -> forall (K : fieldType) (h : {rmorphism rat -> K}), setpoint_holds d (dual (system_of K s)) c.
 Proof. by move=> ok K h; apply: (check_setpoint_sound ok h). Qed.
+Corollary closed_loop_spectrum_plant f g w : check_open_spectrum s f g w ->
+  forall (K : fieldType) (h : {rmorphism rat -> K}), char_poly (mcA (system_of K s)) = up K f.
+Proof. by move=> ok K h; apply: (check_open_spectrum_sound ok h). Qed.
+Corollary closed_loop_spectrum_dual f g w : check_open_spectrum (zdual s) f g w ->
+  forall (K : fieldType) (h : {rmorphism rat -> K}), char_poly (mcA (dual (system_of K s))) = up K f.
+Proof. by move=> ok K h; apply: (check_open_spectrum_sound ok h). Qed.
+Corollary stability_plant continuous u v flag f w : check_open_stability s continuous u v flag f w ->
+  forall C : numClosedFieldType, flag <-> (forall z, eigenvalue (mcA (system_of C s)) z -> within u v continuous z).
+Proof. by move=> ok C; apply: (check_open_stability_sound ok). Qed.
+Corollary stability_dual continuous u v flag f w : check_open_stability (zdual s) continuous u v flag f w ->
+  forall C : numClosedFieldType, flag <-> (forall z, eigenvalue (mcA (dual (system_of C s))) z -> within u v continuous z).
+Proof. by move=> ok C; apply: (check_open_stability_sound ok). Qed.
 Corollary fixed_spectrum_dual rs g c : check_whole (zdual s) rs g = Some c ->
   (forall (K : fieldType) (h : {rmorphism rat -> K}), claim_holds (dual (system_of K s)) c) /\
   (forall C : numClosedFieldType, regions_hold (dual (system_of C s)) c g).

@@ -8,7 +8,7 @@ import shlex
 import shutil
 import stat
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,16 @@ import pytest
 
 import mcexact
 from mcexact import fixed_spectrum
+from mcexact.analysis.stability import certify_stability, open_loop_spectrum
 from mcexact.answer import protocol
 from mcexact.checker.kinds import check_document
 from mcexact.cli import verified
+from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.loop import closed_loop
+from tests.checker import test_closed_loop_spectrum, test_stability
+from tests.checker.handmade import Document, changed, checked
 from tests.cli.calling import call
 from tests.wording import says
 
@@ -194,6 +200,35 @@ def test_a_theorem_that_takes_too_long_or_cannot_be_made_is_an_error(
 BUILT = verified.program() is not None
 
 
+def of_a_loop(plant: mcexact.MultiChannelSystem) -> mcexact.MultiChannelSystem:
+    """The loop in which agent i shares x_i and keeps z_i: ẋ_i = y_i1/2, ż_i = x_i − z_i."""
+    ones = [Matrix.from_rows([[1]] * channel.B.ncols) for channel in plant.channels]
+    first = [Matrix.from_rows([[1] + [0] * (channel.C.nrows - 1)]) for channel in plant.channels]
+    unit, half = Matrix.from_rows([[1]]), Matrix.from_rows([["1/2"]])
+    agents = tuple(
+        AgentProgram(
+            channel.name,
+            1,
+            1,
+            LinearMap({i: half @ first[i]}),
+            LinearMap({}, {i: unit}, -unit),
+            LinearMap({i: -(ones[i] @ first[i])}, {i: ones[i]}, ones[i]),
+        )
+        for i, channel in enumerate(plant.channels)
+    )
+    return closed_loop(plant, Controller(plant.time, "", agents)).system
+
+
+def spectrum_of_a_loop(plant: mcexact.MultiChannelSystem) -> Any:
+    """The characteristic polynomial of a loop."""
+    return open_loop_spectrum(of_a_loop(plant))
+
+
+def stability_of_a_loop(plant: mcexact.MultiChannelSystem) -> Any:
+    """Whether a loop is stable, by its characteristic polynomial."""
+    return certify_stability(of_a_loop(plant), method="polynomial")
+
+
 QUESTIONS = (
     mcexact.completeness,
     mcexact.fixed_spectrum,
@@ -202,20 +237,22 @@ QUESTIONS = (
     mcexact.setpoint_solvability,
     mcexact.transfer_graph,
 )
+OF_MATRICES = (open_loop_spectrum, spectrum_of_a_loop, stability_of_a_loop)
+"""Questions about plants without feedthrough alone."""
 
 
 @pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
 @pytest.mark.parametrize("name", gallery.names())
 def test_both_checkers_agree_about_every_published_plant(name: str, tmp_path: Path) -> None:
     plant, paths, statements = gallery.load(name), [], []
-    for question in QUESTIONS:
+    known = plant.D is None  # what makes a plant without feedthrough of it is not verified there
+    for question in (*QUESTIONS, *(OF_MATRICES if known else ())):
         path = tmp_path / f"{question.__name__}.json"
         path.write_text(protocol.encode(question(plant)), "ascii")
         verdict = check_document(path.read_bytes())
         assert verdict.verdict == "VALID"
         paths.append(str(path))
         statements.append(verdict.statement)
-    known = plant.D is None  # what makes a plant without feedthrough of it is not verified there
     found = verified.confirmations(paths, statements)
     assert [answer.confirmed for answer in found] == [known] * len(paths)
 
@@ -238,6 +275,36 @@ def test_no_invariant_zero_is_confirmed_where_set_points_can_be_held(
     assert answer.verdict == "INVALID"
 
 
+def _table(rows: Iterable[tuple[Any, ...]]) -> Iterator[tuple[str, Document]]:
+    """The reasons and the documents of a table, after the changes that it makes."""
+    for reason, document, *rest in rows:
+        edits = rest[0] if rest else ()
+        yield (
+            reason,
+            changed(document, *((edits,) if edits and isinstance(edits[0], str) else edits)),
+        )
+
+
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+def test_of_loops_by_hand_it_confirms_what_is_valid_and_nothing_else(tmp_path: Path) -> None:
+    rules = test_closed_loop_spectrum, test_stability
+    table = [row for each in rules for row in _table((*each.ACCEPTED, *each.REJECTED))]
+    paths, verdicts = [], [checked(document) for _, document in table]
+    for k, (_, document) in enumerate(table):
+        paths.append(str(tmp_path / f"{k}.json"))
+        Path(paths[-1]).write_text(json.dumps(document), "ascii")
+    found = verified.confirmations(paths, [verdict.statement for verdict in verdicts])
+    for (name, _), verdict, answer in zip(table, verdicts, found, strict=True):
+        assert verdict.verdict == "VALID" or not answer.confirmed, name
+        assert not (verdict.verdict == "VALID" and answer.contradicts), (name, answer)
+    assert {answer.verdict for answer in found} == {
+        "CONFIRMED",
+        "INCOMPLETE",
+        "INVALID",
+        "MALFORMED",
+    }
+
+
 PROOFS = Path(__file__).parents[2] / "proofs"
 """The theorems that the kernel rests on, once `make verified` has compiled them."""
 THEOREMS = (PLANT, "compleib-tf1", "quadruple-tank-pminus", "siljak-two-subsystems-farina")
@@ -254,7 +321,7 @@ def proved(file: Path) -> bool:
     not BUILT or not (PROOFS / "kernel" / "kinds.vo").exists() or shutil.which("coqc") is None,
     reason="needs the compiled proofs: make verified",
 )
-@pytest.mark.parametrize("question", QUESTIONS, ids=lambda each: each.__name__)
+@pytest.mark.parametrize("question", (*QUESTIONS, *OF_MATRICES), ids=lambda each: each.__name__)
 @pytest.mark.parametrize("name", THEOREMS)
 def test_coq_proves_the_theorem_about_a_published_plant(
     name: str, question: Callable[[mcexact.MultiChannelSystem], Any], tmp_path: Path

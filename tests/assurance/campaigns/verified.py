@@ -1,7 +1,7 @@
 """Both checkers on mutants and forgeries of their common kinds: what only one of them accepts.
 
-Every try of the attack campaign for these kinds, about a plant or its dual, is judged by the
-checker in Python and by the program mcexact-verified (`make verified`).  Counted are pairs of
+Every try of the attack campaign for these kinds, about a plant, its dual or a loop, is judged by
+the checker in Python and by the program mcexact-verified (`make verified`).  Counted are pairs of
 verdicts of each kind; where both accept, the statements and their digests have to be equal.
 Nothing that is INVALID or MALFORMED may be CONFIRMED.  Every other difference is listed with its
 reason, but for certificates that the program does not read.
@@ -22,16 +22,23 @@ from mcexact.checker.kinds import check_document
 from mcexact.cli import verified
 from tests.assurance.attack.tries import batch_numbers, drawn_batch, tries
 
-KINDS = ("completeness", "controllability", "fixed_spectrum", "setpoint", "transfer_graph")
+LOOPS = ("closed_loop_spectrum", "stability")
+KINDS = (
+    *("completeness", "controllability", "fixed_spectrum", "setpoint", "transfer_graph"),
+    *LOOPS,
+)
 AT_ONCE = 256
 """Files that the program is given in one call."""
 
 
 def documents(count: int, kinds: Collection[str]) -> Iterator[tuple[str, bytes]]:
-    """The original of each batch about a plant or its dual, and the texts of its tries."""
+    """The original of each batch about a plant, its dual or a loop, and the texts of its tries."""
     for number in batch_numbers(50 * count, kinds):
         batch = drawn_batch(number)
-        if batch.original["subject"] not in ([], [{"construction": "dual"}]):
+        if [step["construction"] for step in batch.original["subject"]] not in (
+            *([], ["dual"]),
+            *([["closed_loop"]] if batch.kind in LOOPS else []),
+        ):
             continue
         yield batch.kind, json.dumps(batch.original).encode("ascii")
         for each in tries(number, batch):
