@@ -38,7 +38,8 @@ let bezout l p q =
       euclid (b, ub, vb) (r, less ua ub, less va vb) in
   euclid (trim (reduce l p), [ Z.one ], []) (trim (reduce l q), [], [ Z.one ])
 
-(* A L = L H and L Y = I modulo the prime l, H zero below its first subdiagonal. *)
+(* A L = L H and L Y = I modulo the prime l, H zero below its first subdiagonal.  Modulo a number that is not prime every
+   pivot has to be a unit, the last one too, as in the checker in Python. *)
 let hessenberg l rows =
   let n = List.length rows in
   let array rows = Array.of_list (List.map (fun row -> Array.of_list (reduce l row)) rows) in
@@ -48,7 +49,7 @@ let hessenberg l rows =
   let swap_columns m i j = Array.iter (fun row -> let t = row.(i) in row.(i) <- row.(j); row.(j) <- t) m in
   let add_row m i k u = Array.iteri (fun j x -> if Z.sign x <> 0 then m.(i).(j) <- Z.erem (Z.sub m.(i).(j) (Z.mul u x)) l) m.(k) in
   let add_column m k i u = Array.iter (fun row -> if Z.sign row.(i) <> 0 then row.(k) <- Z.erem (Z.add row.(k) (Z.mul u row.(i))) l) m in
-  for k = 1 to n - 2 do
+  for k = 1 to n - 1 do
     let pivot = ref k in
     while !pivot < n && Z.sign h.(!pivot).(k - 1) = 0 do incr pivot done;
     if !pivot < n then begin
