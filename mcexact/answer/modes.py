@@ -400,22 +400,6 @@ class ByDegrees(Part):
 
 
 @dataclass(frozen=True)
-class ByTransferGraph(Part):
-    """Evidence of certificates written by earlier versions, which is read only.
-
-    Attributes
-    ----------
-    transfer_graph : TransferGraph
-        The transfer graph of the same system.
-    degrees : tuple of Degree
-        One for each block.
-    """
-
-    transfer_graph: TransferGraph
-    degrees: tuple[Degree, ...]
-
-
-@dataclass(frozen=True)
 class MinimalRealization(Part):
     """A minimal realization of C_c (xI − A)⁻¹ B_c: the subspace im X, reduced by the rows of W.
 
@@ -488,13 +472,13 @@ class Assignability(Answer):
     fixed_degree : int
         The number of eigenvalues, with multiplicity, that belong to no block and depend on no gain;
         0 if no mode is fixed.
-    evidence : ByDegrees, ByTransferGraph or ByRealizations
+    evidence : ByDegrees or ByRealizations
         That the blocks are the strong components, and the degrees of all blocks.
     """
 
     blocks: tuple[SpectrumBlock, ...] = claim()
     fixed_degree: int = claim()
-    evidence: ByDegrees | ByTransferGraph | ByRealizations = witness(whole=True)
+    evidence: ByDegrees | ByRealizations = witness(whole=True)
 
     @property
     def undivided(self) -> bool:

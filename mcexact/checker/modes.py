@@ -220,15 +220,13 @@ def check_assignability(claim: Json, witness: Json, system: System) -> None:
     """
     listed, left = fields(claim, "claim", "blocks", "fixed_degree")
     require_degree = _require_degree
-    # earlier versions wrote a transfer graph, and the oldest ones realizations
-    earlier = isinstance(witness, dict) and "components" not in witness
-    if earlier and "degrees" not in witness:
+    earlier = isinstance(witness, dict) and "realizations" in witness
+    if earlier:
         keys = ("modulus", "transfer_graph", "realizations")
         number, graph, shown = fields(witness, "witness", *keys)
         require_degree = partial(_require_minimal, evidence.modulus(number, "witness.modulus"))
     else:
-        key = "transfer_graph" if earlier else "components"
-        graph, shown = fields(witness, "witness", key, "degrees")
+        graph, shown = fields(witness, "witness", "components", "degrees")
     place = "claim.blocks"
     blocks = [fields(block, place, "channels", "dimension") for block in items(listed, place)]
     parts = [names(component, place, system.names) for component, _ in blocks]

@@ -301,20 +301,12 @@ FALSE = [
     ("components and a transfer graph", APART, (
         "witness.transfer_graph", {"claim": GRAPH["claim"], "witness": GRAPH["witness"]},
     ), "MALFORMED"),
+    ("degrees beside a transfer graph", APART, ("witness", {
+        "transfer_graph": {"claim": GRAPH["claim"], "witness": GRAPH["witness"]},
+        "degrees": APART["witness"]["degrees"],
+    }), "MALFORMED"),
     ("components with realizations", APART, ("witness.realizations", []), "MALFORMED"),
 ]  # fmt: skip
-
-BEFORE = changed(
-    APART,
-    (
-        "witness",
-        {
-            "transfer_graph": {"claim": GRAPH["claim"], "witness": GRAPH["witness"]},
-            "degrees": APART["witness"]["degrees"],
-        },
-    ),
-)
-"""As earlier versions wrote."""
 
 UNIT = matrix([1, 0], [0, 1])
 SPLIT = certificate(
@@ -358,7 +350,6 @@ SPREAD = changed(
 """The input moves both modes, the output sees the first."""
 
 ACCEPTED = [
-    ("degrees beside a transfer graph", BEFORE),
     ("a mode that is moved and not seen", SPREAD),
     ("a chain splits in two", SPLIT),
     ("a mode that no gain moves", STAYS),
@@ -386,14 +377,14 @@ TOO_MUCH = (
 REJECTED = [
     (
         "blocks that are not those of the transfer graph",
-        BEFORE,
+        SPLIT,
         (
             ("claim.blocks", [JOINED]),
-            ("witness.degrees", LOOP["witness"]["degrees"]),
+            ("witness.realizations", [WHOLE]),
         ),
         "INVALID",
     ),
-    ("an edge that is not there", BEFORE, ("witness.transfer_graph.witness.powers", [0, 0, 0])),
+    ("an edge that is not there", SPLIT, ("witness.transfer_graph.witness.powers", [0, 0, 0])),
     (
         "a mode that is seen and not moved",
         changed(STAYS, ("system.channels.0.C", [[1, 1]])),

@@ -115,6 +115,8 @@ def plant_digest(document: Mapping[str, Any]) -> str:
     table: dict[str, Any] = {"time": plant.time, "A": _table(plant.A), "channels": []}
     for label, B, C in zip(plant.names, plant.B, plant.C, strict=True):
         table["channels"].append({"name": label, "B": _table(B), "C": _table(C)})
+    if plant.D is not None:
+        table["D"] = _table(plant.D)
     if plant.neighborhoods is not None:
         table["neighbors"] = {
             plant.names[i]: [plant.names[j] for j in N if j != i]

@@ -395,8 +395,16 @@ TRAPS: dict[str, Document] = {
         CHAIN,
         {"blocks": [{"channels": ["1", "2"], "dimension": 2}], "fixed_degree": 0},
         {
+            "modulus": 7,
             "transfer_graph": {"claim": GRAPH["claim"], "witness": GRAPH["witness"]},
-            "degrees": [WHOLE_CHAIN],
+            "realizations": [
+                {
+                    "X": matrix([1, 0], [0, 1]),
+                    "pivots": [0, 1],
+                    "W": matrix([1, 0], [0, 1]),
+                    "columns": [0, 1],
+                }
+            ],
         },
     ),
     "a plant without channels": certificate(

@@ -364,23 +364,17 @@ def _whole_graph(document: Document) -> Document:
 
 
 def by_the_whole_graph(rng: random.Random, document: Document) -> Forged:
-    """Degrees beside a transfer graph, as earlier versions wrote, and another claim of edges."""
-    if "degrees" not in document["witness"]:
-        return None
-    graph = _whole_graph(document)
-    document["witness"] = {
-        "transfer_graph": graph, "degrees": document["witness"]["degrees"],
-    }  # fmt: skip
+    """Realizations beside a transfer graph, as earlier versions wrote, and other edges."""
+    graph = _by_realizations(document)["transfer_graph"]
     if rng.random() < 0.3:
         return document
     change = rng.choice((missing_edge, extra_edge))
-    names = list(subject_of(document).names)
     inner = {**document, **copied(graph)}
     made = change(rng, inner)
     if made is None:
         return None
     document["witness"]["transfer_graph"] = {key: made[key] for key in ("claim", "witness")}
-    return _of_components(document, made["claim"]["components"], names)
+    return _of_components(document, made["claim"]["components"], "realizations")
 
 
 def other_components(rng: random.Random, document: Document) -> Forged:
@@ -412,32 +406,38 @@ def other_components(rng: random.Random, document: Document) -> Forged:
         shown["order"] = rng.sample(range(len(listed)), len(listed))
         place = {name: k for k, part in enumerate(listed) for name in part}
         shown["arcs"] = [a for a in shown["arcs"] if place[a[0]] == place[a[1]]]
-        return _of_components(document, sorted(listed, key=lambda p: names.index(p[0])), names)
+        return _of_components(document, sorted(listed, key=lambda p: names.index(p[0])))
     return document
 
 
-def _of_components(document: Document, parts: list[list[str]], names: list[str]) -> Forged:
+_NONE = {"denominator": 1, "entries": []}
+_DEGREE_0: dict[str, Document] = {
+    "degrees": {
+        "states": [],
+        "annihilator": _NONE,
+        "pivots": [],
+        "kernel": _NONE,
+        "kernel_pivots": [],
+        "sequence": None,
+    },
+    "realizations": {"X": _NONE, "pivots": [], "W": _NONE, "columns": []},
+}
+
+
+def _of_components(document: Document, parts: list[list[str]], key: str = "degrees") -> Forged:
     """The claim with these components, and evidence of the degree 0 for those that are new."""
     claim, witness = document["claim"], document["witness"]
     known = {
         tuple(block["channels"]): (block["dimension"], degree)
-        for block, degree in zip(claim["blocks"], witness["degrees"], strict=True)
+        for block, degree in zip(claim["blocks"], witness[key], strict=True)
     }
-    nothing = {
-        "states": [],
-        "annihilator": {"denominator": 1, "entries": []},
-        "pivots": [],
-        "kernel": {"denominator": 1, "entries": []},
-        "kernel_pivots": [],
-        "sequence": None,
-    }
-    degrees = [known.get(tuple(part), (0, nothing)) for part in parts]
+    degrees = [known.get(tuple(part), (0, copied(_DEGREE_0[key]))) for part in parts]
     total = claim["fixed_degree"] + sum(block["dimension"] for block in claim["blocks"])
     claim["blocks"] = [
         {"channels": part, "dimension": d} for part, (d, _) in zip(parts, degrees, strict=True)
     ]
     claim["fixed_degree"] = total - sum(d for d, _ in degrees)
-    witness["degrees"] = [degree for _, degree in degrees]
+    witness[key] = [degree for _, degree in degrees]
     return document
 
 
