@@ -14,7 +14,7 @@ from typing import Any
 import click
 
 import mcexact
-from mcexact.analysis.nearby.equalities import why_fixed
+from mcexact.analysis.patterns import why_fixed
 from mcexact.answer.modes import FixedFactor
 from mcexact.answer.templates import count, modes
 from mcexact.cli import command_line
@@ -144,11 +144,12 @@ def classified() -> list[str]:
         "## Why their modes are fixed, and what would move them",
         "",
         "A mode is *joint* if all channels together do not control it, or not observe it, and",
-        "*decentralized* if it stays fixed in a minimal realization. Equalities between entries",
-        "fix a mode if other numbers at the same places are proved to leave fewer fixed; that the",
-        "zeros alone fix it is computed with drawn numbers. The last two columns are decided:",
-        "whether [control that varies in time](../how-to/time-varying-control.md) moves it, and",
-        "the fewest links along which sending outputs leaves no mode of the plant fixed.",
+        "*decentralized* if it stays fixed in a minimal realization. The zeros fix it if it stays",
+        "fixed with all other numbers at the places of the nonzero entries; else equalities of",
+        "entries do, and almost all other numbers free it. The last two columns say whether",
+        "[control that varies in time](../how-to/time-varying-control.md) moves it, and the fewest",
+        "links along which sending outputs leaves no mode of the plant fixed. All of it is decided",
+        "with certificates.",
         "Plants with [feedthrough](../how-to/feedthrough.md) are left out.",
         "",
         "| plant | modes | stable | missed by | fixed by | time-varying control | links |",
@@ -166,7 +167,7 @@ def fixed_modes_of(plant: MultiChannelSystem) -> list[tuple[str, ...]]:
     spectrum = mcexact.fixed_spectrum(plant)
     if spectrum.empty:
         return []
-    freed = why_fixed(plant, spectrum).freed
+    by_zeros = why_fixed(plant, spectrum).by_zeros
     components = mcexact.transfer_graph(plant).components
     quotient = mcexact.fixed_spectrum(merged(plant, components)).polynomial
     left = mcexact.fixed_spectrum(mcexact.minimal_realization(plant).system).polynomial
@@ -185,7 +186,7 @@ def fixed_modes_of(plant: MultiChannelSystem) -> list[tuple[str, ...]]:
             modes(p, 12) if p.degree < 3 else f"{p.degree} modes",
             "yes" if factor.stable else "no",
             " and ".join(kinds),
-            "equalities (proved)" if p in freed else "zeros (computed)",
+            "zeros" if p in by_zeros else "equalities",
             "does not move it" if p.divides(quotient) else "moves it",
             links or "those it has",
         )

@@ -15,6 +15,7 @@ from mcexact.analysis.analyze import Analysis
 from mcexact.analysis.controllability import ExceptionalGains, exceptional_gains
 from mcexact.analysis.failures import failures, fewest_failures
 from mcexact.analysis.fixed_modes import pencil_rank
+from mcexact.analysis.patterns import WhyFixed, structural_fixed_modes, why_fixed
 from mcexact.analysis.single_channel import ErrorGains, error_gains, single_channel_gains
 from mcexact.analysis.stability import certify_stability, open_loop_spectrum
 from mcexact.analysis.structure import complementary_subsystem
@@ -23,6 +24,7 @@ from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.answer.failures import Failure, Failures, Fewest, FewestFailures
 from mcexact.answer.loops import ClosedLoopSpectrum, StabilityVerdict
 from mcexact.answer.modes import Assignability, Completeness, FixedFactor, FixedSpectrum, PencilRank
+from mcexact.answer.patterns import StructuralFixedModes
 from mcexact.answer.protocol import Answer
 from mcexact.answer.structure import (
     ComplementarySubsystem,
@@ -64,8 +66,10 @@ __all__ = [
     "SetpointSolvability",
     "SingleChannelGains",
     "StabilityVerdict",
+    "StructuralFixedModes",
     "TransferGraph",
     "Verdict",
+    "WhyFixed",
     "certify_stability",
     "complementary_subsystem",
     "error_gains",
@@ -75,4 +79,6 @@ __all__ = [
     "open_loop_spectrum",
     "pencil_rank",
     "single_channel_gains",
+    "structural_fixed_modes",
+    "why_fixed",
 ]

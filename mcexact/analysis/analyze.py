@@ -74,7 +74,7 @@ from mcexact.plot.graphs import structure
 from mcexact.processes import Child
 
 if TYPE_CHECKING:
-    from mcexact.analysis.nearby.equalities import WhyFixed
+    from mcexact.analysis.patterns import WhyFixed
 
 # Questions about one system, with their limits on time and work.
 
@@ -669,6 +669,8 @@ class Analysis(ShownByAccount):
                     self._asked.add("minimal_communication")
             if self._has_joint_modes(outcomes):
                 self._asked.add("minimal_fixed_spectrum")
+            if self._has_entries_to_blame(outcomes.get("fixed_spectrum")):
+                self._asked.add("structural_fixed_modes")
         self._decide(sorted(self.asked, key=lambda name: bool(self.questions[name].ports)))
         self._end_child()
         return {name: self._answers[name] for name in self.asked}
@@ -700,6 +702,16 @@ class Analysis(ShownByAccount):
         known: Any = spectrum
         own, m = self.information == "own", self.system.m
         return own and any(0 < len(factor.channels) < m for factor in known.factors)
+
+    def _has_entries_to_blame(self, spectrum: Any) -> bool:
+        """Whether modes of the plant itself are fixed, by its zeros or by equalities."""
+        question, plant = self.questions.get("structural_fixed_modes"), self.plant
+        if question is None or self.information != "own" or plant.subject or plant.D is not None:
+            return False
+        if not isinstance(spectrum, Answer) or question.reason_to_leave_out(plant):
+            return False
+        known: Any = spectrum
+        return not known.empty
 
     def _few_links_are_found_soon(self) -> bool:
         """Whether the plant is so small that the fewest links are asked for without the option."""
@@ -744,7 +756,6 @@ class Analysis(ShownByAccount):
             asked["nearby"] = {each.lost: (each.part, each.within) for each in self.nearby.plants}
         why: dict[str, Any] = {} if self.why_fixed_left_out else dict(self.why_fixed.answers)
         given, answers = Context(self.system, asked), answers | near | why
-        near |= {name: proof for name, proof in why.items() if name == "redrawn"}
         sentences = with_own(ANALYSIS, answers).sentences(answers, given, open_)
         about, failing = self.plant.subject, self.failing()
         return Account(answers, given, sentences, about, sorted(open_), failing, [*near])
@@ -820,14 +831,15 @@ class Analysis(ShownByAccount):
             If the plant has parameters or is a derived system.
         """
         # Few plants have fixed modes.
-        from mcexact.analysis.nearby.equalities import WhyFixed, why_fixed
+        from mcexact.analysis.patterns import WhyFixed, why_fixed
 
-        spectrum = self.answers.get("fixed_spectrum")
-        if spectrum is None or spectrum.empty:
+        names = ("fixed_spectrum", "structural_fixed_modes")
+        spectrum, structural = (self.answers.get(name) for name in names)
+        if spectrum is None or structural is None or structural.information != "own":
             InputError.require(self.plant, MultiChannelSystem, "system")
-            return WhyFixed(self._own, (), None, (), ())
+            return WhyFixed(self._own, None, (), (), ())
         if self._why_fixed is None:
-            self._why_fixed = why_fixed(self._own, spectrum)
+            self._why_fixed = why_fixed(self._own, spectrum, structural)
         return self._why_fixed
 
     def failing(self) -> dict[str, Answer]:

@@ -249,6 +249,15 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             most=_MOST_OF_QUOTIENT,
             kind="fixed_spectrum",
         ),
+        "structural_fixed_modes": Question(
+            "patterns:structural_fixed_modes",
+            "which modes are fixed for all numbers at the places of the nonzero entries; by "
+            "default if some mode is fixed",
+            about="plant",
+            needs="information",
+            by_default=False,
+            most=_MOST_OF_MINIMAL,
+        ),
         "failures": Question(
             "failures:failures",
             "which modes are fixed after each single failure of an agent, an actuator or a sensor, "

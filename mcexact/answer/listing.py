@@ -14,6 +14,7 @@ from mcexact.answer import (
     modulo,
     nearby,
     parameters,
+    patterns,
     performance,
     saturation,
     several_parameters,
@@ -34,7 +35,7 @@ REFUSALS = loops.REFUSAL_RULES
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
         Rulebook([*ANALYSIS, *(rule for kind in OWN for rule in own_rules(kind))]),
-        (nearby, modulo, time_varying, failures, analysis, boxes, sharing, sharing_gap),
+        (nearby, modulo, time_varying, failures, patterns, analysis, boxes, sharing, sharing_gap),
     ),
     "analyze, with parameters": (PARAMETERS, (parameters,)),
     "allocate": (ALLOCATION, (sharing, sharing_gap)),

@@ -9,10 +9,8 @@ How far the plant is, and whether rounding errors or digits that were not typed 
 What the data allow leads the answer.  Where that is a fixed mode, the same mode's row about all
 channels together stands in the table, and so does what only lies within 10⁻⁶ of every entry.
 
-``redrawn`` is the fixed spectrum of a plant with other numbers at the same places.  A mode that is
-not fixed there is fixed by equalities between entries.  ``law_1``, … are ranks of pencils at modes
-of the given plant that all channels together do not observe or control: their null spaces name
-such equalities.
+``law_1``, … are ranks of pencils at modes of the given plant that equalities between entries fix,
+and that all channels together do not observe or control: their null spaces name such equalities.
 """
 
 from __future__ import annotations
@@ -25,7 +23,6 @@ from mcexact.answer.analysis import Said
 from mcexact.answer.sentence import Claim, Context, Rulebook, Several
 from mcexact.answer.templates import Template
 from mcexact.exact.linear_algebra import PolynomialMatrix
-from mcexact.exact.polynomial import product
 
 Lost = Literal["unstable", "fixed", "uncontrollable", "unobservable"]
 LOST: tuple[Lost, ...] = ("unstable", "fixed", "uncontrollable", "unobservable")
@@ -65,12 +62,6 @@ PART = {
     lost: Template(f"nearby-{lost}-part", f"{_PART}{what}", theorem, "nearby")
     for lost, (what, theorem) in _WHAT.items()
 }
-EQUALITIES = Template(
-    "nearby-equalities",
-    "equalities in the data; other data free {p:modes}",
-    "blocks.block_bounded",
-    "why fixed",
-)
 _UNOBSERVED = (
     "{p:right} and C v = 0 for v = {vectors:vectors}",
     "joint_controllability.observable_hautus",
@@ -88,7 +79,7 @@ NEARLY = {
     "uncontrolled": Template("nearby-law-uncontrolled", *_UNCONTROLLED, "nearby law"),
 }
 
-NEARBY_RULES, WHY_RULES = Rulebook(), Rulebook()
+NEARBY_RULES, LAW_RULES = Rulebook(), Rulebook()
 
 
 def _has(lost: str, own: Claim) -> bool:
@@ -133,19 +124,7 @@ for _lost, _question in zip(
     _rules(_lost, _question)
 
 
-# Why modes are fixed.
-
-
-@WHY_RULES.rule("table", EQUALITIES, premises=("redrawn", "fixed_spectrum"))
-def _equalities(redrawn: Claim, own: Claim, given: Context) -> Said:
-    """One row for all modes if the other plant has none, else one for each that it frees."""
-    if redrawn.polynomial.degree == 0:
-        yield EQUALITIES(p=product(factor.polynomial for factor in own.factors))
-        return
-    kept = [factor.polynomial for factor in redrawn.factors]
-    for factor in own.factors.separately():
-        if factor.polynomial not in kept:
-            yield EQUALITIES(p=factor.polynomial)
+# Vectors that equalities leave unobserved or uncontrolled.
 
 
 def _law(rank: Claim, templates: Mapping[str, Template], *, dual: bool) -> Said:
@@ -156,19 +135,19 @@ def _law(rank: Claim, templates: Mapping[str, Template], *, dual: bool) -> Said:
         yield template(p=rank.polynomial, vectors=vectors)
 
 
-@WHY_RULES.rule("table", *LAWS.values(), premises=("law",))
+@LAW_RULES.rule("table", *LAWS.values(), premises=("law",))
 def _laws(laws: Several, given: Context) -> Said:
     for rank in laws.separately():
         yield from _law(rank, LAWS, dual=bool(rank.subject))
 
 
-@WHY_RULES.rule("table", NEARLY["unobserved"], premises=("nearby_unobservable",))
+@LAW_RULES.rule("table", NEARLY["unobserved"], premises=("nearby_unobservable",))
 def _nearly_unobserved(near: Claim, given: Context) -> Said:
     if near.polynomial.degree == 1 and not near.subject:
         yield from _law(near, NEARLY, dual=False)
 
 
-@WHY_RULES.rule("table", NEARLY["uncontrolled"], premises=("nearby_uncontrollable",))
+@LAW_RULES.rule("table", NEARLY["uncontrolled"], premises=("nearby_uncontrollable",))
 def _nearly_uncontrolled(near: Claim, given: Context) -> Said:
     if near.polynomial.degree == 1 and near.subject:
         yield from _law(near, NEARLY, dual=True)

@@ -183,6 +183,7 @@ KINDS: dict[str, type[Answer]] = {}
 """The kinds of answers whose modules have been imported, by name."""
 TOPICS = (
     "structure",
+    "patterns",
     "modes",
     "sharing",
     "sharing_gap",

@@ -10,7 +10,16 @@ from collections.abc import Iterable, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mcexact.answer import analysis, failures, modulo, nearby, sharing, sharing_gap, time_varying
+from mcexact.answer import (
+    analysis,
+    failures,
+    modulo,
+    nearby,
+    patterns,
+    sharing,
+    sharing_gap,
+    time_varying,
+)
 from mcexact.answer.sentence import Context, Rulebook
 
 if TYPE_CHECKING:
@@ -33,7 +42,8 @@ ANALYSIS = Rulebook(
         *modulo.JOINT_RULES,
         *time_varying.TABLE_RULES,
         *failures.TABLE_RULES,
-        *nearby.WHY_RULES,
+        *patterns.WHY_RULES,
+        *nearby.LAW_RULES,
         *sharing.SHARING_RULES,
         *sharing_gap.GAP_RULES,
         *analysis.DETAIL_RULES,

@@ -27,6 +27,7 @@ from . import (
     loops,
     modes,
     parameters,
+    patterns,
     performance,
     saturation,
     sharing,
@@ -375,6 +376,9 @@ KINDS = {
     ),
     "stability": Rule(loops.check_stability, loops.stability_statement),
     "step_peaks": Rule(steps.check_step_peaks, steps.step_peaks_statement),
+    "structural_fixed_modes": Rule(
+        patterns.check_structural_fixed_modes, patterns.structural_fixed_modes_statement
+    ),
     "transfer_graph": Rule(reach.check_transfer_graph, reach.transfer_graph_statement),
 }
 """The rule of each kind."""

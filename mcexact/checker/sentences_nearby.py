@@ -11,8 +11,7 @@ about the manifest's own plant.  How far the other plant is from it is computed 
 ``nearby-…-part``    the distance is said, and no more
 ===================  ===========================================================================
 
-``nearby-equalities`` is about a plant with other numbers at the same places, however far these are:
-modes of the own plant that are not fixed there are fixed by equalities between its entries.
+``fixed-by-…`` divide the fixed modes of the plant by what is fixed for all numbers at its places.
 ``law-…`` and ``nearby-law-…`` name the vector that all channels do not observe, or not control.
 """
 
@@ -20,8 +19,8 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from .core import budget
-from .core.arithmetic import FIRST, Matrix, absolute, coprime, entries_of, poly_modulo
-from .core.reading import Json, polynomial
+from .core.arithmetic import FIRST, Matrix, absolute, coprime, exponent, poly_modulo
+from .core.reading import polynomial
 from .core.roots import in_stability_region
 from .core.system import System, polynomial_text
 from .discs import Pair, pairs_of
@@ -164,66 +163,47 @@ of_mode(
 )
 
 
-# Modes that are fixed by equalities between entries.
+# Modes that the zeros alone fix, and modes that equalities between entries fix.
+
+STRUCTURAL = Role(("structural_fixed_modes",), PLANT)
+SOURCES = "M. E. Sezer and D. D. Siljak 1981"
 
 
-def moved_places(near: Premise, own: Premise) -> list[tuple[set[int], set[int]]]:
-    """The rows and the columns of entries that differ, of each matrix; zeros are the same."""
-    places = []
-    matrices = ([each.A, *each.B, *each.C] for each in (own.plant, near.plant))
-    for M, N in zip(*matrices, strict=True):
-        values, others = ({(i, j): x for i, j, x in entries_of(each)} for each in (M, N))
-        near.expect(values.keys() == others.keys(), "an entry is 0 in one plant alone")
-        budget.spend(100 + 4 * budget.fractions(len(values), max(M.limbs, N.limbs)))
-        differ = [at for at, x in values.items() if x * N.denominator != others[at] * M.denominator]
-        places.append(({i for i, _ in differ}, {j for _, j in differ}))
-    return places
+def why(key: str, kept: bool, words: str, theorem: str) -> None:
+    """Enter the rule about fixed modes that are roots of the structural polynomial, or are not."""
+
+    @rule(key, STRUCTURAL, FIXED, theorem=theorem)
+    def _why(structural: Premise, own: Premise) -> str:
+        alone = structural["information"] == "own"
+        structural.expect(alone, "agents feed back outputs of neighbors")
+        p = polynomial(structural["polynomial"], "claim.polynomial")
+        cited = own.cited("claim", "factors")
+        own.expect(bool(cited), "no mode is fixed")
+        listed = [polynomial(each["polynomial"], "claim.factors", 1) for each in cited]
+        for factor in listed:
+            if kept:
+                times, _ = exponent(factor, p)
+                structural.expect(times > 0, "a mode is not among the structural ones")
+            else:
+                apart = coprime(poly_modulo(factor, FIRST), poly_modulo(p, FIRST), FIRST)
+                structural.expect(apart, "a mode is among the structural ones")
+        names = " and of ".join(map(polynomial_text, listed))
+        return f"{own.statement}; {words.format(names)}; {structural.statement}"
 
 
-def freed_states(near: Premise) -> set[int]:
-    """The states of the blocks that leave no mode fixed; all of them if no mode is fixed."""
-    if not near["factors"]:
-        return set(range(near.plant.A.nrows))
-    parts = near.witness.get("blocks", [])
-    return {a for part in parts if _leaves_none(part) for a in part["states"]}
-
-
-def _leaves_none(part: dict[str, Json]) -> bool:
-    """Whether the verified evidence of a block leaves no mode of it."""
-    evidence = part["evidence"]
-    if evidence is None or "channel" not in evidence:
-        return evidence is not None
-    return len(evidence["recurrence"]) - 1 == len(part["states"])
-
-
-OTHER = Role(("fixed_spectrum",), PLANT, nearby=True)
-
-
-@rule("nearby-equalities", OTHER, FIXED, theorem="blocks.block_bounded")
-def _equalities(near: Premise, own: Premise) -> str:
-    """The blocks of both plants are the same, and so are those that leave a mode in the other one.
-
-    What is fixed in the own plant, and not in the other one, is so in blocks that leave none there.
-    """
-    differences(near, own)
-    freed, n = freed_states(near), own.plant.A.nrows
-    (rows, columns), *ports = moved_places(near, own)
-    inputs, outputs = ports[: len(own.plant.B)], ports[len(own.plant.B) :]
-    touched = rows.union(columns, *[a for a, _ in inputs], *[b for _, b in outputs])
-    near.expect(touched <= freed, "an entry of a block that leaves a mode is another one")
-    others = poly_modulo(polynomial(near["polynomial"], "claim.polynomial"), FIRST)
-    cited = own.cited("claim", "factors")
-    own.expect(bool(cited), "no mode is fixed")
-    listed = [polynomial(each["polynomial"], "claim.factors", 1) for each in cited]
-    for p in listed:
-        alone = coprime(poly_modulo(p, FIRST), others, FIRST)
-        near.expect(alone, "a mode is fixed in the other plant, too")
-    names = " and of ".join(map(polynomial_text, listed))
-    return (
-        f"{own.statement}; the roots of {names} are not fixed in {near.plant.words}, whose entries "
-        f"are 0 where those of {own.plant.words} are, and which differs from it in entries of "
-        f"{len(freed)} of {n} states alone, in blocks in which no mode of it is fixed"
-    )
+why(
+    "fixed-by-zeros",
+    True,
+    "the roots of {} are fixed for all systems with these entries where rows and columns of "
+    "states without feedback meet, and zeros wherever it has zeros",
+    "patterns.structural_modes",
+)
+why(
+    "fixed-by-equalities",
+    False,
+    "the roots of {} are not fixed for almost all systems with zeros wherever it has zeros",
+    SOURCES,
+)
 
 
 # The vector of a mode that all channels together do not observe, or not control.

@@ -245,6 +245,15 @@ def step_peaks(claim: Json, system: System) -> str:
     return f"after a step of 1 at any one {step}, inputs stay within {u} and outputs within {y}"
 
 
+def structural_fixed_modes(claim: Json, system: System) -> str:
+    """What is fixed whatever the numbers are."""
+    U, z = len(claim["without_feedback"]), claim["at_zero"]
+    return (
+        f"the zeros alone fix the modes of {U} states without feedback and {z} further ones at 0: "
+        f"the roots of {polynomial_text(claim['polynomial'])}"
+    )
+
+
 def transfer_graph(claim: Json, system: System) -> str:
     """Whether it is strongly connected."""
     if claim["strongly_connected"]:
@@ -281,6 +290,7 @@ SUMMARIES: Mapping[str, Callable[..., str]] = {
         single_channel_gains,
         stability,
         step_peaks,
+        structural_fixed_modes,
         transfer_graph,
     )
 }

@@ -52,7 +52,6 @@ from mcexact.report.text import (
 
 if TYPE_CHECKING:
     from mcexact.analysis.boxes.largest import LargestUncertainty
-    from mcexact.analysis.nearby.equalities import WhyFixed
     from mcexact.analysis.nearby.plants import Nearby
 
 _LINES_OF_WORDS, _WITH_LINKS = 5, 8
@@ -134,7 +133,6 @@ def analyzed(
     account, taken = analysis.account, effort_tables(analysis.effort())
     near = None if analysis.nearby_left_out else analysis.nearby
     suspected = () if near is None else suspicions(near)
-    suspected += () if analysis.why_fixed_left_out else computed_reasons(analysis.why_fixed)
     lines = _WITH_LINKS if _ABOUT_LINKS & account.answers.keys() else _LINES_OF_WORDS
     lines += _LINES_FAILURES * ("failures_1" in account.answers)
     lines += _LINES_NEARBY * (near is not None and bool(near.leading))
@@ -250,12 +248,6 @@ def suspicions(near: Nearby) -> tuple[Table, ...]:
     """Return a table of the plants nearby that floating point suspects, if there are any."""
     rows = [("", each.explain()) for each in near.suspected]
     return (Table("plants nearby, computed and not certified", (), tuple(rows)),) if rows else ()
-
-
-def computed_reasons(why: WhyFixed) -> tuple[Table, ...]:
-    """Return a table of what is computed about why modes are fixed, if there is something."""
-    rows = tuple(("", text) for text in why.in_words())
-    return (Table("why modes are fixed, computed and not certified", (), rows),) if rows else ()
 
 
 def effort_tables(efforts: Sequence[Effort]) -> tuple[Table, ...]:

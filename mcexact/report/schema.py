@@ -529,13 +529,10 @@ _QUESTION = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, 
 _FACTOR = rows(NUMBER)
 _WHY_FIXED = record(
     {
+        "by_zeros": rows(_FACTOR),
         "by_equalities": rows(_FACTOR),
         "laws": rows(record({"mode": _FACTOR, "certificate": TEXT}, closed=True)),
-        "computed_not_certified": rows(
-            record({"mode": _FACTOR, "fixed_by": {"enum": ["equalities", "zeros"]}}, closed=True)
-        ),
     },
-    {"certificate": TEXT, "plant": {"type": "object"}},
     closed=True,
 )
 _LOST = {"enum": [*LOST]}

@@ -35,7 +35,7 @@ def test_every_answer_stands_under_its_name_and_names_its_certificate() -> None:
     assert view["system"].items() >= {"n": 3, "m": 3, "time": "continuous"}.items()
     plain = {name for name, question in QUESTIONS.items() if question.by_default}
     plain = {name for name in plain if not QUESTIONS[name].needs}
-    plain |= {"quotient_fixed_spectrum", "minimal_communication"}
+    plain |= {"quotient_fixed_spectrum", "structural_fixed_modes", "minimal_communication"}
     assert plain == view.keys() & QUESTIONS.keys()
     for name in plain:
         assert view[name]["certificate"] == f"{name}.json"

@@ -261,6 +261,9 @@ def of_its_graph(plant: MultiChannelSystem) -> Answers:
     """What agents can share, at once and with the delays of their messages."""
     yield "neighbor_graph", neighbor_graph(plant)
     yield "sharing_gap", mcexact.sharing.sharing_gap(plant)
+    for information in ("own", "outputs"):
+        found = mcexact.questions.structural_fixed_modes(plant, information)
+        yield f"structural_fixed_modes_{information}", found
     zero = [[[0] * plant.n for _ in range(plant.p(i))] for i in range(plant.m)]
     yield "error_gains", mcexact.questions.error_gains(plant, zero).answer
     for name, found in of_the_system(mcexact.constructions.augmented_outputs(plant)):

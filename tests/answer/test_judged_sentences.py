@@ -208,7 +208,7 @@ ROUNDED = MultiChannelSystem(
 TURNED = MultiChannelSystem(
     [["0.30000000000000004", "0.7"], ["0.7", "0.3"]], [[[1], [-1]]], [[["0.1", 0]]]
 )
-OF_DATA = ("nearby-equalities", "law-", "nearby-law-")
+OF_DATA = ("fixed-by-", "law-", "nearby-law-")
 
 
 @pytest.mark.parametrize("plant", [UNSEEN, UNMOVED, BESIDE, ROUNDED, TURNED])
@@ -217,8 +217,6 @@ def test_why_modes_are_fixed_is_judged_and_denied(plant: MultiChannelSystem) -> 
     asked: dict[str, Any] = {
         "nearby": {each.lost: plant_of(each.plant) for each in found.nearby.plants}
     }
-    if found.why_fixed.proof is not None:
-        asked["redrawn"] = plant_of(found.why_fixed.proof.about.plant)
     case = Case(plant_of(plant), asked)
     rows = [said(each) for each in found.sentences if each.template.key.startswith(OF_DATA)]
     assert rows and all(verdict(row, case) for row in rows)
@@ -228,9 +226,11 @@ def test_why_modes_are_fixed_is_judged_and_denied(plant: MultiChannelSystem) -> 
         for change in changes:
             changed = {name: plain(value) for name, value in change.items()}
             assert verdict(replace(row, values={**row.values, **changed}), case) is False
-        if row.rule == "nearby-equalities":
-            same = replace(case, asked={**asked, "redrawn": case.plant})
-            assert verdict(row, same) is False
+        if row.rule.startswith("fixed-by-"):
+            other = {"zeros": "equalities", "equalities": "zeros"}[
+                row.rule.removeprefix("fixed-by-")
+            ]
+            assert verdict(replace(row, rule=f"fixed-by-{other}"), case) is False
 
 
 @pytest.mark.slow

@@ -58,7 +58,7 @@ FROM_THE_CHECKER = re.compile(r"VALID .*|[\w.]+\.json: VALID|LaTeX")
 NUMBERS = re.compile(r"-?\d+(/\d+|\.\d+)?")
 # Paths in the JSON of which every leaf is a name or a keyword.
 NAMES = re.compile(
-    r"(nearby|why_fixed)\..*|format|system\.(name|time|channels)|information|questions\.(question|outcome|reason)|sentences\.(rule|theorem)|"
+    r"(nearby|why_fixed)\..*|format|structural_fixed_modes\.information|system\.(name|time|channels)|information|questions\.(question|outcome|reason)|sentences\.(rule|theorem)|"
     r".*\b(arcs|components|inactive|channels|subset|share|property|candidates|added|certificate|name)"
 )
 

@@ -16,6 +16,7 @@ from mcexact.analysis.boxes.members import box_fixed_modes, box_setpoints
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.failures import failures, fewest_failures
 from mcexact.analysis.fixed_modes import assignability, completeness, fixed_spectrum
+from mcexact.analysis.patterns import structural_fixed_modes
 from mcexact.analysis.questions import asked_by
 from mcexact.analysis.sharing import (
     common_dimension,
@@ -53,6 +54,7 @@ from tests.checker import (
     test_feedthrough,
     test_modulo,
     test_nearby,
+    test_patterns,
     test_periodic,
     test_sentences_design,
     test_sentences_performance,
@@ -454,9 +456,19 @@ def nearby() -> Iterator[tuple[str, list[Document]]]:
         ranks = [module.ranked(each, mode, s) for each in near for s in ([], ["1"])]
         ranks += [module.ranked(dual(each), mode, s) for each in near for s in ([], ["1"])]
         yield f"nearby_{name}", [*(answer(own) for answer in answers), *ranks]
-    for name, own, others in module.REDRAWN:
+    for name, own in (("law", module.THERE), ("law_hidden", module.HIDDEN)):
         laws = [module.ranked(each, mode, ["1"]) for each in (own, dual(own)) for mode in (0, 1)]
-        yield f"nearby_{name}", [module.spectrum(own), *laws, *map(module.spectrum, others)]
+        yield f"nearby_{name}", [module.spectrum(own), *laws]
+
+
+def for_reasons() -> Iterator[tuple[str, list[Document]]]:
+    """Plants whose modes are fixed by zeros, by equalities, by both or not at all."""
+    system = test_patterns.EQUAL.with_neighbors({"1": ["2"], "2": []})
+    free = test_patterns.FREE.with_neighbors({"1": []})
+    for name, own in (("both", system), ("nothing", free), ("hidden", test_nearby.HIDDEN)):
+        ways: list[Any] = ["own", "outputs"] if own.neighbors is not None else ["own"]
+        found = [structural_fixed_modes(own, information) for information in ways]
+        yield f"reasons_{name}", [document(fixed_spectrum(own)), *map(document, found)]
 
 
 def failing() -> Iterator[tuple[str, list[Document]]]:
@@ -526,6 +538,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
             more = designs(system) if system.neighbors is not None and system.n <= 3 else iter(())
             yield f"drawn_{seed}", [*everything(system, seed), *more]
     yield from nearby()
+    yield from for_reasons()
     of_plants: dict[str, list[Document]] = {}
     for _, listed in [*performance.IMPLIED, *performance.DENIED]:
         for found in listed:

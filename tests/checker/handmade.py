@@ -266,6 +266,23 @@ OSCILLATOR_RANK = certificate(
     {"subset": ["1"], "polynomial": [1, 0, 1], "rank": 2},
     {"modulus": 101, "kernel": layers([[], []]), "pivots": []},
 )
+STAR = certificate(
+    "structural_fixed_modes",
+    plant(
+        [[7, 0, 0, 0], [0, 0, 0, 0], [0, 1, 0, 0], [0, 2, 0, 0]],
+        ([[0], [1], [0], [0]], [[0, 0, 3, 1]]),
+        ([[1], [0], [0], [0]], [[0, 0, 0, 0]]),
+        neighbors={"1": [], "2": ["1"]},
+    ),
+    {"information": "own", "without_feedback": [0], "at_zero": 1, "polynomial": [0, -7, 1]},
+    {
+        # States 2, 3, 4, inputs of 1 and 2, outputs of 1 and 2, at the places 1 to 7.
+        "rows": [0, 1, 1, 0, 0, 0, 0],
+        "columns": [-1, 0, 0, 0, 0, 0, 0],
+        "matching": [4, 1, 3, 6, 5, 2, 7],
+    },
+)
+"""State 1 is seen by nobody.  States 3 and 4 are integrals of state 2: paths cover one of these."""
 LOSS = certificate(
     "deficiency",
     PAPER,

@@ -183,21 +183,6 @@ LONG, WRONG = sums(Fraction("0.50035"), Fraction("0.50035")), sums(Fraction("0.5
 COARSE = sums(HALF, Fraction("0.49"))
 
 
-def beside(plant: MultiChannelSystem, number: Any) -> MultiChannelSystem:
-    """The plant of two states beside a third one that no channel acts on or sees."""
-    A = [[*row, 0] for row in plant.A.rows()] + [[0, 0, number]]
-    B = [[*row] for row in plant.B(0).rows()] + [[0]]
-    return MultiChannelSystem(A, [B], [[[*row, 0] for row in plant.C(0).rows()]])
-
-
-FREED = sums(2, HALF)
-PARTLY = beside(THERE, 2)
-REDRAWN: list[tuple[str, MultiChannelSystem, list[MultiChannelSystem]]] = [
-    ("redrawn", THERE, [FREED, STILL, FAST]),
-    ("partly", PARTLY, [beside(FREED, 2), beside(FREED, 5), beside(THERE, 5), beside(FREED, 0)]),
-    ("hidden", HIDDEN, [SHOWN, FREED]),
-]
-"""Plants with fixed modes, and plants with other numbers at mostly the same places."""
 ROWS_OF_PLANTS: list[tuple[str, Document, Document, str, str]] = [
     ("a rounding error", spectrum(OWN), ranked(THERE, 0), "nearby-fixed", "IMPLIED"),
     ("the mode is not stable", spectrum(OWN), ranked(THERE, 0), "nearby-unstable", "IMPLIED"),
@@ -309,44 +294,6 @@ def test_a_plant_nearby_lacks_what_is_said(
     *certificates, found = verdicts(tmp_path, given, near, rule)
     assert {each.verdict for each in certificates} == {"VALID"}
     assert found.verdict == verdict, found.line()
-
-
-ROWS_OF_REASONS: list[tuple[str, MultiChannelSystem, MultiChannelSystem, list[int], str]] = [
-    ("other numbers free the mode", THERE, FREED, [0], "IMPLIED"),
-    ("however near these are", THERE, OWN, [0], "IMPLIED"),
-    ("all factors are meant if none is named", THERE, FREED, [], "IMPLIED"),
-    ("the mode is fixed there, too", THERE, THERE, [0], "INVALID"),
-    ("another mode is fixed there", THERE, STILL, [0], "INVALID"),
-    ("nothing is fixed in the plant itself", OWN, FREED, [], "INVALID"),
-    ("an entry is 0 there", THERE, sums(HALF, 0), [0], "INVALID"),
-    ("an entry is 0 in the plant itself", HIDDEN, FREED, [0], "INVALID"),
-    ("another time", THERE, sums(2, HALF, time="discrete"), [0], "INVALID"),
-    ("a block is freed, the other one kept", PARTLY, beside(FREED, 2), [1], "IMPLIED"),
-    ("the mode of the block that is kept", PARTLY, beside(FREED, 2), [0], "INVALID"),
-    ("all modes, of which one is kept", PARTLY, beside(FREED, 2), [0, 1], "INVALID"),
-    ("a mode is another one, and none is freed", PARTLY, beside(THERE, 5), [0], "INVALID"),
-    ("a block is freed, the other mode moved", PARTLY, beside(FREED, 5), [1], "INVALID"),
-    ("and neither mode is fixed there", PARTLY, beside(FREED, 5), [0, 1], "INVALID"),
-]
-
-
-@pytest.mark.parametrize(
-    ("own", "other", "factors", "verdict"),
-    [row[1:] for row in ROWS_OF_REASONS],
-    ids=[row[0] for row in ROWS_OF_REASONS],
-)
-def test_equalities_fix_what_other_numbers_free(
-    tmp_path: Path, own: Any, other: Any, factors: list[int], verdict: str
-) -> None:
-    evidence = {"given": spectrum(own), "near": spectrum(other)}
-    listed = evidence["given"]["claim"]["factors"]
-    because = [["near.json", "/kind", "fixed_spectrum"], ["given.json", "/kind", "fixed_spectrum"]]
-    because += [["given.json", f"/claim/factors/{k}", listed[k]] for k in factors]
-    told = {**sentence("nearby-equalities"), "because": because}
-    found = manifest(evidence, [told]) | {"nearby": ["near.json"]}
-    write(tmp_path, evidence, found)
-    verdicts = [each for _, each in manifest_verdicts(str(tmp_path), Expectation(), Limits())]
-    assert [each.verdict for each in verdicts] == ["VALID", "VALID", verdict], verdicts[-1].line()
 
 
 LAWS = [

@@ -28,19 +28,19 @@ def pages(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
         ("compleib-ac1", []),
         (
             "relative-positions-4",
-            [("no", "joint", "equalities (proved)", "does not move it", "none help")],
+            [("no", "joint", "equalities", "does not move it", "none help")],
         ),
         (
             "compleib-tf1",
-            [("yes", "decentralized", "zeros (computed)", "does not move it", "2 → 1")],
+            [("yes", "decentralized", "zeros", "does not move it", "2 → 1")],
         ),
         (
             "movable-by-periodic-gains",
-            [("no", "decentralized", "equalities (proved)", "moves it", "2 → 1")],
+            [("no", "decentralized", "equalities", "moves it", "2 → 1")],
         ),
         (
             "extremal-star-4",
-            [("no", "decentralized", "equalities (proved)", "moves it", "those it has")],
+            [("no", "decentralized", "equalities", "moves it", "those it has")],
         ),
     ],
 )

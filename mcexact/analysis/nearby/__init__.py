@@ -6,6 +6,5 @@
 `corrections`  exact plants near a suspected one
 `plants`       what was found, and its words
 `search`       the search, and its certificates
-`equalities`   why modes of the given plant are fixed: plants with other numbers at the same places
 =============  ====================================================================================
 """

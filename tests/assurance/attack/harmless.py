@@ -62,6 +62,8 @@ HARMLESS: dict[str, str] = {
         "no congruence of a matrix that is not definite is dominant: this only spares work, and an "
         "overflow on the way"
     ),
+    "patterns.py: read_places: type(information) is not str or information not in INFORMATION": RAISES,
+    "patterns.py: _whole: number < 2 ** 31": "longer potentials prove as much; they are counted as short ones",
     "performance.py: loop_of: system.loop is not None": RAISES,
     "performance.py: read_graph: (j, i) <= before or j == i": (
         "the order of edges, and an edge from an agent to itself, say nothing"

@@ -219,8 +219,6 @@ def analysis(rng: random.Random) -> Iterator[Judged]:
     rows = rows_of(found.account.sentences)
     if not found.nearby_left_out:
         asked["nearby"] = {each.lost: plant_of(each.plant) for each in found.nearby.plants}
-        if (other := found.why_fixed.proof) is not None:
-            asked["redrawn"] = plant_of(other.about.plant)
     yield from _cases(rows, Case(plant_of(plant), asked))
 
 

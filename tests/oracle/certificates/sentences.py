@@ -53,6 +53,18 @@ def _joined(parts: Sequence[str], by: str = ", ") -> str:
     return by.join(parts) or "none"
 
 
+def _structural(claim: Any, system: System) -> str:
+    whose = {"own": "its own outputs", "outputs": "the outputs of its neighbors"}
+    states = _joined([str(a + 1) for a in claim["without_feedback"]])
+    return (
+        f"where each agent feeds back {whose[claim['information']]}, for all systems with zeros "
+        "wherever it has zeros, and all constant gains F, det(xI - A_F) is a multiple of "
+        f"x^{claim['at_zero']} det(xI - A_UU), U the states {states}; almost all such systems have "
+        "no more that divides det(xI - A_F) for all F; with its own entries this is "
+        f"{polynomial_text(claim['polynomial'])}"
+    )
+
+
 def _assignability(claim: Any, system: System) -> str:
     blocks = [f"{b['dimension']} for {channels(b['channels'])}" for b in claim["blocks"]]
     return (
@@ -463,5 +475,6 @@ SENTENCES: dict[str, Any] = {
         )
     ),
     "step_peaks": _step_peaks,
+    "structural_fixed_modes": _structural,
     "transfer_graph": _transfer_graph,
 }

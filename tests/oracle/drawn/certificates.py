@@ -15,6 +15,7 @@ from mcexact.analysis import controllability, fixed_modes, structure
 from mcexact.analysis import sharing as deficiency_module
 from mcexact.analysis.parameters.modes import parametric_fixed_spectrum
 from mcexact.analysis.parameters.ranks import parametric_rank
+from mcexact.analysis.patterns import structural_fixed_modes
 from mcexact.analysis.sharing import deficiency
 from mcexact.answer import protocol
 from mcexact.answer.check import constructed
@@ -170,6 +171,9 @@ DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = 
     ),
     "single_channel_gains": _single,
     "stability": _stability,
+    "structural_fixed_modes": lambda rng, s: structural_fixed_modes(
+        s, "outputs" if s.neighbors is not None and rng.random() < 0.5 else "own"
+    ),
     "transfer_graph": _as_large(lambda rng, s: mcexact.transfer_graph(s)),
 }
 

@@ -16,6 +16,7 @@ from tests.oracle.sentences import (
     modulo,
     nearby,
     parameters,
+    patterns,
     performance,
     saturation,
     sharing,
@@ -65,6 +66,6 @@ def verdict(sentence: Said, case: Case) -> bool | None:
 
 __all__ = [
     "JUDGES", "UNJUDGED", "Case", "Facts", "Region", "Said", "UnjudgedError", "designs", "failures",
-    "members", "modulo", "nearby", "parameters", "performance", "plant_of", "said", "saturation",
-    "sharing", "time_varying", "verdict",
+    "members", "modulo", "nearby", "parameters", "patterns", "performance", "plant_of", "said",
+    "saturation", "sharing", "time_varying", "verdict",
 ]  # fmt: skip

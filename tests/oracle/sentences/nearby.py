@@ -36,11 +36,6 @@ def _same_digits(x: Fraction, y: Fraction) -> bool:
     return abs(x - y) <= abs(x) * EXACT
 
 
-def _zero_where(own: System, near: System) -> bool:
-    """Whether the entries of two plants of the same shapes are 0 at the same places."""
-    return all((x == 0) == (y == 0) for x, y in _pairs(own, near))
-
-
 def _lacks(lost: str, own: Facts, near: Facts, said: Said) -> bool:
     """Whether the modes are fixed there, and the own plant does not lack what that one lacks."""
     every = range(own.m)
@@ -71,19 +66,6 @@ def _nearby(said: Said, case: Case) -> bool:
         part = part if tier else min(part, EXACT)
         close = all(abs(x - y) <= part * abs(x) for x, y in pairs)
     return close and _lacks(lost, case.own, Facts(near), said)
-
-
-@judge("nearby-equalities")
-def _equalities(said: Said, case: Case) -> bool:
-    """The modes are fixed, and with other numbers at the same places fewer are.
-
-    Other modes may be fixed there only if they are so here, too: else these moved there.
-    """
-    other: System = case.asked["redrawn"]
-    there, own = ([str(p) for p in each.fixed] for each in (Facts(other), case.own))
-    named = [str(p) for p, _ in irreducible(said.values["p"])]
-    fixed = all(p in own for p in named) and all(p in own for p in there)
-    return fixed and not any(p in there for p in named) and _zero_where(case.plant, other)
 
 
 def _satisfied(said: Said, plant: System, *, left: bool) -> bool:

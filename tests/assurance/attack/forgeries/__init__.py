@@ -65,6 +65,7 @@ FORGERS = {
     "single_channel_gains": gains.SINGLE,
     "stability": loops.STABILITY,
     "step_peaks": performance.STEPS,
+    "structural_fixed_modes": structure.PATTERNS,
     "transfer_graph": structure.GRAPH,
 }
 

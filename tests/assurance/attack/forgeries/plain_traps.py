@@ -17,6 +17,7 @@ from tests.checker.handmade import (
     PAIR,
     PAPER,
     PAPER_SUBSPACE,
+    STAR,
     UNCONTROLLABLE,
     certificate,
     changed,
@@ -138,6 +139,20 @@ MEASURED = {"channels_T": ["1"], "U": layers([[1]]), "V": layers([[0]]), "pivots
 """The mode of :data:`SENDER`, which channel 1 does not move and channel 2 does not see."""
 
 TRAPS: dict[str, Document] = {
+    "potentials that prove fewer modes at 0": changed(
+        STAR,
+        ("claim.at_zero", 3),
+        ("claim.polynomial", [0, 0, 0, -7, 1]),
+        ("witness.matching", [1, 2, 3, 4, 5, 6, 7]),
+    ),
+    "a column for two rows": changed(
+        STAR,
+        ("claim.at_zero", 0),
+        ("claim.polynomial", [-7, 1]),
+        ("witness.rows", [0] * 7),
+        ("witness.columns", [0] * 7),
+        ("witness.matching", [4, 1, 1, 6, 5, 2, 7]),
+    ),
     "a multiplicity that is too small": certificate(
         "fixed_spectrum",
         TWICE,

@@ -733,3 +733,75 @@ def other_gap(rng: random.Random, document: Document) -> Document:
 
 
 GAP = (other_gap,)
+
+
+def other_numbers(rng: random.Random, document: Document) -> Document:
+    """More or fewer modes at 0, with potentials that add up, or with a matching of so many."""
+    claim, witness = document["claim"], document["witness"]
+    z = max(claim["at_zero"] + rng.choice((-1, 1)), 0)
+    moved = z - claim["at_zero"]
+    states = claim["without_feedback"]
+    _with_modes(document, z, states)
+    if rng.random() < 0.7 and witness["rows"]:
+        witness["rows"][rng.randrange(len(witness["rows"]))] += moved
+    if rng.random() < 0.3:
+        rng.shuffle(witness["matching"])
+    return document
+
+
+def other_matching(rng: random.Random, document: Document) -> Forged:
+    """As many modes at 0 as there are states, and potentials and a matching that say so."""
+    system, claim, witness = subject_of(document), document["claim"], document["witness"]
+    U = claim["without_feedback"]
+    kept = [a for a in range(system.n) if a not in U]
+    loops = [not system.A[a, a] for a in kept]
+    rest = len(witness["rows"]) - len(kept)
+    if rng.random() < 0.5:
+        # one column for all rows, or an entry that is 0
+        witness["matching"] = [rng.choice(witness["matching"]) for _ in witness["matching"]]
+    else:
+        own = [*kept, *range(system.n, system.n + rest)]
+        witness["matching"] = own
+        witness["rows"] = [*map(int, loops), *[0] * rest]
+        witness["columns"] = [0] * len(own)
+        _with_modes(document, sum(loops), U)
+    return document
+
+
+def other_states(rng: random.Random, document: Document) -> Forged:
+    """Another set of states without feedback, with potentials and a matching for the rest."""
+    system, claim, witness = subject_of(document), document["claim"], document["witness"]
+    before = claim["without_feedback"]
+    a = rng.randrange(system.n) if system.n else None
+    if a is None:
+        return None
+    U = sorted({*before} ^ {a})
+    left = [b for b in range(system.n) if b not in U]
+    rest = len(witness["rows"]) + len(before) - system.n
+    _with_modes(document, 0, U)
+    size = len(left) + rest
+    zeros = [0] * size
+    own = [*left, *range(system.n, system.n + rest)]
+    document["witness"] = {"rows": zeros, "columns": [*zeros], "matching": own}
+    return document
+
+
+def _with_modes(document: Document, z: int, U: list[int]) -> None:
+    """The claim that x^z det(xI − A_UU) is fixed."""
+    A = subject_of(document).A
+    chi = fmpq_mat(len(U), len(U), [A[a, b] for a in U for b in U]).charpoly()
+    document["claim"] |= {
+        "without_feedback": U,
+        "at_zero": z,
+        "polynomial": [0] * z + coefficients(chi),
+    }
+
+
+def other_polynomial(rng: random.Random, document: Document) -> Document:
+    """Other modes than those of the states, with the same evidence."""
+    listed = document["claim"]["polynomial"]
+    listed.insert(0, rng.choice((0, 1)))
+    return document
+
+
+PATTERNS = (other_numbers, other_numbers, other_matching, other_states, other_polynomial)
