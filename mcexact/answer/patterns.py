@@ -68,13 +68,13 @@ class StructuralFixedModes(Answer):
 _SOURCES = "M. E. Sezer and D. D. Siljak 1981"
 ZEROS = Template(
     "fixed-by-zeros",
-    "the zeros in the data fix {p:modes}, whatever the other entries are",
+    "the zeros alone fix {p:modes}",
     "patterns.structural_modes",
     "why fixed",
 )
 EQUALITIES = Template(
     "fixed-by-equalities",
-    "equalities in the data; almost all other data free {p:modes}",
+    "equalities; almost all other data free {p:modes}",
     _SOURCES,
     "why fixed",
 )
