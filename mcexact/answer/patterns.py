@@ -14,7 +14,7 @@ from typing import Literal
 from mcexact.answer.protocol import Answer, answer, claim, shown, witness
 from mcexact.answer.sentence import Claim, Context, Rulebook
 from mcexact.answer.templates import Sentence, Template
-from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.polynomial import Polynomial
 
 Information = Literal["own", "outputs"]
 Said = Iterator[Sentence]
@@ -83,13 +83,15 @@ WHY_RULES = Rulebook()
 
 @WHY_RULES.rule("table", ZEROS, EQUALITIES, premises=("structural_fixed_modes", "fixed_spectrum"))
 def _why(structural: Claim, spectrum: Claim, context: Context) -> Said:
-    """A row for each fixed factor; one row for all of them if the zeros fix none."""
-    if structural.information != "own":
+    """One row if the zeros fix all modes, or none; else a row for each factor."""
+    if structural.information != "own" or spectrum.polynomial.degree == 0:
         return
-    if structural.polynomial.degree == 0:
-        freed = [factor.polynomial for factor in spectrum.factors]
-        yield from [EQUALITIES(p=product(freed))] if freed else []
-        return
-    for factor in spectrum.factors.separately():
-        p = factor.polynomial
-        yield (ZEROS if p.divides(structural.polynomial) else EQUALITIES)(p=p)
+    p, zeros = spectrum.polynomial, structural.polynomial
+    if p.divides(zeros):
+        yield ZEROS(p=p)
+    elif p.gcd(zeros).degree == 0:
+        yield EQUALITIES(p=p)
+    else:
+        for factor in spectrum.factors.separately():
+            q = factor.polynomial
+            yield (ZEROS if q.divides(zeros) else EQUALITIES)(p=q)
