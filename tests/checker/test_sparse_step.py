@@ -333,6 +333,10 @@ def test_parts_and_residues_are_those_of_the_rows(seed: int) -> None:
     assert lines == [[(j, x) for j, x in line if x] for line in residues_by_row(S, 7)]
 
 
+def test_rows_of_residues_leave_out_what_the_modulus_divides() -> None:
+    assert residues_by_row(Matrix([[7, 1, 0], [0, 14, -3]], 3), 7) == [[(1, 1)], [(2, 4)]]
+
+
 def test_what_is_sparse_is_charged() -> None:
     S = SparseMatrix(1000, 1000, [(i, i, 1) for i in range(1000)])
     M = Matrix([[1] * 100] * 10, 100)
