@@ -122,7 +122,8 @@ _LACKS = {"joint_controllability": "uncontrollable", "joint_observability": "uno
 """What a plant nearby lacks where the answer is yes."""
 _NEARBY, _WHY = "nearby_plants", "why_fixed"
 _AS_LONG = 3
-"""To say why modes are fixed takes about as many times as long as to decide which are."""
+"""To find the null spaces of modes takes up to about as many times as long as to decide which are
+fixed."""
 _MOST_STATES_NEARBY = 300
 """Plants nearby are searched for at most so many states by default: of more that takes seconds."""
 _LINKED_CHANNELS, _LINKED_STATES = 8, 60
@@ -811,7 +812,7 @@ class Analysis(ShownByAccount):
 
     @property
     def why_fixed_left_out(self) -> str:
-        """Why it is not said why modes are fixed: that takes as long as to decide which."""
+        """Why no null spaces are named of what equalities fix: that takes long."""
         if self.nearby_left_out:
             return self.nearby_left_out
         spectrum = self.answers.get("fixed_spectrum")
