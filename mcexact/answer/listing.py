@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import string
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
+from mcexact import checker
 from mcexact.answer import (
     analysis,
     boxes,
@@ -24,7 +27,7 @@ from mcexact.answer import (
 )
 from mcexact.answer.rulebook import ALLOCATION, ANALYSIS, LINKS, OWN, own_rules
 from mcexact.answer.sentence import Rulebook
-from mcexact.answer.templates import Template, templates
+from mcexact.answer.templates import Template, phrases_of, templates
 
 PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 _OF_LOOPS = (*performance.RULES, *saturation.RULES, *modulo.LOOP_PART_RULES)
@@ -101,5 +104,46 @@ def _row(template: Template, rulebook: Rulebook) -> str:
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
+# The templates as the checker reads them.
+
+WORDINGS = Path(checker.__path__[0]) / "wordings.json"
+_ROUNDED = {
+    "digits_below": "below",
+    "digits_above": "above",
+    "percent": "percent below",
+    "percent_above": "percent above",
+    "part": "part above",
+    "step": "near",
+}
+
+
+def wordings() -> str:
+    """The text of the checker's ``wordings.json``: of each rule the words and fields in order."""
+    parts = {each.key: json.dumps(_wording(each), ensure_ascii=False) for each in everything()}
+    return "{\n" + ",\n".join(f'"{key}": {parts[key]}' for key in sorted(parts)) + "\n}\n"
+
+
+def _wording(template: Template) -> list[str | list[str]]:
+    text = f"{template.label}: {template.text}" if template.label else template.text
+    parts: list[str | list[str]] = []
+    for words, name, spec, _ in string.Formatter().parse(text):
+        parts += [words] if words else []
+        parts += [_field(name, spec or "")] if name else []
+    return parts
+
+
+def _field(name: str, spec: str) -> list[str]:
+    """A field: a rounded number, a region, a whole number, one of some phrases, or anything."""
+    if spec in _ROUNDED:
+        return [_ROUNDED[spec], name]
+    if spec.startswith("count "):
+        return ["count", spec.removeprefix("count ")]
+    if spec in {"int", "region"}:
+        return [spec]
+    phrases = phrases_of(spec)
+    return ["of", *phrases] if phrases else ["any"]
+
+
 if __name__ == "__main__":
     FILE.write_text(listing(), encoding="utf-8")
+    WORDINGS.write_text(wordings(), encoding="utf-8")

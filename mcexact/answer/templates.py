@@ -167,14 +167,16 @@ def choice(**words: str) -> Write:
     return words.__getitem__
 
 
-def _agreeing(one: str, more: str) -> Write:
+@dataclass(frozen=True)
+class _Agreeing:
     """A form that agrees with the number of the roots of a polynomial, or of names."""
 
-    def write(value: Any) -> str:
-        size = value.degree if isinstance(value, Polynomial) else len(value)
-        return one if size == 1 else more
+    one: str
+    more: str
 
-    return write
+    def __call__(self, value: Any) -> str:
+        size = value.degree if isinstance(value, Polynomial) else len(value)
+        return self.one if size == 1 else self.more
 
 
 _TIMES = {1: "once", 2: "twice", 3: "three times"}
@@ -268,7 +270,7 @@ def _sides(sides: tuple[Sequence[str], Sequence[str]]) -> str:
     verbs = [verb for verb, names in zip(("control", "observe"), sides, strict=True) if names]
     if len(verbs) == 1:
         return f"all channels together do not {verbs[0]}"
-    do = _agreeing("does", "do")
+    do = _Agreeing("does", "do")
     clauses = [
         f"{channels(names)} {do(names)} not {verb}"
         for names, verb in zip(sides, verbs, strict=True)
@@ -521,20 +523,20 @@ FORMS: dict[str, Write] = {
     "behavior": _behavior,
     "Modes": lambda p: _capital(modes(p, 60)),
     "about": about_mode,
-    "noun": _agreeing("mode", "modes"),
-    "are": _agreeing("is", "are"),
-    "them": _agreeing("it", "them"),
-    "stay": _agreeing("stays", "stay"),
+    "noun": _Agreeing("mode", "modes"),
+    "are": _Agreeing("is", "are"),
+    "them": _Agreeing("it", "them"),
+    "stay": _Agreeing("stays", "stay"),
     "times": _times,
-    "escape": _agreeing("which does not satisfy", "which do not all satisfy"),
-    "need": _agreeing("needs", "need"),
-    "unstable": _agreeing("it is not stable", "not all of them are stable"),
+    "escape": _Agreeing("which does not satisfy", "which do not all satisfy"),
+    "need": _Agreeing("needs", "need"),
+    "unstable": _Agreeing("it is not stable", "not all of them are stable"),
     "price": choice(least="least", cheapest="cheapest"),
     "links": choice(least="the fewest links", cheapest="the cheapest links"),
     "limits": choice(none="", upper=", within the upper limits"),
     "instant": choice(none="", delays=", if messages took no time"),
-    "slow": _agreeing("it is not fast enough", "not all of them are fast enough"),
-    "do": _agreeing("does", "do"),
+    "slow": _Agreeing("it is not fast enough", "not all of them are fast enough"),
+    "do": _Agreeing("does", "do"),
     "sides": _sides,
     "roots": _roots,
     "blocks": _blocks,
@@ -614,6 +616,23 @@ def form(spec: str) -> Write:
         noun = spec.removeprefix("count ")
         return lambda size: count(size, noun)
     return FORMS[spec]
+
+
+def phrases_of(spec: str) -> tuple[str, ...]:
+    """The phrases of a form that has only a few; none of any other form.
+
+    Examples
+    --------
+    >>> phrases_of("yes"), phrases_of("are"), phrases_of("modes")
+    (('yes', 'no'), ('is', 'are'), ())
+    """
+    write = FORMS.get(spec)
+    if spec == "yes":
+        return "yes", "no"
+    if isinstance(write, _Agreeing):
+        return write.one, write.more
+    words = getattr(write, "__self__", None)
+    return tuple(words.values()) if isinstance(words, dict) else ()
 
 
 # Sentences about a user's system, and their templates with fields for values.

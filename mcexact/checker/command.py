@@ -73,6 +73,7 @@ from .sentences import ANOTHER_STEP, AT_SAMPLES, RULES, Premise
 from .sentences_loops import CLOSED
 from .sentences_performance import held_from
 from .summaries import cut
+from .wording import is_worded, known_numbers, wordings
 
 # Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them.
 
@@ -341,6 +342,7 @@ class Evidence:
             pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
             premises = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
             words = RULES[key].implied(premises, [*self.premises.values()])
+            self._require_words(sentence, words, premises)
             short = self._in_short(words, premises)
             words += f" [{theorem}]" if theorem else ""
             spend(len(words))
@@ -351,6 +353,18 @@ class Evidence:
 
         with limited(self.budget):
             return attempt(check).inside(f"{place} {shown(key)}")
+
+    def _require_words(
+        self, sentence: dict[str, Json], words: str, premises: Sequence[Premise]
+    ) -> None:
+        """Stop unless a text is what its rule says, with the numbers that follow."""
+        text, template = sentence["text"], wordings().get(sentence["rule"])
+        if not text or template is None:
+            return
+        for premise in premises:
+            words = words.replace(premise.statement, "")
+        good = is_worded(text, template, known_numbers(sentence["because"], words))
+        require(good, "text", "text", "other words than those of its rule, or other numbers")
 
     def _in_short(self, words: str, premises: Sequence[Premise]) -> str:
         """What follows, in one line: without digests, and with numbers for whole statements.

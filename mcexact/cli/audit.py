@@ -30,7 +30,7 @@ ARCHIVE = "mcexact-checker.pyz"
 _ATTESTED = (
     "I ran the checker as it says above, on the files of the table “What was checked”. It ended "
     "with the verdicts of this page. I made this page myself by the command above, or I compared "
-    "every sentence with what follows beside it."
+    "modes, names and whole numbers of every sentence with what follows beside it."
 )
 """What the signature says."""
 
@@ -97,10 +97,11 @@ def _sentences(found: Sequence[Found], worded: Collection[tuple[str, str]]) -> T
     note = (
         "What follows is what the checker proved from the certificates of these numbers: [3] "
         "stands for what the certificate 3 proves, which is under Evidence, with all its numbers. "
-        "The verdict is about this. The sentence is quoted from the manifest, in which anything "
-        "may be written, and the checker does not read it. “As computed” means that mcexact, when "
-        "this page was made, computed exactly this sentence from these certificates: if you did "
-        "not make the page, compare every sentence with what follows. A REMARK claims nothing. "
+        "The verdict is about this. The sentence is quoted from the manifest; the checker compared "
+        "its words and its rounded numbers with the rule, and not its modes, names and whole "
+        "numbers. “As computed” means that mcexact, when this page was made, computed exactly this "
+        "sentence from these certificates: if you did not make the page, compare what the checker "
+        "did not. A REMARK claims nothing. "
         "What else a report says, such as “worth installing” or what it calls computed and not "
         "certified, is not covered by this page."
     )
@@ -153,9 +154,9 @@ def audit_page(
         )
         number = "all" if own == implied else f"{own} of {implied}"
         answer.append(
-            f"From them follows what stands beside {implied} sentences of the report; the checker "
-            f"does not read the sentences themselves. When this page was made, mcexact computed "
-            f"{number} of them again from the certificates, word for word"
+            f"From them follows what stands beside {implied} sentences of the report. The checker "
+            f"compared the words and the rounded numbers of these; and when this page was made, "
+            f"mcexact computed {number} of them again from the certificates, word for word"
             + ("." if own == implied else "; compare the others with what follows.")
         )
     if refused:

@@ -143,8 +143,8 @@ def command(
 
     A folder stands for its manifest: for the certificates that it names, numbered, and the
     sentences of the report. Behind IMPLIED stands what the checker proves from the certificates of
-    these numbers, in its own words, and then the sentence that the report makes of it, in quotes:
-    the checker does not read it. Compare the two.
+    these numbers, in its own words, and then the sentence that the report makes of it, in quotes.
+    Words and rounded numbers of the sentence are checked; compare modes, names and whole numbers.
 
     --statements prints whole statements, each behind its SHA-256. INVALID, MALFORMED and
     INCOMPLETE are followed by a code and a place. A certificate about another plant, another loop
@@ -385,7 +385,7 @@ def checker_archive() -> bytes:
     """
     folder, archive = Path(checker.__path__[0]), io.BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_STORED) as packed:
-        for path in sorted(folder.rglob("*.py")):
+        for path in sorted([*folder.rglob("*.py"), *folder.rglob("*.json")]):
             member = zipfile.ZipInfo(path.relative_to(folder).as_posix(), FIRST_DAY)
             member.create_system, member.external_attr = 3, 0o644 << 16
             packed.writestr(member, path.read_bytes())

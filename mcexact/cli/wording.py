@@ -1,10 +1,10 @@
 """The sentences that the package makes of certificates, to compare with those of a manifest.
 
-The checker verifies what follows from certificates, in words of its own, and does not read the
-sentences of a report.  Whether a sentence is the one that this package makes of the same
-certificates can be computed: the rules are applied again to the claims, and to what the
-certificates say of plant and controller.  This is no proof, as the rules are the writer's own; it
-finds a sentence that was changed afterwards.
+The checker compares the words and rounded numbers of the sentences of a report with what follows,
+and not their modes, names and whole numbers.  Whether a sentence is exactly the one that this
+package makes of the same certificates can be computed: the rules are applied again to the claims,
+and to what the certificates say of plant and controller.  This is no proof, as the rules are the
+writer's own; it finds a sentence that was changed afterwards.
 """
 
 from __future__ import annotations

@@ -66,7 +66,7 @@ def sentence(rule: str, *premises: str, evidence: Mapping[str, Document] = EVIDE
         for key, value in evidence[name]["claim"].items()
     ]
     theorem = RULES[rule].theorem if rule in RULES else ""
-    return {"text": rule, "rule": rule, "theorem": theorem, "because": because}
+    return {"text": "", "rule": rule, "theorem": theorem, "because": because}
 
 
 SENTENCES = [

@@ -1,0 +1,159 @@
+"""Whether the text of a sentence is what its rule says, with the numbers that follow.
+
+``wordings.json`` has the template of each rule: fixed words, and fields.  A field is one of a few
+phrases; a number that was rounded to its safe side, which is compared with what follows from the
+certificates; a whole number, or anything else, such as modes, names and channels, which are not
+compared.  A text without a template is not read.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Callable, Iterable, Iterator
+from fractions import Fraction
+from functools import cache
+
+from .core.budget import spend
+from .core.reading import Json
+from .loops import LIMITS
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d{1,4}|/\d+)?", re.ASCII)
+WHOLE = re.compile(r"-?\d+", re.ASCII)
+BOUND = re.compile(r"(?:, | and )?[^0-9,]{1,40}?(-?\d[0-9./e+-]*)", re.ASCII)
+MOST_DIGITS = 400
+"""A longer number of a text is not compared."""
+
+Part = str | list[str]
+Known = Callable[..., list[Fraction]]
+"""What follows from the certificates about the fields of some names."""
+
+
+@cache
+def wordings() -> dict[str, list[Part]]:
+    """The template of each rule."""
+    file = os.path.join(os.path.dirname(__file__), "wordings.json")
+    # In an archive the file is read by what loads the modules.
+    loader = __spec__.loader
+    data: bytes = loader.get_data(file)  # type: ignore[union-attr]
+    known: dict[str, list[Part]] = json.loads(data)
+    return known
+
+
+def is_worded(text: str, template: list[Part], known: Known) -> bool:
+    """Whether a template makes a text, with numbers that follow in its fields."""
+    spend(100 + 4 * len(template) * len(text))
+    places = {0}
+    for part in template:
+        if part == ["any"]:
+            places = {*range(min(places, default=len(text) + 1), len(text) + 1)}
+        else:
+            places = {end for place in places for end in _ends(part, text, place, known)}
+    return len(text) in places
+
+
+def _ends(part: Part, text: str, place: int, known: Known) -> Iterator[int]:
+    """Where a part of a template ends that begins at a place of a text."""
+    if isinstance(part, str):
+        yield from _phrases([part], text, place)
+        return
+    kind, *words = part
+    if kind == "of":
+        yield from _phrases(words, text, place)
+    elif kind == "count":
+        if whole := WHOLE.match(text, place):
+            plural = "" if whole[0] == "1" else "s"
+            yield from _phrases([f" {words[0]}{plural}"], text, whole.end())
+    elif kind == "int":
+        if whole := WHOLE.match(text, place):
+            yield whole.end()
+    elif kind == "region":
+        yield from _bounds(text, place, [*known("bound", *LIMITS), Fraction(0), Fraction(1)])
+    else:
+        yield from _rounded(kind, text, place, known(words[0]))
+
+
+def _phrases(phrases: Iterable[str], text: str, place: int) -> Iterator[int]:
+    """Where a phrase ends that begins here."""
+    yield from (place + len(each) for each in phrases if text.startswith(each, place))
+
+
+def _bounds(text: str, place: int, known: list[Fraction]) -> Iterator[int]:
+    """Where bounds of eigenvalues end, such as ``Re λ < -1/10``, whose numbers are known."""
+    while bound := BOUND.match(text, place):
+        value = _value(bound[1])
+        if value is None or not any(_near(abs(value), abs(each)) for each in known):
+            return
+        place = bound.end()
+        yield place
+
+
+def _rounded(kind: str, text: str, place: int, known: list[Fraction]) -> Iterator[int]:
+    """Where a rounded number ends, if one that is known is rounded to it."""
+    place += kind == "near" and text.startswith("≈", place)
+    shown = NUMBER.match(text, place)
+    value = None if shown is None else _value(shown[0])
+    if shown is None or value is None:
+        return
+    percent = kind.startswith("percent")
+    value /= 100 if percent else 1
+    if any(ROUNDED[kind](value, each) for each in known):
+        yield from _phrases([" %" if percent else ""], text, shown.end())
+
+
+def _near(value: Fraction, x: Fraction) -> bool:
+    """Whether two numbers are equal, or agree in their first digits."""
+    return 10**5 * abs(value - x) <= abs(x)
+
+
+def _within(digits: int) -> Callable[[Fraction, Fraction], bool]:
+    """Whether a number is at most another one, and equal to it in its first digits."""
+    return lambda low, high: 0 <= high - low <= max(abs(low), abs(high)) / 10 ** (digits - 1)
+
+
+ROUNDED: dict[str, Callable[[Fraction, Fraction], bool]] = {
+    "below": _within(3),
+    "above": lambda value, x: _within(3)(x, value),
+    "percent below": _within(3),
+    "percent above": lambda value, x: _within(3)(x, value),
+    "part above": lambda value, x: _within(2)(x, value),
+    "near": _near,
+}
+"""The ways of rounding: of the number in the text, and of the one that follows."""
+
+
+def _value(shown: str) -> Fraction | None:
+    try:
+        return Fraction(shown) if len(shown) <= MOST_DIGITS else None
+    except (ValueError, ZeroDivisionError):
+        return None
+
+
+def known_numbers(because: Json, words: str) -> Known:
+    """What is known of fields: the values of their names that were read, and what follows has them.
+
+    Where what follows, without the statements of certificates, has none of these values, they are
+    all of them, or else the numbers of what follows.
+
+    Parameters
+    ----------
+    because : list
+        The files, pointers and values that the sentence cites.
+    words : str
+        What follows, without the statements of the certificates.
+    """
+    following = [Fraction(each) for each in NUMBER.findall(words) if _value(each) is not None]
+
+    def known(*fields: str) -> list[Fraction]:
+        endings = tuple(f"/{field}" for field in fields)
+        named = [_rational(x) for _, pointer, x in because if pointer.endswith(endings)]
+        values = [x for x in named if x is not None]
+        return [x for x in values if x in following] or values or following
+
+    return known
+
+
+def _rational(value: Json) -> Fraction | None:
+    whole = isinstance(value, int) and not isinstance(value, bool)
+    return _value(str(value)) if whole or isinstance(value, str) else None

@@ -1,0 +1,86 @@
+"""The text of a sentence has the words of its rule, and the numbers that follow."""
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact.answer import listing
+from mcexact.checker.command import main
+from mcexact.checker.sentences import RULES
+from mcexact.checker.wording import is_worded, known_numbers, wordings
+from tests.checker.manifests import manifest, sentence, write
+
+
+def known(*numbers: str) -> Any:
+    return lambda *_: [Fraction(x) for x in numbers]
+
+
+@pytest.mark.parametrize(
+    ("part", "numbers", "good", "bad"),
+    [
+        (["of", "yes", "no"], [], ["yes", "no"], ["maybe", "", "yesno"]),
+        (["int"], [], ["0", "17", "-2"], ["", "a", "1.5"]),
+        (["count", "state"], [], ["1 state", "2 states"], ["1 states", "2 state", "states", "1"]),
+        (["any"], [], ["", "x - 1", "the mode 0"], []),
+        (["below", "a"], ["2/3"], ["0.666"], ["0.667", "0.65", "6.66", "1e9999", "1/0", "x"]),
+        (["above", "a"], ["2/3"], ["0.667"], ["0.666", "0.68", "2"]),
+        (["percent below", "a"], ["1/3"], ["33.3 %"], ["33.4 %", "33.3", "3.33 %"]),
+        (["percent above", "a"], ["1/3"], ["33.4 %"], ["33.3 %", "34 %"]),
+        (["part above", "a"], ["1/3000"], ["0.00034"], ["0.00033", "0.0004"]),
+        (["near", "a"], ["1/7"], ["≈0.142857", "1/7"], ["≈0.143", "≈", "1/8"]),
+        (
+            ["region"],
+            ["1/10", "4"],
+            ["Re λ < -1/10", "Re λ < 0 and |λ| < 4", "Re λ < about 0.1, |λ| < 1 and x > 4"],
+            ["Re λ < -1/9", "Re λ", "Re λ < -1/10 and |λ| < 5", "Re λ < 0/0"],
+        ),
+    ],
+    ids=lambda value: value[0] if isinstance(value, list) and value else None,
+)
+def test_a_field_has_texts_of_its_kind(
+    part: list[str], numbers: list[str], good: list[str], bad: list[str]
+) -> None:
+    for text, wanted in [*((each, True) for each in good), *((each, False) for each in bad)]:
+        template = ["a: ", part, " end"]
+        assert is_worded(f"a: {text} end", template, known(*numbers)) is wanted, text
+    assert not is_worded("b: ", ["a: ", part], known(*numbers))
+
+
+def test_a_number_longer_than_any_that_is_shown_is_not_compared() -> None:
+    long = "0." + "6" * 500
+    assert not is_worded(long, [["below", "a"]], known("2/3"))
+
+
+def test_a_number_is_known_by_its_name_and_from_what_follows() -> None:
+    because = [["a", "/claim/margin", "39/25"], ["b", "/claim/margin", 2], ["b", "/x", True]]
+    least = known_numbers(because, "each has a disk margin of at least 39/25, every 15")
+    assert least("margin") == [Fraction(39, 25)]
+    assert least("step") == [Fraction(39, 25), 15]
+    assert known_numbers(because, "")("margin") == [Fraction(39, 25), 2]
+    assert known_numbers([["a", "/claim/margin", True]], "7")("margin") == [7]
+
+
+def test_every_rule_has_the_template_of_its_sentences() -> None:
+    assert wordings().keys() == RULES.keys()
+    assert listing.WORDINGS.read_text(encoding="utf-8") == listing.wordings()
+
+
+@pytest.mark.parametrize(
+    ("text", "status"),
+    [
+        ("", 0),
+        ("jointly controllable: every mode", 0),
+        ("jointly controllable: every node", 1),
+        ("jointly controllable: every mode, also of other plants", 1),
+        ("jointly observable: every mode", 1),
+    ],
+)
+def test_a_sentence_with_other_words_is_refused(
+    text: str, status: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = sentence("controllable", "joint_controllability") | {"text": text}
+    write(tmp_path, listed=manifest(sentences=[said]))
+    assert main([str(tmp_path)]) == status
+    assert ("text sentences[0]" in capsys.readouterr().out) is bool(status)
