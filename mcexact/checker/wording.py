@@ -91,7 +91,7 @@ def _bounds(text: str, place: int, known: list[Fraction]) -> Iterator[int]:
 
 def _rounded(kind: str, text: str, place: int, known: list[Fraction]) -> Iterator[int]:
     """Where a rounded number ends, if one that is known is rounded to it."""
-    place += kind == "near" and text.startswith("≈", place)
+    place += kind == "near" and text.startswith("\u2248", place)
     shown = NUMBER.match(text, place)
     value = None if shown is None else _value(shown[0])
     if shown is None or value is None:

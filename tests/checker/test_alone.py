@@ -133,7 +133,8 @@ def test_the_archive_has_the_files_of_the_folder_and_always_the_same_bytes(tmp_p
     assert data == checker_archive()
     (tmp_path / "checker.pyz").write_bytes(data)
     with zipfile.ZipFile(tmp_path / "checker.pyz") as archive:
-        files = {str(path.relative_to(FOLDER)): path.read_bytes() for path in FOLDER.rglob("*.py")}
+        paths = [*FOLDER.rglob("*.py"), FOLDER / "wordings.json"]
+        files = {str(path.relative_to(FOLDER)): path.read_bytes() for path in paths}
         assert {name: archive.read(name) for name in archive.namelist()} == files
         assert archive.namelist() == sorted(files)
         assert {member.date_time for member in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
