@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache
 
@@ -25,7 +25,7 @@ BOUND = re.compile(r"(?:, | and )?[^0-9,]{1,40}?(-?\d[0-9./e+-]*)", re.ASCII)
 MOST_DIGITS = 400
 """A longer number of a text is not compared."""
 
-Part = str | list[str]
+Part = str | Sequence[str]
 Known = Callable[..., list[Fraction]]
 """What follows from the certificates about the fields of some names."""
 
@@ -41,7 +41,7 @@ def wordings() -> dict[str, list[Part]]:
     return known
 
 
-def is_worded(text: str, template: list[Part], known: Known) -> bool:
+def is_worded(text: str, template: Sequence[Part], known: Known) -> bool:
     """Whether a template makes a text, with numbers that follow in its fields."""
     spend(100 + 4 * len(template) * len(text))
     places = {0}
