@@ -22,6 +22,8 @@ from .loops import LIMITS
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d{1,4}|/\d+)?", re.ASCII)
 WHOLE = re.compile(r"-?\d+", re.ASCII)
 BOUND = re.compile(r"(?:, | and )?[^0-9,]{1,40}?(-?\d[0-9./e+-]*)", re.ASCII)
+ROUGHLY = chr(0x2248)
+"""The sign before a number that is nearly another one."""
 MOST_DIGITS = 400
 """A longer number of a text is not compared."""
 
@@ -91,7 +93,7 @@ def _bounds(text: str, place: int, known: list[Fraction]) -> Iterator[int]:
 
 def _rounded(kind: str, text: str, place: int, known: list[Fraction]) -> Iterator[int]:
     """Where a rounded number ends, if one that is known is rounded to it."""
-    place += kind == "near" and text.startswith("\u2248", place)
+    place += kind == "near" and text.startswith(ROUGHLY, place)
     shown = NUMBER.match(text, place)
     value = None if shown is None else _value(shown[0])
     if shown is None or value is None:
