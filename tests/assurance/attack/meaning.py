@@ -57,7 +57,8 @@ def _plant(value: Mapping[str, Any]) -> Any:
     delays = sorted([i, j, steps] for (i, j), steps in plant.delays.items())
     A, B, C = plant.radii or (plant.A * 0, [M * 0 for M in plant.B], [M * 0 for M in plant.C])
     radii = [_matrix(A), *map(_matrix, (*B, *C))]
-    return [plant.time, _matrix(plant.A), channels, plant.neighborhoods, delays, radii]
+    D = None if plant.D is None else _matrix(plant.D)
+    return [plant.time, _matrix(plant.A), channels, D, plant.neighborhoods, delays, radii]
 
 
 def _matrix(M: Any) -> Any:
