@@ -263,9 +263,11 @@ def resultant(f: Residues, g: Residues, ell: int) -> Polynomial:
 def degree_bound(f: Bivariate, g: Bivariate) -> int:
     """A bound for the degree in t of the resultant of f, monic in x, and g.
 
-    It is the product of g(α) over the roots x = α of f, which are series in t at infinity.
+    It is the product of g(α) over the roots x = α of f, which are series in t at infinity.  The
+    slopes do not increase, and the k-th coefficient of f has at most the degree that is the sum of
+    the first slopes, as many as its degree in x exceeds k: this is all that the theorem needs.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorem ``resultant_degree.resultant_degree``.
     """
     budget.spend(budget.fractions(len(f) * (len(f) + len(g)), 1))
     total: float | Fraction = 0
