@@ -153,8 +153,8 @@ def command(
     those about no loop are judged without --controller.
 
     Where the program mcexact-verified is installed, a line on standard error says which VALID
-    certificates it confirms, too. If it finds one false, one of the two has a bug, and the status
-    is 70.
+    certificates it confirms, too, and one of how many sentences it confirms all certificates. If it
+    finds one false, one of the two has a bug, and the status is 70.
 
     The status is the first that applies of 70, 3 (MALFORMED), 1 (INVALID, NOT ABOUT), 5
     (INCOMPLETE) and 0, or 74 if the verdicts cannot be written. The file that --export writes
@@ -196,9 +196,10 @@ def command(
                 raise error from None
             judged = [refused.found]
         second = {} if interrupted or not ask_verified else _confirmed(judged, timeout)
+        layers = second | _layers(judged, second)
         if as_json:
             rows = [
-                about | asdict(verdict) | ({"verified": second[k]} if k in second else {})
+                about | asdict(verdict) | ({"verified": layers[k]} if k in layers else {})
                 for k, (about, verdict) in enumerate(judged)
             ]
             deliver(json_text({"format": FORMAT, "verdicts": rows}))
@@ -247,6 +248,33 @@ def _confirmed(judged: Sequence[Found], seconds: float | None) -> dict[int, str]
         said = "confirms" if answer.confirmed else f"says {found[k]} of"
         click.echo(f"{verified.NAME} {said} {file!a}", err=True)
     return found
+
+
+def _layers(judged: Sequence[Found], confirmed: Mapping[int, str]) -> dict[int, str]:
+    """What sentences rest on, by their places: the layer of their weakest premise.
+
+    CONFIRMED where mcexact-verified confirms every certificate that a sentence names, else VALID
+    and the numbers of those that it does not confirm.  A line says of how many sentences it
+    confirms all; a sentence that names no certificate is about the plant itself.
+    """
+    twice = {
+        (about["manifest"], about["number"])
+        for k, (about, _) in enumerate(judged)
+        if confirmed.get(k, "").startswith("CONFIRMED") and "number" in about
+    }
+    layers, once = dict[int, str](), set[int]()
+    for k, (about, verdict) in enumerate(judged):
+        if twice and verdict.verdict == "IMPLIED" and about["premises"]:
+            named = about["premises"].split(", ")
+            weak = [number for number in named if (about["manifest"], number) not in twice]
+            once.update(map(int, weak))
+            layers[k] = f"VALID {', '.join(weak)}" if weak else "CONFIRMED"
+    if layers:
+        many = list(layers.values()).count("CONFIRMED")
+        rest = f"; not confirmed: {', '.join(map(str, sorted(once)))}" if once else ""
+        told = f"confirms all certificates of {many} of {len(layers)} sentences{rest}"
+        click.echo(f"{verified.NAME} {told}", err=True)
+    return layers
 
 
 def _write_theorem(file: Path, certificate: str, seconds: float | None) -> None:

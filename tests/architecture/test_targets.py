@@ -71,7 +71,12 @@ def test_the_targets_that_a_service_would_run_have_rules(page: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("file", "said"), [(".github/workflows/tests.yml", "# Untested"), ("Dockerfile", "# Tried by")]
+    ("file", "said"),
+    [
+        (".github/workflows/tests.yml", "# Untested"),
+        ("Dockerfile", "# Tried by"),
+        ("verified/Containerfile", "# Untested"),
+    ],
 )
 def test_the_first_line_says_whether_anybody_has_run_it(file: str, said: str) -> None:
     assert (ROOT / file).read_text(encoding="utf-8").startswith(said)

@@ -134,6 +134,31 @@ def test_a_program_that_takes_too_long_is_stopped(program: Path, certificate: Pa
     assert (status, err) == (0, "") and out.startswith("VALID ")
 
 
+def test_a_sentence_has_the_layer_of_its_weakest_certificate(program: Path, tmp_path: Path) -> None:
+    folder, plant = tmp_path / "proofs", mcexact.MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
+    mcexact.save_system(plant, tmp_path / "plant.json")
+    assert call("analyze", str(tmp_path / "plant.json"), "--certificates", str(folder))[0] == 0
+    line = shlex.quote(f"CONFIRMED {stated(folder / 'fixed_spectrum.json')}")
+    program.write_text(
+        f'#!/bin/sh\n[ "$1" = --version ] && echo "{verified.VERSION}" && exit\n'
+        'for file in "$@"; do case "$file" in\n'
+        f"*/fixed_spectrum.json) echo {line};;\n"
+        "*) echo INCOMPLETE kind: no;; esac; done\n"
+    )
+    program.chmod(0o755)
+    status, out, err = call("check", "--json", str(folder))
+    rows = json.loads(out)["verdicts"]
+    (number,) = (row["number"] for row in rows if row.get("file") == "fixed_spectrum.json")
+    said = [row for row in rows if row.get("premises") and row["verdict"] == "IMPLIED"]
+    for row in said:
+        weak = [name for name in row["premises"].split(", ") if name != number]
+        assert row["verified"] == (f"VALID {', '.join(weak)}" if weak else "CONFIRMED")
+    many = sum(row["verified"] == "CONFIRMED" for row in said)
+    assert status == 0 and 0 < many < len(said)
+    assert f"confirms all certificates of {many} of {len(said)} sentences; not confirmed: " in err
+    assert not any("verified" in row for row in rows if not row.get("premises", number))
+
+
 def test_what_it_cannot_verify_is_not_mentioned(program: Path, certificate: Path) -> None:
     saying(program, "INCOMPLETE kind: not a kind that is verified here", status=5)
     status, _, err = call("check", str(certificate))
