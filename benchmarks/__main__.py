@@ -61,6 +61,13 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
         for n, limit in ((500, 0.5), (1000, 2), (2000, 15))
     },
     **{
+        f"second checker {n} states{' with a fixed mode' * planted}": partial(
+            fixed_spectrum.second_rows, n, planted
+        )
+        for planted, sizes in ((False, (4, 60, 200, 500, 1000)), (True, (4, 60, 200)))
+        for n in sizes
+    },
+    **{
         f"questions dense {n} states {m} channels": partial(every_question.dense_rows, n, m)
         for n, m in every_question.DENSE
     },

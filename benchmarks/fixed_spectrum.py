@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 import shutil
 import subprocess
@@ -17,6 +18,8 @@ from mcexact import analyze, checker
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.protocol import encode
+from mcexact.checker.kinds import check_document
+from mcexact.cli import verified
 from mcexact.derived.drawn.primary_form import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.exact.matrix import Matrix
@@ -213,6 +216,50 @@ def copied_out(text: str) -> tuple[float, str]:
         )
         line = done.stdout[done.stdout.find("VALID") :] if done.returncode == 0 else done.stdout
         return processor_seconds() - start, line
+
+
+def second_rows(n: int, planted: bool) -> Iterator[Row]:
+    """A certificate checked by mcexact-verified and by the checker, both with start and reading."""
+    program = verified.program()
+    if program is None:
+        raise LookupError("needs the program mcexact-verified: make verified")
+    if planted:
+        system = system_with_fixed_mode(SeededChoices(n), states=n, channels=max(n // 4, 2)).system
+    else:
+        system = fresh(dense(n))
+    text = encode(fixed_spectrum(system))
+    lines: list[str] = []
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "certificate.json"
+        path.write_text(text, "ascii")
+
+        # The first run of each is not counted: it leaves the checker compiled.
+        compiled = os.environ | {"PYTHONPYCACHEPREFIX": folder, "PYTHONDONTWRITEBYTECODE": ""}
+
+        def run(*call: str) -> None:
+            done = subprocess.run(
+                [*call, str(path)], capture_output=True, text=True, check=False, env=compiled
+            )
+            lines.append(done.stdout)
+
+        times = interleaved(
+            {
+                "first": lambda: run(sys.executable, "-m", "mcexact.checker"),
+                "inside": lambda: check_document(text.encode("ascii")),
+                "second": lambda: run(program),
+            },
+            runs=5 if n < 500 else 3,
+        )
+    first, inside, other = (times[name].median for name in ("first", "inside", "second"))
+    least = 1.0 if n <= 100 else 0.25
+    yield Row(
+        f"{'planted' if planted else 'no'} fixed mode, n={n}, m={system.m}: "
+        "how many times faster mcexact-verified is",
+        first / other,
+        f">= {least:g}",
+        first >= least * other and all(x.startswith(("VALID", "CONFIRMED")) for x in lines),
+        f"{first:.4f} s ({inside:.4f} s without the start of Python) / {other:.4f} s",
+    )
 
 
 def completeness_rows() -> Iterator[Row]:
