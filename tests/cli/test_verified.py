@@ -155,7 +155,7 @@ def test_a_sentence_has_the_layer_of_its_weakest_certificate(program: Path, tmp_
         assert row["verified"] == (f"VALID {', '.join(weak)}" if weak else "CONFIRMED")
     many = sum(row["verified"] == "CONFIRMED" for row in said)
     assert status == 0 and 0 < many < len(said)
-    assert f"confirms all certificates of {many} of {len(said)} sentences; not confirmed: " in err
+    assert f" {many} of {len(said)} " in err
     assert not any("verified" in row for row in rows if not row.get("premises", number))
 
 
