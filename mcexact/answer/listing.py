@@ -7,6 +7,7 @@ import string
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from mcexact import checker
 from mcexact.answer import (
@@ -27,7 +28,7 @@ from mcexact.answer import (
 )
 from mcexact.answer.rulebook import ALLOCATION, ANALYSIS, LINKS, OWN, own_rules
 from mcexact.answer.sentence import Rulebook
-from mcexact.answer.templates import Template, phrases_of, templates
+from mcexact.answer.templates import GAINS, Template, phrases_of, templates
 
 PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 _OF_LOOPS = (*performance.RULES, *saturation.RULES, *modulo.LOOP_PART_RULES)
@@ -123,21 +124,27 @@ def wordings() -> str:
     return "{\n" + ",\n".join(f'"{key}": {parts[key]}' for key in sorted(parts)) + "\n}\n"
 
 
-def _wording(template: Template) -> list[str | list[str]]:
-    text = f"{template.label}: {template.text}" if template.label else template.text
-    parts: list[str | list[str]] = []
+def _wording(template: Template) -> list[Any]:
+    return _parts(f"{template.label}: {template.text}" if template.label else template.text)
+
+
+def _parts(text: str) -> list[Any]:
+    """The words and fields of a text."""
+    parts: list[Any] = []
     for words, name, spec, _ in string.Formatter().parse(text):
         parts += [words] if words else []
         parts += [_field(name, spec or "")] if name else []
     return parts
 
 
-def _field(name: str, spec: str) -> list[str]:
+def _field(name: str, spec: str) -> list[Any]:
     """A field: a rounded number, a region, a whole number, one of some phrases, or anything."""
     if spec in _ROUNDED:
         return [_ROUNDED[spec], name]
     if spec.startswith("count "):
         return ["count", spec.removeprefix("count ")]
+    if spec == "gains":
+        return ["maybe", *_parts(GAINS)]
     if spec in {"int", "region"}:
         return [spec]
     phrases = phrases_of(spec)

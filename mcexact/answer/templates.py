@@ -314,6 +314,13 @@ def _regulated(held: Sequence[tuple[str, Sequence[Sequence[Fraction]]]]) -> str:
     return selection_in_words(selection, [name for name, _ in held])
 
 
+GAINS = (
+    ", with all gains within {gains:percent} of their values "
+    "({digits:count digit}, however rounded)"
+)
+"""What is said of gains that may differ; nothing is, where they may not."""
+
+
 def _gains(part: Fraction | None) -> str:
     """Write by how much gains may differ, and to how many digits they may be rounded then."""
     if part is None:
@@ -321,8 +328,7 @@ def _gains(part: Fraction | None) -> str:
     digits = 1
     while Fraction(10) ** (1 - digits) > part:
         digits += 1
-    rounding = f"{count(digits, 'digit')}, however rounded"
-    return f", with all gains within {percent(part)} of their values ({rounding})"
+    return _Writer().vformat(GAINS, (), {"gains": part, "digits": digits})
 
 
 def _arrows(edges: Sequence[tuple[str, str]]) -> str:

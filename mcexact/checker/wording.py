@@ -1,9 +1,9 @@
 """Whether the text of a sentence is what its rule says, with the numbers that follow.
 
-``wordings.json`` has the template of each rule: fixed words, and fields.  A field is one of a few
-phrases; a number that was rounded to its safe side, which is compared with what follows from the
-certificates; a whole number, or anything else, such as modes, names and channels, which are not
-compared.  A text without a template is not read.
+``wordings.json`` has the template of each rule: fixed words, and fields.  A number that was rounded
+to its safe side, or that bounds eigenvalues, is compared with what follows from the certificates.
+Any other field is not compared: one of a few phrases such as yes and no, a whole number, modes,
+names, channels or weights.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache
+from typing import Any
 
 from .core.budget import spend
 from .core.reading import Json
@@ -21,13 +22,13 @@ from .loops import LIMITS
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d{1,4}|/\d+)?", re.ASCII)
 WHOLE = re.compile(r"-?\d+", re.ASCII)
-BOUND = re.compile(r"(?:, | and )?[^0-9,]{1,40}?(-?\d[0-9./e+-]*)", re.ASCII)
+BOUND = re.compile(r"(?:, | and )?([^0-9,]{1,40}?)(-?\d[0-9./e+-]*)", re.ASCII)
 ROUGHLY = chr(0x2248)
 """The sign before a number that is nearly another one."""
 MOST_DIGITS = 400
 """A longer number of a text is not compared."""
 
-Part = str | Sequence[str]
+Part = str | Sequence[Any]
 Known = Callable[..., list[Fraction]]
 """What follows from the certificates about the fields of some names."""
 
@@ -46,13 +47,19 @@ def wordings() -> dict[str, list[Part]]:
 def is_worded(text: str, template: Sequence[Part], known: Known) -> bool:
     """Whether a template makes a text, with numbers that follow in its fields."""
     spend(100 + 4 * len(template) * len(text))
-    places = {0}
+    return len(text) in _reached(template, text, {0}, known)
+
+
+def _reached(template: Sequence[Part], text: str, places: set[int], known: Known) -> set[int]:
+    """Where the parts of a template end that begin at one of some places of a text."""
     for part in template:
         if part == ["any"]:
             places = {*range(min(places, default=len(text) + 1), len(text) + 1)}
+        elif part[0] == "maybe":
+            places = places | _reached(part[1:], text, places, known)
         else:
             places = {end for place in places for end in _ends(part, text, place, known)}
-    return len(text) in places
+    return places
 
 
 def _ends(part: Part, text: str, place: int, known: Known) -> Iterator[int]:
@@ -60,7 +67,7 @@ def _ends(part: Part, text: str, place: int, known: Known) -> Iterator[int]:
     if isinstance(part, str):
         yield from _phrases([part], text, place)
         return
-    kind, *words = part
+    kind, words = part[0], part[1:]
     if kind == "of":
         yield from _phrases(words, text, place)
     elif kind == "count":
@@ -71,7 +78,7 @@ def _ends(part: Part, text: str, place: int, known: Known) -> Iterator[int]:
         if whole := WHOLE.match(text, place):
             yield whole.end()
     elif kind == "region":
-        yield from _bounds(text, place, [*known("bound", *LIMITS), Fraction(0), Fraction(1)])
+        yield from _bounds(text, place, known("bound", *LIMITS))
     else:
         yield from _rounded(kind, text, place, known(words[0]))
 
@@ -84,8 +91,9 @@ def _phrases(phrases: Iterable[str], text: str, place: int) -> Iterator[int]:
 def _bounds(text: str, place: int, known: list[Fraction]) -> Iterator[int]:
     """Where bounds of eigenvalues end, such as ``Re λ < -1/10``, whose numbers are known."""
     while bound := BOUND.match(text, place):
-        value = _value(bound[1])
-        if value is None or not any(_near(abs(value), abs(each)) for each in known):
+        value, rate = _value(bound[2]), "Re" in bound[1]
+        limits = [Fraction(0), *(-x for x in known)] if rate else [Fraction(1), *known]
+        if value is None or not any(_near(value, each) for each in limits):
             return
         place = bound.end()
         yield place
@@ -100,7 +108,7 @@ def _rounded(kind: str, text: str, place: int, known: list[Fraction]) -> Iterato
         return
     percent = kind.startswith("percent")
     value /= 100 if percent else 1
-    if any(ROUNDED[kind](value, each) for each in known):
+    if not known or any(ROUNDED[kind](value, each) for each in known):
         yield from _phrases([" %" if percent else ""], text, shown.end())
 
 
@@ -136,7 +144,7 @@ def known_numbers(because: Json, words: str) -> Known:
     """What is known of fields: the values of their names that were read, and what follows has them.
 
     Where what follows, without the statements of certificates, has none of these values, they are
-    all of them, or else the numbers of what follows.
+    all of them, or else the numbers of what follows.  How far gains may differ is said last there.
 
     Parameters
     ----------
@@ -149,6 +157,8 @@ def known_numbers(because: Json, words: str) -> Known:
 
     def known(*fields: str) -> list[Fraction]:
         endings = tuple(f"/{field}" for field in fields)
+        if fields == ("gains",):
+            return following[-1:]
         named = [_rational(x) for _, pointer, x in because if pointer.endswith(endings)]
         values = [x for x in named if x is not None]
         return [x for x in values if x in following] or values or following

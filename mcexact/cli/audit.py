@@ -30,7 +30,8 @@ ARCHIVE = "mcexact-checker.pyz"
 _ATTESTED = (
     "I ran the checker as it says above, on the files of the table “What was checked”. It ended "
     "with the verdicts of this page. I made this page myself by the command above, or I compared "
-    "modes, names and whole numbers of every sentence with what follows beside it."
+    "what the checker did not compare of every sentence with what follows beside it, and with the "
+    "whole statements."
 )
 """What the signature says."""
 
@@ -98,10 +99,11 @@ def _sentences(found: Sequence[Found], worded: Collection[tuple[str, str]]) -> T
         "What follows is what the checker proved from the certificates of these numbers: [3] "
         "stands for what the certificate 3 proves, which is under Evidence, with all its numbers. "
         "The verdict is about this. The sentence is quoted from the manifest; the checker compared "
-        "its words and its rounded numbers with the rule, and not its modes, names and whole "
+        "its fixed words, and its costs, margins, distances, rates and steps. It did not compare "
+        "what else it says: yes or no and other choices, modes, names, channels, weights, whole "
         "numbers. “As computed” means that mcexact, when this page was made, computed exactly this "
-        "sentence from these certificates: if you did not make the page, compare what the checker "
-        "did not. A REMARK claims nothing. "
+        "sentence from these certificates. If you did not make the page, compare that yourself, "
+        "with what follows and with whole statements. A REMARK claims nothing. "
         "What else a report says, such as “worth installing” or what it calls computed and not "
         "certified, is not covered by this page."
     )
@@ -154,9 +156,9 @@ def audit_page(
         )
         number = "all" if own == implied else f"{own} of {implied}"
         answer.append(
-            f"From them follows what stands beside {implied} sentences of the report. The checker "
-            f"compared the words and the rounded numbers of these; and when this page was made, "
-            f"mcexact computed {number} of them again from the certificates, word for word"
+            f"From them follows what stands beside {implied} sentences of the report. When this "
+            f"page was made, mcexact computed {number} of these sentences again from the "
+            f"certificates, word for word"
             + ("." if own == implied else "; compare the others with what follows.")
         )
     if refused:
@@ -190,7 +192,8 @@ def audit_page(
         ("with mcexact", shlex.join(["mcexact", "check", *arguments])),
         ("make the checker as one file", f"mcexact check --export {ARCHIVE}"),
         ("with Python alone", shlex.join(["python", "-I", ARCHIVE, *arguments])),
-        ("it then ends with", f"status {status}, and the line {last}"),
+        ("to make this page", "the same with mcexact and --html FILE"),
+        ("it ends with, letter by letter", f"status {status}, and the line {last}"),
         ("whole statements", "the same with --statements"),
         ("SHA-256 of a file", "sha256sum FILE, or on Windows certutil -hashfile FILE SHA256"),
     ]

@@ -144,7 +144,8 @@ def command(
     A folder stands for its manifest: for the certificates that it names, numbered, and the
     sentences of the report. Behind IMPLIED stands what the checker proves from the certificates of
     these numbers, in its own words, and then the sentence that the report makes of it, in quotes.
-    Words and rounded numbers of the sentence are checked; compare modes, names and whole numbers.
+    Its fixed words, and its costs, margins, distances, rates and steps are checked; compare what
+    else it says, such as yes or no, modes, names, weights and whole numbers.
 
     --statements prints whole statements, each behind its SHA-256. INVALID, MALFORMED and
     INCOMPLETE are followed by a code and a place. A certificate about another plant, another loop

@@ -1,10 +1,11 @@
 """The sentences that the package makes of certificates, to compare with those of a manifest.
 
-The checker compares the words and rounded numbers of the sentences of a report with what follows,
-and not their modes, names and whole numbers.  Whether a sentence is exactly the one that this
-package makes of the same certificates can be computed: the rules are applied again to the claims,
-and to what the certificates say of plant and controller.  This is no proof, as the rules are the
-writer's own; it finds a sentence that was changed afterwards.
+The checker compares the fixed words of the sentences of a report and their costs, margins,
+distances, rates and steps, and not what else they say, such as modes and names. Whether a
+sentence is exactly the one that this package makes of the same certificates can be computed: the
+rules are applied again to the claims, and to what the certificates say of plant and controller.
+This is no proof, as the rules are the writer's own; it finds a sentence that was changed
+afterwards.
 """
 
 from __future__ import annotations

@@ -33,8 +33,14 @@ def known(*numbers: str) -> Any:
         (
             ["region"],
             ["1/10", "4"],
-            ["Re λ < -1/10", "Re λ < 0 and |λ| < 4", "Re λ < about 0.1, |λ| < 1 and x > 4"],
-            ["Re λ < -1/9", "Re λ", "Re λ < -1/10 and |λ| < 5", "Re λ < 0/0"],
+            ["Re λ < -1/10", "Re λ < 0 and |λ| < 4", "Re λ < about -0.1, |λ| < 1 and x > 4"],
+            ["Re λ < -1/9", "Re λ < 1/10", "Re λ < -1", "Re λ", "|λ| < 0", "Re λ < 0/0"],
+        ),
+        (
+            ["maybe", " within ", ["percent below", "a"]],
+            ["1/3"],
+            ["", " within 33.3 %"],
+            [" within"],
         ),
     ],
     ids=lambda value: value[0] if isinstance(value, list) and value else None,
@@ -54,9 +60,11 @@ def test_a_number_longer_than_any_that_is_shown_is_not_compared() -> None:
 
 
 def test_a_number_is_known_by_its_name_and_from_what_follows() -> None:
+    assert is_worded("7", [["below", "a"]], known())
     because = [["a", "/claim/margin", "39/25"], ["b", "/claim/margin", 2], ["b", "/x", True]]
     least = known_numbers(because, "each has a disk margin of at least 39/25, every 15")
     assert least("margin") == [Fraction(39, 25)]
+    assert least("gains") == [15]
     assert least("step") == [Fraction(39, 25), 15]
     assert known_numbers(because, "")("margin") == [Fraction(39, 25), 2]
     assert known_numbers([["a", "/claim/margin", True]], "7")("margin") == [7]
