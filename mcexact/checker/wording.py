@@ -144,7 +144,8 @@ def known_numbers(because: Json, words: str) -> Known:
     """What is known of fields: the values of their names that were read, and what follows has them.
 
     Where what follows, without the statements of certificates, has none of these values, they are
-    all of them, or else the numbers of what follows.  How far gains may differ is said last there.
+    all of them, or else the numbers of what follows.  How far gains may differ is said last there;
+    of steps all values are known, as what follows may name another one.
 
     Parameters
     ----------
@@ -161,7 +162,8 @@ def known_numbers(because: Json, words: str) -> Known:
             return following[-1:]
         named = [_rational(x) for _, pointer, x in because if pointer.endswith(endings)]
         values = [x for x in named if x is not None]
-        return [x for x in values if x in following] or values or following
+        said = [] if fields == ("step",) else [x for x in values if x in following]
+        return said or values or following
 
     return known
 

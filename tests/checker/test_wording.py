@@ -66,6 +66,8 @@ def test_a_number_is_known_by_its_name_and_from_what_follows() -> None:
     assert least("margin") == [Fraction(39, 25)]
     assert least("gains") == [15]
     assert least("step") == [Fraction(39, 25), 15]
+    steps = known_numbers([["a", "/subject/0/step", "7/40"], ["b", "/subject/0/step", 15]], "15")
+    assert steps("step") == [Fraction(7, 40), 15]
     assert known_numbers(because, "")("margin") == [Fraction(39, 25), 2]
     assert known_numbers([["a", "/claim/margin", True]], "7")("margin") == [7]
 
