@@ -79,7 +79,7 @@ Install = Literal["yes", "with care", "no"]
 
 BASIS = "computed in floating point, not certified"
 _COMPUTED = " (computed)"
-LONGEST = 160
+LONGEST = 172
 """The characters of the first line."""
 _NO_DISK, _TIMES_THE_BOUND = 0.1, 3.0
 FAILS, _FAILS_AT_ONCE = Fraction(1, 100), Fraction(1, 1000)
@@ -234,7 +234,7 @@ class Assessment(Shown):
         return f"{words}: {reason}{'' if exact or reason.endswith(_COMPUTED) else _COMPUTED}"
 
     def first_line(self, proved: Sequence[str] = ()) -> str:
-        """What is proved of the loop, and the verdict with its reason, if 160 characters hold it.
+        """What is proved of the loop, and the verdict with its reason, if 172 characters hold it.
 
         Parameters
         ----------

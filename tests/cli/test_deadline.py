@@ -158,8 +158,8 @@ def test_a_limit_shows_writes_and_checks_what_was_decided(
     assert (status, left) == (4, {"controllability_indices", "observability_indices"})
     assert told["fixed_spectrum"]["polynomial"] == [-1, 1]
     assert not any(told[name]["decided"] for name in left)
-    assert told["re_checked"] == {"valid": 9, "open": []}
-    assert len([*folder.iterdir()]) == 10 and page.exists()
+    assert told["re_checked"] == {"valid": 10, "open": []}
+    assert len([*folder.iterdir()]) == 11 and page.exists()
     assert "not decided: controllability indices, observability indices" in err
     assert call("check", "--manifest", str(folder))[0] == 0
 

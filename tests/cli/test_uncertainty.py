@@ -180,7 +180,7 @@ def test_the_largest_radii_do_not_hide_that_the_loop_fails_within_those_of_the_f
     ):
         save_system(Box.relative(PLANT, radius).system, file)
         status, out, _ = call(*search)
-        assert status == 0 and says(out, "loop near") and told in out
+        assert status == 0 and says(out, "loop near") and told in " ".join(out.split())
     status, out, _ = call(*search, "--rate", "1/1000", "--json")
     assert json.loads(out)["every_loop"]["region"] == "Re λ < -1/1000"
 
@@ -247,7 +247,8 @@ def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> N
     assert status == 0 and "Re λ < 0 is not proved" in out
     assert says(out, "install fails")
     assert says(out, "warning given")
-    table = out.partition("closed loop")[2].partition("computed in floating point")[0]
+    table = " ".join(out.partition("closed loop")[2].split())
+    table = table.partition("computed in floating point")[0]
     assert says(table, "loop stable") and "of each entry" in table.partition("not stable")[2]
     status, out, _ = call("certify", plant, gains, "--uncertainty", "300%", "--json")
     found = json.loads(out)
@@ -314,7 +315,7 @@ def test_a_design_says_for_which_box_it_holds(plant: str, tmp_path: Path) -> Non
     assert status == 0 and says(out, "eigenvalue below")
     checks = ("check", "--manifest", folder, "--system", plant, "--controller", controller)
     status, out, _ = call(*checks, "--statements")
-    assert status == 0 and says(out, "more none") and f" {found['part']} and none" in out
+    assert status == 0 and says(out, "more none") and f" {found['part']} of " in out
     status, out, _ = call(*asked, "--no-box", "--json")
     assert status == 0 and "every_loop" not in json.loads(out)
 

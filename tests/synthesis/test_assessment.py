@@ -276,7 +276,7 @@ def test_the_first_line_has_what_is_proved_and_fits() -> None:
     assert found.first_line() == f"Install with care: {found.warnings[0]}"
     for more in range(120):
         line = found.first_line([*proved, "x" * more])
-        assert len(line) <= 160 or line.endswith("x. Install with care")
+        assert len(line) <= 172 or line.endswith("x. Install with care")
     refused = assessed_loop(loop_of("1"), StabilityRegion("continuous"), certified=False)
     assert worded(refused.first_line(proved))
 
