@@ -755,7 +755,8 @@ class Analysis(ShownByAccount):
         near: dict[str, Any] = {} if self.nearby_left_out else dict(self.nearby.answers)
         if near:
             asked["nearby"] = {each.lost: (each.part, each.within) for each in self.nearby.plants}
-        why: dict[str, Any] = {} if self.why_fixed_left_out else dict(self.why_fixed.answers)
+        told = self._told_why_fixed
+        why: dict[str, Any] = {} if told is None else dict(told.answers)
         given, answers = Context(self.system, asked), answers | near | why
         sentences = with_own(ANALYSIS, answers).sentences(answers, given, open_)
         about, failing = self.plant.subject, self.failing()
@@ -826,22 +827,33 @@ class Analysis(ShownByAccount):
     def why_fixed(self) -> WhyFixed:
         """Why modes of the plant are fixed, by equalities between its entries or by its zeros.
 
+        Without the answer to `fixed_spectrum` nothing is known, nor if it is about another system
+        than the plant: about one with outputs of neighbors, or without feedthrough.
+
         Raises
         ------
         InputError
-            If the plant has parameters or is a derived system.
+            If the plant has parameters.
         """
         # Few plants have fixed modes.
         from mcexact.analysis.patterns import WhyFixed, why_fixed
 
-        names = ("fixed_spectrum", "structural_fixed_modes")
-        spectrum, structural = (self.answers.get(name) for name in names)
-        if spectrum is None or structural is None or structural.information != "own":
-            InputError.require(self.plant, MultiChannelSystem, "system")
-            return WhyFixed(self._own, None, (), (), ())
+        InputError.require(self.plant, MultiChannelSystem, "system")
+        spectrum = self.answers.get("fixed_spectrum")
+        if spectrum is None or spectrum.subject:
+            return WhyFixed(self._own, known=False)
         if self._why_fixed is None:
+            structural = self.answers.get("structural_fixed_modes")
             self._why_fixed = why_fixed(self._own, spectrum, structural)
         return self._why_fixed
+
+    @property
+    def _told_why_fixed(self) -> WhyFixed | None:
+        """Why modes are fixed, if that is told with the answers: what is structural is asked."""
+        structural = self.answers.get("structural_fixed_modes")
+        if structural is None or self.why_fixed_left_out:
+            return None
+        return self.why_fixed
 
     def failing(self) -> dict[str, Answer]:
         """Return exact answers about plants within the radii that lack an unproved property.
@@ -878,8 +890,9 @@ class Analysis(ShownByAccount):
         known = {"failing_within_radii": failing} if failing else {}
         if not self.nearby_left_out:
             known["nearby"] = self.nearby.to_dict()
-        if not self.why_fixed_left_out and self.why_fixed.known:
-            known["why_fixed"] = self.why_fixed.to_dict()
+        told = self._told_why_fixed
+        if told is not None and (told.by_zeros or told.by_equalities):
+            known["why_fixed"] = told.to_dict()
         return account.as_json(information=self.information, questions=efforts, **known, **open_)
 
     def to_rows(self) -> list[dict[str, Any]]:

@@ -257,20 +257,24 @@ class WhyFixed(Shown):
     ----------
     system : MultiChannelSystem
     structural : StructuralFixedModes or None
-        What is fixed for all numbers at the same places; None if no mode is fixed.
+        What is fixed for all numbers at the same places; None if no mode is fixed, or nothing is
+        known.
     by_zeros, by_equalities : tuple of Polynomial
         The factors of the fixed spectrum that its zeros alone fix, and those that equalities
         between entries fix: almost all other numbers at the same places free them.
     laws : tuple of PencilRank
         For some of the latter that all channels together do not observe, or, of the dual plant, not
         control: the vectors of their null spaces.
+    known : bool
+        Whether the fixed spectrum is known; without it there is nothing in the others.
     """
 
     system: MultiChannelSystem
-    structural: StructuralFixedModes | None
-    by_zeros: tuple[Polynomial, ...]
-    by_equalities: tuple[Polynomial, ...]
-    laws: tuple[PencilRank, ...]
+    structural: StructuralFixedModes | None = None
+    by_zeros: tuple[Polynomial, ...] = ()
+    by_equalities: tuple[Polynomial, ...] = ()
+    laws: tuple[PencilRank, ...] = ()
+    known: bool = True
 
     @property
     def answers(self) -> dict[str, StructuralFixedModes | PencilRank]:
@@ -280,16 +284,15 @@ class WhyFixed(Shown):
             named["structural_fixed_modes"] = self.structural
         return named | {f"law_{k}": law for k, law in enumerate(self.laws, 1)}
 
-    @property
-    def known(self) -> bool:
-        """Whether any mode is fixed."""
-        return bool(self.by_zeros or self.by_equalities)
-
     def explain(self) -> str:
         """Say in plain words why modes are fixed, one factor a line."""
+        if not self.known:
+            return "nothing is known"
         return "\n".join(text for _, text in self._labeled()) or "no mode is fixed"
 
     def __repr__(self) -> str:
+        if not self.known:
+            return "WhyFixed(nothing is known)"
         zeros, equalities = len(self.by_zeros), len(self.by_equalities)
         return f"WhyFixed({zeros} factors by zeros, {equalities} by equalities)"
 
@@ -329,12 +332,15 @@ def why_fixed(
     system : MultiChannelSystem
         A plant, no derived system, without feedthrough.
     spectrum, structural : optional
-        Its fixed spectrum and its structural fixed modes, if these are known already.
+        Its fixed spectrum and its structural fixed modes, where each agent feeds back its own
+        outputs, if these are known already.
 
     Raises
     ------
     InputError
         If the system is a derived one, or has feedthrough.
+    UsageError
+        If the answers are about another system, or about outputs of neighbors.
 
     Examples
     --------
@@ -354,10 +360,14 @@ def why_fixed(
     InputError.require(system, MultiChannelSystem, "system")
     if system.subject:
         raise InputError("expected a plant, found a derived system", where="system")
+    spectrum = FixedSpectrum.known(spectrum, system, "spectrum")
+    structural = StructuralFixedModes.known(structural, system, "structural")
+    if structural is not None and structural.information != "own":
+        raise UsageError("found outputs of neighbors, expected an agent's own", where="structural")
     if spectrum is None:
         spectrum = fixed_spectrum(system)
     if spectrum.empty:
-        return WhyFixed(system, None, (), (), ())
+        return WhyFixed(system)
     if structural is None:
         structural = structural_fixed_modes(system)
     freed = [f for f in spectrum.factors if not f.polynomial.divides(structural.polynomial)]

@@ -210,7 +210,7 @@ def test_the_analysis_says_why_with_certificates_that_are_checked(tmp_path: Path
 
 def test_without_fixed_modes_or_laws_on_request_nothing_is_said() -> None:
     free = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[1]], [[0]]])
-    assert not analyze(free).why_fixed.known and "why_fixed" not in analyze(free).to_dict()
+    assert says(analyze(free).why_fixed.explain(), "none") and "why_fixed" not in analyze(free).to_dict()
     assert "structural_fixed_modes" not in analyze(free).to_dict()
     silent = analyze(EQUAL, nearby=False)
     assert "why_fixed" not in silent.to_dict() and "law_1" not in silent.to_dict()
@@ -224,8 +224,34 @@ def test_of_a_derived_system_it_is_not_asked() -> None:
         why_fixed(EQUAL.A)  # type: ignore[arg-type]
 
 
-def test_answers_to_other_questions_have_no_reasons() -> None:
-    assert not analyze(EQUAL, ["joint_controllability"]).why_fixed.known
+def test_the_fixed_spectrum_alone_has_reasons_which_are_told_on_request() -> None:
+    found = analyze(EQUAL, ["fixed_spectrum"])
+    assert [str(p) for p in found.why_fixed.by_equalities] == ["x - 3"]
+    assert found.why_fixed.known and {*found.account.answers} == {"fixed_spectrum"}
+    assert "why_fixed" not in found.to_dict()
+
+
+def test_without_the_fixed_spectrum_of_the_plant_itself_nothing_is_known() -> None:
+    linked = EQUAL.with_neighbors({"1": []})
+    through = MultiChannelSystem(EQUAL.A, EQUAL.B, EQUAL.C, D=[[1]])
+    for found in (
+        analyze(EQUAL, ["joint_controllability"]),
+        analyze(linked, information="outputs"),
+        analyze(through),
+    ):
+        why = found.why_fixed
+        assert not why.known and says(why.explain(), "unknown") and says(repr(why), "unknown")
+        assert "why_fixed" not in found.to_dict()
+
+
+def test_reasons_rest_on_answers_about_the_same_plant_and_own_outputs() -> None:
+    linked = EQUAL.with_neighbors({"1": []})
+    with pytest.raises(UsageError):
+        why_fixed(linked, structural=structural_fixed_modes(linked, "outputs"))
+    with pytest.raises(UsageError):
+        why_fixed(EQUAL, structural=structural_fixed_modes(ALONE))
+    with pytest.raises(UsageError):
+        why_fixed(EQUAL, fixed_spectrum(ALONE))
 
 
 @pytest.mark.parametrize("scale", [1, Fraction(1, 3)])
