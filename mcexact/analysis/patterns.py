@@ -12,8 +12,9 @@ That number is a least-cost perfect matching of rows with columns: each state wh
 entry of A may be left out, at the cost 1.  Some places that cost nothing are taken at once, and
 others along shortest paths, whose lengths are the potentials that prove the cost least.
 
-`why_fixed` divides the fixed modes of a plant by this, and names the null spaces of those that
-equalities fix and that all channels together do not observe, or not control.
+`why_fixed` divides the fixed modes of a plant by this, with the plant's own numbers in A_UU, and
+names the null spaces of those that equalities fix and that all channels together do not observe, or
+not control.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ from typing import Any
 
 from mcexact.analysis.fixed_modes import fixed_spectrum, pencil_rank
 from mcexact.answer.modes import FixedFactor, FixedSpectrum, PencilRank
-from mcexact.answer.patterns import Information, StructuralFixedModes
-from mcexact.answer.templates import modes
+from mcexact.answer.patterns import EQUALITIES, ZEROS, Information, StructuralFixedModes
+from mcexact.answer.templates import Sentence
 from mcexact.derived.constructions import dual
 from mcexact.errors import InputError, UsageError, one_of
 from mcexact.exact.linear_algebra import characteristic_polynomial
@@ -75,7 +76,7 @@ def structural_fixed_modes(
 
     Examples
     --------
-    No input drives the first state, so that its mode is fixed whatever its number is:
+    No input drives the first state, so that its mode is its own number, whatever the gains are:
 
     >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[0], [1]]], [[[1, 1]]])
     >>> found = structural_fixed_modes(plant)
@@ -260,8 +261,9 @@ class WhyFixed(Shown):
         What is fixed for all numbers at the same places; None if no mode is fixed, or nothing is
         known.
     by_zeros, by_equalities : tuple of Polynomial
-        The factors of the fixed spectrum that its zeros alone fix, and those that equalities
-        between entries fix: almost all other numbers at the same places free them.
+        The factors of the fixed spectrum that its zeros fix: they stay with all other numbers at
+        the same places, but those among the states without feedback.  And those that equalities
+        between entries fix: almost all other numbers free them.
     laws : tuple of PencilRank
         For some of the latter that all channels together do not observe, or, of the dual plant, not
         control: the vectors of their null spaces.
@@ -288,7 +290,7 @@ class WhyFixed(Shown):
         """Say in plain words why modes are fixed, one factor a line."""
         if not self.known:
             return "nothing is known"
-        return "\n".join(text for _, text in self._labeled()) or "no mode is fixed"
+        return "\n".join(each.line for each in self._sentences()) or "no mode is fixed"
 
     def __repr__(self) -> str:
         if not self.known:
@@ -296,12 +298,13 @@ class WhyFixed(Shown):
         zeros, equalities = len(self.by_zeros), len(self.by_equalities)
         return f"WhyFixed({zeros} factors by zeros, {equalities} by equalities)"
 
+    def _sentences(self) -> Iterator[Sentence]:
+        """Yield the reasons, which an analysis says of all factors at once where it can."""
+        yield from (ZEROS(p=p) for p in self.by_zeros)
+        yield from (EQUALITIES(p=p) for p in self.by_equalities)
+
     def _labeled(self) -> Iterator[tuple[str, str]]:
-        """Yield the reasons."""
-        for p in self.by_zeros:
-            yield "zeros", f"the zeros alone fix {modes(p)}"
-        for p in self.by_equalities:
-            yield "equalities", f"equalities between entries fix {modes(p)}"
+        yield from ((each.template.label, str(each)) for each in self._sentences())
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
@@ -351,7 +354,7 @@ def why_fixed(
     >>> [str(p) for p in why.by_equalities], why.laws[0].kernel.matrices[0].rows()
     (['x - 3'], ((Fraction(1, 1),), (Fraction(1, 1),)))
 
-    No input drives the first state, so that its mode is fixed whatever its number is:
+    No input drives the first state, so that its mode is its own number, whatever the gains are:
 
     >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[0], [1]]], [[[1, 1]]])
     >>> [str(p) for p in why_fixed(plant).by_zeros]

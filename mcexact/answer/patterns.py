@@ -2,8 +2,9 @@
 
 The answer `StructuralFixedModes` is about the places of the entries of a plant that are not 0.  It
 has the modes that are fixed for all numbers at these places; almost all numbers fix no others.  So
-it divides the fixed modes of the plant in two: those that its zeros alone fix, and those that
-equalities between its entries fix, which other numbers free.
+it divides the fixed modes of the plant in two: those that its zeros fix, which stay with all other
+numbers but those among the states without feedback, and those that equalities between its entries
+fix, which almost all other numbers free.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ class StructuralFixedModes(Answer):
 _SOURCES = "M. E. Sezer and D. D. Siljak 1981"
 ZEROS = Template(
     "fixed-by-zeros",
-    "the zeros alone fix {p:modes}",
+    "zeros; no numbers in feedback loops free {p:modes}",
     "patterns.structural_modes",
     "why fixed",
 )

@@ -163,7 +163,7 @@ of_mode(
 )
 
 
-# Modes that the zeros alone fix, and modes that equalities between entries fix.
+# Modes that the zeros fix, and modes that equalities between entries fix.
 
 STRUCTURAL = Role(("structural_fixed_modes",), PLANT)
 SOURCES = "M. E. Sezer and D. D. Siljak 1981"

@@ -249,8 +249,9 @@ def structural_fixed_modes(claim: Json, system: System) -> str:
     """What is fixed whatever the numbers are."""
     U, z = len(claim["without_feedback"]), claim["at_zero"]
     return (
-        f"the zeros alone fix the modes of {U} states without feedback and {z} further ones at 0: "
-        f"the roots of {polynomial_text(claim['polynomial'])}"
+        f"with all numbers at the places of its entries, the modes of {U} states without feedback "
+        f"and {z} further ones at 0 are fixed: here the roots of "
+        f"{polynomial_text(claim['polynomial'])}"
     )
 
 
