@@ -167,6 +167,10 @@ of_mode(
 
 STRUCTURAL = Role(("structural_fixed_modes",), PLANT)
 SOURCES = "M. E. Sezer and D. D. Siljak 1981"
+ALIKE = (
+    "systems with these entries where rows and columns of states without feedback meet, and zeros "
+    "wherever it has zeros"
+)
 
 
 def why(key: str, kept: bool, words: str, theorem: str) -> None:
@@ -194,14 +198,13 @@ def why(key: str, kept: bool, words: str, theorem: str) -> None:
 why(
     "fixed-by-zeros",
     True,
-    "the roots of {} are fixed for all systems with these entries where rows and columns of "
-    "states without feedback meet, and zeros wherever it has zeros",
+    f"the roots of {{}} are fixed for all {ALIKE}",
     "patterns.structural_modes",
 )
 why(
     "fixed-by-equalities",
     False,
-    "the roots of {} are not fixed for almost all systems with zeros wherever it has zeros",
+    f"the roots of {{}} are not fixed for almost all {ALIKE}",
     SOURCES,
 )
 
