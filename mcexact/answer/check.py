@@ -334,10 +334,7 @@ def recheck(
     """
     size, verdicts = max(map(len, files.values()), default=0), {}
     for about, verdict in _verdicts(files, plant, _limits(size)):
-        # A sentence of other words than the checker's templates is implied all the same here, where
-        # nobody else wrote it; `mcexact check` refuses it.
-        worded = verdict.code != "text" or "text" not in about
-        if worded and (verdict.verdict not in _ACCEPTED or verdict.code == "rule"):
+        if verdict.verdict not in _ACCEPTED or verdict.code == "rule":
             what = about.get("file") or about["text"]
             raise InternalError(
                 f"the independent checker does not accept {what} ({verdict.line()}): "

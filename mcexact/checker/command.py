@@ -358,12 +358,12 @@ class Evidence:
         self, sentence: dict[str, Json], words: str, premises: Sequence[Premise]
     ) -> None:
         """Stop unless a text is what its rule says, with the numbers that follow."""
-        text, template = sentence["text"], wordings().get(sentence["rule"])
-        if not text or template is None:
+        if not sentence["text"]:
             return
         for premise in premises:
             words = words.replace(premise.statement, "")
-        good = is_worded(text, template, known_numbers(sentence["because"], words))
+        known = known_numbers(sentence["because"], words)
+        good = is_worded(sentence["text"], wordings()[sentence["rule"]], known)
         require(good, "text", "text", "other words than those of its rule, or other numbers")
 
     def _in_short(self, words: str, premises: Sequence[Premise]) -> str:

@@ -12,6 +12,7 @@ import json
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -21,6 +22,7 @@ from .core.reading import Json
 from .loops import LIMITS
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d{1,4}|/\d+)?", re.ASCII)
+DIGEST = re.compile(r"\b[0-9a-f]{64}\b")
 WHOLE = re.compile(r"-?\d+", re.ASCII)
 BOUND = re.compile(r"(?:, | and )?([^0-9,]{1,40}?)(-?\d[0-9./e+-]*)", re.ASCII)
 ROUGHLY = chr(0x2248)
@@ -29,8 +31,47 @@ MOST_DIGITS = 400
 """A longer number of a text is not compared."""
 
 Part = str | Sequence[Any]
-Known = Callable[..., list[Fraction]]
-"""What follows from the certificates about the fields of some names."""
+
+
+@dataclass(frozen=True)
+class Known:
+    """The numbers that follow from the certificates.
+
+    Attributes
+    ----------
+    because : list
+        The files, pointers and values that the sentence cites.
+    following : list of Fraction
+        The numbers of what follows, outside the statements of certificates and digests.
+    """
+
+    because: Json
+    following: list[Fraction]
+
+    def named(self, *fields: str) -> list[Fraction]:
+        """The values that were read, whose pointers end with one of some names."""
+        endings = tuple(f"/{field}" for field in fields)
+        named = (_rational(x) for _, pointer, x in self.because if pointer.endswith(endings))
+        return [x for x in named if x is not None]
+
+    def of(self, field: str) -> list[Fraction]:
+        """The numbers that a field may show.
+
+        They are the values of its name: those of them that what follows has, but all of a step,
+        since what follows may name another one.  Without a value they are the numbers of what
+        follows, where how far gains may differ is said last.
+        """
+        if field == "gains":
+            return self.following[-1:]
+        values = self.named(field)
+        said = [] if field == "step" else [x for x in values if x in self.following]
+        return said or values or self.following
+
+
+def known_numbers(because: Json, words: str) -> Known:
+    """The numbers that a sentence cites, and those of what follows, in words."""
+    values = map(_value, NUMBER.findall(DIGEST.sub("", words)))
+    return Known(because, [x for x in values if x is not None])
 
 
 @cache
@@ -78,9 +119,9 @@ def _ends(part: Part, text: str, place: int, known: Known) -> Iterator[int]:
         if whole := WHOLE.match(text, place):
             yield whole.end()
     elif kind == "region":
-        yield from _bounds(text, place, known("bound", *LIMITS))
+        yield from _bounds(text, place, known)
     else:
-        yield from _rounded(kind, text, place, known(words[0]))
+        yield from _rounded(kind, text, place, known.of(words[0]))
 
 
 def _phrases(phrases: Iterable[str], text: str, place: int) -> Iterator[int]:
@@ -88,12 +129,14 @@ def _phrases(phrases: Iterable[str], text: str, place: int) -> Iterator[int]:
     yield from (place + len(each) for each in phrases if text.startswith(each, place))
 
 
-def _bounds(text: str, place: int, known: list[Fraction]) -> Iterator[int]:
+def _bounds(text: str, place: int, known: Known) -> Iterator[int]:
     """Where bounds of eigenvalues end, such as ``Re λ < -1/10``, whose numbers are known."""
+    cited = known.named("bound", *LIMITS)
+    said = [] if cited else known.following
     while bound := BOUND.match(text, place):
         value, rate = _value(bound[2]), "Re" in bound[1]
-        limits = [Fraction(0), *(-x for x in known)] if rate else [Fraction(1), *known]
-        if value is None or not any(_near(value, each) for each in limits):
+        limits = [Fraction(0), *(-x for x in cited)] if rate else [Fraction(1), *cited]
+        if value is None or not any(_near(value, x) for x in (*limits, *said)):
             return
         place = bound.end()
         yield place
@@ -138,34 +181,6 @@ def _value(shown: str) -> Fraction | None:
         return Fraction(shown) if len(shown) <= MOST_DIGITS else None
     except (ValueError, ZeroDivisionError):
         return None
-
-
-def known_numbers(because: Json, words: str) -> Known:
-    """What is known of fields: the values of their names that were read, and what follows has them.
-
-    Where what follows, without the statements of certificates, has none of these values, they are
-    all of them, or else the numbers of what follows.  How far gains may differ is said last there;
-    of steps all values are known, as what follows may name another one.
-
-    Parameters
-    ----------
-    because : list
-        The files, pointers and values that the sentence cites.
-    words : str
-        What follows, without the statements of the certificates.
-    """
-    following = [Fraction(each) for each in NUMBER.findall(words) if _value(each) is not None]
-
-    def known(*fields: str) -> list[Fraction]:
-        endings = tuple(f"/{field}" for field in fields)
-        if fields == ("gains",):
-            return following[-1:]
-        named = [_rational(x) for _, pointer, x in because if pointer.endswith(endings)]
-        values = [x for x in named if x is not None]
-        said = [] if fields == ("step",) else [x for x in values if x in following]
-        return said or values or following
-
-    return known
 
 
 def _rational(value: Json) -> Fraction | None:

@@ -7,20 +7,32 @@ import os
 import platform
 import shlex
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from fractions import Fraction
+from itertools import product
 from pathlib import Path
+from typing import Any
 
 from mcexact import __version__
-from mcexact.answer.check import answer_in
+from mcexact.analysis.boxes.failure import FAILING, FailingPlant
+from mcexact.answer.account import repeated_of
+from mcexact.answer.check import answer_in, controller_of_loop
+from mcexact.answer.listing import TOPICS
+from mcexact.answer.protocol import Answer
+from mcexact.answer.sentence import LOOP, Context, Rule
+from mcexact.answer.templates import Sentence
 from mcexact.checker.command import line_of, status_of
 from mcexact.checker.core.budget import Verdict
 from mcexact.checker.kinds import Found
-from mcexact.cli.wording import sentences_of
 from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.roots import StabilityRegion
+from mcexact.model.box import Box, matrices_of
 from mcexact.model.files import load_parametric_system, load_system
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.text import canonical, plain
 from mcexact.report.html import AnswerPage
 from mcexact.report.text import Table
 
@@ -223,3 +235,107 @@ def _bytes_of(path: str) -> list[tuple[str, str]]:
     with suppress(OSError):
         return [("its SHA-256, as a file", hashlib.sha256(Path(path).read_bytes()).hexdigest())]
     return []
+
+
+# The sentences that the package makes of certificates, to compare with those of a manifest.
+#
+# The rules are applied again to the claims, and to what the certificates say of plant and
+# controller.  This is no proof, as the rules are the writer's own; it finds a sentence that was
+# changed afterwards.
+
+_UNKNOWN = (AttributeError, LookupError, TypeError, ValueError)
+"""What a rule raises whose context no certificate says."""
+_DESIGNS = [
+    {"network": network, "method": method, "arithmetic": arithmetic}
+    for network, method, arithmetic in product(
+        ("decentralized", "extended", "lifted", "held"), ("network", "observer"), ("exact", "float")
+    )
+] + [
+    {"solvability": True, "held": None, "method": method}
+    for method in ("decentralized", "extended", "observer")
+]
+
+
+def sentences_of(answers: Mapping[str, Answer]) -> frozenset[tuple[str, str]]:
+    """Return the keys and the lines of all sentences that the rules make of certificates.
+
+    Parameters
+    ----------
+    answers : mapping
+        The answers of VALID certificates, by the names of their files without the ending.
+    """
+    rules = [rule for rulebook, _ in TOPICS.values() for rule in rulebook]
+    contexts = list(_contexts(answers))
+    return frozenset(
+        (sentence.template.key, sentence.line)
+        for rule, context in product(rules, contexts)
+        for sentence in _said(rule, answers, context)
+    )
+
+
+def _said(rule: Rule, answers: Mapping[str, Answer], context: Context) -> Iterator[Sentence]:
+    """The sentences that one rule makes, none where it needs what no certificate says."""
+    with suppress(*_UNKNOWN):
+        yield from rule.apply(answers, context, (rule.missing,))
+
+
+def _contexts(answers: Mapping[str, Answer]) -> Iterator[Context]:
+    """The contexts in which the sentences may have been made, as far as certificates say them."""
+    facts, systems = _of_loop(answers), {}
+    for answer in answers.values():
+        of: Any = answer.about
+        for each in (of.plant, of, getattr(of, "at_samples", of)):
+            systems[canonical([each.plant.digest(), *map(plain, each.subject)])] = each
+    about = answers["fixed_spectrum"].subject if "fixed_spectrum" in answers else ()
+    outputs = any(each["construction"] == "augmented_outputs" for each in about)
+    facts["information"] = "outputs" if outputs else "own"
+    for system in systems.values():
+        if isinstance(system, ParametricSystem):
+            yield Context(system, repeated_of(system, answers))
+        else:
+            for more in _DESIGNS if "region" in facts else ({},):
+                yield Context(system, facts | more)
+
+
+def _of_loop(answers: Mapping[str, Answer]) -> dict[str, Any]:
+    """What sentences about a loop repeat: of the region, its controller, and plants around it."""
+    loop: Any = next((answers[name] for name in LOOP if name in answers), None)
+    if loop is None or [each["construction"] for each in loop.subject[-1:]] != ["closed_loop"]:
+        return {}
+    controller, plant = controller_of_loop(loop.subject[-1]["controller"]), loop.about.plant
+    names = (agent.name for agent in controller.agents)
+    facts: dict[str, Any] = {
+        "region": StabilityRegion.of(loop.about.time, bound=getattr(loop, "bound", None)),
+        "states": loop.about.n,
+        "order": controller.order,
+        "bits": controller.bit_length(),
+        "dimensions": dict(zip(names, (agent.shared for agent in controller.agents), strict=True)),
+        "observer_order": plant.n * plant.m + plant.m - 1,
+    }
+    box: Any = answers.get("box_stability")
+    if box is not None:
+        facts["part_of_plant"] = Box(box.about.plant).part
+        if box.gain_radii is not None:
+            radii = controller_of_loop(box.gain_radii)
+            facts["part_of_gains"] = _largest(radii.matrices()) / _largest(controller.matrices())
+    for name in answers.keys() & {"box_input_margin", "box_output_margin"}:
+        facts["part_of_margins"] = Box(answers[name].about.plant).part
+    if FAILING in answers:
+        facts |= _failing(plant, answers[FAILING].about.plant)
+    return facts
+
+
+def _largest(matrices: Iterable[Matrix]) -> Fraction:
+    """The largest modulus of an entry."""
+    return max(Fraction(abs(x), M.denominator) for M in matrices for *_, x in M.nonzero())
+
+
+def _failing(plant: MultiChannelSystem, near: MultiChannelSystem) -> dict[str, Any]:
+    """How far a plant nearby is, in the radii of a plant or in parts of its entries."""
+    radii = (Box.relative(plant, 1) if plant.uncertainty is None else Box(plant)).radii
+    distance = Fraction(0)
+    for (_, R), M, N in zip(radii.matrices(), matrices_of(plant), matrices_of(near), strict=True):
+        units = {(i, j): Fraction(x, R.denominator) for i, j, x in R.nonzero()}
+        for i, j, x in (M - N).nonzero():
+            distance = max(distance, abs(Fraction(x, (M - N).denominator)) / units[i, j])
+    return FailingPlant(near, distance, 0j, ()).facts(plant)

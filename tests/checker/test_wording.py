@@ -2,19 +2,20 @@
 
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from mcexact.answer import listing
 from mcexact.checker.command import main
 from mcexact.checker.sentences import RULES
-from mcexact.checker.wording import is_worded, known_numbers, wordings
+from mcexact.checker.wording import Known, is_worded, known_numbers, wordings
 from tests.checker.manifests import manifest, sentence, write
 
 
-def known(*numbers: str) -> Any:
-    return lambda *_: [Fraction(x) for x in numbers]
+def known(*numbers: str) -> Known:
+    """What is known if these numbers are cited as a bound, and follow."""
+    because = [["a", "/claim/bound", x] for x in numbers]
+    return Known(because, [Fraction(x) for x in numbers])
 
 
 @pytest.mark.parametrize(
@@ -60,16 +61,19 @@ def test_a_number_longer_than_any_that_is_shown_is_not_compared() -> None:
 
 
 def test_a_number_is_known_by_its_name_and_from_what_follows() -> None:
-    assert is_worded("7", [["below", "a"]], known())
     because = [["a", "/claim/margin", "39/25"], ["b", "/claim/margin", 2], ["b", "/x", True]]
-    least = known_numbers(because, "each has a disk margin of at least 39/25, every 15")
-    assert least("margin") == [Fraction(39, 25)]
-    assert least("gains") == [15]
-    assert least("step") == [Fraction(39, 25), 15]
+    digest = "4" * 64
+    least = known_numbers(because, f"{digest} has a disk margin of at least 39/25, every 15")
+    assert least.following == [Fraction(39, 25), 15]
+    assert least.of("margin") == [Fraction(39, 25)]
+    assert least.of("gains") == [15]
+    assert least.of("ratio") == [Fraction(39, 25), 15]
+    assert known_numbers(because, "").of("margin") == [Fraction(39, 25), 2]
+    assert known_numbers([["a", "/claim/margin", True]], "7").of("margin") == [7]
     steps = known_numbers([["a", "/subject/0/step", "7/40"], ["b", "/subject/0/step", 15]], "15")
-    assert steps("step") == [Fraction(7, 40), 15]
-    assert known_numbers(because, "")("margin") == [Fraction(39, 25), 2]
-    assert known_numbers([["a", "/claim/margin", True]], "7")("margin") == [7]
+    assert steps.of("step") == [Fraction(7, 40), 15]
+    assert is_worded("7", [["below", "a"]], known())
+    assert is_worded("Re x < -1/3", [["region"]], known_numbers([], "real part at least -1/3"))
 
 
 def test_every_rule_has_the_template_of_its_sentences() -> None:

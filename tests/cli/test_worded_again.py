@@ -10,7 +10,7 @@ from mcexact import analyze, load_certificate
 from mcexact.answer.account import Account
 from mcexact.answer.sentence import MANIFEST
 from mcexact.cli import main
-from mcexact.cli.wording import sentences_of
+from mcexact.cli.audit import sentences_of
 from mcexact.model import gallery
 
 FOLDER = Path(gallery.__file__).parent
