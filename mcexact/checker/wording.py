@@ -48,8 +48,12 @@ class Known:
     because: Json
     following: list[Fraction]
 
+    def cites(self, field: str) -> bool:
+        """Whether a value was read whose pointer ends with a name."""
+        return any(pointer.endswith(f"/{field}") for _, pointer, _ in self.because)
+
     def named(self, *fields: str) -> list[Fraction]:
-        """The values that were read, whose pointers end with one of some names."""
+        """The numbers that were read, whose pointers end with one of some names."""
         endings = tuple(f"/{field}" for field in fields)
         named = (_rational(x) for _, pointer, x in self.because if pointer.endswith(endings))
         return [x for x in named if x is not None]
@@ -130,13 +134,15 @@ def _phrases(phrases: Iterable[str], text: str, place: int) -> Iterator[int]:
 
 
 def _bounds(text: str, place: int, known: Known) -> Iterator[int]:
-    """Where bounds of eigenvalues end, such as ``Re λ < -1/10``, whose numbers are known."""
-    cited = known.named("bound", *LIMITS)
-    said = [] if cited else known.following
+    """Where bounds of eigenvalues end, such as ``Re λ < -1/10``, that a certificate has.
+
+    Where the sentence cites none, the user asked for them, and they are not compared.
+    """
+    cited, free = known.named("bound", *LIMITS), not known.cites("bound")
     while bound := BOUND.match(text, place):
         value, rate = _value(bound[2]), "Re" in bound[1]
         limits = [Fraction(0), *(-x for x in cited)] if rate else [Fraction(1), *cited]
-        if value is None or not any(_near(value, x) for x in (*limits, *said)):
+        if value is None or not (free or any(_near(value, each) for each in limits)):
             return
         place = bound.end()
         yield place
