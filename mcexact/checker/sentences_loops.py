@@ -460,8 +460,8 @@ def within(loops: Premise) -> str:
     spread = read_radii(plant.uncertainty, plant.names, nominal)
     part = f"by more than {least(pairs_of(nominal, spread))} of its modulus"
     changes = f"no entry of the plant changes {part}"
-    if radii is not None:
-        pairs = gain_pairs(loops.document["subject"][-1]["controller"], radii)
+    pairs = [] if radii is None else gain_pairs(loops.document["subject"][-1]["controller"], radii)
+    if any(value for _, value in pairs):
         changes += f", and none of the controller by more than {least(pairs)} of its modulus"
     return f"{loops.statement}; it holds if {changes}"
 

@@ -63,10 +63,10 @@ class Known:
 
         They are the values of its name: those of them that what follows has, but all of a step,
         since what follows may name another one.  Without a value they are the numbers of what
-        follows, where how far gains may differ is said last.
+        follows, where how far gains may differ is said second, if at all.
         """
         if field == "gains":
-            return self.following[-1:]
+            return self.following[1:]
         values = self.named(field)
         said = [] if field == "step" else [x for x in values if x in self.following]
         return said or values or self.following
