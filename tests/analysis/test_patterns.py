@@ -210,7 +210,10 @@ def test_the_analysis_says_why_with_certificates_that_are_checked(tmp_path: Path
 
 def test_without_fixed_modes_or_laws_on_request_nothing_is_said() -> None:
     free = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[1]], [[0]]])
-    assert says(analyze(free).why_fixed.explain(), "none") and "why_fixed" not in analyze(free).to_dict()
+    assert (
+        says(analyze(free).why_fixed.explain(), "none")
+        and "why_fixed" not in analyze(free).to_dict()
+    )
     assert "structural_fixed_modes" not in analyze(free).to_dict()
     silent = analyze(EQUAL, nearby=False)
     assert "why_fixed" not in silent.to_dict() and "law_1" not in silent.to_dict()
