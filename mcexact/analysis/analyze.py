@@ -751,6 +751,8 @@ class Analysis(ShownByAccount):
             return account_for_all_values(self._own, self.answers)
         answers = self.decided()
         asked: dict[str, Any] = {"information": self.information}
+        if "fixed_spectrum" in answers and not answers["fixed_spectrum"].empty:
+            asked["fixed"] = True
         open_ = {*self.left_out, *self.open()} - answers.keys() - self._ended
         near: dict[str, Any] = {} if self.nearby_left_out else dict(self.nearby.answers)
         if near:

@@ -1,4 +1,4 @@
-"""What is fixed whatever the numbers of a plant are: the answer, and sentences why modes are fixed.
+"""What is fixed whatever the numbers of a plant are, and sentences why modes are fixed.
 
 The answer `StructuralFixedModes` is about the places of the entries of a plant that are not 0.  It
 has the modes that are fixed for all numbers at these places; almost all numbers fix no others.  So
@@ -64,9 +64,17 @@ class StructuralFixedModes(Answer):
         return self.polynomial.degree == 0
 
 
-# Sentences: why modes are fixed.
+# Sentences: what is fixed for all numbers, and why modes of a plant are fixed.
 
 _SOURCES = "M. E. Sezer and D. D. Siljak 1981"
+_LABEL = "structural fixed modes"
+NONE = Template("structural-none", "none{information:fed}", _SOURCES, _LABEL)
+MODES = Template(
+    "structural-modes",
+    "{p:modes}{information:fed}",
+    f"patterns.structural_modes; {_SOURCES}",
+    _LABEL,
+)
 ZEROS = Template(
     "fixed-by-zeros",
     "zeros; no numbers in feedback loops free {p:modes}",
@@ -80,6 +88,15 @@ EQUALITIES = Template(
     "why fixed",
 )
 WHY_RULES = Rulebook()
+
+
+@WHY_RULES.rule("table", NONE, MODES, premises=("structural_fixed_modes",))
+def _structural(structural: Claim, context: Context) -> Said:
+    """The answer, unless modes of the same plant are fixed: then it is a reason."""
+    information, p = structural.information, structural.polynomial
+    if information == "own" and context.has("fixed"):
+        return
+    yield MODES(p=p, information=information) if p.degree else NONE(information=information)
 
 
 @WHY_RULES.rule("table", ZEROS, EQUALITIES, premises=("structural_fixed_modes", "fixed_spectrum"))

@@ -540,6 +540,7 @@ FORMS: dict[str, Write] = {
     "price": choice(least="least", cheapest="cheapest"),
     "links": choice(least="the fewest links", cheapest="the cheapest links"),
     "limits": choice(none="", upper=", within the upper limits"),
+    "fed": choice(own="", outputs=", where outputs of neighbors are fed back"),
     "instant": choice(none="", delays=", if messages took no time"),
     "slow": _Agreeing("it is not fast enough", "not all of them are fast enough"),
     "do": _Agreeing("does", "do"),

@@ -11,6 +11,7 @@ about the manifest's own plant.  How far the other plant is from it is computed 
 ``nearby-…-part``    the distance is said, and no more
 ===================  ===========================================================================
 
+``structural-…`` say what is fixed for all numbers at the places of the plant's entries.
 ``fixed-by-…`` divide the fixed modes of the plant by what is fixed for all numbers at its places.
 ``law-…`` and ``nearby-law-…`` name the vector that all channels do not observe, or not control.
 """
@@ -163,7 +164,7 @@ of_mode(
 )
 
 
-# Modes that the zeros fix, and modes that equalities between entries fix.
+# What is fixed for all numbers; modes that the zeros fix, and that equalities between entries fix.
 
 STRUCTURAL = Role(("structural_fixed_modes",), PLANT)
 SOURCES = "M. E. Sezer and D. D. Siljak 1981"
@@ -171,6 +172,19 @@ ALIKE = (
     "systems with these entries where rows and columns of states without feedback meet, and zeros "
     "wherever it has zeros"
 )
+
+
+def pattern(key: str, theorem: str, *, some: bool) -> None:
+    """Enter the rule about a pattern alone: that something is fixed for all numbers, or nothing."""
+
+    @rule(key, STRUCTURAL, theorem=theorem)
+    def _pattern(structural: Premise) -> str:
+        structural.expect((len(structural["polynomial"]) > 1) == some, "the claim is different")
+        return structural.statement
+
+
+pattern("structural-none", SOURCES, some=False)
+pattern("structural-modes", f"patterns.structural_modes; {SOURCES}", some=True)
 
 
 def why(key: str, kept: bool, words: str, theorem: str) -> None:

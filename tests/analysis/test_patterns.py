@@ -220,6 +220,26 @@ def test_without_fixed_modes_or_laws_on_request_nothing_is_said() -> None:
     assert silent.why_fixed.by_equalities
 
 
+def test_asked_by_name_it_says_what_is_fixed_for_all_numbers() -> None:
+    linked = ALONE.with_neighbors({"1": []})
+    rows = [
+        each.line
+        for found in (
+            analyze(EQUAL, ["structural_fixed_modes"]),
+            analyze(ALONE, ["structural_fixed_modes"]),
+            analyze(linked, ["structural_fixed_modes"], information="outputs"),
+        )
+        for each in found.sentences.at("table")
+        if each.template.key.startswith("structural-")
+    ]
+    assert len(rows) == 3 and says(rows, "asked")
+    keys = {each.template.key for each in analyze(ALONE).sentences}
+    assert not keys & {"structural-none", "structural-modes"}  # there it is a reason
+    free = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    keys = {each.template.key for each in analyze(free, also=["structural_fixed_modes"]).sentences}
+    assert "structural-none" in keys
+
+
 def test_of_a_derived_system_it_is_not_asked() -> None:
     with pytest.raises(InputError):
         why_fixed(dual(EQUAL))

@@ -208,6 +208,13 @@ ROUNDED = MultiChannelSystem(
 TURNED = MultiChannelSystem(
     [["0.30000000000000004", "0.7"], ["0.7", "0.3"]], [[[1], [-1]]], [[["0.1", 0]]]
 )
+LINKED = MultiChannelSystem(
+    [[1, 0], [1, 2]],
+    [[[1], [0]], [[0], [1]]],
+    [[[0, 0]], [[1, 1]]],
+    neighbors={"1": ["2"], "2": []},
+)
+"""The first state is fed back only where agent 1 receives the output of agent 2, or conversely."""
 OF_DATA = ("fixed-by-", "law-", "nearby-law-")
 
 
@@ -231,6 +238,28 @@ def test_why_modes_are_fixed_is_judged_and_denied(plant: MultiChannelSystem) -> 
                 row.rule.removeprefix("fixed-by-")
             ]
             assert verdict(replace(row, rule=f"fixed-by-{other}"), case) is False
+
+
+@pytest.mark.parametrize("information", ["own", "outputs"])
+@pytest.mark.parametrize("plant", [UNSEEN, BESIDE, LINKED])
+def test_what_is_fixed_for_all_numbers_is_judged_and_denied(
+    plant: MultiChannelSystem, information: str
+) -> None:
+    linked = plant if plant.neighbors is not None else plant.with_neighbors({"1": []})
+    found = analyze(linked, ["structural_fixed_modes"], information=information)
+    [row] = [said(each) for each in found.sentences if each.template.key.startswith("structural-")]
+    case = Case(plant_of(linked))
+    assert verdict(row, case)
+    others: list[dict[str, Any]] = [{"p": plain(Polynomial.from_roots([7]))}] * ("p" in row.values)
+    others += [{"information": "instant"}]
+    others += [{"information": "own" if information == "outputs" else "outputs"}] * (
+        plant is LINKED
+    )
+    for change in others:
+        assert verdict(replace(row, values={**row.values, **change}), case) is False
+    opposite = "structural-none" if "p" in row.values else "structural-modes"
+    one = {**row.values, "p": plain(Polynomial.from_roots([5]))}
+    assert verdict(replace(row, rule=opposite, values=one), case) is False
 
 
 @pytest.mark.slow

@@ -117,6 +117,11 @@ REASONS: list[tuple[str, MultiChannelSystem, str, list[int], str, str]] = [
     ("equalities do not fix both", EQUAL, "own", [0, 1], "fixed-by-equalities", "INVALID"),
     ("nothing is fixed", FREE, "own", [], "fixed-by-equalities", "INVALID"),
     ("outputs of neighbors", EQUAL, "outputs", [0], "fixed-by-zeros", "INVALID"),
+    ("5 is fixed for all numbers", EQUAL, "own", [], "structural-modes", "IMPLIED"),
+    ("5 is fixed with outputs of neighbors", EQUAL, "outputs", [], "structural-modes", "IMPLIED"),
+    ("something is fixed for all numbers", EQUAL, "own", [], "structural-none", "INVALID"),
+    ("nothing is fixed for all numbers", FREE, "own", [], "structural-none", "IMPLIED"),
+    ("nothing is there to name", FREE, "own", [], "structural-modes", "INVALID"),
 ]
 
 

@@ -147,6 +147,7 @@ OPPOSITE = [
     ("held-nothing-fixed", "held-fixed"),
     ("decentralized-none", "fixed-besides"),
     ("quotient-fixed-none", "quotient-fixed"),
+    ("structural-none", "structural-modes"),
     ("time-varying-stabilizes", "no-causal-control"),
     ("failures-stabilizable", "failures-unstable"),
     ("failures-all-stabilizable", "failures-fewest-unstable"),

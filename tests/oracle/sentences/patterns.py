@@ -12,9 +12,11 @@ from tests.oracle.sentences.analysis import judge
 from tests.oracle.sentences.cases import Case, Said, divides, irreducible
 
 
-def _structural(plant: System) -> fmpq_poly:
+def _structural(plant: System, information: str = "own") -> fmpq_poly:
     """What is fixed with drawn numbers at the same places, with the own ones in A_UU."""
     rng, used = random.Random(1), [[i] for i in range(plant.m)]
+    if information == "outputs":
+        used = [list(N) for N in plant.graph()]
     U, other = without_feedback(plant, used), redrawn(rng, plant)
     return common(rng, other, used) / part(other.A, U) * part(plant.A, U)
 
@@ -23,6 +25,15 @@ def _named(said: Said, case: Case) -> list[fmpq_poly]:
     """The modes of the sentence; none if one of these is not fixed."""
     named, fixed = irreducible(said.values["p"]), [str(p) for p in case.own.fixed]
     return [p for p, _ in named] if all(str(p) in fixed for p, _ in named) else []
+
+
+@judge("structural-none", "structural-modes")
+def _pattern(said: Said, case: Case) -> bool:
+    information = said.values["information"]
+    if information != "own" and (information != "outputs" or case.plant.neighborhoods is None):
+        return False
+    p = fmpq_poly([1]) if said.rule == "structural-none" else said.values["p"]
+    return bool(p == _structural(case.plant, information))
 
 
 @judge("fixed-by-zeros", "fixed-by-equalities")
