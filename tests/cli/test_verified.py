@@ -26,6 +26,8 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.loop import closed_loop
 from tests.checker import test_closed_loop_spectrum, test_stability
 from tests.checker.handmade import Document, changed, checked
+from tests.checker.handmade import certificate as by_hand
+from tests.checker.handmade import plant as plant_by_hand
 from tests.cli.calling import call
 from tests.wording import says
 
@@ -298,6 +300,36 @@ def test_no_invariant_zero_is_confirmed_where_set_points_can_be_held(
     assert check_document(path.read_bytes()).verdict == "INVALID"
     (answer,) = verified.confirmations([str(path)], [""])
     assert answer.verdict == "INVALID"
+
+
+NOT_INVERTIBLE = [
+    (
+        "a modulus that divides a denominator of B, not of A",
+        plant_by_hand([[1]], ([["1/3"]], [[1]])),
+        ({"polynomial": [-1, 1]}, {"moduli": [3, 5]}),
+        "VALID",
+    ),
+    (
+        "a composite modulus with a factor in common with a pivot",
+        plant_by_hand([[1, 0], [7, 1]], ([[1], [0]], [[1, 0]])),
+        ({"polynomial": [1, -2, 1]}, {"moduli": [77]}),
+        "INVALID",
+    ),
+]
+
+
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+@pytest.mark.parametrize("row", NOT_INVERTIBLE, ids=lambda row: row[0])
+def test_what_has_no_inverse_modulo_l_is_no_contradiction(
+    row: tuple[str, Document, tuple[Document, Document], str], tmp_path: Path
+) -> None:
+    _, system, parts, verdict = row
+    document = by_hand("closed_loop_spectrum", system, *parts)
+    found, path = checked(document), tmp_path / "spectrum.json"
+    assert found.verdict == verdict
+    path.write_text(json.dumps(document), "ascii")
+    (answer,) = verified.confirmations([str(path)], [found.statement])
+    assert answer.verdict == "INCOMPLETE"
 
 
 def _table(rows: Iterable[tuple[Any, ...]]) -> Iterator[tuple[str, Document]]:
