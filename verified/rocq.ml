@@ -87,7 +87,7 @@ type theorem = { name : string; about : string; meaning : string; definitions : 
 let over_fields holds = Printf.sprintf "forall (K : fieldType) (h : {rmorphism rat -> K}), %s" holds
 
 let fixed_spectrum c g rules =
-  { name = "fixed_spectrum"; about = "All fixed modes";
+  { name = "fixed_spectrum"; about = "All fixed modes of";
     meaning = "claim_holds, in mcexact.kernel.fixed_rule, and regions_hold, in\n   mcexact.kernel.regions_rule, say what the claim means.";
     definitions = [ ("claim", "zclaim", claim c); ("regions", "zregions", regions g); ("rules", "seq rule", list rule rules) ];
     says = (fun system -> Printf.sprintf "(%s) /\\\n  (forall C : numClosedFieldType, regions_hold %s claim regions)"
@@ -132,10 +132,13 @@ let controlled subject definitions = match subject with
   | _ -> definitions
 let matrix_of subject system field = match subject with
   | Subject.Loop _ -> Printf.sprintf "(system_loop %s plant controller)" field | _ -> Printf.sprintf "(mcA %s)" (system field)
-let loop_meaning = function Subject.Loop _ -> "system_loop, in mcexact.kernel.program_rule, is the loop with the controller." | _ -> "within is defined in mcexact.kernel.program_rule."
+let about_matrix subject words = match subject with Subject.Loop _ -> words ^ " the loop of the controller with" | _ -> words
+let meaning_of subject words = match subject with
+  | Subject.Loop _ -> words ^ " system_loop, in mcexact.kernel.program_rule,\n   is the matrix of the loop." | _ -> words
 
 let closed_loop_spectrum subject p proof =
-  { name = "closed_loop_spectrum"; about = "The characteristic polynomial of the loop, or of"; meaning = loop_meaning subject;
+  { name = "closed_loop_spectrum"; about = about_matrix subject "The characteristic polynomial of";
+    meaning = meaning_of subject "up, in mcexact.kernel.lists, is the monic polynomial of a list.";
     definitions = controlled subject (("claim", "zrow", row p) :: evidence proof);
     says = (fun system -> Printf.sprintf "forall (K : fieldType) (h : {rmorphism rat -> K}), char_poly %s = up K claim" (matrix_of subject system "K"));
     plain = (match subject with
@@ -144,7 +147,8 @@ let closed_loop_spectrum subject p proof =
 
 let stability subject continuous u v flag proof =
   let claim = Printf.sprintf "%s %s %s %s" (bool continuous) (z u) (z v) (bool flag) in
-  { name = "stability"; about = "Whether all eigenvalues lie in a region, of the loop, or of"; meaning = loop_meaning subject;
+  { name = "stability"; about = about_matrix subject "Whether the region has all eigenvalues of";
+    meaning = meaning_of subject "within, in mcexact.kernel.program_rule, is the region.";
     definitions = controlled subject (evidence proof);
     says = (fun system -> Printf.sprintf "forall C : numClosedFieldType, %s <-> (forall z, eigenvalue %s z -> within %s %s %s z)"
         (bool flag) (matrix_of subject system "C") (z u) (z v) (bool continuous));
@@ -158,7 +162,7 @@ let file digest s subject t =
   let system field = if dual then Printf.sprintf "(dual (system_of %s plant))" field else Printf.sprintf "(system_of %s plant)" field in
   let define (name, kind, text) = Printf.sprintf "Definition %s : %s := %s." name kind text in
   String.concat "\n"
-    ([ Printf.sprintf "(* %s the %splant %s.\n   The lists have A, B_i and C_i over one denominator.  %s *)" (if t.name = "fixed_spectrum" then t.about ^ " of" else t.about)
+    ([ Printf.sprintf "(* %s the %splant %s.\n   The lists have A, B_i and C_i over one denominator.  %s *)" t.about
          (if dual then "dual of the " else "") digest t.meaning;
        "From Coq Require Import ZArith.";
        "From mathcomp Require Import all_ssreflect all_algebra.";

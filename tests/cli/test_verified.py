@@ -285,6 +285,30 @@ def test_both_checkers_agree_about_every_published_plant(name: str, tmp_path: Pa
 
 
 @pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+@pytest.mark.parametrize(
+    ("question", "explained", "subject"),
+    [
+        (open_loop_spectrum, {"up"}, "of the plant"),
+        (spectrum_of_a_loop, {"up", "system_loop"}, "of the loop of the controller with the plant"),
+        (stability_of_a_loop, {"within", "system_loop"}, "of the loop of the controller with the"),
+    ],
+)
+def test_the_head_of_a_theorem_explains_the_words_that_it_has(
+    question: Callable[[mcexact.MultiChannelSystem], Any],
+    explained: set[str],
+    subject: str,
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "certificate.json"
+    path.write_text(protocol.encode(question(gallery.load(PLANT))), "ascii")
+    head, _, rest = verified.rocq_file(str(path)).partition("*)")
+    said = re.search(r"^Theorem .*?^Proof", rest, re.MULTILINE | re.DOTALL)
+    assert said is not None and subject in head
+    for text in (head, said[0]):
+        assert set(re.findall(r"\b(?:up|within|system_loop)\b", text)) == explained
+
+
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
 @pytest.mark.parametrize("zero", [True, False])
 def test_no_invariant_zero_is_confirmed_where_set_points_can_be_held(
     zero: bool, tmp_path: Path
