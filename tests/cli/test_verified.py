@@ -366,6 +366,12 @@ def _table(rows: Iterable[tuple[Any, ...]]) -> Iterator[tuple[str, Document]]:
         )
 
 
+def _beyond(document: Document) -> bool:
+    """Whether verified/README.md says that such a stability certificate is not verified."""
+    claim, method = document["claim"], document["witness"].get("method", "polynomial")
+    return method != "polynomial" or not {"damping", "largest_modulus"}.isdisjoint(claim)
+
+
 @pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
 def test_of_loops_by_hand_it_confirms_what_is_valid_and_nothing_else(tmp_path: Path) -> None:
     rules = test_closed_loop_spectrum, test_stability
@@ -375,15 +381,11 @@ def test_of_loops_by_hand_it_confirms_what_is_valid_and_nothing_else(tmp_path: P
         paths.append(str(tmp_path / f"{k}.json"))
         Path(paths[-1]).write_text(json.dumps(document), "ascii")
     found = verified.confirmations(paths, [verdict.statement for verdict in verdicts])
-    for (name, _), verdict, answer in zip(table, verdicts, found, strict=True):
-        assert verdict.verdict == "VALID" or not answer.confirmed, name
-        assert not (verdict.verdict == "VALID" and answer.contradicts), (name, answer)
-    assert {answer.verdict for answer in found} == {
-        "CONFIRMED",
-        "INCOMPLETE",
-        "INVALID",
-        "MALFORMED",
-    }
+    for (name, document), verdict, answer in zip(table, verdicts, found, strict=True):
+        valid = verdict.verdict == "VALID"
+        assert answer.confirmed == (valid and not _beyond(document)), (name, answer)
+        assert answer.verdict in ("CONFIRMED", "INCOMPLETE") or not valid, (name, answer)
+        assert answer.verdict not in ("ERROR", ""), (name, answer)
 
 
 PROOFS = Path(__file__).parents[2] / "proofs"
