@@ -15,34 +15,38 @@ let claimed kind (plant : Plant.t) subject claim witness =
   let m = List.length known and s = if subject = Subject.Dual then Kernel.zdual listed else listed in
   let about words = Words.statement plant subject words in
   let file = Rocq.file plant.Plant.digest listed subject in
-  (match kind, subject with
-   | ("closed_loop_spectrum" | "stability"), _ | _, (Subject.Plain | Subject.Dual) -> ()
-   | _ -> incomplete "subject" "of loops, spectrum and stability are verified here");
+  let of_no_loop () = match subject with
+    | Subject.Loop _ -> incomplete "subject" "of loops, spectrum and stability are verified here" | Subject.Plain | Subject.Dual -> () in
   match kind with
   | "fixed_spectrum" ->
+    of_no_loop ();
     let said = Claim.read known claim in
     let meant = Claim.listed m said and regions = Claim.regions plant.Plant.time said in
     let rules = Witness.fixed_spectrum s known meant witness in
     { statement = about (Words.fixed_spectrum plant.Plant.time known said);
       proves = (fun () -> Kernel.check_whole s rules regions = Some meant); theorem = (fun () -> file (Rocq.fixed_spectrum meant regions rules)) }
   | "controllability" ->
+    of_no_loop ();
     let said = Claim.read_reach known claim in
     let meant = Claim.listed_reach m said in
     let annihilator, below = Structure.controllability s known meant witness in
     { statement = about (Words.controllability known said);
       proves = (fun () -> Kernel.check_controllability s meant annihilator below); theorem = (fun () -> file (Rocq.controllability meant annihilator below)) }
   | "transfer_graph" ->
+    of_no_loop ();
     let said = Claim.read_graph known claim in
     let meant = Claim.listed_graph m said in
     let evidence = Structure.transfer_graph s known said meant witness in
     { statement = about (Words.transfer_graph known said);
       proves = (fun () -> Kernel.check_graph s meant evidence); theorem = (fun () -> file (Rocq.transfer_graph meant evidence)) }
   | "completeness" ->
+    of_no_loop ();
     let said = Claim.read_complete claim in
     let evidence = Structure.completeness s known said witness in
     { statement = about (Words.completeness said);
       proves = (fun () -> Kernel.check_complete s evidence = Some said); theorem = (fun () -> file (Rocq.completeness said evidence)) }
   | "setpoint" ->
+    of_no_loop ();
     let said = Claim.read_setpoint claim in
     let meant = Claim.listed_setpoint said and discrete = plant.Plant.time = "discrete" in
     let evidence = Structure.setpoint s discrete meant witness in
