@@ -305,19 +305,19 @@ Qed.
 End Within.
 
 Lemma spectrum_root (C : numClosedFieldType) N (M : 'M[C]_N) f : char_poly M = up C f ->
-  ~~ Z.eqb (last z0 f) 0 /\ forall z, eigenvalue M z = root (pol [comRingType of C] f) z.
+  forall z, eigenvalue M z = root (pol [comRingType of C] f) z.
 Proof.
-move=> e; have l0 : ~~ Z.eqb (last z0 f) 0.
+move=> e z; have l0 : ~~ Z.eqb (last z0 f) 0.
   apply/negP => /Z.eqb_eq l0; have := char_poly_monic M; rewrite e /up l0 phi0 invr0 scale0r.
   by rewrite monicE lead_coef0 eq_sym oner_eq0.
-by split=> // z; rewrite eigenvalue_root_char e up_root.
+by rewrite eigenvalue_root_char e up_root.
 Qed.
 Definition check_loop_stability (s : zsystem) (c : zcontroller) (continuous : bool) (u v : Z) (flag : bool) (f : zrow) (w : spectrum_witness) : bool :=
   check_programs s c f w && check_within continuous u v flag f.
 Theorem check_loop_stability_sound s c continuous u v flag f w : check_loop_stability s c continuous u v flag f w ->
   forall C : numClosedFieldType, flag <-> (forall z, eigenvalue (system_loop C s c) z -> within u v continuous z).
 Proof.
-case/andP=> ok /and4P[u0 v0 nn /eqP ->] C; have [_ e] := spectrum_root (check_programs_sound ok [rmorphism of @ratr C]).
+case/andP=> ok /and4P[u0 v0 nn /eqP ->] C; have e := spectrum_root (check_programs_sound ok [rmorphism of @ratr C]).
 rewrite (zmovedP C v0 u0 nn); by split=> st z; have := st z; rewrite e.
 Qed.
 Definition check_open_stability (s : zsystem) (continuous : bool) (u v : Z) (flag : bool) (f : zrow) (w : spectrum_witness) : bool :=
@@ -326,6 +326,6 @@ Theorem check_open_stability_sound s continuous u v flag f w : check_open_stabil
   forall (C : numClosedFieldType) n m (p q : 'I_m -> nat) (S : multichannel C n p q), represents s S ->
   flag <-> (forall z, eigenvalue (mcA S) z -> within u v continuous z).
 Proof.
-case/andP=> ok /and4P[u0 v0 nn /eqP ->] C n m p q S re; have [_ e] := spectrum_root (check_without_sound ok [rmorphism of @ratr C] re).
+case/andP=> ok /and4P[u0 v0 nn /eqP ->] C n m p q S re; have e := spectrum_root (check_without_sound ok [rmorphism of @ratr C] re).
 rewrite (zmovedP C v0 u0 nn); by split=> st z; have := st z; rewrite e.
 Qed.
