@@ -679,7 +679,7 @@ def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entr
     entries = {(i, j): x for i, j, x in residues(A, ell)}
     for B, F, C in zip(system.B, gains, system.C, strict=True):
         seen, inputs = residues_by_row(C, ell), residues(B, ell)
-        gain = [[(h, f) for h, f in enumerate(row) if f] for row in F.modulo(ell)]
+        gain = residues_by_row(F, ell)
         for a, g, x in inputs:
             for h, f in gain[g]:
                 for b, y in seen[h]:
