@@ -286,6 +286,8 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
   else begin
     match Json.fields "witness" [ "gains"; "modulus"; "subspaces"; "completion" ] value with
     | [ given; number; spaces; completion ] ->
+      if List.exists (fun f -> f.Kernel.f_in_A = None) factors then
+        incomplete "claim.factors" "gains and a large modulus, without multiplicities in A, are not verified here";
       let ell = modulus "witness.modulus" number in
       let all = List.map (fun _ -> true) s.Kernel.zchannels in
       let gains = gains "witness.gains" ell s.Kernel.zchannels all given in
