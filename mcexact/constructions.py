@@ -20,6 +20,7 @@ from mcexact.derived.constructions import (
     extended_system,
     failed,
     held_system,
+    internal_model,
     lifted_system,
     merged,
     regulated_outputs,
@@ -40,6 +41,7 @@ from mcexact.derived.variants import (
     sensor_variants,
 )
 from mcexact.model.periodic import periodic_loop
+from mcexact.model.signals import signal_polynomial
 from mcexact.model.system import from_stacked
 
 __all__ = [
@@ -57,6 +59,7 @@ __all__ = [
     "from_stacked",
     "held_system",
     "input_filters",
+    "internal_model",
     "lifted_system",
     "matrix_system",
     "merged",
@@ -71,6 +74,7 @@ __all__ = [
     "sensor_variants",
     "servo_system",
     "setpoint_system",
+    "signal_polynomial",
     "slow_system",
     "union_graph",
     "without_part",

@@ -39,6 +39,7 @@ from mcexact.derived.constructions import (
     feedback,
     full_output,
     held_system,
+    internal_model,
     lifted_system,
     looped,
     merged,
@@ -561,6 +562,11 @@ _CONSTRUCTIONS: Mapping[
     "held": lambda system, data: held_system(system, data["dimensions"]),
     "input_filters": lambda system, _: input_filters(system),
     "integrators": lambda system, _: setpoint_system(system),
+    "internal_model": lambda system, data: internal_model(
+        system,
+        Polynomial.from_coefficients(map(Fraction, data["polynomial"])),
+        _gains(data, [system.q(i) for i in range(system.m)]),
+    ),
     "merged": lambda system, data: merged(system, data["parts"]),
     "modulo": lambda system, data: without_part(
         system, data["part"], _matrix(data["annihilator"], system.n), data["pivots"]

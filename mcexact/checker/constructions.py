@@ -9,12 +9,14 @@ linear map of signals, which `discs` uses again to bound loops of uncertain plan
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 from functools import reduce
+from itertools import pairwise
 from typing import NamedTuple
 
 from .controllers import MAPS, read_controller
 from .core import evidence
-from .core.arithmetic import Matrix, beside, characteristic_polynomial, diagonal, stack
+from .core.arithmetic import Matrix, Polynomial, beside, characteristic_polynomial, diagonal, stack
 from .core.budget import spend, table
 from .core.evidence import inputs, outputs, read_gains
 from .core.reading import (
@@ -783,22 +785,41 @@ def integrators(system: System, step: dict[str, Json], place: str) -> System:
     Open: see ``proofs/OPEN.md``.
     """
     fields(step, place)
-    A, B, w = integrating(system, system.C)
+    A, B, w = modeled(system, system.C, _constants(system))
     return suffixed(system, "with integrators of its outputs", A=A, B=B, C=w)
 
 
-def integrating(system: System, rows: list[Matrix]) -> tuple[Matrix, list[Matrix], list[Matrix]]:
-    """State (x, w), w' = rows x or w(t+1) = w + rows x: A, the B_i, and what selects each w_i.
+def _constants(system: System) -> Polynomial:
+    """The polynomial whose signals are constant: x, or x - 1 in discrete time."""
+    return [Fraction(-int(system.time == "discrete")), Fraction(1)]
+
+
+def modeled(
+    system: System, rows: list[Matrix], alpha: Polynomial
+) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+    """State (x, w_1, w_2, …), w_i of d = deg alpha blocks: A, the B_i, and what selects each w_i.
+
+    The block k + 1 is the derivative, or the next value, of the block k < d, and alpha of this
+    applied to the first block is ``rows[i]`` x.
 
     Open: see ``proofs/OPEN.md``.
     """
-    n, k = system.n, [rows_i.nrows for rows_i in rows]
-    N = n + sum(k)
-    x, w = Matrix.unit_rows(N, 0, n), Matrix.unit_rows(N, n, sum(k))
-    change = stack(rows, n) @ x
-    A = stack([system.A @ x, change + w if system.time == "discrete" else change], N)
-    B = [stack([B_i, Matrix.zeros(sum(k), B_i.ncols)], B_i.ncols) for B_i in system.B]
-    return A, B, [Matrix.unit_rows(N, n + sum(k[:i]), k_i) for i, k_i in enumerate(k)]
+    n, d = system.n, len(alpha) - 1
+    N = n + d * sum(rows_i.nrows for rows_i in rows)
+    spend(table(N, N))
+    x, start, w = Matrix.unit_rows(N, 0, n), n, list[Matrix]()
+    after = [system.A @ x]
+    for rows_i in rows:
+        k = rows_i.nrows
+        blocks = [Matrix.unit_rows(N, start + j * k, k) for j in range(d)]
+        last = rows_i @ x
+        for a, block in zip(alpha, blocks, strict=False):
+            last = last - block.times(a) if a else last
+        after += [*blocks[1:], last]
+        w.append(Matrix.unit_rows(N, start, d * k))
+        start += d * k
+    B = [stack([B_i, Matrix.zeros(N - n, B_i.ncols)], B_i.ncols) for B_i in system.B]
+    return stack(after, N), B, w
 
 
 def read_selection(value: Json, place: str, system: System) -> list[Matrix]:
@@ -835,12 +856,48 @@ def servo(system: System, step: dict[str, Json], place: str) -> System:
     """
     (listed,) = fields(step, place, "gains")
     S = read_selection(listed, place, system)
-    A, B, z = integrating(system, [S_i @ C_i for S_i, C_i in zip(S, system.C, strict=True)])
-    x = Matrix.unit_rows(A.ncols, 0, system.n)
-    C = [stack([z_i, C_i @ x], A.ncols) for z_i, C_i in zip(z, system.C, strict=True)]
+    A, B, C = _with_models(system, S, _constants(system))
     digest = with_digest(canonical_json(by_channel(system, S)))
     words = f"with integrators of the combinations S of its outputs with {digest}"
     return suffixed(system, words, A=A, B=B, C=C)
+
+
+def _with_models(
+    system: System, S: list[Matrix], alpha: Polynomial
+) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+    """A, the B_i and the C_i where agent i measures its own w_i, with S_i y_i behind, and y_i."""
+    A, B, w = modeled(system, [S_i @ C_i for S_i, C_i in zip(S, system.C, strict=True)], alpha)
+    x = Matrix.unit_rows(A.ncols, 0, system.n)
+    C = [stack([w_i, C_i @ x], A.ncols) for w_i, C_i in zip(w, system.C, strict=True)]
+    return A, B, C
+
+
+def internal_model(system: System, step: dict[str, Json], place: str) -> System:
+    """Signals of a polynomial, continued by models of S_i y_i; agent i measures its w_i and y_i.
+
+    With D, the last block of w_i has S_i D_i u beside S_i C_i x, D_i the rows of D of agent i.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    coefficients, listed = fields(step, place, "polynomial", "gains")
+    alpha = polynomial(coefficients, f"{place}.polynomial", 1)
+    S = read_selection(listed, place, system)
+    A, B, C = _with_models(system, S, alpha)
+    D, d, everything = None, len(alpha) - 1, list(range(system.m))
+    if system.D is not None:
+        p, into, seen = system.D.ncols, list[Matrix](), list[Matrix]()
+        for i, S_i in enumerate(S):
+            D_i = direct(system, [i], everything)
+            k, D_i = S_i.nrows, D_i if D_i is not None else Matrix.zeros(S_i.ncols, p)
+            into += [Matrix.zeros((d - 1) * k, p), S_i @ D_i]
+            seen += [Matrix.zeros(d * k, p), D_i]
+        whole = stack([inputs(system, everything), *into], p)
+        starts = [sum(B_j.ncols for B_j in system.B[:i]) for i in range(system.m + 1)]
+        B = [whole.across(range(*ends)) for ends in pairwise(starts)]
+        D = stack(seen, p)
+    digest = with_digest(canonical_json(by_channel(system, S)))
+    which = f"signals of {polynomial_text(alpha)} for the combinations S of its outputs"
+    return suffixed(system, f"with models of the {which} with {digest}", A=A, B=B, C=C, D=D)
 
 
 def error(system: System, step: dict[str, Json], place: str) -> System:
@@ -870,9 +927,9 @@ LINE = "line"
 """The construction that only plants with parameters have, and before all others."""
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
 LAST = (regulated, restricted, sampled, servo, slow)
-MORE = (failed, held, input_filters, integrators, lifted, merged, modulo, periodic_loop)
-CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, *MORE, *LAST)}
-_OTHERS = closed_loop, dual, input_filters
+MORE = (failed, held, input_filters, integrators, internal_model, lifted, merged, modulo)
+CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, *MORE, periodic_loop, *LAST)}
+_OTHERS = closed_loop, dual, input_filters, internal_model
 CARRYING = arcs, augmented_outputs, failed, merged, modulo, regulated, restricted, *_OTHERS
 CARRIED = {rule.__name__ for rule in CARRYING}
 """The constructions that apply to systems with feedthrough."""

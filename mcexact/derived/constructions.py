@@ -15,6 +15,7 @@ docstrings.
 - `held_system`: all agents, also the owner, use a sub-state equally late.
 - `setpoint_system`: an integrator for every output.
 - `regulated_outputs`, `servo_system`: combinations of the outputs, and an integrator for each.
+- `internal_model`: the same with models of ramps, sinusoids and other signals.
 - `error_system`: the estimation errors of the distributed observer.
 
 For a system with parameters, `rearranged` applies those constructions whose entries are entries of
@@ -47,10 +48,10 @@ from mcexact.exact.matrix import (
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction, written
 from mcexact.exact.rational_functions import FunctionMatrix, RationalFunction
-from mcexact.exact.roots import steady_point
 from mcexact.model.entries import as_matrix, require_shape
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem, values_by_name
+from mcexact.model.signals import constant_signals, signal_polynomial
 from mcexact.model.system import (
     Construction,
     MultiChannelSystem,
@@ -1103,24 +1104,55 @@ def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
     ((2, 0), (3, 1))
     """
     InputError.require(system, MultiChannelSystem, "system")
-    A, B, measured = _integrating(system, list(system.C))
+    A, B, measured = _modeled(system, list(system.C), constant_signals(system.time))
     return system.derived(
         A, B, measured, {"construction": "integrators"}, neighbors=system.neighbors
     )
 
 
-def _integrating(
-    system: MultiChannelSystem, integrated: Sequence[Matrix]
+def _modeled(
+    system: MultiChannelSystem, rows: Sequence[Matrix], signals: Polynomial
 ) -> tuple[Matrix, list[Matrix], list[Matrix]]:
-    """Return Ã and B̃_i with integrators of these rows, and the rows that select each agent's."""
-    n, counts = system.n, [rows.nrows for rows in integrated]
-    total, starts = sum(counts), [0, *accumulate(counts)]
-    W = Matrix.identity(total) * steady_point(system.time)
+    """Return Ã, the B̃_i without feedthrough, and the rows that select each agent's w_i.
+
+    w_i = (w_i^1, …, w_i^d), d the degree of α = ``signals``: each block is the derivative of the
+    block before it, or its next value, and α of this applied to the first block is ``rows[i]`` x.
+    """
+    n, d = system.n, signals.degree
+    companion = companion_matrix(signals)
+    W = block_diagonal([kronecker(companion, Matrix.identity(each.nrows)) for each in rows])
+    driven = [vstack([Matrix.zeros((d - 1) * each.nrows, n), each], ncols=n) for each in rows]
+    sizes = [d * each.nrows for each in rows]
+    total, starts = sum(sizes), [0, *accumulate(sizes)]
     return (
-        block([[system.A, Matrix.zeros(n, total)], [vstack(integrated, ncols=n), W]]),
+        block([[system.A, Matrix.zeros(n, total)], [vstack(driven, ncols=n), W]]),
         [vstack([system.B(i), Matrix.zeros(total, system.p(i))]) for i in range(system.m)],
-        [selector(n + start, k, n + total).T for start, k in zip(starts[:-1], counts, strict=True)],
+        [selector(n + start, k, n + total).T for start, k in zip(starts[:-1], sizes, strict=True)],
     )
+
+
+def companion_matrix(p: Polynomial) -> Matrix:
+    """Return the companion matrix of a monic p, with ones above the diagonal.
+
+    Parameters
+    ----------
+    p : Polynomial
+        Of degree d ≥ 1.
+
+    Returns
+    -------
+    Matrix
+        d×d; its last row has the coefficients of p with their signs changed, and v' = M v has the
+        solutions (y, y', …, y^(d−1)) with p(d/dt) y = 0.
+
+    Examples
+    --------
+    >>> companion_matrix(Polynomial.of(4, 0, 1)).numerators
+    ((0, 1), (-4, 0))
+    """
+    d = p.degree
+    last = Matrix.from_rows([[-c for c in p.coefficients[:d]]], ncols=d)
+    return vstack([hstack([Matrix.zeros(d - 1, 1), Matrix.identity(d - 1)]), last], ncols=d)
 
 
 # Regulated outputs: what is to be held at set-points, apart from what is measured.
@@ -1225,16 +1257,120 @@ def servo_system(system: MultiChannelSystem, selection: Sequence[Any]) -> MultiC
     """
     InputError.require(system, MultiChannelSystem, "system")
     exact = checked_selection(system, selection)
-    held = [S @ channel.C for S, channel in zip(exact, system.channels, strict=True)]
-    A, B, own = _integrating(system, held)
+    A, B, C = _with_models(system, exact, constant_signals(system.time))
     return system.derived(
         A,
         B,
-        [
-            vstack([rows, hstack([channel.C, Matrix.zeros(channel.C.nrows, A.nrows - system.n)])])
-            for rows, channel in zip(own, system.channels, strict=True)
-        ],
+        C,
         {"construction": "servo", "gains": tuple(exact)},
+        neighbors=system.neighbors,
+    )
+
+
+def _with_models(
+    system: MultiChannelSystem, selection: Sequence[Matrix], signals: Polynomial
+) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+    """Return Ã, the B̃_i without feedthrough, and the C̃_i, where agent i measures (w_i, y_i)."""
+    held = [S @ channel.C for S, channel in zip(selection, system.channels, strict=True)]
+    A, B, own = _modeled(system, held, signals)
+    C = [
+        vstack([rows, hstack([channel.C, Matrix.zeros(channel.C.nrows, A.nrows - system.n)])])
+        for rows, channel in zip(own, system.channels, strict=True)
+    ]
+    return A, B, C
+
+
+def internal_model(
+    system: MultiChannelSystem, signals: Any, selection: Sequence[Any] | None = None
+) -> MultiChannelSystem:
+    """Append models of signals: α(d/dt) w_i^1 = S_i (y_i − r_i), in discrete time α of the shift.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        n states; it may have feedthrough.
+    signals : str, sequence of str, or Polynomial
+        The signals, or α, whose solutions they are, monic of degree d ≥ 1; see
+        `signal_polynomial`.
+    selection : sequence of m matrices, optional
+        S_i, k_i rows and q_i columns; by default the identities, for all outputs.
+
+    Returns
+    -------
+    MultiChannelSystem
+        n + d Σ k_i states.  Agent i measures (w_i, y_i), w_i = (w_i^1, …, w_i^d).  With a linear
+        time-invariant controller that stabilizes it, S_i (y_i − r_i) tends to 0 for all references
+        and disturbances that are solutions of α.
+
+    Raises
+    ------
+    InputError
+        As for `checked_selection` and `signal_polynomial`.
+
+    Notes
+    -----
+    In block form, with M_i = companion(α) ⊗ I, which has ones above the diagonal, and E_i the last
+    k_i columns of the identity of d k_i rows::
+
+            ⎡  A          0        ⎤          ⎡   B_j    ⎤          ⎡  0   e_i' ⎤
+        Ã = ⎣ E_iS_iC_i  diag(M_i) ⎦ ,  B̃_j = ⎣ E_iS_iD_ij ⎦ ,  C̃_i = ⎣ C_i   0  ⎦
+
+    and D̃_i = [0; D_i].  The references enter as −E_i S_i r_i.  For set-points, where α is s, or
+    z − 1 in discrete time, these are the matrices of `servo_system`.
+
+    With d > 1 agent i may as well measure w_i^1 alone: the fixed modes are the same.
+
+    The fixed modes that are no roots of α are those of the plant.  If every S_i is the identity, a
+    root λ of α is fixed iff the rank of [λI − A, −B_T; C, D_T] is below n + Σ_{i ∈ T} q_i for some
+    set T of channels (``proofs/internal_model.md``).
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
+    >>> tracking = internal_model(plant, "sine:2")
+    >>> tracking.A.numerators
+    ((-1, 0, 0), (0, 0, 1), (1, -4, 0))
+    >>> tracking.C(0).numerators
+    ((0, 1, 0), (0, 0, 1), (1, 0, 0))
+
+    The output u' + 4 u of this plant vanishes for sinusoids of 2 rad per unit of time:
+
+    >>> from mcexact.analysis.fixed_modes import fixed_spectrum
+    >>> notch = MultiChannelSystem([[0, 1], [-1, -2]], [[[0], [1]]], [[[3, -2]]], D=[[1]])
+    >>> print(fixed_spectrum(internal_model(notch, "sine:2")).polynomial)
+    x^2 + 4
+    >>> print(fixed_spectrum(internal_model(notch, "ramp")).polynomial)
+    1
+    """
+    any_system(system)
+    alpha = signal_polynomial(signals, system.time)
+    if selection is None:
+        selection = [Matrix.identity(system.q(i)) for i in range(system.m)]
+    exact = checked_selection(system, selection)
+    A, B, C = _with_models(system, exact, alpha)
+    D = None
+    if system.D is not None:
+        D = system.feedthrough_matrix()
+        into, seen = list[Matrix](), list[Matrix]()
+        for i, S in enumerate(exact):
+            own, k = system.feedthrough_matrix([i]), alpha.degree * S.nrows
+            into += [Matrix.zeros(k - S.nrows, D.ncols), S @ own]
+            seen += [Matrix.zeros(k, D.ncols), own]
+        driven = vstack([system.input_matrix(), *into], ncols=D.ncols)
+        ends = list(accumulate(system.p(i) for i in range(system.m)))
+        starts = [0, *ends[:-1]]
+        B = [driven.take(cols=range(a, b)) for a, b in zip(starts, ends, strict=True)]
+        D = vstack(seen, ncols=D.ncols)
+    return system.derived(
+        A,
+        B,
+        C,
+        {
+            "construction": "internal_model",
+            "polynomial": alpha,
+            "gains": tuple(exact),
+        },
+        D=D,
         neighbors=system.neighbors,
     )
 

@@ -63,6 +63,9 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "regulated": lambda: regulated_outputs(PLANT, [[[2]], [["1/2", 1]]]),
     "sampled": lambda: mcexact.constructions.sampled_system(CONTINUOUS, "1/10", 1),
     "servo": lambda: servo_system(PLANT, [[], [[0, 1]]]),
+    "internal_model": lambda: mcexact.constructions.internal_model(
+        PLANT, "poly:z^2+1/2", [[], [[0, 1]]]
+    ),
     "merged": lambda: mcexact.constructions.merged(PLANT, [["a", "b"]]),
     "modulo": lambda: without_part(HIDDEN, "unobservable", [[0, "1/2", 1]]),
     "restricted": lambda: mcexact.constructions.restricted(PLANT, ["b"]),

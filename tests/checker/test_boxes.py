@@ -31,6 +31,10 @@ STEPS: dict[str, Any] = {
     "failed": {"agents": [], "actuators": [["1", 1]], "sensors": [["2", 1]], "links": []},
     "input_filters": {},
     "integrators": {},
+    "internal_model": {
+        "polynomial": ["1/4", 0, 1],
+        "gains": [matrix([-3], denominator=2), {"denominator": 1, "entries": []}],
+    },
     "lifted": {"share": "outputs+states", "dimensions": [1, 1]},
     "merged": {"parts": [["1", "2"]]},
     "regulated": {"gains": [matrix([-2], [1], denominator=3), matrix([1])]},
@@ -49,7 +53,10 @@ def nonzero(M: Any) -> list[tuple[int, int, Any]]:
 
 
 @pytest.mark.parametrize(
-    "name", sorted({*STEPS} - {"error", "feedback", "regulated", "sampled", "servo", "slow"})
+    "name",
+    sorted(
+        {*STEPS} - {"error", "feedback", "internal_model", "regulated", "sampled", "servo", "slow"}
+    ),
 )
 def test_a_copy_of_an_entry_has_its_radius_and_all_else_is_certain(name: str) -> None:
     start = DAMPED if name in DISCRETE else CALM

@@ -24,6 +24,7 @@ from mcexact.derived.constructions import (
     feedback,
     full_output,
     held_system,
+    internal_model,
     lifted_system,
     merged,
     regulated_outputs,
@@ -174,6 +175,16 @@ BUILDS: dict[str, list[Build]] = {
     "held": [lambda rng, s: held_system(s, sizes(rng, s))],
     "input_filters": [lambda rng, s: input_filters(s)],
     "integrators": [lambda rng, s: setpoint_system(s)],
+    "internal_model": [
+        lambda rng, s: internal_model(
+            s,
+            "poly:"
+            + rng.choice(("x^2", "x^2+1/4", "x^3-x/2", "x+1")).replace(
+                "x", "sz"[s.time == "discrete"]
+            ),
+            selection(rng, s),
+        ),
+    ],
     "lifted": [
         lambda rng, s: lifted_system(s, sizes(rng, s)),
         lambda rng, s: lifted_system(s, sizes(rng, s), share="states"),

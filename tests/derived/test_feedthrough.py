@@ -352,6 +352,7 @@ CARRIED = {
     "dual": mcexact.constructions.dual,
     "failed": lambda s: mcexact.constructions.failed(s, sensors=[("1", 1)]),
     "input_filters": input_filters,
+    "internal_model": lambda s: mcexact.constructions.internal_model(s, "sine:1"),
     "merged": lambda s: mcexact.constructions.merged(s, [["1"], ["2"]]),
     "modulo": lambda s: without_part(s, "uncontrollable", [[1, -1]]),
     "regulated": lambda s: mcexact.constructions.regulated_outputs(s, [[[1]], [[2]]]),
@@ -387,7 +388,15 @@ TAKEN = {
         "transfer_graph",
         "without_part",
     ),
-    *("augmented_outputs", "dual", "failed", "failures", "input_filters", "merged"),
+    *(
+        "augmented_outputs",
+        "dual",
+        "failed",
+        "failures",
+        "input_filters",
+        "internal_model",
+        "merged",
+    ),
     *("regulated_outputs", "restricted"),
 }
 """The public functions of systems with feedthrough."""

@@ -22,6 +22,7 @@ from mcexact.derived.constructions import (
     feedback,
     full_output,
     held_system,
+    internal_model,
     lifted_system,
     merged,
     restricted,
@@ -86,6 +87,7 @@ def test_checker_and_package_build_the_same_subjects(drawn, seed):
     rebuilt(held_system(system, sizes))
     rebuilt(held_system(slow_system(system, max(2 * system.n, 1)), sizes))
     rebuilt(setpoint_system(system))
+    rebuilt(dual(internal_model(system, "ramp,cosine:1/2")))
     rebuilt(input_filters(system))
     rebuilt(augmented_outputs(failed(more, **drawn_failures(rng, more))))
     rebuilt(restricted(dual(system), rng.sample(system.names, rng.randint(1, m))))

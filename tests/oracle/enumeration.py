@@ -106,7 +106,7 @@ def multiplicity(p: Coefficients, coefficients: Coefficients) -> int:
         rest, count = quotient, count + 1
 
 
-def _at_root(constant: Rows, shifts: set[tuple[int, int]], p: Coefficients) -> Rows:
+def at_root(constant: Rows, shifts: set[tuple[int, int]], p: Coefficients) -> Rows:
     """constant + λ·(ones at ``shifts``), with the companion matrix of p in the place of λ."""
     d = len(p) - 1
     companion = [[Fraction(int(i == j + 1)) for j in range(d)] for i in range(d)]
@@ -136,7 +136,7 @@ def pencil_rank(system: PlainSystem, s: Sequence[int], p: Coefficients) -> int:
     width = len(rows[0]) if rows else 0
     for t in s:
         rows += [row + [Fraction(0)] * (width - n) for row in system.C[t]]
-    inflated = _at_root(rows, {(i, i) for i in range(n)}, p)
+    inflated = at_root(rows, {(i, i) for i in range(n)}, p)
     return rank(inflated) // (len(p) - 1)
 
 

@@ -205,6 +205,48 @@ def servo(system: System, given: Mapping[str, Any]) -> System:
     return replace(made, C=tuple(below([w, C], made.n) for w, C in zip(made.C, kept, strict=True)))
 
 
+def internal_model(system: System, given: Mapping[str, Any]) -> System:
+    """State (x, w_1, …, w_m), w_i = companion(alpha) (x) I behind S_i y_i; outputs w_i and y_i."""
+    alpha = polynomial(given["polynomial"], monic=True)
+    d = alpha.degree()
+    demand(d >= 1, "expected a polynomial that is not constant")
+    C, D = system.outputs(), system.between(range(system.m), range(system.m))
+    S = chosen(system, given)
+    n, p, q = system.n, system.inputs().ncols(), C.nrows()
+    N = n + d * sum(s.nrows() for s in S)
+    model = fmpq_mat(N - n, N - n)
+    into = fmpq_mat(N - n, q)
+    row = column = 0
+    for s in S:
+        k = s.nrows()
+        for a in range(k):
+            for j in range(d):
+                here = row + j * k + a
+                if j + 1 < d:
+                    model[here, here + k] = 1
+                else:
+                    for e in range(d):
+                        model[here, row + e * k + a] = -alpha[e]
+                    for b in range(s.ncols()):
+                        into[here, column + b] = s[a, b]
+        row, column = row + d * k, column + s.ncols()
+    A = stacked([[system.A, fmpq_mat(n, N - n)], [into * C, model]], N, N)
+    B = below([system.inputs(), into * (D if D is not None else fmpq_mat(q, p))], p)
+    B_of, C_of, D_of = list[fmpq_mat](), list[fmpq_mat](), list[fmpq_mat]()
+    start, first = 0, n
+    for i, (driven, c, s) in enumerate(zip(system.B, system.C, S, strict=True)):
+        B_of.append(B * selection(p, range(start, start + driven.ncols())).transpose())
+        own = selection(N, range(first, first + d * s.nrows()))
+        C_of.append(below([own, stacked([[c, fmpq_mat(c.nrows(), N - n)]], c.nrows(), N)], N))
+        own_D = system.between([i], range(system.m))
+        seen = fmpq_mat(c.nrows(), p) if own_D is None else own_D
+        D_of.append(below([fmpq_mat(d * s.nrows(), p), seen], p))
+        start, first = start + driven.ncols(), first + d * s.nrows()
+    return replace(
+        system, A=A, B=tuple(B_of), C=tuple(C_of), D=None if D is None else below(D_of, p)
+    )
+
+
 def error(system: System, given: Mapping[str, Any]) -> System:
     """The open-loop error system of gains F_i of n columns."""
     graph, n, m = system.graph(), system.n, system.m
@@ -452,7 +494,7 @@ def _is_zero(table: Any) -> bool:
 
 DIRECT = (
     "arcs", "augmented_outputs", "closed_loop", "dual", "failed", "input_filters", "merged",
-    "modulo", "regulated", "restricted",
+    "internal_model", "modulo", "regulated", "restricted",
 )  # fmt: skip
 """The constructions of systems with feedthrough."""
 Build = Callable[[System, Mapping[str, Any]], System]
@@ -468,6 +510,7 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "slow": (("window",), slow),
     "input_filters": ((), input_filters),
     "integrators": ((), integrators),
+    "internal_model": (("polynomial", "gains"), internal_model),
     LINE: (("parameter", "point", "direction"), line),
     "error": (("gains",), error),
     "merged": (("parts",), merged),

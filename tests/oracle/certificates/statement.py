@@ -192,6 +192,11 @@ def _words(step: Mapping[str, Any], system: System) -> str:
         picked = dict(zip(names, chosen(system, step), strict=True))
         which = f"the combinations S of its outputs with {digested(picked)}"
         return f"with {which}" if kind == "regulated" else f"with integrators of {which}"
+    if kind == "internal_model":
+        picked = dict(zip(names, chosen(system, step), strict=True))
+        p = polynomial_text(step["polynomial"])
+        what = f"signals of {p} for the combinations S of its outputs"
+        return f"with models of the {what} with {digested(picked)}"
     if kind == "full_output":
         return f"with the whole state measured by channel {name(step['channel'])}"
     if kind == "arcs":

@@ -17,8 +17,8 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "slow", "failed", "input_filters", "integrators", "error", "merged", "modulo", "regulated",
-    "restricted", "sampled", "servo", "closed_loop", "periodic_loop", "line",
+    "slow", "failed", "input_filters", "integrators", "internal_model", "error", "merged",
+    "modulo", "regulated", "restricted", "sampled", "servo", "closed_loop", "periodic_loop", "line",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "slow", "error")
 LARGEST = 12
@@ -50,6 +50,9 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
         ]
     elif name in ("regulated", "servo"):
         step["gains"] = [drawn_matrix(rng, rng.randint(0, 2), C.nrows()) for C in system.C]
+    elif name == "internal_model":
+        step["polynomial"] = rng.choice(([0, 0, 1], ["1/4", 0, 1], [-1, 1], [0, 1, "-1/2", 1]))
+        step["gains"] = [drawn_matrix(rng, rng.choice((0, 1, 1)), C.nrows()) for C in system.C]
     elif name == "full_output":
         if not m:
             return None

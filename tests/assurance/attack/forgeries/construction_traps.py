@@ -1,4 +1,4 @@
-"""Documents made by hand about failures, periodic loops and large moduli, each false."""
+"""Documents made by hand about failures, models, periodic loops and large moduli, each false."""
 
 from __future__ import annotations
 
@@ -62,7 +62,19 @@ ACTS, RESTS = [agent("1", -2), agent("2")], [agent("1"), agent("2")]
 PERIODIC = over(ACTS, RESTS)
 HEARS = {"outputs": {"1": [[-2]]}}
 
+
+def following(polynomial: list[int], *widths: int) -> Document:
+    """Nothing is fixed where both agents follow signals of x."""
+    gains = [matrix([1] * widths[0]), matrix([0] * widths[1])]
+    model = {"construction": "internal_model", "polynomial": polynomial}
+    model["gains"] = [matrix([1]), matrix([1])]
+    return changed(MOVED, ("subject", [model]), ("witness.gains", gains))
+
+
 TRAPS: dict[str, Document] = {
+    "two agents that follow different steps by one state": following([0, 1], 2, 2),
+    "signals without a model": following([1], 1, 1),
+    "a model whose polynomial is not monic": following([0, 2], 2, 2),
     "after no failure": after(),
     "an input that fails and is not there": after(actuators=[["2", 1], ["2", 2]]),
     "an output that fails twice": after(sensors=[["2", 1], ["2", 1]]),
