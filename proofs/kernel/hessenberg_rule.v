@@ -4,7 +4,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect fingroup perm all_algebra.
 From mcexact Require Import arithmetic hessenberg.
-From mcexact.kernel Require Import lists residues.
+From mcexact.kernel Require Import lists residues packed.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -25,7 +25,7 @@ Record similar := Similar { h_H : zmat; h_L : zmat; h_Y : zmat }.
 Definition check_similar (l : Z) (n : nat) (A : zmat) (w : similar) : bool :=
   let: Similar H L Y := w in
   [&& (size L <= n)%N, (size H == n)%N, (size Y <= n)%N, all (fun iH => zrow0 (take iH.1.-1 iH.2)) (zip (iota 0 n) H),
-      zmat0_mod l (zmaxpy (-1) (zmm A L) (zmm L H)) & zmat0_mod l (zmaxpy (-1) (zidentity 1 n) (zmm L Y))].
+      zmat0_mod l (zmaxpy (-1) (zmm_mod l A L) (zmm_mod l L H)) & zmat0_mod l (zmaxpy (-1) (zidentity 1 n) (zmm_mod l L Y))].
 
 Section Modulus.
 Variables (lz : Z) (l1 : (1 < lz)%coqZ).
@@ -68,7 +68,7 @@ Theorem check_similar_sound n A w : check_similar lz n A w -> char_poly (mx n n 
 Proof.
 case: w => H L Y /= /and5P[sL /eqP sH sY /(all_nthP (0%N, [::])) low /andP[/(zmat0_modE l0 pl) e1 /(zmat0_modE l0 pl) e2]].
 have uL : mx n n L \in unitmx.
-  have := e2 n n; rewrite zmaxpyE (zmmE _ _ _ _ sY) zidentityE phiN1 scaleN1r phi1 addrC => /eqP; rewrite subr_eq0 => /eqP e.
+  have := e2 n n; rewrite zmaxpyE (zmm_modE l0 pl _ _ _ sY) zidentityE phiN1 scaleN1r phi1 addrC => /eqP; rewrite subr_eq0 => /eqP e.
   exact: (mulmx1_unit e).1.
 have HE : mx n n H = hessenberg (fun i j => phi (entry H i j)) (fun j => phi (entry H j.+1 j)) n.
   apply/matrixP=> i j; rewrite !mxE; case: leqP => // ji; case: eqP => [->//|/eqP nij].
@@ -77,7 +77,7 @@ have HE : mx n n H = hessenberg (fun i j => phi (entry H i j)) (fun j => phi (en
   by move/(zrow0_nth Zl j); rewrite nth_take.
 rewrite -(zchar_hessenberg H) -HE; apply: (hessenberg_similar (s := 1%g) uL).
 have -> : \matrix_(i, j) mx n n A ((1%g : {perm 'I_n}) i) ((1%g : {perm 'I_n}) j) = mx n n A by apply/matrixP=> i j; rewrite !mxE !perm1.
-have := e1 n n; rewrite zmaxpyE (zmmE _ _ _ _ sL) (zmmE _ _ _ _ (eq_leq sH)) phiN1 scaleN1r addrC => /eqP; rewrite subr_eq0 => /eqP ->.
+have := e1 n n; rewrite zmaxpyE (zmm_modE l0 pl _ _ _ sL) (zmm_modE l0 pl _ _ _ (eq_leq sH)) phiN1 scaleN1r addrC => /eqP; rewrite subr_eq0 => /eqP ->.
 by [].
 Qed.
 End Modulus.

@@ -9,10 +9,6 @@ Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
-(* A + sum_i B_i F_i C_i modulo l, of residues. *)
-Definition zfeedback (l : Z) (A : zmat) (chs : seq zchannel) (Fs : seq zmat) : zmat :=
-  zmat_mod l (foldr (fun cF acc => if nilp cF.2 then acc else
-    zmaxpy 1 (zmm (zB cF.1) (zmm cF.2 (zC cF.1))) acc) A (zip chs Fs)).
 Record loop_witness := LoopWitness { w_ell : Z; w_inv : Z; w_gains : seq zmat; w_similar : similar }.
 Definition loop_residues (s : zsystem) (w : loop_witness) : zmat :=
   zfeedback (w_ell w) (zscale_mod (w_ell w) (w_inv w) (zA s)) [seq reduced (w_ell w) (w_inv w) ch | ch <- zchannels s] (w_gains w).
@@ -59,21 +55,6 @@ Variables (s : zsystem) (K : fieldType) (h : {rmorphism rat -> K}) (n m : nat) (
 Hypothesis re : represents s S.
 Let D0 := represented_D re.
 
-Lemma feedbackE lz (l1 : (1 < lz)%coqZ) A chs Fs : all (sized_channel n) chs -> size Fs = size chs -> all sized_gain (zip chs Fs) ->
-  let Zl := [comRingType of 'Z_(modulus_of l1)] in
-  mx Zl n n (zfeedback lz A chs Fs) = mx Zl n n A + \sum_(k < size chs)
-    mx Zl n (zp (nth zch0 chs k)) (zB (nth zch0 chs k)) *m mx Zl _ (zq (nth zch0 chs k)) (nth [::] Fs k) *m mx Zl _ n (zC (nth zch0 chs k)).
-Proof.
-move=> alc sF sG Zl; rewrite /zfeedback (zmat_modE (modulus_gt0 l1) (phi_modulus l1)).
-elim: chs Fs sF alc sG => [|ch chs IH] [|F Fs] //=; first by rewrite big_ord0 addr0.
-case=> sF /andP[/andP[sB sC] alc] /andP[gF sG]; rewrite big_ord_recl /=; have e := IH Fs sF alc sG.
-have le : (size (zC ch) <= zq ch)%N by rewrite (shape_size sC).
-case: nilP gF => [->|nF] /=; first by rewrite e mx_nil mulmx0 mul0mx add0r.
-case/orP=> [/nilP //|sh]; rewrite zmaxpyE phi1 scale1r e addrCA; congr (_ + (_ + _)).
-have lF : (size (zmm F (zC ch)) <= zp ch)%N by rewrite size_map (shape_size sh).
-by rewrite (zmmE _ _ _ _ lF) (zmmE _ _ _ _ le) mulmxA.
-Qed.
-
 Section Witness.
 Variable w : loop_witness.
 Hypothesis ok : sized_loop s w.
@@ -86,7 +67,7 @@ Definition loop_gains : gains (Zloc l) p q := fun k => mx [comRingType of Zloc l
 Lemma loop_residuesE : map_mx (@residue l) (closed_loop loop_system loop_gains) = mx Zl n n (loop_residues s w).
 Proof.
 case: (re) => /and4P[_ _ _ alc] en em ep eq _ _ _; case/and3P: (ok) => _ /eqP sF sG.
-rewrite feedbackE ?size_map //; last first.
+rewrite (feedbackE (modulus_gt0 loop_modulus) (phi_modulus loop_modulus)) ?size_map //; last first.
 - suff reduce t G : all sized_gain (zip t G) -> all sized_gain (zip (map (reduced (w_ell w) (w_inv w)) t) G) by apply: reduce.
   by elim: t G => [|ch t IH] [|H G] //= /andP[g /IH ->]; rewrite andbT.
 - by rewrite all_map; apply: sub_all alc => ch; rewrite /= /sized_channel /= !shape_scale en.
