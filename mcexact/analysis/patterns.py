@@ -157,7 +157,8 @@ def _within(places: Costs, left: Sequence[int]) -> Costs:
     return {(new[i], new[j]): x for (i, j), x in places.items() if i in new and j in new}
 
 
-# A perfect matching of least cost, with potentials that prove it least.
+# A perfect matching of least cost, with potentials that prove it least.  SciPy's and networkx's
+# solvers return the matching alone.
 
 
 def least_matching(size: int, costs: Costs) -> tuple[list[int], list[int], list[int]]:
